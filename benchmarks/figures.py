@@ -1,4 +1,4 @@
-"""The figures of the measurements: speed against error, and how the cost of a run grows."""
+"""The figures of speed against error, one for each kind of motion."""
 
 import numpy as np
 import xarray as xr
@@ -97,60 +97,6 @@ def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
     axes.legend(loc="lower right")
 
 
-def gather_cost(cost: xr.Dataset) -> xr.Dataset:
-    """Return what is drawn: the measurements, sites carried a second, and the machine's limits."""
-    measured = ["seconds", "long_seconds"]
-    carried = cost["steps"] / cost["seconds"]
-    arithmetic = cost["arithmetic"] / cost["operations"]
-    memory = cost["bandwidth"] / cost["traffic"]
-    return cost[measured].assign(
-        carried=carried.assign_attrs(long_name="sites times steps a second", units="s-1"),
-        arithmetic_limit=arithmetic.assign_attrs(
-            long_name="sites times steps that the arithmetic allows", units="s-1"
-        ),
-        memory_limit=memory.assign_attrs(
-            long_name="sites times steps that the memory allows", units="s-1"
-        ),
-    )
-
-
-@style.styled
-def draw_cost(data: xr.Dataset) -> Figure:
-    """Draw the cost over sites and over time, and the throughput with its limits."""
-    figure = style.new_figure(style.DOUBLE, 2.6)
-    sites, time, throughput = figure.subplots(1, 3)
-    _draw_cost_along(sites, data["seconds"], "sites")
-    _draw_cost_along(time, data["long_seconds"], "end_time")
-    sites.set_xlabel("number of sites $N$")
-    sites.set_ylabel(r"time per site and unit of $\tau$ (µs)")
-    time.set_xlabel(r"end time $\tau$")
-    _draw_throughput(throughput, data)
-    handles = [*sites.get_lines(), *throughput.get_lines()[1:]]
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
-    return figure
-
-
-def _draw_cost_along(axes: Axes, seconds: xr.DataArray, dim: str) -> None:
-    for solver in seconds["solver"].values:
-        axes.plot(seconds[dim], 1e6 * seconds.sel(solver=solver), **_look(solver))
-    axes.set_xscale("log")
-    axes.set_ylim(bottom=0)
-
-
 def _look(solver: str) -> dict:
     look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver], "markersize": 3.5}
     return look | {"label": SOLVER_NAMES[solver]}
-
-
-def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
-    carried = data["carried"].sel(solver="dop853")
-    axes.plot(carried["sites"], carried, **_look("dop853"))
-    limits = {"arithmetic_limit": ("arithmetic", (4, 2)), "memory_limit": ("memory", (1, 1))}
-    for name, (by, dashes) in limits.items():
-        # half of an even chain is integrated, so that each site computed counts for two
-        look = {"color": "0.4", "lw": 0.8, "dashes": dashes, "label": f"limit set by {by}"}
-        axes.axhline(2 * float(data[name]), **look)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("number of sites $N$")
-    axes.set_ylabel(r"sites $\times$ steps per second")

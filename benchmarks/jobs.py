@@ -1,5 +1,6 @@
 """What the jobs of `snakemake speed` call: each measures, tabulates or draws."""
 
+import os
 from collections.abc import Mapping
 from functools import partial
 
@@ -9,10 +10,10 @@ from pendula.datasets.trajectories import Contents
 from pendula.drawing.style import save
 from pendula.problem import Problem, by_name
 from pendula.report.words import number, write_markdown
+from pendula.sources import describe_machine
 
-from benchmarks import figures, machine, pendula
+from benchmarks import cost, figures, pendula
 from benchmarks.contestants import PEERS, Contestant, find_peers
-from benchmarks.cost import measure
 from benchmarks.peer import Peer
 from benchmarks.peers_in_python import OF_PENDULA
 from benchmarks.problems import REGIME_OF, REGIMES, read_reference, until
@@ -41,7 +42,7 @@ def measure_work_precision(
         exact[name] = read_reference(references[name], horizon)
     peers, absent = installed(PEERS)
     variables = measure_errors(cases, exact, peers, say)
-    return variables, {"title": "Speed against error", "absent": absent, **machine.describe()}
+    return variables, {"title": "Speed against error", "absent": absent, **_machine()}
 
 
 def measure_pendula(problems: Mapping[str, Mapping], data: str, table: str) -> None:
@@ -50,34 +51,31 @@ def measure_pendula(problems: Mapping[str, Mapping], data: str, table: str) -> N
     variables = pendula.measure(by_name(problems), peers, say)
     title = {"title": "Speed against error on the pendula", "absent": absent}
     title["compared_at"] = number(pendula.TARGET)
-    write(data, variables, {**title, **machine.describe()})
+    write(data, variables, {**title, **_machine()})
     write_markdown(table, *tabulate_pendula(read(data)))
 
 
-def measure_cost(problem: Problem) -> Contents:
-    """Measure how the cost grows with the chain, with time and with the active sites."""
-    return measure(problem), {"title": "How the cost of a run grows", **machine.describe()}
+def measure_cost(data: str, table: str) -> None:
+    """Measure how the cost grows with the chain, and write a dataset and a page of Markdown."""
+    write(data, cost.measure(), {"title": "How the cost of a run grows", **_machine()})
+    write_markdown(table, *tabulate_cost(read(data)))
 
 
 def show_speed(
-    work_precision: str,
-    cost: str,
-    work_precision_table: str,
-    cost_table: str,
-    regimes: list[str],
-    files: list[str],
+    work_precision: str, work_precision_table: str, regimes: list[str], files: list[str]
 ) -> None:
-    """Write both pages of Markdown, and draw a figure for each regime and one of the cost.
+    """Write a page of Markdown, and draw a figure for each regime.
 
     `files` has the PNG, PDF, data and description of each figure in this order.
     """
-    measured, costs, drawn = read(work_precision), read(cost), []
+    measured = read(work_precision)
     write_markdown(work_precision_table, *tabulate_work_precision(measured))
-    write_markdown(cost_table, *tabulate_cost(costs))
-    for regime in regimes:
+    for first, regime in zip(range(0, len(files), 4), regimes, strict=True):
         data = figures.gather_work_precision(measured, regime)
-        drawn.append((figures.draw_work_precision(data), data))
-    data = figures.gather_cost(costs)
-    drawn.append((figures.draw_cost(data), data))
-    for first, (figure, data) in zip(range(0, len(files), 4), drawn, strict=True):
-        save(figure, data, *files[first : first + 4])
+        save(figures.draw_work_precision(data), data, *files[first : first + 4])
+
+
+def _machine() -> dict[str, str]:
+    """Return the machine, and the processor that the code is made for where it is another one."""
+    played = os.environ.get("NUMBA_CPU_NAME")
+    return describe_machine() | ({"code_for": played} if played else {})

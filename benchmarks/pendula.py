@@ -60,6 +60,6 @@ def measure(
     return {
         "case": Variable(("case",), np.array(list(problems))),
         **name_contestants({**OURS, **peers}),
-        **by_point(FIELDS, found, "contestant"),
+        **by_point(FIELDS, found),
         **by_pair(pairs, list(peers), "rad"),
     }

@@ -25,16 +25,6 @@ REGIMES = {
     "unstable": Regime(("fig4_small", "fig4_large"), 5.0, 1e-6),
 }
 REGIME_OF = {case: name for name, regime in REGIMES.items() for case in regime.cases}
-OUTPUT_STEP = 0.025
-"""Distance in tau of the outputs of the references."""
-
-
-class Reference(NamedTuple):
-    """What is true of a problem, known in multiprecision."""
-
-    final: np.ndarray  # (component, site), complex amplitudes at the end time
-    linf: np.ndarray  # (component, tau) at steps of OUTPUT_STEP
-    l2: np.ndarray  # (component, tau)
 
 
 def until(problem: Problem, end_time: float, **changes) -> Problem:
@@ -42,8 +32,8 @@ def until(problem: Problem, end_time: float, **changes) -> Problem:
     return problem.changed(end_time=end_time, output_step=end_time, snapshot_every=0, **changes)
 
 
-def read_reference(dataset, horizon: float) -> Reference:
-    """Return what a dataset of the multiprecision study (an xarray.Dataset) holds at `horizon`."""
+def read_reference(dataset, horizon: float) -> np.ndarray:
+    """Return the amplitudes (component, site) of a multiprecision study (an xarray.Dataset)."""
     at = dataset["snapshot_tau"].values == horizon
     re, im = dataset["amplitude"].isel(snapshot=at).squeeze("snapshot").values
-    return Reference(re + 1j * im, dataset["linf"].values, dataset["l2"].values)
+    return re + 1j * im

@@ -8,13 +8,7 @@ from .cost import TOLERANCE
 from .pendula import END_TIME, MU, TARGET
 from .problems import REGIMES
 
-POINT = ("accuracy", "seconds", "error")
-COMPARED = 1001, 100_001
-"""Numbers of sites whose costs are compared in the last row of their table."""
-
-
-def titles_of(measured: xr.Dataset) -> dict[str, str]:
-    return dict(zip(measured["contestant"].values, measured["title"].values, strict=True))
+RATIOS = ("ratio", "ratio_least", "ratio_most")
 
 
 def tabulate_work_precision(measured: xr.Dataset) -> list[str]:
@@ -23,135 +17,68 @@ def tabulate_work_precision(measured: xr.Dataset) -> list[str]:
         f"{regime.target:.0e} at tau = {regime.horizon:g} ({name})"
         for name, regime in REGIMES.items()
     )
-    code_for = measured.attrs.get("code_for")
-    parts = [
-        "# Speed against error",
-        f"Measured on {measured.attrs.get('processor', 'a processor without a name')}"
-        f"{f', with code for the processor {code_for}' if code_for else ''}. One core, "
-        "after warm-up, runs without outputs. Errors are those of the largest component against "
-        f"the multiprecision reference. Compared at an error of {targets}; ratios are medians of "
-        "runs in turns, with the least and the largest.",
-    ]
-    if "peer" in measured.dims:
-        parts += ["## Times of the peers over that of the fastest solver here, at equal error"]
-        parts += [_peers(measured)]
-    absent = measured.attrs.get("absent", "").split("; ")
-    parts += [f"Not measured: {name}." for name in absent if name]
-    for case in measured["case"].values:
-        parts += [f"## {case}", _solvers(measured.sel(case=case))]
-    return parts
-
-
-def _peers(measured: xr.Dataset) -> str:
-    cases, titles, rows = list(measured["case"].values), titles_of(measured), []
-    for peer in measured["peer"].values:
-        own = measured.sel(peer=peer)
-        mean, count = float(own["mean_ratio"]), int(own["reached_cases"])
-        last = f"{mean:.3g} ({count} cases)" if count else "-"
-        rows.append([titles[peer], *(_ratio(own.sel(case=case)) for case in cases), last])
-    return markdown(["peer", *cases, "geometric mean"], rows)
-
-
-def _ratio(pair: xr.Dataset) -> str:
-    if not np.isfinite(pair["ratio"]):
-        return "not reached"
-    scatter = f"{float(pair['ratio_least']):.3g} to {float(pair['ratio_most']):.3g}"
-    errors = f"{float(pair['peer_error']):.0e} / {float(pair['our_error']):.0e}"
-    return f"{float(pair['ratio']):.3g} ({scatter}; errors {errors}, {pair['our_best'].item()})"
-
-
-def _solvers(case: xr.Dataset) -> str:
-    columns = {
-        "accuracy": "{:.1e}",
-        "seconds": "{:.3g}",
-        "error": "{:.1e}",
-        "norm_error": "{:.1e}",
-        "energy_drift": "{:.1e}",
-        "steps": "{:.0f}",
-        "evaluations": "{:.0f}",
-    }
-    rows = []
-    for solver in case["solver"].values:
-        own = case.sel(contestant=solver, solver=solver)
-        own = own.assign(seconds=1e3 * own["seconds"])
-        for k in np.flatnonzero(np.isfinite(own["seconds"])):
-            point = own.isel(point=k)
-            cells = [form.format(float(point[name])) for name, form in columns.items()]
-            rows.append([solver, *cells])
-    head = ["solver", "accuracy", "time, ms", "error", "error of the norms", "energy drift"]
-    return markdown([*head, "steps", "evaluations"], rows)
-
-
-def tabulate_cost(cost: xr.Dataset) -> list[str]:
-    """Return the parts of a page on how the cost grows: with chain, time and active sites."""
-    title, said = "## Time per site and unit of slow time, in µs, over the ", "one core, medians."
-    short, long = (cost["seconds"].sel(sites=sites).values for sites in COMPARED)
-    ratios = [f"{ratio:.3g}" for ratio in long / short]
-    last = [f"{COMPARED[1]} over {COMPARED[0]}", *ratios]
-    parts = [
-        "# How the cost grows",
-        f"{title}{cost['sites'].long_name}",
-        f"Tolerance {TOLERANCE:.0e}, from symmetric noise on all sites, {said}",
-        _over(1e6 * cost["seconds"], cost["sites"], last),
-        f"{title}{cost['end_time'].long_name}",
-        f"Tolerance {TOLERANCE:.0e}, one case, {said}",
-        _over(1e6 * cost["long_seconds"], cost["end_time"]),
-    ]
-    by_hand = cost["by_hand_ratio"].dropna("by_hand")
-    if by_hand.size:
-        parts += ["## Time of the Taylor method in C++, over that of taylor"]
-        parts += [_over(by_hand, cost["end_time"])]
-    return [*parts, "## The infinite chain", _over_active_sites(cost)]
-
-
-def _over(values: xr.DataArray, along: xr.DataArray, *last: list[str]) -> str:
-    """Return the table of values along a coordinate, with rows to end it."""
-    rows = [
-        [f"{place:g}", *(f"{value:.3g}" for value in row)]
-        for place, row in zip(along.values, values.values, strict=True)
-    ]
-    names = values[values.dims[1]].values
-    return markdown([along.long_name, *names], [*rows, *last])
-
-
-def _over_active_sites(cost: xr.Dataset) -> str:
-    head = ["active sites 2W + 1", "µs per site 0..W and unit of slow time"]
-    head += ["right-hand sides per unit of slow time", "ns per site and right-hand side"]
-    head += ["bytes per site 0..W"]
-    names = ("active_width", "active_seconds", "active_evaluations", "active_memory")
-    rows = [
-        [
-            f"{2 * int(width) + 1:,}",
-            f"{1e6 * seconds:.3g}",
-            f"{evaluations:.0f}",
-            f"{1e9 * seconds / evaluations:.3g}",
-            f"{memory:.0f}",
-        ]
-        for width, seconds, evaluations, memory in zip(
-            *(cost[n].values for n in names), strict=True
-        )
-    ]
-    return markdown(head, rows)
+    about = f"Errors are against the multiprecision reference. Compared at an error of {targets}"
+    return _pages("# Speed against error", about, measured)
 
 
 def tabulate_pendula(measured: xr.Dataset) -> list[str]:
-    """Return the parts of a page: ratios of the peers, and every point of every contestant."""
-    titles, cases = titles_of(measured), list(measured["case"].values)
-    rows = [
-        [titles[peer], *(f"{float(value):.3g}" for value in measured["ratio"].sel(peer=peer))]
-        for peer in measured["peer"].values
+    """Return the parts of a page on Newton's equations."""
+    about = f"Compared at an error of {TARGET:.0e} rad, mu = {MU:g}, tau = {END_TIME:g}"
+    return _pages("# Speed against error on the pendula", about, measured)
+
+
+def _pages(title: str, about: str, measured: xr.Dataset) -> list[str]:
+    told = measured.attrs
+    absent = [name for name in told.get("absent", "").split("; ") if name]
+    code_for = f", with code for the processor {told['code_for']}" if "code_for" in told else ""
+    return [
+        title,
+        f"Measured on {told.get('processor', 'a processor without a name')}{code_for}. One core, "
+        "after warm-up, runs without outputs. Errors are those of the largest component. "
+        f"{about}; ratios are medians of runs in turns, with the least and the largest.",
+        *([_peers(measured)] if "peer" in measured.dims else []),
+        *(f"Not measured: {name}." for name in absent),
+        _points(measured),
     ]
-    points = [
-        [case, titles[name], *(f"{float(one.isel(point=k)[key]):.2g}" for key in POINT)]
-        for case in cases
+
+
+def _peers(measured: xr.Dataset) -> str:
+    """Return the table of the peers' times over those of our fastest solver at equal error."""
+    cases, titles = list(measured["case"].values), measured["title"].to_series()
+    rows = []
+    for name in measured["peer"].values:
+        peer = measured.sel(peer=name)
+        told = [[f"{float(peer[ratio].sel(case=case)):.3g}" for ratio in RATIOS] for case in cases]
+        cells = ["not reached" if mid == "nan" else f"{mid} ({low} to {high})"
+                 for mid, low, high in told]  # fmt: skip
+        mean = f"{float(np.exp(np.log(peer['ratio']).mean())):.3g}"
+        rows.append([titles[name], *cells, "-" if mean == "nan" else mean])
+    return markdown(["peer", *cases, "geometric mean"], rows)
+
+
+def _points(measured: xr.Dataset) -> str:
+    """Return the table of all points of all contestants."""
+    rows = [
+        [str(case), str(one["title"].item()), *(f"{float(one[key][k]):.2g}" for key in POINT)]
+        for case in measured["case"].values
         for name in measured["contestant"].values
         for one in [measured.sel(case=case, contestant=name)]
         for k in np.flatnonzero(np.isfinite(one["error"]))
     ]
+    return markdown(["case", "solver", "tolerance or step", "seconds", "error"], rows)
+
+
+POINT = ("accuracy", "seconds", "error")
+
+
+def tabulate_cost(cost: xr.Dataset) -> list[str]:
+    """Return the parts of a page on how the cost grows with the chain."""
+    seconds = cost["seconds"].transpose("sites", "solver")
+    pairs = zip(seconds["sites"].values, 1e6 * seconds.values, strict=True)
+    rows = [[f"{sites:g}", *(f"{value:.3g}" for value in row)] for sites, row in pairs]
     return [
-        "# Speed against error on the pendula",
-        "Times of the peers over that of the fastest solver here, at an error of "
-        f"{TARGET:.0e} rad, mu = {MU:g}, tau = {END_TIME:g}.",
-        markdown(["peer", *cases], rows),
-        markdown(["case", "solver", "tolerance or step", "seconds", "error"], points),
+        "# How the cost grows",
+        f"Time in µs per site and unit of slow time: tolerance {TOLERANCE:.0e}, from symmetric "
+        "noise on all sites, one core, medians.",
+        markdown([cost["sites"].long_name, *seconds["solver"].values], rows),
     ]

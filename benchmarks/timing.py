@@ -6,7 +6,6 @@ not part of what they are measured at.
 """
 
 import signal
-import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter
@@ -75,15 +74,6 @@ def in_turns(one: Run, other: Run, turns: int, block: float) -> np.ndarray:
         return sum(run() for _ in range(count)) / count
 
     return np.array([mean(one, counts[0]) / mean(other, counts[1]) for _ in range(turns)])
-
-
-def peak_memory(action: Callable[[], Any]) -> int:
-    """Return the largest memory in bytes that the arrays of `action()` took; it is not timed."""
-    tracemalloc.start()
-    action()
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    return peak
 
 
 @contextmanager

@@ -7,10 +7,9 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import describe_cases
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 
-from .contestants import OURS, Comparison, Contestant, Point, cheapest, compete, controls
-from .problems import OUTPUT_STEP, REGIME_OF, REGIMES, Reference
+from .contestants import OURS, Comparison, Contestant, cheapest, compete
+from .problems import REGIME_OF, REGIMES
 
 POINT_FIELDS = {
     "accuracy": ("tolerance or step that was asked for", "1"),
@@ -18,12 +17,6 @@ POINT_FIELDS = {
     "least": ("least time of a run", "s"),
     "most": ("largest time of a run", "s"),
     "error": ("error of an amplitude at the horizon, the largest", "1"),
-}
-OWN_FIELDS = {
-    "steps": ("accepted and rejected steps", "1"),
-    "evaluations": ("right-hand sides, or coefficients of the series", "1"),
-    "norm_error": ("largest error of a norm up to the horizon, relative to its largest value", "1"),
-    "energy_drift": ("largest change of the energy up to the horizon", "1"),
 }
 PAIR_FIELDS = {
     "ratio": "time of the peer over that of our best solver, median of pairs",
@@ -36,27 +29,23 @@ PAIR_FIELDS = {
 
 def measure(
     problems: Mapping[str, Problem],
-    references: Mapping[str, Reference],
+    references: Mapping[str, np.ndarray],
     peers: Mapping[str, Contestant],
     say: Callable[[str], None],
 ) -> dict[str, Variable]:
     """Return the variables of the dataset.
 
     `problems` are the cases by name, each up to the time of the errors and without outputs;
-    `references` are their multiprecision solutions. `say` is called with the name of each
-    measurement before it starts. The published least times and mean ratios are stored beside the
-    measurements from which they follow.
+    `references` their multiprecision solutions there, (component, site). `say` is called with the
+    name of each measurement before it starts. The published least times and mean ratios are stored
+    beside the measurements from which they follow.
     """
-    found, watched, pairs, best = {}, {}, {}, []
+    found, pairs, best = {}, {}, []
     for case, problem in problems.items():
-        target, exact = REGIMES[REGIME_OF[case]].target, references[case]
-        found[case], pairs[case] = compete(
-            problem, exact.final, target, OURS, peers, lambda who, case=case: say(f"{case}: {who}")
-        )
-        watched[case] = {
-            name: [watch(problem, exact, name, point) for point in found[case][name]]
-            for name in OURS
-        }
+        target = REGIMES[REGIME_OF[case]].target
+        announce = lambda who, case=case: say(f"{case}: {who}")  # noqa: E731
+        exact = references[case]
+        found[case], pairs[case] = compete(problem, exact, target, OURS, peers, announce)
         reached = [cheapest(found[case][name], target) for name in OURS]
         best.append([point.seconds if point else np.nan for point in reached])
     regimes = [REGIME_OF[case] for case in problems]
@@ -71,8 +60,7 @@ def measure(
         "target": Variable(("case",), np.array(targets), "error of the comparison"),
         "solver": Variable(("solver",), np.array(list(OURS))),
         **name_contestants({**OURS, **peers}),
-        **by_point(POINT_FIELDS, found, "contestant"),
-        **by_point(OWN_FIELDS, watched, "solver"),
+        **by_point(POINT_FIELDS, found),
         "best_seconds": Variable(
             ("case", "solver"),
             np.array(best),
@@ -82,19 +70,6 @@ def measure(
         **(by_pair(pairs, list(peers)) if peers else {}),
         **named,
     }
-
-
-def watch(problem: Problem, exact: Reference, name: str, point: Point) -> tuple:
-    """Return what a run with outputs shows, in the order of OWN_FIELDS."""
-    solver = controls(name, point.accuracy)
-    run = simulate(problem.changed(output_step=OUTPUT_STEP, solver=solver))
-    work, count = run.outcome, len(run.tau)
-    norm_error = max(
-        float(np.max(np.abs(mine - true[:, :count])) / np.max(true[:, :count]))
-        for mine, true in ((run.linf, exact.linf), (run.l2, exact.l2))
-    )
-    drift = float(np.max(np.abs(run.energy - run.energy[0])))
-    return work.steps + work.rejected, work.evaluations, norm_error, drift
 
 
 def name_contestants(contestants: Mapping[str, Contestant]) -> dict[str, Variable]:
@@ -107,9 +82,9 @@ def name_contestants(contestants: Mapping[str, Contestant]) -> dict[str, Variabl
 
 
 def by_point(
-    fields: Mapping[str, tuple], found: Mapping[str, Mapping[str, list[Iterable]]], dim: str
+    fields: Mapping[str, tuple], found: Mapping[str, Mapping[str, list[Iterable]]]
 ) -> dict[str, Variable]:
-    """Return one variable a field over (case, `dim`, point), NaN beyond the last point.
+    """Return one variable a field over (case, contestant, point), NaN beyond the last point.
 
     `found` has the points by case and by name, each in the order of `fields`.
     """
@@ -120,7 +95,7 @@ def by_point(
         if rows[i][j]:
             table[i, j, : len(rows[i][j])] = rows[i][j]
     return {
-        name: Variable(("case", dim, "point"), table[..., k], *fields[name])
+        name: Variable(("case", "contestant", "point"), table[..., k], *fields[name])
         for k, name in enumerate(fields)
     }
 

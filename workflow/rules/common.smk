@@ -76,7 +76,7 @@ if workflow.is_main_process:
 DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
-SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
+SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "second_solver", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "ensembles_uneven", "members", "lifetimes"]
 THEORY_CHECKS = [name for group in GROUPS.values() for name in group]

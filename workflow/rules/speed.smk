@@ -34,26 +34,26 @@ use rule job as speed_pendula with:
         problems={case: SETTINGS.problem(case) for case in REGIMES["regular"].cases},
 
 
-use rule dataset as cost with:
-    "Part of speed: longer chains, longer runs and more active sites, timed"
+use rule job as cost with:
+    "Part of speed: longer and longer chains, timed"
     input:
         kernels=kernels("dop853", "taylor"),
+    output:
+        data="<results>/speed/cost.nc",
+        table="<results>/speed/cost.md",
     pathvars:
         made="speed/cost",
     threads: workflow.cores
     params:
         call=function("benchmarks.jobs.measure_cost"),
-        problem=SETTINGS.problem("fig3_small"),
 
 
 use rule job as speed_pages with:
-    "Part of speed: what was timed, as tables to read and as figures"
+    "Part of speed: what was timed, as a table to read and as figures"
     input:
         work_precision="<results>/speed/work_precision.nc",
-        cost="<results>/speed/cost.nc",
     output:
         work_precision_table="<results>/speed/work_precision.md",
-        cost_table="<results>/speed/cost.md",
         files=[file for name in SPEED_FIGURES for file in figure_files(f"<results>/figures/{name}")],
     pathvars:
         made="speed/pages",
