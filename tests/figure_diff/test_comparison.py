@@ -63,9 +63,8 @@ def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run):
     assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].says
 
 
-def test_times_and_speed_of_a_machine_are_no_part_of_the_report(run):
-    for old, new in (("96 s", "77 s"), ("2 ms", "3 ms")):
-        run.edit(REPORT, old, new)
+def test_times_of_a_machine_are_no_part_of_the_report(run):
+    run.edit(REPORT, "96 s", "77 s")
     assert run.findings()[REPORT].status == Status.IDENTICAL
 
 

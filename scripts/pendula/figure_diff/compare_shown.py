@@ -30,13 +30,12 @@ NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
-SECTION = rb'<section id="%s"(?:(?!</?section).)*</section>'
 OF_THE_MACHINE = {
-    "report.html": (SECTION % b"speed", SECTION % b"provenance"),
-    "live.html": (rb'"code": "[\w+/=]*"',),
+    "report.html": rb'<section id="run">(?:(?!</?section).)*</section>',
+    "live.html": rb'"code": "[\w+/=]*"',
 }
-"""What two pages hold of the machine, each once: speed, processor and times of the jobs; and code
-that numba writes for the processor, whose bits are compared where it runs."""
+"""What two pages hold of the machine, each once: processor, versions and times of jobs; and code that
+numba writes for the processor, whose bits are compared where it runs."""
 
 FOLLOWS = ("data", ENTRY, "ticks", "points", "measured", "because", "cutoffs", "rests_on", "checks")
 """Entries of a description, and of a ledger, whose words follow the numbers of chaotic datasets."""
@@ -47,12 +46,12 @@ CHECKSUMS = re.compile(r'"(?:data|sha256)": "[0-9a-f]{64}"')
 def comparable(name: str, content: bytes) -> bytes:
     """Return what is compared of the file `name` of a run: of a page, not what is of the machine.
 
-    The page tells where that stood, so that it cannot be lost; what stands there twice is compared.
+    A mark stays in its place, so that it cannot be lost; where it stands twice, all is compared.
     """
-    for place in OF_THE_MACHINE.get(name, ()):
-        around = re.split(place, content, flags=re.DOTALL)
-        content = b"(of the machine)".join(around) if len(around) == 2 else content
-    return content
+    if name not in OF_THE_MACHINE:
+        return content
+    around = re.split(OF_THE_MACHINE[name], content, flags=re.DOTALL)
+    return b"(of the machine)".join(around) if len(around) == 2 else content
 
 
 def compare(new: Path, was: str, datasets: set[Status]) -> tuple[Status, str]:
