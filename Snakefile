@@ -22,8 +22,6 @@ MADE_TOGETHER = {
     "fig4_spacetime": "Where the chain moves in the cases of fig4, made together with it",
     "fig5": "Fig 5: norms against half-width for small amplitudes",
     "fig6": "Fig 6: norms against half-width for large amplitudes",
-    "solver_agreement": "Until when the solvers draw the same curves",
-    "energy_drift": "How well each solver conserves the energy",
     "stability_chart": "Lemma 1: where the chain at rest is unstable",
     "growth_rates": "Lemma 1: how fast small motions grow where the chain at rest is unstable",
     "pendula_remainder": "Errors of the expansion against time and against mu, and its horizons",
@@ -33,7 +31,7 @@ MADE_TOGETHER = {
     "window_map": "Maxima over windows [10, T] on chains of half-width M: the map over (M, T)",
 }
 FIGURES = [
-    *(*MADE_TOGETHER, "fig1", "trust_horizons", "bounds", "lifetimes", "breathers"),
+    *(*MADE_TOGETHER, "fig1", "energy_drift", "trust_horizons", "bounds", "lifetimes", "breathers"),
     *("sensitivity", "fates", "pendula_threshold", "pendula_phases"),
 ]
 
@@ -53,7 +51,6 @@ include: "workflow/rules/own.smk"
 
 DATASETS = [
     *TRAJECTORIES,
-    *runs_by(*ALL_SOLVERS),
     *(*SWEEPS, *SECOND_SWEEPS),
     *checks(*CHECKS, *WRONG_CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
@@ -72,7 +69,7 @@ rule all:
         datasets("sweeps", *OWN_SWEEPS),
         [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
         "<results>/claims.json",
-        expand("<results>/tables/{name}.md", name=["solvers", "claims", "trust", "hard_cases"]),
+        expand("<results>/tables/{name}.md", name=["claims", "hard_cases"]),
         *("<results>/report.html", "<results>/live.html"),
         expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
     message:

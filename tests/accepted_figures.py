@@ -54,7 +54,6 @@ FIGURES = {
              lambda: gather_sweeps("fig5", ("[10, 50]", "[10, 50]"), ["l2", "linf"])),
     "fig6": (paper.draw_sweeps, lambda: gather_sweeps("fig6", ("[10, 70]", "[10, 40]"), ["l2"])),
     "energy_drift": (paper.draw_drift, paper.gather_drift, "checks/solvers"),
-    "solver_agreement": (paper.draw_agreement, paper.gather_agreement, "checks/solvers"),
     "trust_horizons": (paper.draw_trust, paper.gather_trust, "checks/trust"),
     "breathers": (breathers.draw_breathers, breathers.gather_breathers,
                   "breathers/periodic", "breathers/growth"),

@@ -83,8 +83,6 @@ PLANTED = [
       replaced("figures/fates.json", "initial conditions of Figs 2 to 4",
                "the paper's initial conditions")),
      "fates names data as the paper's"),
-    ((replaced("tables/solvers.md", "| fig2_small | none: another case", "| fig2_small | 1e-06"),),
-     "solvers.md holds fig2_small to what the paper states"),
 ]  # fmt: skip
 
 

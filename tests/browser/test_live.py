@@ -35,7 +35,7 @@ def made(tmp_path_factory):
     """Return the page on the paper's cases, made of runs that are found to be the accepted ones."""
     folder = tmp_path_factory.mktemp("live")
     accepted = json.loads((BASELINE / "hashes.json").read_text())["files"]
-    runs = [folder / f"{case}.ode45.nc" for case in CASES]
+    runs = [folder / f"{case}.nc" for case in CASES]
     for case, path in zip(CASES, runs, strict=True):
         write(path, *run_case(case, problem_of(case, snapshot_every=4)))
         variables = accepted[f"trajectories/{path.name}"]["variables"]

@@ -88,7 +88,7 @@ def test_the_horizon_is_that_of_roundings_alone_and_sweeps_have_none(run):
 @pytest.mark.parametrize(
     ("name", "variable", "expected"),
     [
-        ("trajectories/fig4_small.ode45", "l2", 0.818),  # by the file, after the horizon
+        ("trajectories/fig4_small", "l2", 0.818),  # by the file, after the horizon
         ("trajectories/fig2_small", "l2", 0.0),
         ("trajectories/fig4_large", "l2", 0.0),
         ("checks/lyapunov", "exponent", 0.5),  # by the words along a dimension, without a time

@@ -59,7 +59,6 @@ solve_ode45 = ode45.build(oscillate, keep)
 solve_dop853 = dop853.build(oscillate, keep)
 solve_taylor = taylor.build(continue_oscillation, keep)
 solve_crank_nicolson = crank_nicolson.build(riccati, keep)
-solve_implicit_midpoint = crank_nicolson.build_midpoint(riccati, keep)
 solve_delfour_fortin_payre = crank_nicolson.build_conserving(mean_riccati, keep)
 
 
@@ -84,11 +83,6 @@ def run_crank_nicolson(system, y, times, controls, work, record, stop):
 
 
 @kernel
-def run_implicit_midpoint(system, y, times, controls, work, record, stop):
-    return solve_implicit_midpoint(system, y, times, controls, work, record, stop)
-
-
-@kernel
 def run_delfour_fortin_payre(system, y, times, controls, work, record, stop):
     return solve_delfour_fortin_payre(system, y, times, controls, work, record, stop)
 
@@ -98,7 +92,6 @@ METHODS = {
     "dop853": (run_dop853, dop853.WORK),
     "taylor": (run_taylor, taylor.WORK),
     "crank_nicolson": (run_crank_nicolson, crank_nicolson.WORK),
-    "implicit_midpoint": (run_implicit_midpoint, crank_nicolson.WORK),
     "delfour_fortin_payre": (run_delfour_fortin_payre, crank_nicolson.WORK),
 }
 

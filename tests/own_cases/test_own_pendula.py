@@ -132,7 +132,7 @@ def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
 
 def test_the_configuration_knows_the_solvers_of_each_model():
     for model, known in (("pendula", OF_PENDULA), ("amplitudes", OF_AMPLITUDES)):
-        own = {*MODELS[model].solvers} - {"implicit_midpoint"}  # never configured
+        own = {*MODELS[model].solvers} - {"ode45_real"}  # never configured
         assert own == {*known} - {"auto"}
 
 

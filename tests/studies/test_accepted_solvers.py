@@ -28,11 +28,6 @@ def every_solver_leaves_every_chaotic_trajectory(trust, lyapunov):
     )
 
 
-def doubles_lead_away_from_printed_decimals(trust):
-    first, visible = trust["decimal_horizon"].values
-    return first < visible <= float(trust["tau"][-1])
-
-
 def rates_of_steady_states_lie_in_their_enclosures(proved, steady):
     shared = [
         one
@@ -58,8 +53,6 @@ STATEMENTS = [
     (chaotic_cases_alone_have_ensembles, ("checks/lyapunov", "checks/ensembles"), reversed_cases),
     (every_solver_leaves_every_chaotic_trajectory, ("checks/trust", "checks/lyapunov"),
      reversed_cases),
-    (doubles_lead_away_from_printed_decimals, ("checks/trust",),
-     lambda trust: trust.assign(decimal_horizon=2.0 * trust["decimal_horizon"])),
     (rates_of_steady_states_lie_in_their_enclosures, ("certified/breathers", "breathers/steady"),
      lambda proved: proved.assign(growth_high=0.5 * proved["growth_high"])),
 ]  # fmt: skip

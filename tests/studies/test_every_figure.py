@@ -26,7 +26,7 @@ def gather_own_norms(run, other):
 
 OWN = {
     "own_norms": (own.draw_norms, gather_own_norms,
-                  "trajectories/fig2_small", "trajectories/fig2_small.dop853"),
+                  "trajectories/fig2_small", "trajectories/fig3_small"),
     "own_spacetime": (own.draw_spacetime, own.gather_spacetime, "trajectories/fig2_small"),
     "own_sweep": (own.draw_sweep, lambda one: own.gather_sweep(one, mean_window="[10, 40]"),
                   "sweeps/fig5_left"),
@@ -102,7 +102,7 @@ def test_every_variable_is_named_and_has_units(plot):
 
 
 GOING = {
-    "solver_agreement", "growth_rates", "symmetry", "lyapunov", "ensembles", "sensitivity", "front",
+    "growth_rates", "symmetry", "lyapunov", "ensembles", "sensitivity", "front",
     "breathers", "pendula_threshold", "pendula_remainder", "pendula_phases",
     "window_map", *OWN,
 }  # fmt: skip

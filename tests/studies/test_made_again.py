@@ -5,10 +5,7 @@ import pytest
 import xarray as xr
 from accepted import dataset
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
-from pendula.studies.paper.solvers import compare_solvers
 from pendula.studies.theory.bounds import check_cases, check_sweeps
-
-SOLVERS = ("ode45", "crank_nicolson", "delfour_fortin_payre", "dop853")
 
 
 def of(folder, names):
@@ -16,15 +13,7 @@ def of(folder, names):
     return {name: dataset(f"{folder}/{name}") for name in names}
 
 
-def solvers():
-    second = (f"{sweep}.crank_nicolson" for sweep in PAPER_SWEEPS)
-    runs = of("trajectories", (f"{case}.{solver}" for case in PAPER_CASES for solver in SOLVERS))
-    # of the energies seven digits are kept, which leaves a few units in 1e5 of their drift
-    return compare_solvers(runs, of("sweeps", PAPER_SWEEPS), of("sweeps", second)).drop_vars("kept")
-
-
 MADE = {
-    "checks/solvers": (solvers, 2e-5),
     "checks/cases": (lambda: check_cases(of("trajectories", PAPER_CASES)), 0.0),
     "checks/sweeps": (lambda: check_sweeps(of("sweeps", PAPER_SWEEPS)), 0.0),
 }

@@ -22,7 +22,7 @@ def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(full_run, tmp_path
     assert before == {"compile_solver": 1, "trajectory": 1}
     solvers = ("--config", "solvers={dop853: {rtol: 1e-5}}")
     jobs = planned(ROOT, full_run, *solvers)
-    assert jobs["trajectory_by_solvers"] == 6 and "compile_solver" not in jobs
+    assert jobs["measure_solvers"] == 1 and "compile_solver" not in jobs
 
 
 def test_who_only_looks_leaves_the_folder_as_it_is(looked):

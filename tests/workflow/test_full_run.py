@@ -45,11 +45,6 @@ def test_every_case_and_sweep_exists_by_both_solvers_of_the_paper(full_run):
             }  # fmt: skip
 
 
-def test_the_solvers_table_speaks_of_every_case(full_run):
-    table = (full_run / "results/tables/solvers.md").read_text()
-    assert all(f"| {name} |" in table for name in PAPER_CASES)
-
-
 def test_datasets_carry_nothing_of_the_machine(full_run):
     with xr.open_dataset(full_run / "results/trajectories/fig2_small.nc") as data:
         text = json.dumps({k: str(v) for k, v in data.attrs.items()})

@@ -10,7 +10,7 @@ import sys
 
 from helpers import change, edit, planned
 
-SIMULATIONS = {"trajectory", "trajectory_by_solvers", "sweep", "sweep_by_second_solver"}
+SIMULATIONS = {"trajectory", "measure_solvers", "sweep", "sweep_by_second_solver"}
 MEASURES = {
     *("measure_lyapunov", "measure_ensembles", "measure_lifetimes", "measure_members"),
 }
@@ -32,10 +32,10 @@ def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(fu
         change_of = f"{{<<: *{size}, omega: 0}}", f"{{<<: *{size}, omega: 0.5}}"
         edit(clone / "config/config.yaml", *change_of)
     jobs = planned(clone, full_run)
-    assert jobs["trajectory"] == jobs["trajectory_by_solvers"] == 2
+    assert jobs["trajectory"] == 2 and jobs["measure_solvers"] == 1
     assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 1
     # the ensembles of all chaotic cases lie in one dataset, which Figs 3 to 6 show
-    shown_in = {"norms_by_half_width", "solver_figures", "solver_table"}
+    shown_in = {"norms_by_half_width", "energy_drift", "trust_horizons"}
     assert jobs.keys() >= shown_in | MEASURES
     assert jobs["norms_in_time"] < 3 and "fig1" not in jobs
 
@@ -55,7 +55,7 @@ def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(ful
     text = equations.read_text()
     change(equations)
     jobs = planned(clone, full_run)
-    assert jobs["trajectory"] == jobs["trajectory_by_solvers"] == 6
+    assert jobs["trajectory"] == 6 and jobs["measure_solvers"] == 1
     assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 4
     equations.write_text(text)
     assert planned(clone, full_run) == {}

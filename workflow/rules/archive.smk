@@ -6,7 +6,7 @@ ARCHIVE = f"<results>/archive/pendula-{__version__}.tar.gz"
 use rule job as archive with:
     "Code, environment, datasets, figures and metadata in one file to deposit"
     input:
-        results=lambda wildcards: sorted({*rules.all.input, *kernels(*ALL_SOLVERS)}),
+        results=lambda wildcards: sorted({*rules.all.input, *kernels(*COMPILED)}),
     output:
         archive=ARCHIVE,
         checksum=f"{ARCHIVE}.sha256",

@@ -3,9 +3,9 @@
 NOT_DECIDING = ("not_shown", "short_chart", "theorem_2_case")  # but in the article
 RESTS_ON = {  # by part: the datasets that its claims rest on
     "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
-    "solvers": [  # beside the paper's own, those that its sentences are compared with
-        *(*TRAJECTORIES, *runs_by("dop853"), *SWEEPS, *runs_by("crank_nicolson"), *SECOND_SWEEPS),
-        *checks("cases", "lyapunov", "ensembles", "members", "second_solver"),
+    "solvers": [
+        *(*TRAJECTORIES, *SWEEPS, *SECOND_SWEEPS),
+        *checks("cases", "lyapunov", "ensembles", "members", "solvers"),
     ],
     "theory": [
         *(*TRAJECTORIES, *checks("lyapunov", *WRONG_CHECKS)),

@@ -1,4 +1,4 @@
-# The paper's Figs 1 to 6, the chain in motion beside them, and its solvers side by side.
+# The paper's Figs 1 to 6, the chain in motion beside them, and its solvers compared.
 # Every figure is written as PNG and PDF, with the data that it shows as netCDF.
 
 
@@ -43,65 +43,31 @@ use rule figure as norms_by_half_width with:
 
 
 use rule dataset as measure_solvers with:
-    "How well each solver conserves the energy, and until when pairs of them agree"
+    "How each solver conserves the energy, how the paper's two differ, and until when to trust each"
     input:
-        trajectories=runs_by(*COMPARED),
-        first=SWEEPS,
-        second=SECOND_SWEEPS,
+        kernels=kernels(*COMPILED),
+        proved=PROVED_CURVES,
+    output:
+        checks("solvers", "trust"),
     pathvars:
         made="checks/solvers",
+    priority: 1  # with all that it needs, because the ledger waits for it
     params:
-        call=function("pendula.studies.paper.solvers.compare_solvers"),
+        call=function("pendula.studies.paper.solvers.measure_solvers"),
+        cases={case: without_solver(SETTINGS.problem(case)) for case in PAPER_CASES},
+        solvers={name: getattr(SETTINGS.solvers, name).model_dump() for name in ALL_SOLVERS},
         others=[case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.ode45"])],
+        committed=committed(references=references(*PAPER_CASES), proofs=committed_proofs()),
 
 
-use rule dataset as measure_second_solver with:
-    "What depends on the scheme and the step of the second solver, which the paper hardly describes"
-    input:
-        kernels=kernels("crank_nicolson", "delfour_fortin_payre"),
-        firsts=runs_by("ode45"),
-    pathvars:
-        made="checks/second_solver",
-    priority: 1  # with all that it needs, because the report waits longest for it
-    params:
-        call=function("pendula.studies.paper.second_solver.measure"),
-        problems={case: SETTINGS.problem(case, "crank_nicolson") for case in PAPER_CASES},
-        swept_problem=SETTINGS.swept_problem("fig6_right", "crank_nicolson"),
-        half_widths=SETTINGS.chaos.ensembles.sweeps["fig6_right"].half_widths,
-        windows=SETTINGS.sweeps["fig6_right"].windows,
-        ensemble=values_of(SETTINGS.chaos.ensembles, "size", "seed"),
-
-
-use rule figure as solver_figures with:
-    "The two figures energy_drift and solver_agreement: the solvers compared"
+use rule figure as energy_drift with:
+    "How well each solver conserves the energy"
     input:
         solvers="<results>/checks/solvers.nc",
-    output:
-        figure_files("<results>/figures/energy_drift"),
-        figure_files("<results>/figures/solver_agreement"),
     pathvars:
-        made="figures/solvers",
+        made="figures/energy_drift",
     params:
-        call=function(
-            "pendula.studies.paper.figures.draw_drift",
-            "pendula.studies.paper.figures.draw_agreement",
-        ),
-
-
-use rule dataset as measure_trust with:
-    "When the norms of each solver leave those of the reference, and until when curves are proved"
-    input:
-        trajectories=runs_by(*ALL_SOLVERS),
-        proved=PROVED_CURVES,
-    pathvars:
-        made="checks/trust",
-    params:
-        call=function("pendula.studies.paper.solvers.trust_solvers"),
-        committed=committed(
-            references=references(*PAPER_CASES),
-            decimal=references("fig4_small", "fig4_small.double"),
-            proofs=committed_proofs(),
-        ),
+        call=function("pendula.studies.paper.figures.draw_drift"),
 
 
 use rule figure as trust_horizons with:
@@ -112,17 +78,3 @@ use rule figure as trust_horizons with:
         made="figures/trust_horizons",
     params:
         call=function("pendula.studies.paper.figures.draw_trust"),
-
-
-use rule job as solver_table with:
-    "All that is measured of the solvers as tables to read: solvers.md, trust.md"
-    input:
-        solvers="<results>/checks/solvers.nc",
-        trust="<results>/checks/trust.nc",
-    output:
-        table="<results>/tables/solvers.md",
-        trust_table="<results>/tables/trust.md",
-    pathvars:
-        made="tables/solvers",
-    params:
-        call=function("pendula.studies.paper.tables.tabulate_solvers"),

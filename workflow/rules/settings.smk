@@ -1,4 +1,6 @@
 # The configuration as plain values, as functions of the library take them.
+FINER = 0.25
+"""The finer step of the second solver, over the assumed one."""
 
 
 def values_of(part, *names):
@@ -28,6 +30,16 @@ def run_of(case, tolerance, solver="taylor", **changes):
     """Return a case as a study runs it."""
     solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
     return {**SETTINGS.problem(case), "solver": solver, "snapshot_every": 0, **changes}
+
+
+def without_solver(problem):
+    return {key: value for key, value in problem.items() if key != "solver"}
+
+
+def finer(problem):
+    """Return a problem whose solver takes FINER of its step."""
+    solver = problem["solver"]
+    return {**problem, "solver": {**solver, "step": FINER * solver["step"]}}
 
 
 def followed(cases, tolerance, solver="taylor", **changes):

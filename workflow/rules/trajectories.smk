@@ -6,7 +6,7 @@ use rule job as compile_solver with:
     output:
         kernels="<results>/<made>.txt",
     pathvars:
-        made=f"kernels/{{solver,{one_of(ALL_SOLVERS)}}}",
+        made=f"kernels/{{solver,{one_of(COMPILED)}}}",
     priority: 1
     params:
         call=function("pendula.studies.paper.compile_solver.compile_solver"),
@@ -25,30 +25,12 @@ use rule dataset as trajectory with:
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
 
 
-# Apart from the rule above, since the paper's figures show none of these.
-use rule dataset as trajectory_by_solvers with:
-    "A case of the paper by every solver: results/trajectories/{case}.{solver}.nc of each"
-    input:
-        kernels=kernels(*ALL_SOLVERS),
-    output:
-        by_solvers("<results>/trajectories/<paper_case>", ALL_SOLVERS),
-    pathvars:
-        made="trajectories/<paper_case>.solvers",
-    priority: 1
-    params:
-        call=function("pendula.studies.paper.runs.run_by_solvers"),
-        name="{case}",
-        problems=lambda wildcards: {
-            solver: SETTINGS.problem(wildcards.case, solver) for solver in ALL_SOLVERS
-        },
-
-
-use rule trajectory as own_trajectory_by_solver with:
-    "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
+use rule trajectory as trajectory_by_solver with:
+    "A case by another solver than its own: results/trajectories/{case}.{solver}.nc"
     input:
         kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case), wildcards.solver),
     pathvars:
-        made="trajectories/<own_case>.<any_solver>",
+        made="trajectories/<any_case>.<any_solver>",
     params:
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case, wildcards.solver),
 
@@ -76,3 +58,12 @@ use rule sweep as sweep_by_second_solver with:
         made="sweeps/<paper_sweep>.crank_nicolson",
     params:
         problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson"),
+
+
+use rule sweep_by_second_solver as sweep_by_finer_step with:
+    "A chaotic sweep by the second solver with a finer step, where it has ensembles to compare with"
+    pathvars:
+        made="sweeps/{sweep,fig6_right}.crank_nicolson.finer",
+    params:
+        problem=lambda wildcards: finer(SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson")),
+        half_widths=lambda wildcards: SETTINGS.chaos.ensembles.sweeps[wildcards.sweep].half_widths,

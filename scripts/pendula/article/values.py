@@ -88,7 +88,7 @@ def gather(results: Results) -> dict[str, Any]:
     """Return all that the template names: functions of `Numbers`, and numbers made of several."""
     numbers = Numbers(results)
     functions = ("labels", "of", "share", "n", "share_of", "verdicts")
-    compared, study = results["checks/solvers"].sel(span="whole"), results[LONG]
+    compared, study = results["checks/solvers"], results[LONG]
     ratio = abs(study["omega_bulk_power"] / study["omega_thermal_power"] - 1.0)
     return {
         **{name: getattr(numbers, name) for name in functions},
@@ -97,7 +97,7 @@ def gather(results: Results) -> dict[str, Any]:
         "confidence": percent(CONFIDENCE),
         "cases": results.quote("checks/solvers", compared.sizes["case"]),
         "apart": results.quote(
-            "checks/solvers", int(np.isfinite(compared["divergence_time"][:, 0]).sum())
+            "checks/solvers", int(np.isfinite(compared["second_divergence"][:, 0]).sum())
         ),
         "allowed": number((compared["allowed_drift"] / compared["stated_drift"]).max()),
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},

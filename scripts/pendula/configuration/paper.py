@@ -145,7 +145,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         by = f"solvers.{solver}" if solver else f"cases.{stem}.solver"
         return (*_keys(stem, *FINITE, "end_time"), by)
     if folder == "sweeps":
-        return _sweep(stem, solver)
+        return _sweep(stem, solver.partition(".")[0])
     of_studies = {"breathers": _breathers, "pendula": _pendula, "certified": _certified}
     return (of_studies | {"unbounded": _unbounded}).get(folder, _check)(rest, on)
 
@@ -255,7 +255,7 @@ def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
         "lifetimes": ("chaos.lifetimes", *lives),
         "members": ("chaos.members", *_of_all(cases, *FINITE)),
         "lyapunov": ("chaos.lyapunov", *runs),
-        **dict.fromkeys(("solvers", "trust", "second_solver"), ("solvers", *runs)),
+        **dict.fromkeys(("solvers", "trust"), ("solvers", *runs)),
         "cases": _of_all(cases, *FINITE, "end_time", "solver"),
     }.get(name, ())
 

@@ -71,8 +71,8 @@ ANGLES = ("linf", "l2", "modulus", "final", "error")
 
 SOLVER_NAMES = {
     "ode45": "ode45",
+    "ode45_real": "ode45 (real)",
     "crank_nicolson": "Crank\N{EN DASH}Nicolson",
-    "implicit_midpoint": "implicit midpoint",
     "delfour_fortin_payre": "Delfour\N{EN DASH}Fortin\N{EN DASH}Payre",
     "dop853": "DOP853",
     "taylor": "Taylor",

@@ -39,6 +39,7 @@ RED, BLUE = "#e8402f", "#123b8c"
 
 SOLVERS = {
     "ode45": ("#111111", "o"),
+    "ode45_real": ("#8a8a8a", "P"),
     "crank_nicolson": ("#e0a100", "s"),
     "delfour_fortin_payre": ("#7a2e0e", "v"),
     "dop853": ("#16876b", "^"),

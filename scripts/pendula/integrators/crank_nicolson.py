@@ -1,19 +1,15 @@
-"""Crank-Nicolson, solved by fixed-point iteration: the paper's second solver, in three readings.
+"""Crank-Nicolson, solved by fixed-point iteration: the paper's second solver, and a variant of it.
 
 `build` is the trapezoidal rule, new = old + h/2 (F(old) + F(new)): Crank and Nicolson (Proc. Camb.
-Phil. Soc. 43 (1947) 50) average the right-hand side over the two ends of a step. `build_midpoint`
-is the implicit midpoint rule, new = old + h F((old + new) / 2), which has the name too.
-
-Neither keeps the quartic energy (8). Half a step of the explicit Euler method carries each solution
-of the first into one of the second, so that neither is better in the long run; the dataset
-checks/second_solver.nc compares their errors.
+Phil. Soc. 43 (1947) 50) average the right-hand side over the two ends of a step. It does not keep
+the quartic energy (8).
 
 `build_conserving` is the variant that conserves the energy up to the tolerance of the iteration:
 new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
 (J. Comput. Phys. 44 (1981) 277). It shows what of the second solver's difference to the first is
 the drift of its energy, and what is the error of its phase.
 
-All three are of second order and symmetric in time.
+Both are of second order and symmetric in time.
 """
 # ASSUME: the paper says "a Crank-Nicholson scheme with the fixed-point iteration method" and no
 # more. It is read as the trapezoidal rule, the scheme of Crank and Nicolson's own paper.
@@ -64,29 +60,15 @@ def build(rates, observe):
     return fixed_point.build(begin, slope, observe)
 
 
-@uncached
-def whole_step(system, old, h, follows, scratch):
-    """Begin a step whose base is the old state."""
-    return old, h, 0
-
-
-def build_midpoint(rates, observe):
-    """Return the solver of y' = rates by the implicit midpoint rule."""
-
-    @uncached
-    def slope(system, old, new, middle, dy):
-        for row in range(old.shape[0]):
-            for j in range(1, old.shape[1] - 1):
-                middle[row, j] = 0.5 * (old[row, j] + new[row, j])
-        rates(system, middle, dy)
-
-    return fixed_point.build(whole_step, slope, observe)
-
-
 def build_conserving(mean_rates, observe):
     """Return the solver of y' = rates by the scheme of Delfour, Fortin and Payre.
 
     `mean_rates(system, old, new, middle, dy)` writes the mean of the rates over a step into `dy`,
     and may use `middle` as it likes.
     """
-    return fixed_point.build(whole_step, mean_rates, observe)
+
+    @uncached
+    def begin(system, old, h, follows, scratch):
+        return old, h, 0
+
+    return fixed_point.build(begin, mean_rates, observe)

@@ -5,8 +5,11 @@ ten times as much in energy at the same tolerances. So every choice here is MATL
 from Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19; the error norm, the initial step and
 the step control follow Shampine and Reichelt, The MATLAB ODE Suite, SIAM J. Sci. Comput. 18 (1997)
 1; outputs between steps come from the pair's quartic interpolant.
+
 # ASSUME: the paper's unknowns are MATLAB complex numbers, so that the error of a component is the
-# modulus of a complex number, relative to the larger modulus at the two ends of the step.
+# modulus of a complex number, relative to the larger modulus at the two ends of the step. MATLAB's
+# users as often take real and imaginary parts as unknowns, each with an error of its own: that is
+# the solver ode45_real, and checks/solvers.nc holds the drift of the energy by both.
 
 From top to bottom: the stages, the error, the interpolant, the choice of the first step, and the
 loop. `y` is the state before a step, `w` the state after it or the argument of a stage, `k[s - 1]`
@@ -87,6 +90,20 @@ def relative_error(y, w, k, threshold, scratch):
 
 
 @kernel
+def relative_error_of_reals(y, w, k, threshold, scratch):
+    """Return the same where real and imaginary parts are unknowns of their own."""
+    for row in range(y.shape[0]):
+        for j in range(1, y.shape[1] - 1):
+            error = (
+                E1 * k[0, row, j] + E3 * k[2, row, j] + E4 * k[3, row, j]
+                + E5 * k[4, row, j] + E6 * k[5, row, j] + E7 * k[6, row, j]
+            )  # fmt: skip
+            size = max(max(abs(y[row, j]), abs(w[row, j])), threshold)
+            scratch[row, j] = error / size
+    return largest_in_rows(scratch, y.shape[0])
+
+
+@kernel
 def interpolate(s, y, h, k, out):
     """Write the quartic interpolant at the fraction `s` of the step from `y` into `out`."""
     s2, s3, s4 = s * s, s * s * s, s * s * s * s
@@ -104,15 +121,31 @@ def interpolate(s, y, h, k, out):
 
 
 @kernel
-def initial_step(y, slope, threshold, rtol, longest):
-    """Return ode45's first step: 0.8 rtol^(1/5) over the largest relative rate, or `longest`."""
+def relative_rate(y, slope, threshold):
+    """Return the largest rate of a complex component, relative to it or to `threshold`."""
     rate2 = 0.0
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             size2 = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
             slope2 = slope[re, j] * slope[re, j] + slope[re + 1, j] * slope[re + 1, j]
             rate2 = max(rate2, slope2 / max(size2, threshold * threshold))
-    rate = sqrt(rate2) / (0.8 * fifth_root(rtol))
+    return sqrt(rate2)
+
+
+@kernel
+def relative_rate_of_reals(y, slope, threshold):
+    """Return the same where real and imaginary parts are unknowns of their own."""
+    rate = 0.0
+    for row in range(y.shape[0]):
+        for j in range(1, y.shape[1] - 1):
+            rate = max(rate, abs(slope[row, j]) / max(abs(y[row, j]), threshold))
+    return rate
+
+
+@kernel
+def initial_step(rate, rtol, longest):
+    """Return ode45's first step: 0.8 rtol^(1/5) over the largest relative rate, or `longest`."""
+    rate /= 0.8 * fifth_root(rtol)
     return 1.0 / rate if longest * rate > 1.0 else longest
 
 
@@ -122,9 +155,14 @@ def spacing(t):
     return 16.0 * np.spacing(max(abs(t), 2.0**-1022))
 
 
-def build(rates, observe, at_time=at_any_time):
-    """Return the solver of y' = rates; see the package for its arguments."""
+def build(rates, observe, at_time=at_any_time, of_reals=False):
+    """Return the solver of y' = rates; see the package for its arguments.
+
+    `of_reals` makes each row of the state a real unknown; else two rows are a complex one.
+    """
     driven = at_time is not at_any_time
+    measure = relative_error_of_reals if of_reals else relative_error
+    rate_of = relative_rate_of_reals if of_reals else relative_rate
 
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
@@ -135,7 +173,8 @@ def build(rates, observe, at_time=at_any_time):
         k, w, out = work[:7], work[7], work[8]
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
         rates(at_time(system, t), y, k[0])
-        h = initial_step(y, k[0], threshold, rtol, min(longest, times[1] - times[0]))
+        rate = rate_of(y, k[0], threshold)
+        h = initial_step(rate, rtol, min(longest, times[1] - times[0]))
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
         i += 1
@@ -157,7 +196,7 @@ def build(rates, observe, at_time=at_any_time):
                     combine(stage, y_flat, h, k_flat, w_flat)
                     rates(at_time(system, t + NODES[stage] * h), w, k[stage - 1])
                 evaluations += 6
-                error = h * relative_error(y, w, k, threshold, out)
+                error = h * measure(y, w, k, threshold, out)
                 if error <= rtol:
                     break
                 if not h > shortest:

@@ -32,7 +32,7 @@ change of one word changes it."""
 
 
 def write_live(runs: list[str], trust: str, html: str) -> None:
-    """Write the page `html` on the trajectories `runs`, each <case>.<solver>.nc, of one solver.
+    """Write the page `html` on the trajectories `runs`, all by one solver.
 
     `trust` is the dataset checks/trust. A case with initial data beside the central pair is left
     out, since the page cannot set them.

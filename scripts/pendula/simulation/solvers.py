@@ -14,9 +14,9 @@ from .lattice import aligned
 from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
+solve_ode45_real = ode45.build(rates, observe, of_reals=True)
 solve_dop853 = dop853.build(rates, observe, can_be_tiled, chain_of_tile)
 solve_crank_nicolson = crank_nicolson.build(rates, observe)
-solve_implicit_midpoint = crank_nicolson.build_midpoint(rates, observe)
 solve_delfour_fortin_payre = crank_nicolson.build_conserving(midpoint_rates, observe)
 solve_taylor = taylor.build(continue_series, observe)
 
@@ -27,6 +27,11 @@ def run_ode45(chain, y, times, controls, work, record, stop):
 
 
 @kernel
+def run_ode45_real(chain, y, times, controls, work, record, stop):
+    return solve_ode45_real(chain, y, times, controls, work, record, stop)
+
+
+@kernel
 def run_dop853(chain, y, times, controls, work, record, stop):
     return solve_dop853(chain, y, times, controls, work, record, stop)
 
@@ -34,11 +39,6 @@ def run_dop853(chain, y, times, controls, work, record, stop):
 @kernel
 def run_crank_nicolson(chain, y, times, controls, work, record, stop):
     return solve_crank_nicolson(chain, y, times, controls, work, record, stop)
-
-
-@kernel
-def run_implicit_midpoint(chain, y, times, controls, work, record, stop):
-    return solve_implicit_midpoint(chain, y, times, controls, work, record, stop)
 
 
 @kernel
@@ -74,8 +74,8 @@ ITERATED = "step", "tolerance", "iterations"
 
 SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
+    "ode45_real": Solver(run_ode45_real, ("rtol", "atol"), ode45.WORK),
     "crank_nicolson": Solver(run_crank_nicolson, ITERATED, crank_nicolson.WORK),
-    "implicit_midpoint": Solver(run_implicit_midpoint, ITERATED, crank_nicolson.WORK),
     "delfour_fortin_payre": Solver(run_delfour_fortin_payre, ITERATED, crank_nicolson.WORK),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK, dop853.work_arrays),
     "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),

@@ -1,36 +1,110 @@
-"""What is measured of the solvers, and the tables that are made of it."""
+"""What is measured of the solvers, and what decides the sentences on them."""
 
 import numpy as np
 import pytest
-from accepted import BASELINE
-from held_digits import unlike
+import xarray as xr
+from accepted import dataset
+from oracle import SOLVERS
+from pendula.ledger.criterion import Verdict
+from pendula.studies.paper import solvers
+from pendula.studies.paper.claims_energy import drifts
+from pendula.studies.paper.claims_second_solver import of_most, swept_chance
 from pendula.studies.paper.figures import gather_norms
-from pendula.studies.paper.solvers import compare_solvers, trust_solvers
-from pendula.studies.paper.tables import tabulate_solvers
+from problems import problem_of
 
 
-@pytest.mark.parametrize(("drift", "kept"), [(1.9e-6, 1), (2.1e-6, 0)])
-def test_a_drift_is_kept_up_to_twice_the_stated_order(trajectories, swept_pairs, drift, kept):
-    run = trajectories["fig2_small.ode45"]
-    changed = {"fig2_small.ode45": run.assign(energy=7.0 + drift * (run["tau"] == 5.0))}
-    found = compare_solvers(trajectories | changed, *swept_pairs).sel(case="fig2_small")
-    assert found["kept"].sel(solver="ode45").values.tolist() == [kept, kept]
+@pytest.fixture(scope="module")
+def measured():
+    """Return a short case of each kind by all solvers, reduced."""
+    case = problem_of("fig2_small", half_width=6, end_time=2.0, output_step=0.02).plain()
+    del case["solver"]
+    given = {name: SOLVERS[name] for name in ("ode45", "crank_nicolson", "delfour_fortin_payre")}
+    return solvers.compare_solvers({"fig2_small": solvers.run_by_all("fig2_small", case, given)})
 
 
-def test_the_tables_are_those_that_are_accepted(tmp_path):
-    names = ("solvers", "trust")
-    given = (f"{BASELINE}/checks/{name}.nc" for name in names)
-    tabulate_solvers(*given, *(f"{tmp_path}/{name}.md" for name in names))
-    for name in names:
-        made, accepted = (folder / f"{name}.md" for folder in (tmp_path, BASELINE / "tables"))
-        assert not unlike(accepted.read_text(), made.read_text()), name
+def test_the_second_solver_tends_to_the_first_as_the_square_of_its_step(measured):
+    assert measured["second_step"].values.tolist() == [0.005, 0.0025]
+    whole, half = measured["second_difference"].values[0]
+    assert whole / half == pytest.approx(4.0, rel=0.05)
+    drift = measured["largest_drift"].sel(case="fig2_small", of="absolute", span="whole")
+    assert (
+        drift.sel(solver="delfour_fortin_payre") < 1e-8 < 1e-5 < drift.sel(solver="crank_nicolson")
+    )
+
+
+def test_a_drift_by_each_reading_and_until_when_it_is_kept(measured, trajectories):
+    relative, absolute = (measured["largest_drift"].sel(of=of) for of in ("relative", "absolute"))
+    np.testing.assert_allclose(absolute / abs(measured["initial_energy"]), relative)
+    runs = {"fig2_small": dict(trajectories["fig2_small"])}
+    for real, at in (("ode45", 3.0), ("ode45_real", 4.0)):
+        run = runs["fig2_small"][real]
+        runs["fig2_small"][real] = run.assign(energy=-0.5 + 2.1e-6 * (run["tau"] >= at))
+    until = solvers.compare_solvers(runs)["kept_until"].isel(case=0)
+    assert until.sel(solver=["ode45", "ode45_real"]).values.tolist() == [[3.0, 3.0], [4.0, 4.0]]
+    assert (until.sel(solver="dop853") == np.inf).all()
+
+
+def test_real_unknowns_take_shorter_steps_than_complex_ones():
+    """A part of a complex number is smaller than its modulus, and its error must be too."""
+    runs = solvers.run_by_all("one", problem_of("fig3_small", half_width=6).plain(), SOLVERS)
+    assert runs["ode45_real"].attrs["steps"] > runs["ode45"].attrs["steps"]
+
+
+@pytest.mark.parametrize(
+    ("drift", "start", "verdict", "said"),
+    [
+        ({}, 1.0, Verdict.CONFIRMED, ""),
+        ({("case1", "ode45", "whole"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides for case1"),
+        ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides for case1"),
+        ({("case1",): 3e-6}, 1.0, Verdict.NOT_REPRODUCED, "that of case1 exceeds"),
+        ({("case1",): 3e-6}, 100.0, Verdict.UNDECIDED, "decides for case1"),
+        ({("case0", "ode45"): 3e-6, ("case1",): 3e-4}, 100.0, Verdict.NOT_REPRODUCED, "case1"),
+    ],
+)
+def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, verdict, said):
+    """All drift by 1e-7, but for what is given; the energy at the start is `start`."""
+    axes = {
+        "case": ["case0_small", "case1_small"],
+        "solver": [*solvers.UNKNOWNS.values()],
+        "of": [*solvers.OF],
+        "span": ["early", "whole"],
+    }
+    largest = xr.DataArray(np.full((2, 2, 2, 2), 1e-7), axes, list(axes))
+    for (case, *where), value in drift.items():
+        at = dict(zip(("solver", "span"), where, strict=False))
+        largest.loc[{"case": f"{case}_small", **at}] = value
+    largest.loc[{"of": "relative"}] = largest.sel(of="absolute") / start
+    until = ("span", [10.0, 50.0])
+    finding = drifts(xr.Dataset({"largest_drift": largest, "until": until}), "small")
+    assert finding.verdict == verdict and said in finding.because.replace("_small", "")
+
+
+def test_one_norm_of_many_does_not_tell_runs_apart_and_most_of_them_do():
+    assert of_most([0.4, 0.9, 0.5, 1e-6]) == pytest.approx(4.0 / 3.0 * 0.5)
+    assert of_most([0.9, 1e-3, 1e-3, 1e-4]) == pytest.approx(4.0 / 3.0 * 1e-3)
+    assert of_most([0.03]) == 0.03
+
+
+def test_the_furthest_half_width_decides_the_chance_of_a_sweep():
+    sweep, ensembles = dataset("sweeps/fig6_right"), dataset("checks/ensembles")
+    at = {"quantity": "pair", "statistic": "mean", "window": "[10, 40]"}
+    drawn = ensembles.sel(sweep="fig6_right", **at).dropna("half_width", subset=["l2_mean"])
+    width = int(drawn["half_width"][-1])
+    here = (sweep["half_width"] == width) & (sweep["statistic"] == "mean")
+    off = drawn["l2_mean"].values[-1] + 5.0 * drawn["l2_deviation"].values[-1]
+    far = sweep.assign(l2=sweep["l2"].where(~here, off))
+    assert (
+        swept_chance("fig6_right", far, ensembles)
+        < 0.01
+        < swept_chance("fig6_right", sweep, ensembles)
+    )
 
 
 def test_the_divergence_time_of_a_figure_is_the_horizon_of_the_dataset(make_trajectory):
     run, true = make_trajectory(), make_trajectory()
     true["l2"][0, 4:] *= 1.5
     shown = gather_norms([run, run], [true, run])["divergence_time"]
-    runs = {"small.ode45": run, "large.ode45": run}
-    horizons = trust_solvers(runs, {"small": true, "large": run})["horizon"]
+    runs = {"small": {"ode45": run}, "large": {"ode45": run}}
+    horizons = solvers.trust_solvers(runs, {"small": true, "large": run})["horizon"]
     stored = horizons.sel(level="visible", solver="ode45")
     assert np.array_equal(shown, stored) and list(shown) == [2.0, np.inf]

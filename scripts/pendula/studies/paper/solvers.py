@@ -1,16 +1,18 @@
-"""The paper's solvers compared: energy, agreement with each other, and with the reference.
+"""The paper's solvers compared: the energy, the second solver, and the way to the reference.
 
-Section 5 states to which order the energy is conserved, and that a second solver gives no
-significant differences. Both are measured here once; figures, tables, claims and the report read
-the two datasets.
+Section 5 states to which order ode45 conserves the energy, and that a second solver gives no
+significant differences. Each case is integrated here by all solvers, and what figures, claims and
+the article need of the runs goes into two datasets.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.trajectories import shared_by
+from pendula.datasets.netcdf import as_xarray
+from pendula.datasets.stated import shared_by
+from pendula.datasets.trajectories import trajectory_contents
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.difference import (
     ABSENT,
@@ -19,35 +21,40 @@ from pendula.measures.difference import (
     VISIBLE,
     difference,
     divergence_time,
+    first_above,
     is_of_same_case,
     known_until,
 )
-from pendula.measures.norms import drift
+from pendula.measures.norms import drift, largest, total_power
+from pendula.problem import Problem
+from pendula.simulation.simulate import simulate
 
-PAIRS = ("ode45 - crank_nicolson", "ode45 - delfour_fortin_payre", "ode45 - dop853")
-"""The paper's two solvers first; each difference is from the paper's first solver."""
+FIRST, SECOND, HALVED = "ode45", "crank_nicolson", "crank_nicolson_halved"
+UNKNOWNS = {"complex": FIRST, "real": "ode45_real"}
+"""The paper's first solver by what its unknowns are: see `integrators.ode45`."""
+OF = "absolute", "relative"
 STATED_DRIFT = {"small": 1e-6, "large": 1e-4}
 """The orders of the energy's drift that the paper states, for the cases whose names end so."""
 # ASSUME: "up to the order of 10^-k" allows up to twice that number.
 ORDER = Cutoff(2.0, '"up to the order of": up to twice the number')
 EARLY = 10.0
 """Slow time up to which an early drift is read."""
-DIGITS = 1e-12
-"""Where two solutions whose data differ by the rounding to doubles can be distinguished."""
 
 COMPARED = {
     "drift": "drift of the energy, |H(tau) - H(0)|",
-    "largest_drift": "largest drift of the energy",
+    "initial_energy": "energy at the start, H(0)",
+    "of": "reading of the drift: as it is, or relative to |H(0)|",
     "span": "span of slow time from the start",
     "until": "end of the span of slow time",
+    "largest_drift": "largest drift of the energy",
     "stated_drift": "order of the drift that the paper states",
     "allowed_drift": "largest drift that is of that order",
-    "kept": "one where the drift is of the order that the paper states",
-    "pair": "pair of solvers",
-    "largest_difference": "largest difference of the norms of two solvers",
-    "sweep_difference": "relative difference of the pair's l2 norm between the paper's two solvers",
-    "largest_sweep_difference": "largest of these differences over the half-widths",
-    "median_sweep_difference": "median of these differences over the half-widths",
+    "kept_until": "first tau at which the drift is larger than that, infinite: never",
+    "second_step": "step of the second solver",
+    "second_difference": "largest difference of the norms by the paper's two solvers",
+    "second_divergence": "first tau at which they differ visibly, infinite: never",
+    "second_l2": "l2 norm of the pair by the second solver",
+    "second_linf": "l-infinity norm of the pair by the second solver",
     "visible": "visible part of full scale",
 }
 TRUSTED = {
@@ -59,119 +66,120 @@ TRUSTED = {
     "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
     "full scale of its norms; NaN: nothing is proved",
     "proved_until": "last tau at which this bound is not visible; NaN: nothing is proved",
-    "decimal_size": "size of a level, as a part of full scale",
-    "decimal_horizon": "first tau at which data rounded to doubles lead away from data as printed",
 }
 """What the two datasets hold, beside names of the registry and of `measures.difference`."""
 
 
-def compare_solvers(
-    trajectories: Mapping[str, xr.Dataset],
-    first: Mapping[str, xr.Dataset],
-    second: Mapping[str, xr.Dataset],
+def measure_solvers(
+    cases: Mapping[str, Mapping],
+    solvers: Mapping[str, Mapping],
+    references: Mapping[str, xr.Dataset],
     others: Collection[str] = (),
-) -> xr.Dataset:
-    """Return how each solver keeps the energy, and how far pairs of solvers differ (see COMPARED).
+    proved: Mapping[str, xr.Dataset] = {},
+    proofs: Mapping[str, xr.Dataset] = {},
+) -> Iterator[xr.Dataset]:
+    """Yield how the solvers keep the energy and differ, then until when each can be trusted.
 
-    The names of `trajectories` are "case.solver"; `first` and `second` are the sweeps by the
-    paper's two solvers, in one order. For the cases `others`, which are not the paper's, the paper
-    states no order: the order and whether it is kept are NaN.
+    `cases` are plain problems without a solver, and `solvers` the controls of each. For the cases
+    `others`, which are not the paper's, the paper states no drift.
     """
-    by_case, found = _by_case(trajectories), []
-    for case, runs in by_case.items():
-        stated = np.nan if case in others else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
-        found.append(xr.merge([_drifts(runs, stated), _differences(runs), _problem(runs)]))
-    data = xr.merge([_stack(found, "case", list(by_case)), _compare_sweeps(first, second)])
-    title = "The paper's solvers: drift of the energy, and agreement"
-    return _described(data.assign(visible=VISIBLE), COMPARED, trajectories, title)
+    runs = {name: run_by_all(name, case, solvers) for name, case in cases.items()}
+    yield compare_solvers(runs, others)
+    yield trust_solvers(runs, references, {**proved, **proofs})
 
 
-def _by_case(trajectories: Mapping[str, xr.Dataset]) -> dict[str, dict[str, xr.Dataset]]:
-    """Return the runs of each case by solver."""
-    found: dict[str, dict] = {}
-    for name, run in trajectories.items():
-        case, solver = name.split(".")
-        found.setdefault(case, {})[solver] = run
+def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict[str, xr.Dataset]:
+    """Return a case by each solver, by ode45 with real unknowns, and by half the second's step."""
+    first, second = solvers[FIRST], solvers[SECOND]
+    others = {
+        UNKNOWNS["real"]: {**first, "name": UNKNOWNS["real"]},
+        HALVED: {**second, "step": 0.5 * second["step"]},
+    }
+    found = {}
+    for label, solver in {**solvers, **others}.items():
+        problem = Problem.of({**case, "solver": solver, "snapshot_every": 0})
+        found[label] = as_xarray(*trajectory_contents(name, problem, simulate(problem)))
     return found
 
 
+def compare_solvers(
+    runs: Mapping[str, Mapping[str, xr.Dataset]], others: Collection[str] = ()
+) -> xr.Dataset:
+    """Return how each solver keeps the energy and how the second solver differs, see COMPARED."""
+    found = []
+    for case, by_solver in runs.items():
+        stated = np.nan if case in others else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
+        found.append(xr.merge([_drifts(by_solver, stated), _second(by_solver), _about(by_solver)]))
+    title = "The paper's solvers: drift of the energy, and agreement"
+    return _described(_stack(found, runs).assign(visible=VISIBLE), COMPARED, runs, title)
+
+
 def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
-    tau = next(iter(runs.values()))["tau"]
-    values = np.array([drift(run["energy"]) for run in runs.values()])
-    early = min(EARLY, float(tau[-1]))
-    largest = np.stack([values[:, tau <= early].max(axis=1), values.max(axis=1)], axis=1)
-    kept = (largest <= ORDER.value * stated).astype(int)
-    by_solver = ("solver", "span")
+    runs = {name: run for name, run in runs.items() if name != HALVED}
+    run = runs[FIRST]
+    tau, energy, allowed = run["tau"], float(run["energy"][0]), ORDER.value * stated
+    values = np.array([drift(one["energy"]) for one in runs.values()])
+    both = np.stack([values, values / abs(energy)], axis=1)  # (solver, of, tau)
+    ends = [min(EARLY, float(tau[-1])), float(tau[-1])]
+    spans = [both[..., tau <= end].max(axis=-1) for end in ends]
+    until = first_above(tau, both if np.isfinite(allowed) else np.nan * both, allowed)
     return xr.Dataset(
         {
             "drift": (("solver", "tau"), values),
-            "largest_drift": (by_solver, largest),
-            "until": ("span", [early, float(tau[-1])]),
+            "initial_energy": energy,
+            "largest_drift": (("solver", "of", "span"), np.stack(spans, axis=-1)),
+            "until": ("span", ends),
             "stated_drift": stated,
-            "allowed_drift": ORDER.value * stated,
-            "kept": (by_solver, kept if np.isfinite(stated) else np.full(kept.shape, np.nan)),
+            "allowed_drift": allowed,
+            "kept_until": (("solver", "of"), until),
         },
-        {"tau": tau, "solver": list(runs), "span": ["early", "whole"]},
+        {
+            "tau": tau,
+            "solver": list(runs),
+            "of": ["absolute", "relative"],
+            "span": ["early", "whole"],
+        },
     )
 
 
-def _differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    pairs = [[runs[solver] for solver in pair.split(" - ")] for pair in PAIRS]
-    apart = xr.concat([difference(*pair) for pair in pairs], xr.Variable("pair", list(PAIRS)))
-    return apart.to_dataset().assign(
-        divergence_time=divergence_time(apart),
-        largest_difference=apart.max("tau"),
-    )
-
-
-def _compare_sweeps(
-    first: Mapping[str, xr.Dataset], second: Mapping[str, xr.Dataset]
-) -> xr.Dataset:
-    """Return the relative difference of the pair's swept l2 norms, by sweep and half-width."""
-    found = []
-    for one, other in zip(first.values(), second.values(), strict=True):
-        off = abs(other["l2"] / one["l2"] - 1).sel(quantity="pair", drop=True)
-        if off.sizes["half_width"] != one.sizes["half_width"]:
-            raise ValueError("the two solvers' sweeps differ in their half-widths")
-        found.append(off.to_dataset(name="sweep_difference"))
-    data = _stack(found, "sweep", list(first))
-    return data.assign(
-        largest_sweep_difference=data["sweep_difference"].max("half_width"),
-        median_sweep_difference=data["sweep_difference"].median("half_width"),
+def _second(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """Return how the second solver differs from the first, by its step, and the pair's norms."""
+    apart = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
+    run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
+    return xr.Dataset(
+        {
+            "second_difference": ("second_step", [float(one.max()) for one in apart]),
+            "second_divergence": ("second_step", [float(divergence_time(one)) for one in apart]),
+            "second_l2": ("tau", np.sqrt(total_power(run))),
+            "second_linf": ("tau", largest(run)),
+        },
+        {"tau": run["tau"], "second_step": steps},
     )
 
 
 def trust_solvers(
-    trajectories: Mapping[str, xr.Dataset],
+    runs: Mapping[str, Mapping[str, xr.Dataset]],
     references: Mapping[str, xr.Dataset],
-    decimal: Mapping[str, xr.Dataset] = {},
-    proved: Mapping[str, xr.Dataset] = {},
-    proofs: Mapping[str, xr.Dataset] = {},
+    certified: Mapping[str, xr.Dataset] = {},
 ) -> xr.Dataset:
     """Return by case and solver how far the norms are from the reference's, and from when on.
 
-    The names of `trajectories` are "case.solver". A run that does not solve its reference's problem
-    has no horizon: there it is NaN. `decimal` holds the reference from data as printed (a tenth,
-    say) and the one from the doubles next to them. `proved` holds computed curves with a proven
-    bound, and `proofs` those that are kept; the bound counts where it is of the run's problem.
+    A run that does not solve its reference's problem has no horizon: there it is NaN. `certified`
+    holds computed curves with a proven bound, which counts where it is of the run's problem.
     """
-    by_case, certified = _by_case(trajectories), {**proved, **proofs}
     found = [
-        _trust_case(runs, references[case], certified.get(case)) for case, runs in by_case.items()
+        _trust_case(by_solver, references[case], certified.get(case))
+        for case, by_solver in runs.items()
     ]
-    data = _stack(found, "case", list(by_case)).assign(size=("level", list(LEVELS.values())))
-    if decimal:
-        apart = difference(*decimal.values())
-        times = [float(divergence_time(apart, level)) for level in (DIGITS, VISIBLE)]
-        data["decimal_size"] = "decimal_level", [DIGITS, VISIBLE]
-        data["decimal_horizon"] = "decimal_level", times
+    data = _stack(found, runs).assign(size=("level", list(LEVELS.values())))
     title = "Until when each solver's norms are those of the reference"
-    return _described(data, TRUSTED, trajectories, title)
+    return _described(data, TRUSTED, runs, title)
 
 
 def _trust_case(
     runs: Mapping[str, xr.Dataset], reference: xr.Dataset, proved: xr.Dataset | None
 ) -> xr.Dataset:
+    runs = {name: run for name, run in runs.items() if name not in (HALVED, UNKNOWNS["real"])}
     errors = [
         difference(run, reference)
         if is_of_same_case(run, reference)
@@ -189,7 +197,7 @@ def _trust_case(
         proven_bound=bound,
         proved_until=known_until(bound.where(bound <= VISIBLE)),
     )
-    return xr.merge([found, _problem(runs)])
+    return xr.merge([found, _about(runs)])
 
 
 def _proven_bound(run: xr.Dataset, proved: xr.Dataset | None) -> xr.DataArray:
@@ -200,14 +208,14 @@ def _proven_bound(run: xr.Dataset, proved: xr.Dataset | None) -> xr.DataArray:
     return known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
 
 
-def _problem(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
+def _about(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
     about = next(iter(runs.values())).attrs
     return xr.Dataset({"omega": float(about["omega"]), "initial": str(about["initial"])})
 
 
-def _stack(parts: list[xr.Dataset], dimension: str, names: list[str]) -> xr.Dataset:
-    """Return the parts along a new dimension."""
-    return xr.concat(parts, xr.Variable(dimension, names), join="outer")
+def _stack(parts: list[xr.Dataset], cases: Collection[str]) -> xr.Dataset:
+    """Return the parts along the cases."""
+    return xr.concat(parts, xr.Variable("case", list(cases)), join="outer")
 
 
 def _described(data: xr.Dataset, names: Mapping, runs: Mapping, title: str) -> xr.Dataset:
@@ -215,10 +223,5 @@ def _described(data: xr.Dataset, names: Mapping, runs: Mapping, title: str) -> x
     for name, long_name in names.items():
         if name in data:
             data[name].attrs = {"long_name": long_name}
-    shared = shared_by([run.attrs for run in runs.values()])
+    shared = shared_by([run.attrs for by_solver in runs.values() for run in by_solver.values()])
     return data.assign_attrs({**shared, "title": title})
-
-
-def by(solver: str, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the names of the same runs or sweeps by another solver."""
-    return tuple(f"{name}.{solver}" for name in names)
