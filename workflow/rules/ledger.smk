@@ -13,7 +13,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
     ],
     "chaos": [
         *(*datasets("sweeps", "fig5_left", "fig6_left"), *datasets("breathers", "sensitivity")),
-        *checks("lyapunov", "ensembles", "ensembles_uneven", "members", "lifetimes"),
+        *checks("ensembles", "ensembles_uneven", "members", "lifetimes"),
     ],
     "breathers": rules.breathers.input.datasets,
     "pendula": [
