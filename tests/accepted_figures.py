@@ -70,15 +70,13 @@ FIGURES = {
     "pendula_remainder": (pendula.draw_remainder, pendula.gather_remainder, "pendula/remainder"),
     "pendula_threshold": (pendula.draw_threshold, pendula.gather_threshold, "pendula/threshold"),
     "bounds": (bounds_figure.draw_bounds, bounds_figure.gather_bounds,
-               "checks/cases", "checks/sweeps", "checks/samples", "checks/worst",
+               "checks/cases", "checks/sweeps", "checks/samples",
                "checks/sharpness", "checks/chain_growth"),
     "stability_chart": (
         theory.draw_chart,
         lambda *charts: theory.gather_chart(*charts, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
         "checks/chart", "checks/short_chart", "checks/windows",
     ),
-    "growth_rates": (theory.draw_rates, theory.gather_rates,
-                     "checks/chart", "checks/short_chart", "checks/threshold"),
     "front": (front_figure.draw_front, front_figure.gather_front, "unbounded/front"),
     "growth_law": (unbounded.draw_growth_law, unbounded.gather_growth_law, "unbounded/growth"),
     "window_map": (

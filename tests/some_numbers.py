@@ -10,12 +10,9 @@ the theory in place of a few small ones. What solvers give is asked by bits.py.
 import sys
 from pathlib import Path
 
-import numpy as np
 import xarray
 from helpers import chosen
-from made_up_unbounded import named
 from pendula.datasets.netcdf import read, save, write
-from pendula.numerics.search import maximise_all
 from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
@@ -23,10 +20,8 @@ from pendula.studies.unbounded.measured import measure_front, measure_growth
 from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy, thermal_variables
 
 CHECKS = {
-    "dispersion": {},  # eigenvalues, also double ones
     "windows": {},  # bisection
-    "sharp_threshold": {},  # singular values
-    "inequalities": {"count": 50},  # random numbers
+    "samples": {"count": 2, "sizes": [3]},  # random numbers
     "sharpness": {"sizes": [3, 9]},  # extrapolation
 }
 """One check for each kind of function in `numerics`, with what makes it take no time."""
@@ -35,18 +30,7 @@ GROWN = ("fig4_small", "fig3_large", "fig3_small", "fig2_large")
 UNBOUNDED = ("growth", "front", "thermal")
 PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
 """A steady breather whose proof takes a state, an inverse in balls, and a spectrum."""
-NAMES = (*CHECKS, "search", *UNBOUNDED, "proofs")
-
-
-def searched() -> xarray.Dataset:
-    """Return the path of a search on a curved ridge, which one bit can send another way."""
-
-    def ridge(points: np.ndarray) -> np.ndarray:
-        x, y = np.moveaxis(points, -1, 0)
-        return -(100.0 * (y - x * x) * (y - x * x) + (1.0 - x) * (1.0 - x))
-
-    (point,), _, (history,) = maximise_all(ridge, np.array([[-1.0, 1.0]]), 0.5, 60, 12, [1])
-    return named(xarray.Dataset({"point": ("axis", point), "history": ("generation", history)}))
+NAMES = (*CHECKS, *UNBOUNDED, "proofs")
 
 
 def unbounded(given: Path) -> dict[str, xarray.Dataset]:
@@ -60,12 +44,11 @@ def unbounded(given: Path) -> dict[str, xarray.Dataset]:
 def make(given: Path, made: Path, *every: str) -> None:
     """Write the datasets of NAMES to the folder `made`, or with all checks of the theory."""
     theory = chosen("theory")
-    arguments = theory.arguments("equations") | theory.arguments("stability")
-    arguments |= theory.arguments("bounds")
+    arguments = theory.arguments("stability") | theory.arguments("bounds")
     smaller = {name: {} for name in arguments} if every else CHECKS
     checks = {name: run_check(name, arguments[name] | less) for name, less in smaller.items()}
     datasets = {name: xarray.Dataset.from_dict(check) for name, check in checks.items()}
-    for name, data in (datasets | {"search": searched()} | unbounded(given)).items():
+    for name, data in (datasets | unbounded(given)).items():
         save(str(made / f"{name}.nc"), data)
     constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
     cold, warm = (state_of_energy(constants, energy, NODES) for energy in (0.0, 4.0))

@@ -118,7 +118,7 @@ def test_both_panels_of_a_figure_show_the_same_windows():
 
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
     for name in needed():
-        assert rests_on(name), name
+        assert rests_on(name) or name == "checks/identities", name  # which hold for all constants
         for path in rests_on(name):
             inner = paper()
             for key in path.split("."):

@@ -4,7 +4,6 @@ import hashlib
 
 import numpy as np
 import pytest
-from pendula.numerics.extrapolation import extrapolated
 from pendula.numerics.quadrature import gauss_legendre, integration_matrix
 
 
@@ -25,12 +24,3 @@ def test_integrals_of_polynomials_are_exact():
     for degree in range(4):
         integral = integration_matrix(nodes) @ nodes**degree
         np.testing.assert_allclose(integral, nodes ** (degree + 1) / (degree + 1), atol=1e-16)
-
-
-def test_extrapolation_has_order_twelve():
-    """One step of y' = i y: the error of a step falls as its 13th power."""
-    errors = [
-        abs(extrapolated(lambda y: 1j * y, np.array([1.0 + 0j]), h)[0] - np.exp(1j * h))
-        for h in (2.0, 1.0)
-    ]
-    assert np.log2(errors[0] / errors[1]) == pytest.approx(13.0, abs=0.6)

@@ -45,7 +45,7 @@ def test_figures_and_claims_rerun_alone(full_run, clone):
         change(clone / f"scripts/pendula/studies/{module}.py")
     change(clone / "scripts/pendula/studies/paper/claims_norms.py")
     jobs = planned(clone, full_run)
-    figures = {"fig1", "stability_figures", "bounds"}
+    figures = {"fig1", "stability_chart", "bounds"}
     assert set(jobs) == {*figures, "decide_claims", "claims", "report", "article", "all"}
     assert jobs["decide_claims"] == 1  # those on the paper's figures
 

@@ -10,17 +10,17 @@ from pendula.ledger.criterion import Verdict
 from pendula.ledger.decide import decide_claims, join_claims, tabulate_claims
 from pendula.ledger.verdicts import all_claims, needed
 from pendula.studies.theory import checks as theory_checks
-from pendula.studies.theory.settings import GROUPS, OBSERVED
+from pendula.studies.theory.settings import GROUPS, OBSERVED, PROVED
 
-CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
-CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_wrong", "check_observed"}
+CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group), *OBSERVED]
+CHECK_RULES = {f"check_{group}" for group in GROUPS}
 PARTS = {
     "figures": ("paper/claims_norms", "paper/claims_sweeps"),
     "solvers": ("paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"),
     **{study: (f"{study}/claims",) for study in ("theory", "chaos", "breathers", "pendula")},
     **{study: (f"{study}/claims",) for study in ("unbounded", "certified")},
 }
-FIGURE_RULES = {"stability_figures", "bounds"}
+FIGURE_RULES = {"stability_chart", "bounds"}
 
 
 def ledger_of(folder):
@@ -88,10 +88,10 @@ def test_a_violated_check_is_made_and_named(monkeypatch, capsys):
 def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path):
     part = load_json(full_run / "results/claims/theory.json")
     paths = {name: str(full_run / f"results/{name}.nc") for name in needed("theory/claims")}
-    check = xr.load_dataset(paths["checks/gradient"])
-    check["gradient_error"] = xr.full_like(check["gradient_error"], 1.0)
-    check.to_netcdf(wrong := str(tmp_path / "gradient.nc"))
-    paths["checks/gradient"] = wrong
+    check = xr.load_dataset(paths["checks/identities"])
+    check["terms"].loc["(7)", "free"] = 1
+    check.to_netcdf(wrong := str(tmp_path / "identities.nc"))
+    paths["checks/identities"] = wrong
     made, table = str(tmp_path / "theory.json"), tmp_path / "theory.md"
     decide_claims(list(paths.values()), list(paths), ["theory/claims"], {}, made)
     tabulate_claims([made], str(table))
@@ -116,10 +116,10 @@ def test_a_changed_byte_of_a_part_reaches_no_ledger(full_run, tmp_path):
 
 
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(full_run, clone):
-    """The check of what was observed has no part in what other checks do: checks.py."""
+    """What was observed and what algebra proves have no part in what checks do: checks.py."""
     change(clone / "scripts/pendula/studies/theory/checks.py")
     jobs = planned(clone, full_run)
-    assert set(jobs) == (CHECK_RULES - {"check_observed"}) | FIGURE_RULES | {
+    assert set(jobs) == CHECK_RULES | FIGURE_RULES | {
         "enclose_constants",  # beside what the checks have stored
         *("decide_claims", "claims", "report", "article", "all"),
     }

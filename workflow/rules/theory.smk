@@ -1,30 +1,28 @@
 # The paper's theory on numbers: the checks, and figures that show them.
 
 
-use rule dataset as check_equations with:
-    "Section 2: structure, symmetries and expansion of the equations; errors and gaps of the paper"
-    input:
-        kernels=kernels("ode45", "dop853", "taylor"),
-    output:
-        checks(*GROUPS["equations"]),
+use rule dataset as prove_identities with:
+    "The identities and inequalities of the paper, as polynomials over the rationals"
     pathvars:
-        made="checks/equations",
+        made="checks/identities",
     params:
-        call=function("pendula.studies.theory.checks.run_checks"),
-        checks=SETTINGS.theory.arguments("equations"),
+        call=function("pendula.studies.theory.identities.prove_identities"),
 
 
-use rule check_equations as check_not_shown with:
+use rule dataset as check_not_shown with:
     "Section 5: the sweep for small amplitudes at Omega = 8, which the paper mentions and does not show"
+    input:
+        kernels=kernels("dop853", "taylor"),
     output:
         checks(*GROUPS["not_shown"]),
     pathvars:
         made="checks/not_shown",
     params:
+        call=function("pendula.studies.theory.checks.run_checks"),
         checks=SETTINGS.theory.arguments("not_shown"),
 
 
-use rule check_equations as check_stability with:
+use rule check_not_shown as check_stability with:
     "Lemma 1: dispersion, thresholds, and measured growth rates of the chain at rest"
     output:
         checks(*GROUPS["stability"]),
@@ -34,24 +32,14 @@ use rule check_equations as check_stability with:
         checks=SETTINGS.theory.arguments("stability"),
 
 
-use rule check_equations as check_bounds with:
-    "Lemma 2 and Theorems 1 to 3: their bounds on random and on the worst data"
+use rule check_not_shown as check_bounds with:
+    "Lemma 2 and Theorems 1 to 3: errors of their proofs, and how near data come to their bounds"
     output:
         checks(*GROUPS["bounds"]),
     pathvars:
         made="checks/bounds",
     params:
         checks=SETTINGS.theory.arguments("bounds"),
-
-
-use rule check_equations as check_wrong with:
-    "The same checks of wrong statements, which the claims must refuse"
-    output:
-        checks(*WRONG_CHECKS),
-    pathvars:
-        made="checks/wrong",
-    params:
-        checks=SETTINGS.theory.wrong_arguments(),
 
 
 use rule dataset as check_observed with:
@@ -67,23 +55,16 @@ use rule dataset as check_observed with:
         call=function("pendula.studies.theory.bounds.check_observed"),
 
 
-use rule figure as stability_figures with:
-    "The two figures stability_chart and growth_rates, on Lemma 1"
+use rule figure as stability_chart with:
+    "Lemma 1: where the chain at rest is unstable, and the windows of stability of finite chains"
     input:
         chart="<results>/checks/chart.nc",
         short_chart="<results>/checks/short_chart.nc",
         windows="<results>/checks/windows.nc",
-        threshold="<results>/checks/threshold.nc",
-    output:
-        figure_files("<results>/figures/stability_chart"),
-        figure_files("<results>/figures/growth_rates"),
     pathvars:
-        made="figures/stability",
+        made="figures/stability_chart",
     params:
-        call=function(
-            "pendula.studies.theory.figures.draw_chart",
-            "pendula.studies.theory.figures.draw_rates",
-        ),
+        call=function("pendula.studies.theory.figures.draw_chart"),
         points=points_of_cases(),
         of_paper=points_are_the_papers(),
 
@@ -94,7 +75,6 @@ use rule figure as bounds with:
         cases="<results>/checks/cases.nc",
         sweeps="<results>/checks/sweeps.nc",
         samples="<results>/checks/samples.nc",
-        worst="<results>/checks/worst.nc",
         sharpness="<results>/checks/sharpness.nc",
         growth="<results>/checks/chain_growth.nc",
     pathvars:

@@ -16,7 +16,7 @@ FILE = Path(__file__).with_suffix(".json")
 
 FREE = {
     *("seed", "draw", "snapshot_step", "long"),
-    *("count", "samples", "generations", "population", "starts", "sites", "points"),
+    *("count", "samples", "sites", "points"),
 }
 """Keys that change no statement: other draws of a case, another look at it, longer studies, and how
 thoroughly the theory is tried on data of all kinds. Its controls find a test that is too weak."""
@@ -235,10 +235,6 @@ def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     given, theory = paper()["chaos"], paper()["theory"]
     cases = [case for case in paper()["cases"] if not on or case in on]
     swept = [sweep for sweep in paper()["sweeps"] if not on or sweep in on]
-    wrong = name.removeprefix("wrong/")
-    if wrong != name:
-        right = theory["wrong"][wrong]["check"] or wrong
-        return (f"theory.wrong.{wrong}", f"theory.{right}")
     if name in theory:
         return (f"theory.{name}",)
     if name.startswith("ensemble"):

@@ -78,12 +78,6 @@ def flow(
     return 0.5 * np.stack([total + difference, total - difference], axis=-2)
 
 
-def squared_frequencies(kappa, gamma: float):
-    """Return (omega_1^2, omega_2^2) = (kappa^2, kappa^2 - 4 gamma^2) of (15)."""
-    kappa = np.asarray(kappa, dtype=float)
-    return kappa**2, (kappa - 2.0 * gamma) * (kappa + 2.0 * gamma)
-
-
 def growth_rate(kappa, gamma):
     """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 where it is stable."""
     return np.sqrt(np.maximum(0.0, (2.0 * np.abs(gamma) - kappa) * (2.0 * np.abs(gamma) + kappa)))

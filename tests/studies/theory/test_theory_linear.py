@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from accepted import dataset
+import xarray as xr
 from pendula.models.linear_chain import (
     finite_rate,
     gamma_0,
@@ -12,9 +12,9 @@ from pendula.models.linear_chain import (
     widest_gamma,
 )
 from pendula.problem import Constants
-from pendula.studies.theory import figures
+from pendula.studies.theory.claims_linear import misclassified
 from pendula.studies.theory.equations import run
-from pendula.studies.theory.stability_chart import misclassified
+from pendula.studies.theory.stability_chart import resolution
 from pendula.studies.theory.threshold import decaying, exponents, spreading_norms
 
 
@@ -48,7 +48,7 @@ def test_spreading_data_follow_the_librarys_own_chain():
     half = (0.5e-9 + 0.5e-9j) * decaying(sites, 0.6, omega)
     constants = Constants(epsilon=1.0, gamma=2.0, omega=omega)
     final = run(constants, "periodic", np.stack([half, -half]), end).final
-    largest = spreading_norms(1.0, omega, [0.6], [end], sites, 1.0)[0, 1, 0]
+    largest = spreading_norms(1.0, omega, [0.6], [end], sites)[0, 1, 0]
     assert np.abs(final[0] - final[1]).max() / 1e-9 == pytest.approx(largest, rel=1e-4)
 
 
@@ -63,20 +63,14 @@ def test_exponents_of_a_power_beside_a_constant_are_those_of_the_power():
 def test_cells_are_misclassified_beyond_what_time_resolves():
     """In 60 units of time 6 / 60 = 0.1 is resolved; half of a rate of 0.3 is 0.15."""
     stable, unstable, slow = 0.0, 0.3, 0.2
+
+    def count(measured, finite):
+        values = {"measured": ("cell", measured), "finite_rate": ("cell", finite)}
+        return misclassified(xr.Dataset(values | {"resolution": resolution(60.0)}))
+
     for finite, measured, wrong in (
         (stable, 0.1, 0), (stable, 0.11, 1), (stable, 0.16, 1), (unstable, 0.16, 0),
         (unstable, 0.15, 0), (unstable, 0.14, 1), (slow, 0.0, 0), (slow, 0.11, 0),
     ):  # fmt: skip
-        assert misclassified(np.array([measured]), np.array([finite]), 60.0) == wrong
-    both = misclassified(np.array([0.2, 0.0, 0.0]), np.array([0.0, 0.3, 0.0]), np.full(3, 60.0))
-    assert both == 2
-
-
-def test_relative_errors_are_those_of_growing_cells():
-    charts = [dataset(f"checks/{name}").astype(float) for name in ("chart", "short_chart")]
-    off = [one.assign(measured=1.01 * one["finite_rate"]) for one in charts]
-    data = figures.gather_rates(*off, dataset("checks/threshold"))
-    errors = {line.get_label(): line for line in figures.draw_rates(data).axes[1].get_lines()}
-    fastest = errors["fastest mode"].get_ydata()
-    assert len(fastest) == sum(int((one["finite_rate"] > 0).sum()) for one in charts)
-    np.testing.assert_allclose(fastest, 0.01, rtol=1e-6)
+        assert count([measured], [finite]) == wrong
+    assert count([0.2, 0.0, 0.0], [0.0, 0.3, 0.0]) == 2

@@ -32,23 +32,21 @@ CAPTION = (
     "P = ‖A‖² + ‖B‖² in ℓ² and the bounds of Theorems 1 to 3. (a): P at the start, its largest "
     "value in each run, and the bounds that apply to the case; Theorem 2 with bonds also counts "
     "the energy of the springs. (b): the largest P over its bound, for random initial conditions "
-    "(bars), in a search on short chains (red) and for a wave on a long chain (blue). (c): the "
+    "(bars) and for a wave on a long chain (blue). (c): the "
     "largest P over its smallest bound in the sweeps over the half-width M. (d): P that runs on N "
     "sites reach at Ω = 0, and its bound by Theorem 3."
 )
 
 
-def gather_bounds(cases, sweeps, samples, worst, sharpness, growth) -> xr.Dataset:
+def gather_bounds(cases, sweeps, samples, sharpness, growth) -> xr.Dataset:
     """Return cases and sweeps with their bounds, what data reach, and what grows with the chain."""
     seen = cases[["omega", "initial", "observed", "start", "ratio", *BOUNDS]]
     shared = ["omega", "initial", "best"]
     swept = sweeps[[*shared, "swept_observed"]].rename({name: f"swept_{name}" for name in shared})
-    searched = worst[["worst", "searched_family", "boundary", "sites"]].rename(
-        boundary="searched_boundary", sites="searched_sites"
-    )
     reached = sharpness[["reached"]].rename(sites="reached_sites")
-    chains = growth[["late_power", "constant_n"]].rename(sites="grown_sites", member="grown_member")
-    drawn = [seen, swept, samples[["worst_sample"]], searched, reached, chains]
+    chains = growth[["late_power", "constant_n"]].sel(omega=0.0, drop=True)
+    chains = chains.rename(sites="grown_sites", member="grown_member")
+    drawn = [seen, swept, samples[["worst_sample"]], reached, chains]
     return xr.merge(drawn, combine_attrs="drop_conflicts").assign_attrs(caption=CAPTION)
 
 
@@ -97,10 +95,6 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     families = [family for family, _ in FORMS.values()]
     drawn = data["worst_sample"].sel(family=families)
     axes.barh(rows, drawn, 0.45, color="0.8", label="random data")
-    runs = data.isel(question=data["searched_boundary"].values == "dirichlet")
-    found = dict(zip(runs["searched_family"].values, runs["worst"].values, strict=True))
-    label = f"search on {int(data['searched_sites'])} sites"
-    axes.plot([found[name] for name in families], rows, "o", color=style.RED, label=label)
     longest = data["reached"].sel(form=list(FORMS)).isel(reached_sites=-1)
     mark = {"color": style.BLUE, "markeredgewidth": 2}
     axes.plot(longest, rows, "|", **mark, markersize=14)

@@ -1,24 +1,18 @@
-"""Equations (4) on amplitudes: as the Hamiltonian system (7), and what they conserve.
+"""Equations (4) on amplitudes: short runs of the checks, and the data that they start from.
 
-Short runs of the checks start here too. Their solver is dop853 at tolerances so tight that no
-check measures it instead of the paper.
+Their solver is dop853 at tolerances so tight that no check measures it instead of the paper.
 """
 
-import itertools
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
-from pendula.datasets.checks import tabulate, variable
 from pendula.feasibility import find_fault
 from pendula.integrators import DONE
 from pendula.measures.norms import power_of
 from pendula.models.amplitudes import energies, rates
 from pendula.numerics import elementary
 from pendula.numerics.draws import complex_normal
-from pendula.numerics.elementary import complex_of, modulus, product
 from pendula.problem import Constants, Problem, output_times
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE
@@ -27,7 +21,6 @@ from pendula.simulation.observables import blank_record
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.solvers import SOLVERS
 
-EPS = np.finfo(float).eps
 BOUNDARIES = ("dirichlet", "free", "periodic")
 """The ends that are checked, and drawn from: written out, since other ones would move all draws."""
 TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
@@ -149,97 +142,3 @@ def alternating(sites: int, x: float) -> np.ndarray:
     """Return A_n = -B_n = (-1)^n x, shape (2, N)."""
     wave = x * (1.0 - 2.0 * (np.arange(sites) % 2))
     return np.stack([wave, -wave]).astype(complex)
-
-
-def gradient(function, point: np.ndarray) -> np.ndarray:
-    """Return d/d(conj z) of a real quartic polynomial in the real and imaginary parts of z.
-
-    The five-point formula has no truncation error up to degree four, so the step can be one and
-    nothing cancels.
-    """
-
-    def slope(direction: np.ndarray) -> float:
-        f = [function(point + step * direction) for step in (-2, -1, 1, 2)]
-        return (8.0 * (f[2] - f[1]) - (f[3] - f[0])) / 12.0
-
-    units = np.eye(point.size).reshape(-1, *point.shape)
-    found = [0.5 * complex_of(slope(unit), slope(1j * unit)) for unit in units]
-    return np.reshape(found, point.shape)
-
-
-def misstated(constants: Constants, omega_off: float = 0.0, gamma_times: float = 1.0) -> Constants:
-    """Return the constants as a statement has them: in a control not those of the motion.
-
-    Every check can be asked about a wrong statement, whose Omega is off by `omega_off` or whose
-    gamma is `gamma_times` the right one; the negative controls of the ledger rest on that.
-    """
-    omega, gamma = constants.omega + omega_off, constants.gamma * gamma_times
-    return replace(constants, omega=omega, gamma=gamma)
-
-
-def check_gradient(
-    constants: Constants, sites: int, samples: int, seed: int, omega_off: float = 0.0
-) -> dict:
-    """Compare the rates with -i dH/d(conj A), -i dH/d(conj B) of (7), for each kind of ends.
-
-    The tolerance is what rounding in the energy allows: some tens of units in its last place.
-    """
-    stated = misstated(constants, omega_off)
-    rng, errors = np.random.default_rng(seed), []
-    for boundary, _ in itertools.product(BOUNDARIES, range(samples)):
-        z = random_amplitudes(rng, sites, np.sqrt(2.0 * sites))
-        found = right_hand_side(constants, boundary, z)
-        expected = product(-1j, gradient(partial(total_energy, stated, boundary), z))
-        size = abs(total_energy(constants, boundary, z)) + modulus(found).max()
-        errors.append({"gradient_error": modulus(found - expected).max() / size})
-    return tabulate(
-        "Right-hand side of (4) against the gradient (7) of the energy (8)",
-        {"boundary": BOUNDARIES, "sample": np.arange(samples)},
-        errors,
-        {"gradient_error": ("largest difference over the energy", 50 * EPS)},
-    )
-
-
-def check_conservation(
-    gamma, epsilon, omegas, sites: int, end_time, seed: int, omega_off=0.0, turn: complex = 1.0
-) -> dict:
-    """Follow H and the l2 norm from random data, and turn the phase, for each kind of ends.
-
-    The phase is turned of any data and of data with B = `turn` * A, which is A in the paper. H of
-    a statement with another Omega has the same rate as the right H but for `omega_off` times P.
-    """
-    rng, angle, rows = np.random.default_rng(seed), elementary.turn(0.7), []
-    for boundary, omega in itertools.product(BOUNDARIES, omegas):
-        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-        opposite = replace(constants, gamma=-gamma)
-        start = random_amplitudes(rng, sites, 2.0)
-        alike = np.stack([start[0], product(turn, start[0])])
-        trajectory = run(constants, boundary, start, end_time, 50)
-        power = squared_norm(trajectory.l2)
-        energy = trajectory.energy + omega_off * power
-        row = {
-            "energy_drift": np.abs(energy - energy[0]).max(),
-            "l2_change": np.abs(power / power[0] - 1.0).max(),
-            "gauge_defect": phase_defect(constants, constants, boundary, start, angle),
-            "gauge_defect_alike": phase_defect(constants, constants, boundary, alike, angle),
-            "sign_defect": phase_defect(constants, opposite, boundary, start, product(1j, turn)),
-        }
-        rows.append(row)
-    about = {
-        "energy_drift": ("largest |H - H(0)|", 1e-7),
-        "l2_change": "largest relative change of the squared l2 norm",
-        "gauge_defect": "defect of turning all phases",
-        "gauge_defect_alike": ("the same on A = B", 1e-13),
-        "sign_defect": ("defect of turning the sign of gamma", 1e-13),
-    }
-    title = "What is conserved along the flow, and what turning the phases does"
-    coords = {"boundary": BOUNDARIES, "point": np.arange(len(omegas))}
-    omega = variable(omegas, ("point",), "detuning Omega")
-    return tabulate(title, coords, rows, about, omega=omega)
-
-
-def phase_defect(constants, other: Constants, boundary: str, amplitudes, factor: complex) -> float:
-    """Return how far multiplying (A, B) by `factor` is from taking (4) to (4) with the `other`."""
-    turned = right_hand_side(other, boundary, product(factor, amplitudes))
-    expected = product(factor, right_hand_side(constants, boundary, amplitudes))
-    return float(modulus(turned - expected).max())

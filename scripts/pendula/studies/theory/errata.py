@@ -7,14 +7,12 @@ import numpy as np
 from pendula.datasets.checks import table, tabulate, variable
 from pendula.measures.norms import power_of
 from pendula.models import bounds
-from pendula.numerics.draws import complex_normal, uniform
-from pendula.numerics.elementary import modulus, square_modulus
+from pendula.numerics.elementary import square_modulus
 from pendula.problem import Constants
 
 from .bounds import NUMBERS
 from .equations import (
     alternating,
-    draw_shape,
     one_pair,
     run,
     squared_norm,
@@ -78,38 +76,13 @@ def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     return tabulate(title, {}, [numbers], about)
 
 
-def check_negative_depth(constants: Constants, count: int, seed: int, scale: float = 1.0) -> dict:
-    """Find the least -H / P of data as small as Theorem 2 asks: its proof takes -H > 0.
-
-    Random data of P up to delta_0, and real pairs. A control allows `scale` times that P.
-    """
-    rng = np.random.default_rng(seed)
-    radius = scale * bounds.theorem_2_constants(constants)[0]
-    states = [
-        np.sqrt(radius * uniform(rng, 1e-3, 1.0)) * draw_shape(rng, 1 + 2 * (i % 4))
-        for i in range(count)
-    ]
-    states += [one_pair(1, (x, 0.0)) for x in np.sqrt(radius * np.linspace(0.01, 1, 50))]
-    depth = [-total_energy(constants, "dirichlet", z) / power_of(z) for z in states]
-    return table(
-        "The sign of -H for data as small as Theorem 2 asks",
-        {},
-        largest_start=variable(radius, (), "largest P of these data"),
-        least_depth=variable(min(depth), (), "least -H / P of these data"),
-        most_energy=variable(-min(depth), (), "largest H / P of these data", tolerance=0.0),
-    )
-
-
-def check_bootstrap(
-    constants: Constants, part: float, longest: float, below_barrier: bool = False
-) -> dict:
+def check_bootstrap(constants: Constants, part: float, longest: float) -> dict:
     """Find data that satisfy all that the printed end of Theorem 2's proof uses, and break (24).
 
     For small data delta = `part` * delta_0 it uses (25), that -H > 0 is constant, and
     |H| <= C delta with C = c, and concludes P <= C_0 delta. None of that excludes states beyond the
     barrier of (25): a pair (x, 0) there has the same energy. What excludes them is that P is
-    continuous and starts below 2 a. With `below_barrier` only states below 2 a are allowed, as by
-    continuity.
+    continuous and starts below 2 a.
     """
     delta_0, c_0 = bounds.theorem_2_constants(constants)
     delta, gap = part * delta_0, bounds.theorem_2_gap(constants)
@@ -119,8 +92,7 @@ def check_bootstrap(
     depth = -total_energy(constants, "dirichlet", pairs)
     premises = (depth > 0.0) & (depth <= bounds.extent(constants) * delta)
     premises &= depth >= gap * powers - 0.25 * powers**2
-    if below_barrier:
-        premises &= powers < 2.0 * gap
+    below = premises & (powers < 2.0 * gap)
     breaks = premises & (powers > c_0 * delta)
     breaking = powers[breaks].min() if breaks.any() else np.inf
     return table(
@@ -128,22 +100,11 @@ def check_bootstrap(
         {},
         allowed_power=variable(c_0 * delta, (), "C_0 delta of the small data"),
         largest_power=variable(powers[premises].max(), (), "largest P that the premises allow"),
+        largest_power_below=variable(
+            powers[below].max(), (), "largest P that they allow below the barrier"
+        ),
         breaking=variable(breaking, (), "least P that breaks (24)"),
         barrier_power=variable(2.0 * gap, (), "P at the barrier of (25), 2 a"),
-    )
-
-
-def check_opposite(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
-    """Show that A = -B is invariant too: the drive acts there as -2 gamma conj(A).
-
-    The paper mentions A = B alone, where the drive is silent.
-    """
-    a = complex_normal(np.random.default_rng(seed), sites)
-    final = run(constants, "dirichlet", np.stack([a, -a]), end_time).final
-    return table(
-        "The second invariant reduction, A = -B",
-        {},
-        departure=variable(modulus(final[0] + final[1]).max(), (), "|A + B|", tolerance=0.0),
     )
 
 

@@ -1,117 +1,139 @@
-"""The inequalities behind Lemma 2 and Theorems 1 to 3, on random states and on the sharpest ones.
+"""The inequalities of Section 4, proved: the larger side less the smaller one is a sum of squares.
 
-(17), (18), (22) and (27) are on sequences; (21) and (25), its widened form, and the bounds of
-Theorem 3's proof and of the size of H, are on the energy.
+The factors of the squares are not negative where epsilon, gamma > 0 and |Omega| = +-Omega. What is
+left of an inequality is its larger side less its smaller one, less these squares: no terms. P
+counts |A_n|^2 and |B_n|^2 of all sites. A twin claims three quarters of the larger side, or half of
+the drive.
 """
 
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from itertools import combinations, permutations
 
 import numpy as np
+from flint import fmpq
 
-from pendula.datasets.checks import table, variable
-from pendula.ends import DIRICHLET, kind_of
-from pendula.measures.norms import power_of
-from pendula.models.bounds import coercivity, extent, theorem_2_gap
-from pendula.numerics.draws import uniform
-from pendula.numerics.elementary import product, square_modulus
-from pendula.problem import Constants
-
-from .equations import (
-    BOUNDARIES,
-    alternating,
-    draw_shape,
-    misstated,
-    random_amplitudes,
-    total_energy,
+from .polynomials import (
+    EPSILON,
+    GAMMA,
+    OMEGA,
+    SITES,
+    STATE,
+    ZERO,
+    bonds,
+    densities,
+    energy,
+    joined,
+    rates,
 )
 
-LONGEST = 13
-"""The longest chain that is drawn."""
+HALF, QUARTER, LESS = fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)
 
 
-def sequence_ratios(a: np.ndarray, b: np.ndarray) -> list[float]:
-    """Return left over right side of (17), (18), (22) and (27), each at most one."""
+def sums(ends, state=STATE):
+    """Return 4 P less the bonds as a sum of squares."""
+    right, left = joined(ends, state)
+    ends_twice = 2 * densities(state)[:, [0, -1]].sum() if ends == "free" else ZERO
+    return ((right + left) ** 2).sum() + ends_twice
 
-    def norm(sequence: np.ndarray) -> float:
-        return float(np.sqrt(np.sum(square_modulus(sequence))))
 
-    bonds = np.sum(square_modulus(np.diff(np.pad(a, 1))))
-    four = float(np.sqrt(np.sqrt(np.sum(square_modulus(a) ** 2))))  # the l4 norm
+def along_drive(sign: int):
+    """Return 2 P + `sign` drive() as a sum of squares."""
+    together, (x, y) = STATE[0] + STATE[1], STATE[0] - STATE[1]
+    return (together**2).sum() + 2 * ((x if sign > 0 else y) ** 2).sum()
+
+
+def pairs(values: np.ndarray):
+    """Return the sum of the products of two different values, each pair once."""
+    return sum((a * b for a, b in combinations(np.ravel(values), 2)), start=ZERO)
+
+
+def growth(ends, factor: int = 4):
+    """Return what is left of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
+    together, (x, y) = STATE[0] + STATE[1], STATE[0] - STATE[1]
+    change, power = 2 * (STATE * rates(ends)).sum(), densities().sum()
+    squares = [2 * GAMMA * ((together**2).sum() + ((x - s * y) ** 2).sum()) for s in (1, -1)]
     return [
-        bonds / (4.0 * norm(a) * norm(a)),
-        norm(product(a, b)) / (norm(a) * norm(b)),
-        four / norm(a),
-        norm(a) / (np.sqrt(np.sqrt(len(a))) * four),
+        factor * GAMMA * power - s * change - square
+        for s, square in zip((1, -1), squares, strict=True)
     ]
 
 
-def draw_range(rng: np.random.Generator) -> tuple[Constants, Constants]:
-    """Return constants in the range of Theorem 1 and in that of Theorem 2."""
-    epsilon, gamma = uniform(rng, 0.2, 2.0), uniform(rng, 0.5, 2.0)
-    high, low = 2.0 * gamma + 4.0 * epsilon + 1.0, -2.0 * gamma - uniform(rng, 0.1, 4.0)
-    low = Constants(epsilon=epsilon, gamma=gamma, omega=low)
-    return replace(low, omega=high), low
+def laplacian(ends, part=1):
+    """Return what is left of (17)."""
+    return 4 * part * densities().sum() - bonds(ends) - sums(ends)
 
 
-def energy_excess(
-    high: Constants, low: Constants, amplitudes: np.ndarray, boundary: str, gamma_times: float
-) -> list[float]:
-    """Return (lower bound - energy) / P of each bound on the energy; none is above zero.
-
-    (25) and its widened form are on -H. The size of H is bounded by c P + P^2 / 4. A statement
-    may have another gamma.
-    """
-    power, sites = power_of(amplitudes), amplitudes.shape[1]
-    upper, energy = (total_energy(k, boundary, amplitudes) for k in (high, low))
-    high, low = (misstated(k, gamma_times=gamma_times) for k in (high, low))
-    margin = high.omega - 2.0 * high.gamma - 4.0 * high.epsilon
-    widened = float(coercivity(power, low)) if kind_of(boundary) == DIRICHLET else -np.inf
-    found = [
-        margin * power - upper,
-        theorem_2_gap(low) * power - power * power / 4.0 + energy,
-        widened + energy,
-        power * power / (8.0 * sites) - extent(low) * power - energy,
-        abs(energy) - extent(low) * power - power * power / 4.0,
-    ]
-    return [one / power for one in found]
+def of_products(ends, part=1):
+    """Return what is left of (18), squared."""
+    a, b = densities()
+    both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
+    return part * a.sum() * b.sum() - (a * b).sum() - both
 
 
-def check_inequalities(count: int, seed: int, gamma_times: float = 1.0, scale: float = 1.0) -> dict:
-    """Test every inequality on random states, and on those that make it sharp.
+def embedding(ends, part=1):
+    """Return what is left of (22), to the fourth power."""
+    a = densities()[0]
+    return part * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
-    A control states them with `scale` times their right sides, and with `gamma_times` the drive.
-    """
-    rng = np.random.default_rng(seed)
-    ratios, excess = [], []
-    for sample in range(count):
-        sites = int(rng.integers(1, LONGEST + 1)) // 2 * 2 + 1
-        amplitudes = uniform(rng, 0.1, 6.0) * draw_shape(rng, sites)
-        other = random_amplitudes(rng, sites, 1.0)
-        boundary, (high, low) = BOUNDARIES[sample % 3], draw_range(rng)
-        ratios.append(sequence_ratios(amplitudes[0], other[0]))
-        # the small A = -B that come nearest to (21) and to (25), and -H to its largest size
-        wave = alternating(sites, 1e-3)[0]
-        edges = [np.stack([a, -a]) for a in (wave, np.full(sites, 1e-3j), 1j * wave)]
-        for state in (amplitudes, *edges):
-            excess.append(energy_excess(high, low, state, boundary, gamma_times))
-    wave, one, flat = alternating(1001, 1.0)[0], np.eye(1, 5)[0], np.ones(7)
-    sharp = np.diag([sequence_ratios(a, a) for a in (wave, one, one, flat)])
-    largest = np.maximum(np.max(ratios, axis=0), sharp) / scale
-    coords = {
-        "inequality": ["(17)", "(18)", "(22)", "(27)"],
-        "bound": ["(21)", "(25)", "(25) widened", "Theorem 3", "size"],
-    }
-    return table(
-        "The inequalities behind the theorems",
-        coords,
-        left_over_right=variable(
-            largest, ("inequality",), "largest left over right side", tolerance=1.0 + 1e-12
-        ),
-        sharp=variable(sharp, ("inequality",), "the same for the sharpest sequence"),
-        bound_excess=variable(
-            np.max(excess, axis=0),
-            ("bound",),
-            "largest of bound minus energy, over P",
-            tolerance=1e-10,
-        ),
-    )
+
+def embedding_reversed(ends, part=1):
+    """Return what is left of (27), to the fourth power."""
+    a = densities()[0]
+    differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
+    return part * len(a) * (a**2).sum() - a.sum() ** 2 - differences
+
+
+def above_band(ends, gammas: int = 2):
+    """Return what is left of (21), with `gammas` times gamma in it."""
+    squares = densities()
+    power, quartic = squares.sum(), (squares**2).sum()
+    bound = (OMEGA - gammas * GAMMA - 4 * EPSILON) * power
+    return energy(ends) - bound - QUARTER * quartic - GAMMA * along_drive(-1) - EPSILON * sums(ends)
+
+
+def below_band(ends, gammas: int = 2):
+    """Return what is left of (25), where Omega = -|Omega|."""
+    squares = densities()
+    power = squares.sum()
+    bound = (-OMEGA - gammas * GAMMA) * power - QUARTER * power**2
+    dropped = HALF * pairs(squares) + GAMMA * along_drive(1) + EPSILON * bonds(ends)
+    return -energy(ends) - bound - dropped
+
+
+def size_of_energy(ends, gammas: int = 2):
+    """Return what is left of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4, by four signs."""
+    squares, h, left = densities(), energy(ends), []
+    power, quartic = squares.sum(), (squares**2).sum()
+    for sign_of_h in (1, -1):
+        for size in (OMEGA, -OMEGA):  # |Omega|
+            bound = (size + gammas * GAMMA + 4 * EPSILON) * power + QUARTER * power**2
+            dropped = (size - sign_of_h * OMEGA) * power + GAMMA * along_drive(sign_of_h)
+            dropped += EPSILON * (sums(ends) if sign_of_h < 0 else 4 * power + bonds(ends))
+            dropped += HALF * pairs(squares) + (QUARTER * (1 - sign_of_h)) * quartic
+            left.append(bound - sign_of_h * h - dropped)
+    return left
+
+
+def quadratic_part(ends, gammas: int = 2):
+    """Return what is left of the lower bound of H in the proof of Theorem 3, by two signs."""
+    squares, left = densities(), []
+    power, quartic = squares.sum(), (squares**2).sum()
+    for size in (OMEGA, -OMEGA):  # |Omega|
+        bound = QUARTER * quartic - (size + gammas * GAMMA + 4 * EPSILON) * power
+        dropped = (size + OMEGA) * power + GAMMA * along_drive(-1) + EPSILON * sums(ends)
+        left.append(energy(ends) - bound - dropped)
+    return left
+
+
+IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
+    "(17)": (laplacian, lambda ends: laplacian(ends, LESS)),
+    "(18)": (of_products, lambda ends: of_products(ends, LESS)),
+    "(19)": (growth, lambda ends: growth(ends, 2)),
+    "(21)": (above_band, lambda ends: above_band(ends, 1)),
+    "(22)": (embedding, lambda ends: embedding(ends, LESS)),
+    "(25)": (below_band, lambda ends: below_band(ends, 1)),
+    "(27)": (embedding_reversed, lambda ends: embedding_reversed(ends, LESS)),
+    "size of H": (size_of_energy, lambda ends: size_of_energy(ends, 1)),
+    "lower bound for Theorem 3": (quadratic_part, lambda ends: quadratic_part(ends, 1)),
+}
+"""See `identities.IDENTITIES`."""

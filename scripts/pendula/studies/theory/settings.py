@@ -49,17 +49,15 @@ ARGUMENTS = {
     **dict.fromkeys(("epsilon", "gamma", "omega"), Number),
     "omegas": Annotated[list[Number], Field(min_length=1)],
     "gammas": Grid,
-    "points": Annotated[list[tuple[Number, Number]], Field(min_length=1)],  # (Omega, gamma)
     "boundary": Literal[tuple(ENDS)],
     "solver": Solver,
     # chains and their data
     **dict.fromkeys(("sites", "ring_sites"), Size),
     **dict.fromkeys(("sizes", "half_widths"), Sizes),  # `sizes` are numbers of sites
     "pair": tuple[Complex, Complex],  # (A_0, B_0)
-    **dict.fromkeys(("norm", "above", "mu", "amplitude", "longest"), Positive),
-    **dict.fromkeys(("distances", "mus"), Annotated[list[Positive], Field(min_length=2)]),
+    **dict.fromkeys(("norm", "above", "amplitude", "longer", "longest"), Positive),
+    "distances": Annotated[list[Positive], Field(min_length=2)],
     "decays": Annotated[list[Annotated[Number, Field(gt=0.5)]], Field(min_length=1)],
-    "ratios": Annotated[list[Positive], Field(min_length=1)],
     "part": Annotated[Number, Field(gt=0, lt=1)],
     # times
     "end_time": Annotated[Positive, Field(le=10_000)],
@@ -67,17 +65,10 @@ ARGUMENTS = {
     "times": Annotated[list[Positive], Field(min_length=1)],
     "long_times": Annotated[list[Positive], Field(min_length=3)],  # each twice the one before
     "window": Window,
-    "panels": Size,
     # random data
     "seed": Natural,
-    **dict.fromkeys(("samples", "count", "generations", "starts"), Size),
+    **dict.fromkeys(("samples", "count"), Size),
     "members": Annotated[Whole, Field(ge=2)],
-    "population": Annotated[Whole, Field(ge=4)],
-    # what a wrong statement has in place of the right one
-    **dict.fromkeys(("omega_off", "gamma_times", "sign", "root"), Number),
-    **dict.fromkeys(("scale", "span_times"), Positive),
-    "turn": Complex,
-    "below_barrier": bool,
 }
 
 
@@ -89,78 +80,40 @@ def check(names: str, **own) -> type[Model]:
 CHART = "gammas epsilon sites boundary end_time seed"
 
 CHECKS = {
-    "equations": {
-        # Section 2
-        "gradient": check("constants sites samples seed"),
-        "symmetries": check("constants sites end_time seed"),
-        "opposite": check("constants sites end_time seed"),
-        "pt_form": check("constants sites end_time seed"),
-        "conservation": check("epsilon gamma omegas sites end_time seed"),
-        # Newton's equations
-        "expansion": check("constants sites end_time mus pair"),
-        "pendula_synchrony": check("constants sites mu end_time seed"),
-        "inherited_energy": check("constants sites end_time mus seed"),
-        "resonance": check("gamma mus ratios"),
-        # errors and gaps of the paper
-        "theorem_3_constant": check("constants amplitude", longest=Size),
-        "theorem_2_case": check("constants pair sites"),
-        "negative_depth": check("constants count seed"),
-        "bootstrap": check("constants part longest"),
-    },
     # alone, since `snakemake paper` needs no other check of the theory
     "not_shown": {"not_shown": check("half_widths window omega solver")},
     "stability": {
-        "dispersion": check("points epsilon sites"),
         "chart": check(CHART, omegas=Grid),
         "short_chart": check(f"{CHART} foldings", omegas=Grid),
         "windows": check("epsilon boundary half_widths gammas"),
         "measured_windows": check("gamma epsilon sites boundary end_time seed"),
         "sharp_threshold": check("epsilon omegas sizes"),
         "unstable_waves": check("epsilon omegas above sites end_time seed"),
-        "threshold": check("epsilon sites omegas times decays long_times ring_sites"),
+        "threshold": check("epsilon sites omegas times above decays long_times ring_sites"),
     },
     "bounds": {
-        "picard": check("constants sites norm seed"),
+        # errors and gaps of the proofs
+        "theorem_3_constant": check("constants amplitude", longest=Size),
+        "theorem_2_case": check("constants pair sites"),
+        "bootstrap": check("constants part longest"),
+        # Lemma 2 and Theorems 1 to 3
+        "picard": check("constants sites norm longer seed"),
         "dependence": check("constants sites end_time distances samples seed"),
-        "balance": check("constants sites end_time panels seed"),
-        "growth": check("constants sites end_time samples seed"),
-        "inequalities": check("count seed"),
         "samples": check("count sizes end_time seed"),
-        "worst": check("epsilon gamma sites end_time generations population starts seed"),
         "sharpness": check("epsilon gamma sizes"),
-        "chain_growth": check("constants sizes pair end_time members seed"),
-        "energy_shell": check("constants sizes pair"),
+        "chain_growth": check("epsilon gamma omegas sizes pair end_time members seed"),
+        "energy_shell": check("epsilon gamma omegas sizes pair"),
     },
 }
 """The checks of each job: starting one costs more than most checks."""
 
 GROUPS = {group: tuple(checks) for group, checks in CHECKS.items()}
 
-WRONG = (
-    *("gradient", "conservation", "no_drive", "phase_turned", "symmetries", "pt_form"),
-    "pt_no_drive",
-    *("expansion", "pendula_synchrony", "inherited_energy", "negative_depth"),
-    *("bootstrap", "dispersion", "chart", "measured_windows", "sharp_threshold"),
-    *("unstable_waves", "threshold", "picard", "picard_at_rest", "dependence", "balance", "growth"),
-    *("inequalities", "samples", "worst", "sharpness", "chain_growth", "energy_shell"),
-)
-"""The wrong statements that the negative controls of the claims are fed."""
-
-WRONG_FOLDER = "wrong/"
-"""Before the name of a check that is asked about a wrong statement: it must not hold."""
-
-Omegas = Grid | Annotated[list[Number], Field(min_length=1)]
-
-Changes = create_model(
-    "Changes",
-    __base__=Model,
-    check=(Literal[tuple(name for names in GROUPS.values() for name in names)] | None, None),
-    **{name: (kind | None, None) for name, kind in (ARGUMENTS | {"omegas": Omegas}).items()},
-)
-"""The arguments of a check that a wrong statement changes; `check` says which, if not its name."""
-
 OBSERVED = ("cases", "sweeps")
 """The checks of the paper's own trajectories and sweeps, which need their datasets."""
+
+PROVED = ("identities",)
+"""What algebra proves, for which there is nothing to set."""
 
 
 class Section(Model):
@@ -170,20 +123,9 @@ class Section(Model):
         """Return the arguments of each check of a group as plain values."""
         return {name: getattr(self, name).model_dump() for name in GROUPS[group]}
 
-    def wrong_arguments(self) -> dict[str, dict]:
-        """Return the arguments of each wrong statement: those of its check, some changed."""
-        found = {}
-        for name in WRONG:
-            given = getattr(self.wrong, name)
-            changes = {"check": name} | given.model_dump(include=given.model_fields_set)
-            right = getattr(self, changes["check"]).model_dump()
-            found[f"{WRONG_FOLDER}{name}"] = right | changes
-        return found
-
 
 Settings = create_model(
     "Settings",
     __base__=Section,
-    wrong=(model(**dict.fromkeys(WRONG, Changes)), ...),
     **{name: (kind, ...) for checks in CHECKS.values() for name, kind in checks.items()},
 )

@@ -13,21 +13,22 @@ from pendula.measures.norms import power_of
 from pendula.models.bounds import extent, theorem_2_gap, theorem_3_bound
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.numerics.draws import uniform
-from pendula.numerics.elementary import log
+from pendula.numerics.elementary import complex_of, log
 from pendula.problem import Constants
 
 from .equations import (
     alternating,
     one_pair,
-    run,
-    squared_norm,
+    run_powers,
     total_energy,
 )
-from .worst_data import BOUNDS, OMEGAS
+from .samples import BOUNDS, OMEGAS
 
 FORMS = ("theorem_1", "theorem_2", "theorem_2_ball", "theorem_3")
 SIZE = 1e-5
 """Amplitude of tiny data: the cubic terms change ratios by its square."""
+LOOSE = {"rtol": 1e-9, "atol": 1e-12}
+"""Tolerances of runs of which only a mean is taken."""
 
 
 def reached(form: str, constants: Constants, sites: int) -> float:
@@ -73,15 +74,12 @@ def least_constant(constants: Constants) -> float:
     return (omega + drive) / (omega - drive)
 
 
-def check_sharpness(epsilon: float, gamma: float, sizes, scale: float = 1.0) -> dict:
-    """Find what part of each bound is reached on ever longer chains.
-
-    A control states bounds that are `scale` times as large.
-    """
+def check_sharpness(epsilon: float, gamma: float, sizes) -> dict:
+    """Find what part of each bound is reached on ever longer chains."""
     ratios = []
     for form in FORMS:
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[form[:9]])
-        ratios.append([reached(form, constants, int(n)) / scale for n in sizes])
+        ratios.append([reached(form, constants, int(n)) for n in sizes])
     negative = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS["theorem_2"])
     limit, least = limit_constant(negative), least_constant(negative)
     return table(
@@ -94,35 +92,39 @@ def check_sharpness(epsilon: float, gamma: float, sizes, scale: float = 1.0) -> 
 
 
 def check_chain_growth(
-    constants: Constants, sizes, pair, end_time: float, members: int, seed: int
+    epsilon: float, gamma: float, omegas, sizes, pair, end_time: float, members: int, seed: int
 ) -> dict:
-    """Set C_N of Theorem 3 beside the P that one pair reaches on ever longer chains.
+    """Set C_N of Theorem 3 beside the P that one pair reaches on ever longer chains, at each Omega.
 
     Each member starts a little, 1e-6, off the pair: where the motion is chaotic that makes another
     run. The exponent of P in N is fitted for each member; the mean has limits by Student's t.
     """
-    rng, sizes = np.random.default_rng(seed), np.asarray(sizes)
-    late, bounds = np.empty((members, len(sizes))), np.empty(len(sizes))
-    outputs, solver = 4 * round(end_time), {"name": "taylor", "rtol": 1e-9, "atol": 1e-12}
-    for i, n in enumerate(map(int, sizes)):
-        data = one_pair(n, pair)
-        bounds[i] = theorem_3_bound(total_energy(constants, "dirichlet", data), n, constants)
-        for member in range(members):
-            off = uniform(rng, -1.0, 1.0, (2, 2, n))
-            other = data + 1e-6 * (off[0] + 1j * off[1])
-            power = squared_norm(run(constants, "dirichlet", other, end_time, outputs, solver).l2)
-            late[member, i] = power[outputs // 2 :].mean()
-    x = log(sizes)
-    mean, least, most = mean_limits([lay_line(x, log(powers)).slope for powers in late])
+    sizes, outputs = np.asarray(sizes), 4 * round(end_time)
+    late, bounds = np.empty((len(omegas), members, len(sizes))), np.empty((len(omegas), len(sizes)))
+    for k, omega in enumerate(omegas):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        rng = np.random.default_rng(seed)
+        for i, n in enumerate(map(int, sizes)):
+            data = one_pair(n, pair)
+            bounds[k, i] = theorem_3_bound(total_energy(constants, "dirichlet", data), n, constants)
+            off = uniform(rng, -1.0, 1.0, (members, 2, 2, n))
+            starts = data + 1e-6 * complex_of(off[:, 0], off[:, 1])
+            runs = [constants] * members, ["dirichlet"] * members, starts, end_time, outputs, LOOSE
+            late[k, :, i] = run_powers(*runs)[0][:, outputs // 2 :].mean(axis=1)
+    x, dims = log(sizes), ("omega",)
+    limits = [mean_limits([lay_line(x, log(powers)).slope for powers in one]) for one in late]
+    mean, least, most = np.array(limits).T
+    slopes = [lay_line(x, log(one)).slope for one in bounds]
+    says = "mean of P over the second half of a run"
     return table(
         "What grows with the length of the chain: C_N, and the norm reached from one pair",
-        {"member": np.arange(members), "sites": sizes},
-        late_power=variable(late, ("member", "sites"), "mean of P over the second half of a run"),
-        constant_n=variable(bounds, ("sites",), "C_N of Theorem 3"),
-        constant_exponent=variable(lay_line(x, log(bounds)).slope, (), "exponent of C_N in N"),
-        power_exponent=variable(mean, (), "exponent of that P in N"),
-        power_exponent_low=variable(least, (), "lower confidence limit of that exponent"),
-        power_exponent_high=variable(most, (), "upper confidence limit of that exponent"),
+        {"omega": omegas, "member": np.arange(members), "sites": sizes},
+        late_power=variable(late, ("omega", "member", "sites"), says),
+        constant_n=variable(bounds, ("omega", "sites"), "C_N of Theorem 3"),
+        constant_exponent=variable(slopes, dims, "exponent of C_N in N"),
+        power_exponent=variable(mean, dims, "exponent of that P in N"),
+        power_exponent_low=variable(least, dims, "lower confidence limit of that exponent"),
+        power_exponent_high=variable(most, dims, "upper confidence limit of that exponent"),
     )
 
 
@@ -144,26 +146,30 @@ def shell_state(constants: Constants, sites: int, energy: float) -> np.ndarray |
     return low * unit
 
 
-def check_energy_shell(constants: Constants, sizes, pair) -> dict:
+def check_energy_shell(epsilon: float, gamma: float, omegas, sizes, pair) -> dict:
     """Find data of the energy of one pair and with the largest norm: does H bound P, for any N?
 
-    And whether H is definite near zero: its least and largest value over P for tiny data.
+    And whether H is definite near zero: its least and largest value over P for tiny data. At each
+    Omega.
     """
-    powers, sizes = [], np.asarray(sizes)
-    for n in map(int, sizes):
-        data = one_pair(n, pair)
-        found = shell_state(constants, n, total_energy(constants, "dirichlet", data))
-        powers.append(power_of(data if found is None else found))
-    longest = int(sizes[-1])
+    sizes, longest = np.asarray(sizes), int(sizes[-1])
     flat = SIZE * np.ones(longest)
-    tiny = alternating(longest, SIZE), np.stack([1j * flat, -1j * flat])
-    quotients = [total_energy(constants, "dirichlet", z) / power_of(z) for z in tiny]
-    exponent = lay_line(log(sizes), log(powers)).slope
+    tiny = np.stack([alternating(longest, SIZE), np.stack([1j * flat, -1j * flat])])
+    exponents, quotients = [], []
+    for omega in omegas:
+        constants, powers = Constants(epsilon=epsilon, gamma=gamma, omega=omega), []
+        for n in map(int, sizes):
+            data = one_pair(n, pair)
+            found = shell_state(constants, n, total_energy(constants, "dirichlet", data))
+            powers.append(power_of(data if found is None else found))
+        exponents.append(lay_line(log(sizes), log(powers)).slope)
+        over = total_energy(constants, "dirichlet", tiny) / [power_of(one) for one in tiny]
+        quotients.append([over.min(), over.max()])
+    least, most = np.transpose(quotients)
     return table(
         "The largest norm of data that have the energy of one pair",
-        {"sites": sizes},
-        shell_power=variable(powers, ("sites",), "P of such data"),
-        shell_exponent=variable(exponent, (), "exponent of that P in N"),
-        least_quotient=variable(min(quotients), (), "least H / P of tiny data"),
-        largest_quotient=variable(max(quotients), (), "largest H / P of tiny data"),
+        {"omega": omegas},
+        shell_exponent=variable(exponents, ("omega",), "exponent in N of the largest P of them"),
+        least_quotient=variable(least, ("omega",), "least H / P of tiny data"),
+        largest_quotient=variable(most, ("omega",), "largest H / P of tiny data"),
     )

@@ -1,0 +1,157 @@
+"""From Newton's equations (1) to (4): the straightforward computations that the paper leaves out.
+
+The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and y of B. Cosine and sine of
+the fast time omega t are indeterminates here, A and B depend on the slow time. What (1) leaves of
+order mu^3 must have no first harmonic, or the remainder grows with the time: this gives (4). The
+energy of (1) in the frame that turns with the pendula, averaged over a turn, gives -H at mu^4.
+"""
+
+from collections.abc import Callable, Mapping
+from math import factorial
+from types import SimpleNamespace
+
+import numpy as np
+from flint import fmpq
+
+from pendula.models import pendula
+
+from .polynomials import (
+    COSINE,
+    EPSILON,
+    GAMMA,
+    GENS,
+    MU,
+    OMEGA,
+    SINE,
+    STATE,
+    ZERO,
+    energy,
+    filled,
+    joined,
+    rates,
+    scaled,
+)
+
+HALF = fmpq(1, 2)
+MU_AT, COSINE_AT, SINE_AT = (GENS.index(one) for one in (MU, COSINE, SINE))
+SLOW = HALF
+"""The rate of the slow time tau in the paper's mu^2 t."""
+DOUBLE = COSINE**2 - SINE**2
+"""The cosine of 2 omega t, by which the drive acts."""
+SINES = SimpleNamespace(sin=lambda x: x - fmpq(1, 6) * x**3)
+"""The sine of an angle of order mu, up to mu^4."""
+
+
+def at_order(found, order: int):
+    """Return the coefficient of mu^order of a polynomial."""
+    kept = {e: c for e, c in found.to_dict().items() if e[MU_AT] == order}
+    return found.context().from_dict(kept).subs({"mu": 1})
+
+
+def averaged(found):
+    """Return the mean of a polynomial in cos and sin of the fast time over a turn."""
+    kept = ZERO
+    for powers, coefficient in found.to_dict().items():
+        j, k = powers[COSINE_AT], powers[SINE_AT]
+        if j % 2 == k % 2 == 0:
+            rest = list(powers)
+            rest[COSINE_AT] = rest[SINE_AT] = 0
+            kept += found.context().from_dict({tuple(rest): coefficient * mean_of_powers(j, k)})
+    return kept
+
+
+def mean_of_powers(j: int, k: int) -> fmpq:
+    """Return the mean of cos^j sin^k over a turn, for even j and k."""
+    half = (j + k) // 2
+    top = factorial(j) * factorial(k)
+    return fmpq(top, 4**half * factorial(j // 2) * factorial(k // 2) * factorial(half))
+
+
+def angles(state=STATE) -> np.ndarray:
+    """Return x and y of (3), (component, site)."""
+    return scaled(2 * MU, turning(state[:, 0], state[:, 1]))
+
+
+def turning(re: np.ndarray, im: np.ndarray) -> np.ndarray:
+    """Return the real part of amplitudes times e^{i omega t}."""
+    return scaled(COSINE, re) - scaled(SINE, im)
+
+
+def accelerations(ends, x: np.ndarray, functions=SINES, drive=DOUBLE) -> np.ndarray:
+    """Return x'' and y'' of the traced equations (1) at the angles x and y, (component, site)."""
+    state = np.stack([x, 0 * x], axis=1)
+    constants = {"coupling": EPSILON * MU**2, "drive": 2 * GAMMA * MU**2 * drive}
+    return rates(ends, state, pendula.EQUATIONS, functions, **constants)[:, 1]
+
+
+def first_harmonic(ends, slow=SLOW, drive=DOUBLE) -> list:
+    """Return the first harmonic, by cos and by sin, of what (1) leaves of order mu^3.
+
+    The amplitudes obey (4) in a time that goes at the rate `slow` in mu^2 t.
+    """
+    change = slow * rates(ends)
+    # x'' of (3) less -x: omega^2 = 1 + mu^2 Omega, and the product of the two rates
+    inertia = -scaled(OMEGA, turning(STATE[:, 0], STATE[:, 1]))
+    inertia = inertia - 2 * turning(change[:, 1], -change[:, 0])
+    forces = accelerations(ends, angles(), drive=drive)
+    return [
+        averaged((2 * a - at_order(f, 3)) * part)
+        for a, f in zip(inertia.ravel(), forces.ravel(), strict=True)
+        for part in (COSINE, SINE)
+    ]
+
+
+def newtons_energy(ends, x: np.ndarray):
+    """Return the potential energy of (1) up to the fourth order of the angles."""
+    right, left = joined(ends, x)
+    own = (HALF * x**2 - fmpq(1, 24) * x**4).sum()
+    coupled = HALF * EPSILON * MU**2 * ((right - left) ** 2).sum()
+    return own + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
+
+
+def inherited(ends, omega=OMEGA) -> list:
+    """Return what is left of H from Newton's energy, and of (1) as the equations of that energy."""
+    x = angles()
+    turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
+    generic = STATE[:, 0]
+    forces = filled(
+        (newtons_energy(ends, generic).derivative(GENS.index(one)) for one in generic.ravel()),
+        generic.shape,
+    )
+    left = (accelerations(ends, generic) + forces).ravel()
+    return [averaged(at_order(turning, 4)) + energy(ends, omega=omega), *left]
+
+
+def synchronised(ends, sign: int = 1) -> list:
+    """Return by how much (1) leaves y = `sign` x, and what the drive does there.
+
+    Any function may stand for the sine: its values are indeterminates.
+    """
+    of_angle = dict(zip(map(str, STATE[0, 0]), STATE[0, 1], strict=True))
+
+    def sine(x):
+        return filled((_odd(of_angle, one) for one in x), x.shape)
+
+    x = np.stack([STATE[0, 0], sign * STATE[0, 0]])
+    driven, free = (
+        accelerations(ends, x, SimpleNamespace(sin=sine), drive) for drive in (DOUBLE, ZERO)
+    )
+    return [*(driven[1] - sign * driven[0]), *(driven - free).ravel()]
+
+
+def _odd(values: Mapping, x):
+    """Return the value of an odd function at an angle."""
+    return values[str(x)] if str(x) in values else -values[str(-x)]
+
+
+IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
+    "(4) from (1) by (3)": (first_harmonic, lambda ends: first_harmonic(ends, 2 * SLOW)),
+    "(4) from (1) by the drive (2)": (
+        first_harmonic,
+        lambda ends: first_harmonic(ends, drive=-DOUBLE),
+    ),
+    "1:2 resonance": (first_harmonic, lambda ends: first_harmonic(ends, drive=COSINE)),
+    "H from the energy of (1)": (inherited, lambda ends: inherited(ends, OMEGA + 1)),
+    "x = y is kept": (synchronised, lambda ends: synchronised(ends, -1)),
+}
+"""See `identities.IDENTITIES`."""

@@ -1,0 +1,254 @@
+"""The paper's identities, proved by algebra: both sides are polynomials, compared term by term.
+
+These are polynomials in the fields and the constants, for each kind of ends. What is left of an
+identity must have no terms: then it holds for all data and constants, and only then. Each statement
+has a twin, a wrong one, of which terms must be left.
+"""
+
+from collections.abc import Callable, Mapping
+from itertools import combinations, permutations
+from math import prod
+
+import numpy as np
+import xarray as xr
+from flint import fmpq
+
+from pendula.datasets.checks import describe, table, variable
+from pendula.ends import ENDS, neighbours
+from pendula.model import Model, Value, abs2, conj, lap
+
+from . import derivation, inequalities
+from .polynomials import (
+    CONSTANTS,
+    EPSILON,
+    GAMMA,
+    KAPPA,
+    OMEGA,
+    SINE,
+    SITES,
+    STATE,
+    ZERO,
+    conjugate,
+    energy,
+    gradient,
+    linear_rates,
+    put,
+    rates,
+    scaled,
+    terms_left,
+    times,
+)
+
+HALF = fmpq(1, 2)
+TURN = fmpq(3, 5), fmpq(4, 5)
+"""Cosine and sine of an angle that is no part of a turn: what it keeps, all angles keep."""
+
+# --- The paper's other forms of the equations, as it prints them ----------------------------------
+
+
+def pt_form(p, u: Value, v: Value) -> list[Value]:
+    """Return i du/dtau and i dv/dtau of (10)."""
+    uu, vv = abs2(u), abs2(v)
+    return [
+        p.epsilon * lap(v) + p.omega * v + 1j * p.gamma * u - p.gamma * conj(u)
+        + 2.0 * ((2.0 * uu + vv) * v + u * u * conj(v)),
+        p.epsilon * lap(u) + p.omega * u - 1j * p.gamma * v - p.gamma * conj(v)
+        + 2.0 * ((uu + 2.0 * vv) * u + conj(u) * v * v),
+    ]  # fmt: skip
+
+
+def scalar_form(p, a: Value) -> Value:
+    """Return i da/dtau of the scalar equation to which (4) reduces by (5)."""
+    return p.epsilon * lap(a) + p.omega * a + 0.5 * abs2(a) * a
+
+
+PT = Model(fields=("u", "v"), parameters=dict.fromkeys(CONSTANTS, 1.0), i_dt=pt_form)
+SCALAR = Model(fields=("a",), parameters=dict.fromkeys(CONSTANTS, 1.0), i_dt=scalar_form)
+
+
+def from_pt(w: np.ndarray) -> np.ndarray:
+    """Return (A, B) of (u, v) by (9): A = 2 (u + v), conj B = 2i (u - v)."""
+    return np.stack([2 * (w[0] + w[1]), conjugate(times(0, 2, w[:1] - w[1:]))[0]])
+
+
+# --- Symmetries -----------------------------------------------------------------------------------
+
+
+def exchanged(state):
+    return state[::-1]
+
+
+def turned(state):
+    return times(*TURN, state)
+
+
+def times_i(state):
+    return times(0, 1, state)
+
+
+def alike(factor: int = 1) -> np.ndarray:
+    """Return a state with B = `factor` A."""
+    return np.stack([STATE[0], factor * STATE[0]])
+
+
+def equivariance(ends, image: Callable, direction: int = 1, state=STATE, **given):
+    """Return by what w -> image(w), with time in this `direction`, misses the same equations."""
+    return rates(ends, image(state), **given) - direction * image(rates(ends, state, **given))
+
+
+def hamiltonian(ends, omega=OMEGA):
+    """Return the rates of (4) less those by (7): the gradient by conj A is half that by rows."""
+    return rates(ends) - HALF * times(0, -1, gradient(energy(ends, omega=omega)))
+
+
+def rate_of_energy(ends, omega=OMEGA):
+    return (gradient(energy(ends, omega=omega)) * rates(ends)).sum()
+
+
+def reduction(ends, factor: int = 1):
+    """Return the rates of A in (4) where B = `factor` A, less those of the scalar equation."""
+    return rates(ends, alike(factor))[0] - rates(ends, STATE[:1], SCALAR)[0]
+
+
+def of_pt(ends, gamma=GAMMA):
+    """Return the rates of (4) less what (10) makes of them, in the variables (9)."""
+    return from_pt(rates(ends, model=PT)) - rates(ends, from_pt(STATE), gamma=gamma)
+
+
+def pt_hamiltonian(ends, image: Callable):
+    """Return the rates of (10) less those of K = H / 8, by i u' = dK/d(conj v) and the like."""
+    slope = gradient(fmpq(1, 8) * put(energy(ends), from_pt(STATE)))
+    return rates(ends, model=PT) - HALF * times(0, -1, image(slope))
+
+
+def sign_of_gamma(ends, image: Callable):
+    """Return by what w -> image(w) misses turning the sign of gamma."""
+    return rates(ends, image(STATE), gamma=-GAMMA) - image(rates(ends))
+
+
+# --- The linear equations -------------------------------------------------------------------------
+
+
+def of_a_wave(ends, kappa):
+    """Return the linear rates of one site whose neighbours are 1 - 2 s^2 = cos theta times it.
+
+    Less those of (14), i A' + kappa A = gamma (conj B - conj A). Here s = sin(theta / 2).
+    """
+    one = STATE[..., :1]
+    beside = scaled(1 - 2 * SINE**2, one)
+    at_site = linear_rates("dirichlet", np.concatenate([beside, one, beside], axis=-1))[..., 1:2]
+    flipped = conjugate(exchanged(one) - one)
+    return at_site - times(0, -1, scaled(GAMMA, flipped) - scaled(kappa, one))
+
+
+def determinant(drive: int):
+    """Return the determinant printed before (15) less its factors, with `drive` times gamma."""
+    k, g, w = KAPPA, GAMMA, OMEGA
+    rows = [[k - w, g, ZERO, -g], [g, k + w, -g, ZERO], [ZERO, -g, k - w, g], [-g, ZERO, g, k + w]]
+    found = ZERO
+    for order in permutations(range(4)):
+        swaps = sum(i > j for i, j in combinations(order, 2))
+        found += (-1) ** swaps * prod((rows[i][order[i]] for i in range(4)), start=ZERO + 1)
+    apart = w**2 - k**2
+    return found - apart * (apart + (drive * g) ** 2)
+
+
+def second_rates(ends, factor: int, drive: int):
+    """Return L^2 w - (`drive` gamma)^2 w + K^2 w of the linear L where B = `factor` A.
+
+    K has the kappa of all waves as its eigenvalues; it is symmetric.
+    """
+
+    def minus_k(state):
+        right, left = neighbours(state, ends)
+        return scaled(EPSILON, right + left - 2 * state) + scaled(OMEGA, state)
+
+    state = alike(factor)
+    twice = linear_rates(ends, linear_rates(ends, state))
+    return twice + minus_k(minus_k(state)) - scaled((drive * GAMMA) ** 2, state)
+
+
+def balance(ends, factor: int = 1):
+    """Return dP/dtau less `factor` times the balance equation in the proof of Lemma 2."""
+    x, y = STATE[0] - STATE[1]
+    return 2 * (STATE * rates(ends)).sum() - factor * 4 * GAMMA * (x * y).sum()
+
+
+# --- All of them ----------------------------------------------------------------------------------
+
+IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
+    "(7)": (hamiltonian, lambda ends: hamiltonian(ends, OMEGA + 1)),
+    "conservation of (8)": (rate_of_energy, lambda ends: rate_of_energy(ends, OMEGA + 1)),
+    "exchange of A and B": (
+        lambda ends: equivariance(ends, exchanged),
+        lambda ends: equivariance(ends, lambda w: times_i(exchanged(w))),
+    ),
+    "sign of gamma": (
+        lambda ends: sign_of_gamma(ends, times_i),
+        lambda ends: sign_of_gamma(ends, lambda w: -w),
+    ),
+    "phases of (4) without drive": (
+        lambda ends: equivariance(ends, turned, gamma=ZERO),
+        lambda ends: equivariance(ends, turned),
+    ),
+    "phases of (10) without drive": (
+        lambda ends: equivariance(ends, turned, model=PT, gamma=ZERO),
+        lambda ends: equivariance(ends, turned, model=PT),
+    ),
+    "A = B is kept": (
+        lambda ends: np.subtract(*rates(ends, alike())),
+        lambda ends: np.subtract(*rates(ends, alike(-1))),
+    ),
+    "(5) without drive": (reduction, lambda ends: reduction(ends, -1)),
+    "phases on A = B": (
+        lambda ends: equivariance(ends, turned, state=alike()),
+        lambda ends: equivariance(ends, turned, state=alike(-1)),
+    ),
+    "(10)": (of_pt, lambda ends: of_pt(ends, 2 * GAMMA)),
+    "(11)": (
+        lambda ends: equivariance(ends, lambda w: conjugate(exchanged(w)), -1, model=PT),
+        lambda ends: equivariance(ends, exchanged, model=PT),
+    ),
+    "(11) by P and T together": (
+        lambda ends: equivariance(ends, lambda w: exchanged(conjugate(w)), -1, model=PT),
+        lambda ends: equivariance(ends, conjugate, -1, model=PT),
+    ),
+    "energy of (10)": (
+        lambda ends: pt_hamiltonian(ends, exchanged),
+        lambda ends: pt_hamiltonian(ends, lambda slope: slope),
+    ),
+    "(14)": (
+        lambda ends: of_a_wave(ends, 4 * EPSILON * SINE**2 - OMEGA),
+        lambda ends: of_a_wave(ends, 2 * EPSILON * SINE**2 - OMEGA),
+    ),
+    "(15)": (lambda ends: determinant(2), lambda ends: determinant(1)),
+    "first roots of (15)": (
+        lambda ends: second_rates(ends, 1, 0),
+        lambda ends: second_rates(ends, 1, 2),
+    ),
+    "second roots of (15)": (
+        lambda ends: second_rates(ends, -1, 2),
+        lambda ends: second_rates(ends, -1, 1),
+    ),
+    "balance of P": (balance, lambda ends: balance(ends, 2)),
+    **derivation.IDENTITIES,
+    **inequalities.IDENTITIES,
+}
+"""By name what is left of each statement, and of its wrong twin, for a kind of ends."""
+
+
+def prove_identities() -> xr.Dataset:
+    """Count the terms that are left of each statement and of its twin, for each kind of ends."""
+    dims = ("identity", "boundary")
+    right, wrong = (
+        [[terms_left(pair[i](ends)) for ends in ENDS] for pair in IDENTITIES.values()]
+        for i in (0, 1)
+    )
+    check = table(
+        "Identities and inequalities of the paper, proved as polynomials over the rationals",
+        {"identity": list(IDENTITIES), "boundary": list(ENDS)},
+        terms=variable(right, dims, "terms that are left of the statement", tolerance=0),
+        twin_terms=variable(wrong, dims, "terms that are left of its wrong twin"),
+    )
+    print(describe("identities", check))
+    return xr.Dataset.from_dict(check).assign_attrs(sites=SITES)

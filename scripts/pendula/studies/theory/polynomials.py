@@ -1,0 +1,146 @@
+"""Traced equations on polynomials over the rationals (python-flint): what holds there is proved.
+
+The fields of a chain of SITES pairs and the constants are indeterminates. Each equation couples
+neighbours alone, and so a chain of three sites has all that a longer one has: its two ends and a
+site between them. States are arrays of polynomials, (component, part, site) with the real part
+first.
+"""
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+import numpy as np
+from flint import fmpq, fmpq_mpoly_ctx
+
+from pendula.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbours
+from pendula.graph import evaluate
+from pendula.model import Model
+from pendula.models.amplitudes import EQUATIONS
+
+SITES = 3
+CONSTANTS = ("epsilon", "gamma", "omega")
+OTHERS = ("mu", "cosine", "sine", "kappa")
+"""Indeterminates of single identities: mu of (2), cos and sin of omega t, the kappa of (14)."""
+ROWS = tuple(f"{part}{field}{n}" for field in "AB" for part in ("Re ", "Im ") for n in range(SITES))
+CONTEXT = fmpq_mpoly_ctx.get((*CONSTANTS, *OTHERS, *ROWS), "degrevlex")
+GENS = CONTEXT.gens()
+EPSILON, GAMMA, OMEGA, MU, COSINE, SINE, KAPPA = GENS[:7]
+ZERO = 0 * GAMMA
+
+
+def filled(values: Iterable, shape=(2, 2, SITES)) -> np.ndarray:
+    """Return an array of polynomials, which NumPy would take for sequences of terms."""
+    found = np.empty(shape, object)
+    for at, value in zip(np.ndindex(*shape), values, strict=True):
+        found[at] = value
+    return found
+
+
+STATE = filled(GENS[7:])
+
+
+def scaled(by, values: np.ndarray) -> np.ndarray:
+    """Return an array times a polynomial, which NumPy would take for a sequence."""
+    return np.frompyfunc(lambda one: by * one, 1, 1)(values)
+
+
+def rational(x: float) -> fmpq:
+    """Return a double as the fraction that it is."""
+    exact = Fraction(x)
+    return fmpq(exact.numerator, exact.denominator)
+
+
+def rates(
+    ends: str, state=STATE, model: Model = EQUATIONS, functions=None, **constants
+) -> np.ndarray:
+    """Return the rates of a state, shaped alike, with other constants than their indeterminates.
+
+    `functions` has what stands for sines of polynomials.
+    """
+    given = {"epsilon": EPSILON, "gamma": GAMMA, "omega": OMEGA} | constants
+    shape, (right, left) = state.shape, neighbours(state, ends)
+    seen = {0: state, 1: right, -1: left}
+
+    def leaf(one):
+        if one.operation == "number":
+            return rational(one.operands[0])
+        if one.operation in ("parameter", "clock"):
+            return filled([given[one.operands[0]]] * shape[-1], shape[-1:])
+        component, part, by = one.operands
+        return seen[by][component, part]
+
+    found = evaluate(model.rates, leaf, functions)
+    return filled((one for row in found for one in row), shape)
+
+
+def linear_rates(ends: str, state=STATE) -> np.ndarray:
+    """Return the rates of (4), linearised at zero: its derivative there, along a state."""
+    both = np.concatenate([0 * state, state])
+    return rates(ends, both, EQUATIONS.tangent())[len(state) :]
+
+
+def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the sites (..., bond) to the right and to the left of each bond of a chain.
+
+    A bond hangs beyond an end at rest, none beyond a free one.
+    """
+    none, at_rest = state[..., :0], 0 * state[..., :1]
+    beyond = {DIRICHLET: (at_rest, at_rest), FREE: (none, none), PERIODIC: (state[..., -1:], none)}
+    first, last = beyond[kind_of(ends)]
+    padded = np.concatenate([first, state, last], axis=-1)
+    return padded[..., 1:], padded[..., :-1]
+
+
+def energy(ends: str, state=STATE, omega=OMEGA):
+    """Return H of (8), a polynomial."""
+    squares = densities(state)
+    return (
+        fmpq(1, 4) * (squares**2).sum()
+        + omega * squares.sum()
+        - EPSILON * bonds(ends, state)
+        - GAMMA * drive(state)
+    )
+
+
+def densities(state=STATE) -> np.ndarray:
+    """Return |A_n|^2 and |B_n|^2, (component, site)."""
+    return (state**2).sum(axis=1)
+
+
+def bonds(ends: str, state=STATE):
+    """Return the sum of |A_{n+1} - A_n|^2 + |B_{n+1} - B_n|^2 over the bonds of a chain."""
+    right, left = joined(ends, state)
+    return ((right - left) ** 2).sum()
+
+
+def drive(state=STATE):
+    """Return the real part of the sum of (A - B)^2, which gamma multiplies in -H."""
+    x, y = state[0] - state[1]
+    return (x**2 - y**2).sum()
+
+
+def gradient(of) -> np.ndarray:
+    """Return the derivatives of a polynomial by the rows of the state."""
+    return filled(of.derivative(GENS.index(one)) for one in STATE.ravel())
+
+
+def times(re, im, state: np.ndarray) -> np.ndarray:
+    """Return a state times a complex number."""
+    return np.stack([re * state[:, 0] - im * state[:, 1], re * state[:, 1] + im * state[:, 0]], 1)
+
+
+def conjugate(state: np.ndarray) -> np.ndarray:
+    """Return the complex conjugate of a state."""
+    return state * np.array([1, -1], object)[:, None]
+
+
+def put(found, state: np.ndarray):
+    """Return a polynomial with another state in the place of the indeterminate one."""
+    return found.compose(*GENS[:7], *state.ravel())
+
+
+def terms_left(found) -> int:
+    """Return how many terms a polynomial has, or all of an array or list: none where all are 0."""
+    if isinstance(found, np.ndarray | list):
+        return sum(map(terms_left, found))
+    return len(found)

@@ -1,0 +1,75 @@
+"""What algebra proves of the equations, and that it is asked about the library's own equations."""
+
+import numpy as np
+import pytest
+from oracle import BOUNDARIES, hamiltonian
+from pendula.studies.theory import derivation, polynomials
+from pendula.studies.theory.equations import right_hand_side
+from pendula.studies.theory.identities import IDENTITIES, prove_identities
+from pendula.studies.theory.inequalities import along_drive, sums
+from pendula.studies.theory.polynomials import (
+    CONSTANTS,
+    EPSILON,
+    GAMMA,
+    GENS,
+    MU,
+    STATE,
+    rational,
+    terms_left,
+)
+from problems import constants_of
+
+NUMBERS = (0.5, 0.75, -1.25)
+Z = np.random.default_rng(5).integers(-8, 9, (2, polynomials.SITES, 2)) / 4 @ (1.0, 1j)
+
+
+def at_numbers(found) -> float:
+    """Return the value of a polynomial in the constants and the state at NUMBERS and Z."""
+    rows = np.stack([Z.real, Z.imag], axis=1).ravel()
+    values = dict.fromkeys(map(str, GENS), 0.0) | dict(zip(CONSTANTS, NUMBERS, strict=True))
+    values |= dict(zip(map(str, STATE.ravel()), rows, strict=True))
+    return float(found(*(rational(values[str(one)]) for one in GENS)))
+
+
+def test_each_statement_leaves_nothing_and_each_wrong_twin_something():
+    proved = prove_identities()
+    assert (proved["terms"] == 0).all() and (proved["twin_terms"] > 0).all()
+    assert proved.sizes == {"identity": len(IDENTITIES), "boundary": 3}
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_the_polynomials_are_the_equations_and_the_energy(boundary):
+    constants = constants_of(NUMBERS)
+    found = np.vectorize(at_numbers, otypes=[float])(polynomials.rates(boundary).ravel())
+    re, im = found.reshape(STATE.shape).swapaxes(0, 1)
+    np.testing.assert_allclose(re + 1j * im, right_hand_side(constants, boundary, Z), rtol=1e-13)
+    energy = at_numbers(polynomials.energy(boundary))
+    assert energy == pytest.approx(hamiltonian(Z, constants, boundary), rel=1e-13)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_sums_of_squares_are_what_they_stand_for(boundary):
+    """4 P less the bonds, and 2 P with the drive added or taken off."""
+    power, bonds = polynomials.densities().sum(), polynomials.bonds(boundary)
+    assert terms_left(4 * power - bonds - sums(boundary)) == 0
+    for sign in (1, -1):
+        assert terms_left(2 * power + sign * polynomials.drive() - along_drive(sign)) == 0
+
+
+def test_means_over_a_turn_are_those_of_many_points():
+    t = 2.0 * np.pi * np.arange(64) / 64
+    for j in (0, 2, 4, 6):
+        for k in (0, 2, 4):
+            mean = np.mean(np.cos(t) ** j * np.sin(t) ** k)
+            assert float(derivation.mean_of_powers(j, k)) == pytest.approx(mean, abs=1e-14)
+
+
+def test_the_accelerations_are_those_of_newtons_equations():
+    """Of A at the first site, where B is at rest: the springs, the drive and the sine of (1)."""
+    x = np.stack([STATE[0, 0], 0 * STATE[0, 0]])
+    found = derivation.accelerations("dirichlet", x)
+    first, second = STATE[0, 0, :2]
+    drive = 2 * GAMMA * MU**2 * derivation.DOUBLE
+    bond = EPSILON * MU**2 * (second - 2 * first)
+    assert found[0, 0] == bond - drive * first - (first - first**3 / 6)
+    assert found[1, 0] == drive * first
