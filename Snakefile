@@ -30,7 +30,7 @@ MADE_TOGETHER = {
 }
 FIGURES = [
     *(*MADE_TOGETHER, "fig1", "energy_drift", "trust_horizons", "stability_chart", "bounds"),
-    *("lifetimes", "breathers", "sensitivity", "fates", "pendula_threshold", "pendula_phases"),
+    *("lifetimes", "fates", "pendula_threshold", "pendula_phases"),
 ]
 
 
@@ -116,7 +116,6 @@ NAMED = {
     name: (text, files_of(f"<results>/figures/{name}")) for name, text in MADE_TOGETHER.items()
 }
 LONGER_STUDIES = {
-    "sensitivity": "Share of a perturbed ensemble that spreads, with many members and a long scan",
     "fates": "The map of fates on a fine grid, which takes minutes",
     "remainder": "The error of the expansion to the end of the paper's runs, which takes a minute",
     "over_the_top": "The chaotic state, and first passages over the top, with many members for long",
@@ -124,6 +123,10 @@ LONGER_STUDIES = {
 for name, text in LONGER_STUDIES.items():
     figure = name if name in FIGURES else f"pendula_{name}"
     NAMED[name] = f"{text}: results/long/figures/", files_of(f"<results>/long/figures/{figure}")
+NAMED["sensitivity"] = (
+    "Share of a perturbed ensemble that spreads, with many members: results/long/breathers/",
+    ["<results>/long/breathers/sensitivity.nc"],
+)
 for case in PAPER_CASES:
     stem = f"<results>/trajectories/{case}"
     NAMED[case] = f"The case {case} by every solver", [f"{stem}.nc", *by_solvers(stem, ALL_SOLVERS)]

@@ -24,8 +24,7 @@ from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.spreading import fit_exponent  # noqa: E402
-from pendula.studies.breathers.fate_contents import TERMS  # noqa: E402
-from pendula.studies.breathers.figures import MAPS  # noqa: E402
+from pendula.studies.breathers.figures import MAPS, SAME_RUNS  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers, slope_powers, thermal_powers  # noqa: E402
 from pendula.studies.unbounded.measured import BULK, FRONT, speeds  # noqa: E402
 
@@ -145,7 +144,7 @@ def keep_breathers(results: Path, folder: Path) -> None:
         **{name: _as_it_is(fates[name]) for name in whole},
         **{name: _as_it_is(spread[name]) for name in shares},
     }
-    about = {name: fates.attrs[name] for name in TERMS}
+    about = {name: fates.attrs[name] for name in (*SAME_RUNS, "solver")}
     about |= {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
     about["members"] = spread.attrs["members"]
     title = "The long study of breathers, reduced to what the documents quote and a figure shows"

@@ -55,12 +55,8 @@ FIGURES = {
     "fig6": (paper.draw_sweeps, lambda: gather_sweeps("fig6", ("[10, 70]", "[10, 40]"), ["l2"])),
     "energy_drift": (paper.draw_drift, paper.gather_drift, "checks/solvers"),
     "trust_horizons": (paper.draw_trust, paper.gather_trust, "checks/trust"),
-    "breathers": (breathers.draw_breathers, breathers.gather_breathers,
-                  "breathers/periodic", "breathers/growth"),
     "fates": (breathers.draw_fates, breathers.gather_fates,
               "breathers/fates", "quoted/breathers"),
-    "sensitivity": (breathers.draw_sensitivity, breathers.gather_sensitivity,
-                    "breathers/sensitivity"),
     "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes, "checks/lifetimes"),
     "pendula_over_the_top": (
         figures_phases.draw_over_the_top, figures_phases.gather_over_the_top,

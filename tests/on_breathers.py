@@ -1,8 +1,8 @@
 """The breathers that tests start from."""
 
 import numpy as np
-from pendula.problem import Constants
-from pendula.studies.breathers.multipliers import half_map, spectrum
+from pendula.problem import Constants, Problem
+from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.periodic import Breather, family_of, shoot, single_site
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
@@ -20,6 +20,15 @@ def members(constants: Constants, family: str, *frequencies, least=8, most=48) -
     return list(family_of(constants, family, frequencies, {"least": least, "most": most}))
 
 
-def half_traces(breather: Breather, parity: str) -> np.ndarray:
-    """Return the numbers nu of even or odd perturbations, complex."""
-    return spectrum(half_map(breather, parity), parity)[0]
+def unfolded(data: np.ndarray) -> np.ndarray:
+    """Return even data (component, site 0..M) on the whole chain, (component, site -M..M)."""
+    return np.concatenate([data[..., :0:-1], data], axis=-1)
+
+
+def run_from(constants: Constants, initial: np.ndarray, end_time: float, output_step: float):
+    """Run data (component, site -M..M) on their own chain by the Taylor method."""
+    return simulate(Problem(
+        constants=constants, half_width=initial.shape[1] // 2, boundary="dirichlet",
+        initial=initial.astype(complex), end_time=end_time, output_step=output_step,
+        solver={"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
+    ))  # fmt: skip

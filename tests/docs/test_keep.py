@@ -37,13 +37,11 @@ def test_the_chain_without_ends_is_reduced_to_its_numbers(tmp_path):
 def made_up_fates() -> xr.Dataset:
     """Return fates at two Omega."""
     fate = np.array([[[1, 1, 3], [1, 1, 1], [3, 1, 1]], np.full((3, 3), 3)], np.int8)
-    periodic = np.array([[[1, 1, 0], [1, 1, 0], [0, 0, 1]], np.zeros((3, 3))], np.int8)
     over, turned = ("omega", "a0", "b0"), (("omega", "turned_a0", "phase"), np.ones((2, 1, 2)))
     area = (("plane", "omega", "fate_name"), np.arange(8.0).reshape(1, 2, 4))
-    about = dict.fromkeys(keep.TERMS, "made up") | {"end_time": 70.0}
+    about = dict.fromkeys((*keep.SAME_RUNS, "solver"), "made up") | {"end_time": 70.0}
     return xr.Dataset(
-        {"fate": (over, fate, {"flag_meanings": " ".join(FATES)}), "periodic": (over, periodic),
-         "turned_fate": turned, "turned_periodic": turned,
+        {"fate": (over, fate, {"flag_meanings": " ".join(FATES)}), "turned_fate": turned,
          **dict.fromkeys(("area", "area_low", "area_high"), area)},
         {"omega": [-4.0, 0.0], "a0": [1.0, 2.0, 3.0], "b0": [1.0, 2.0, 3.0], "turned_a0": [1.0],
          "plane": ["amplitudes"], "fate_name": list(FATES), "phase": [0.0, 1.0]},

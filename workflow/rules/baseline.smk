@@ -57,7 +57,7 @@ def tell_faults():
 # file or along a dimension. Where their bits differ, they cannot be judged.
 RESTS_ON_CHAOS = [
     # Maps and scans over data, some of which lead to chaos
-    *("breathers/fates:*", "breathers/sensitivity:*", "figures/fates:*", "figures/sensitivity:*"),
+    *("breathers/fates:*", "breathers/sensitivity:*", "figures/fates:*"),
     *("checks/lifetimes:*", "figures/lifetimes:*"),
     # Chains of other lengths, and without ends, at the detuning of a chaotic case
     *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/front:*"),

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from pendula.datasets.netcdf import as_xarray
 from pendula.measures.confidence import share_limits
 from pendula.problem import Constants, Problem
@@ -10,10 +9,6 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import fates, figures, sensitivity
 from pendula.studies.breathers.fate_contents import map_fates
 from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS
-from pendula.studies.breathers.nearest import Families
-
-NONE = Families(["A only"], np.empty(0), np.empty((2, 1, 0)))
-"""No breathers to compare with."""
 
 
 def pair_problem(omega, a, b, end_time=30.0, **changes):
@@ -87,7 +82,7 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 )  # fmt: skip
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
-    assert fates.ends([problem], NONE).fate == [expected]
+    assert fates.fates_of([problem]).tolist() == [expected]
     assert sensitivity.has_spread(problem, simulate(problem)) is (expected == SPREADS)
 
 
@@ -101,36 +96,28 @@ def test_two_solitons_that_run_apart_move():
     run = pair_problem(8.0, 1.0, 1.0, 20.0, initial=np.array([even, even]))
     assert fates.place_of(fates.power_by_distance(run.initial)) == 5
     assert fates.place_of(fates.power_by_distance(simulate(run).final)) > 15
-    assert fates.ends([run], NONE).fate == [MOVES]
+    assert fates.fates_of([run]).tolist() == [MOVES]
 
 
 def test_exchanging_the_components_changes_no_fate():
     one, other = (simulate(pair_problem(-4.0, *pair)) for pair in ((4.0, 2.5), (2.5, 4.0)))
     assert np.array_equal(one.final, other.final[::-1])
     problem, amplitudes = pair_problem(-4.0, 1.0, 1.0), np.array([1.0, 3.0, 5.0])
-    found = fates.map_of_amplitudes(problem, amplitudes, NONE).fate
+    found = fates.map_of_amplitudes(problem, amplitudes)
     assert np.array_equal(found, found.T)
     assert (found[0, 0], found[2, 2]) == (DISPERSES, STAYS)
 
 
 def test_a_map_of_phases_turns_b_alone():
-    """At phase 0 and pi the data are real: those of the other map, and with the sign of B."""
-    problem, phases = pair_problem(8.0, 1.0, 1.0, 20.0), np.array([-0.5 * np.pi, 0.0, np.pi])
-    found = fates.map_of_phases(problem, np.array([1.0, 5.0]), phases, 0.2, NONE)
-    assert found.fate.tolist() == [3 * [DISPERSES], 3 * [STAYS]]
-    for phase, b in enumerate((-1.0j, 1.0, -1.0)):
-        alone = fates.ends([fates.on_one_pair(problem, 5.0, b)], NONE)
-        assert found.held[1, phase] == pytest.approx(alone.held[0], rel=1e-9)
-    assert len({round(float(held), 9) for held in found.held[1]}) == 3
-
-
-def test_a_map_paints_each_fate_by_its_own_colour():
-    ends = (DISPERSES, -1), (STAYS, 0), (STAYS, 1), (STAYS, -1), (MOVES, 0), (SPREADS, 1)
-    shown = [figures.KINDS[figures.kind_of(*end)] for end in ends]
-    assert shown == list(figures.LOOKS)
-    assert all(
-        kind.startswith(fates.FATES[one]) for kind, (one, _) in zip(shown, ends, strict=True)
-    )
+    """At phase 0 the data are real: those of the other map."""
+    problem = pair_problem(-4.0, 1.0, 1.0, 20.0)
+    amplitudes, phases = np.array([1.0, 3.0, 4.0]), np.pi * np.array([-0.5, 0.0, 0.5])
+    found = fates.map_of_phases(problem, amplitudes, phases, 0.2)
+    assert found.shape == (3, 3) and len(set(found.ravel().tolist())) > 1
+    for row, a in enumerate(amplitudes):
+        for column, b in enumerate((-0.2j * a, 0.2 * a, 0.2j * a)):
+            alone = fates.fates_of([fates.on_one_pair(problem, a, b)])
+            assert found[row, column] == alone[0]
 
 
 # --- Shares of an area, and maps beside a finer one -----------------------------------------------
@@ -171,37 +158,26 @@ def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
     assert found.high[MOVES] == pytest.approx(share_limits(0, len(below)).high, rel=1e-5)
 
 
-def maps(points, fine=None, **changes):
+def maps(points, **changes):
     """Return maps at Omega = -4 and 8 of so many real amplitudes, and of as many phases."""
     cells = [5.0 * (np.arange(one) + 0.5) / one for one in (points, 2)]
     phases = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
     problems = {omega: pair_problem(omega, 1.0, 1.0, 10.0, **changes) for omega in (-4, 8)}
-    families = xr.Dataset(coords={"family": ["A only"], "omega": []})
-    grid = *cells, phases, 0.2, points // 2
-    return as_xarray(*map_fates(families, problems, {"one": problems[8]}, *grid, fine))
+    return as_xarray(*map_fates(problems, {"one": problems[8]}, *cells, phases, 0.2))
 
 
-def test_a_map_is_compared_with_a_finer_one_where_they_have_data_in_common():
-    """Nine amplitudes have three among them, the middles of wider cells, and none of six."""
-    fine = maps(9)
-    counted = maps(3, fine)
-    assert counted["common"].values.tolist() == [[9, 9], [6, 6]]
-    assert (counted["agreed"] == counted["common"]).all()
-    assert (maps(6, fine)["common"].sel(plane="amplitudes") == 0).all()
-    assert (maps(3, fine, half_width=29)["common"] == 0).all()
-    other = fine.assign(fate=fine["fate"].copy(data=3 - fine["fate"].values))
-    found = maps(3, other)
-    assert (found["agreed"] < found["common"]).sel(plane="amplitudes").any()
+def test_a_finer_map_is_drawn_if_it_is_of_the_same_runs():
+    coarse, fine = maps(3), maps(9)
+    assert figures.gather_fates(coarse)["fate"].shape == (2, 3, 3)
+    assert figures.gather_fates(coarse, fine)["fate"].shape == (2, 9, 9)
+    assert (fine["fate"][:, 1::3, 1::3].values == coarse["fate"].values).all()
+    assert coarse["case_fate"].values.tolist() == [DISPERSES]
+    for other in (maps(9, half_width=29), fine.sel(omega=[8])):
+        assert figures.gather_fates(coarse, other)["fate"].shape == (2, 3, 3)
+    assert [name.split()[0] for name in figures.KINDS] == list(fates.FATES)
 
 
 def test_shares_have_exact_limits_and_draws_of_their_own():
     none = sensitivity.shares(pair_problem(8.0, 5.0, 1.0, 5.0), [1e-3, 1e-1], 5, seed=1)
     assert none.value.tolist() == none.low.tolist() == [0.0, 0.0]
     assert none.high == pytest.approx(1.0 - 0.025**0.2, abs=1e-6)
-
-
-def test_a_scan_starts_from_each_amplitude():
-    problem = pair_problem(8.0, 5.0, 1.0, 1e-3)
-    largest, spread = sensitivity.scan_amplitudes(problem, np.array([1.0, 5.0]))
-    assert largest == pytest.approx(np.sqrt(1.04) * np.array([1.0, 5.0]), rel=1e-2)
-    assert not spread.any()

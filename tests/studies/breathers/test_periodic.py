@@ -5,22 +5,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from on_breathers import ABOVE, BELOW, at_twelve, half_traces, members
+from on_breathers import ABOVE, BELOW, at_twelve, members, run_from, unfolded
 from pendula.problem import Constants
-from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import multipliers, periodic
-from pendula.studies.breathers.multipliers import growth
+from pendula.studies.breathers.multipliers import growth_of_traces, traces
 from pendula.studies.breathers.periodic import (
     FAMILIES,
     least_power,
     power_at,
-    problem_from,
     shoot,
     single_site,
-    unfolded,
 )
 from pendula.studies.breathers.steady import NotFoundError
-from pendula.studies.breathers.waves import bands, distance_from_bands, free_intervals
+from pendula.studies.breathers.waves import bands, distance_from_bands
 
 M = 20
 CONFIG = Path(__file__).resolve().parents[3] / "config"
@@ -30,7 +27,7 @@ def after(breather, quarters, change=0.0, steps=1):
     """Return the run over so many quarters of a period, from the breather with its data changed."""
     end = quarters * breather.quarter
     start = unfolded(breather.data + change)
-    return simulate(problem_from(breather.constants, start, end, end / steps, 1e-15))
+    return run_from(breather.constants, start, end, end / steps)
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -65,17 +62,17 @@ def test_the_ends_of_a_family_close(constants):
 
 @pytest.mark.parametrize(("instant", "lowest"), [("both real", 36.29), ("both imaginary", 30.25)])
 def test_the_least_p_of_a_family_lies_between_the_frequencies_of_a_grid(instant, lowest):
-    frequency, least = least_power(members(BELOW, "A only", 8.1, 8.5, 9.0, 10.0), instant)
+    least = least_power(members(BELOW, "A only", 8.1, 8.5, 9.0, 10.0), instant)
     assert least == pytest.approx(lowest, abs=5e-3)
-    assert 8.7 < frequency < 8.85
-    fine = members(BELOW, "A only", *np.arange(frequency - 0.05, frequency + 0.051, 0.01))
+    fine = members(BELOW, "A only", *np.arange(8.7, 8.86, 0.01))
     powers = [power_at(one, instant).sum() for one in fine]
-    assert least == pytest.approx(min(powers), rel=1e-8) and powers[0] > least < powers[-1]
+    assert least == pytest.approx(min(powers), rel=1e-5) and powers[0] > least < powers[-1]
+    assert least < (1.0 + 1e-9) * min(powers)
 
 
 def test_where_p_falls_to_the_end_of_a_family_its_least_is_there():
     falling = members(BELOW, "A = -B", 8.1, 9.0, 10.0)
-    assert least_power(falling, "both real") == (8.1, power_at(falling[-1], "both real").sum())
+    assert least_power(falling, "both real") == power_at(falling[-1], "both real").sum()
 
 
 def test_equal_amplitudes_do_not_feel_the_drive_and_one_pair_has_the_closed_form():
@@ -95,7 +92,7 @@ def test_multipliers_are_those_of_the_flow():
         moved = (ends[0] - ends[1])[:, M:] / 2e-6
         columns.append(np.stack([moved.real, moved.imag]).ravel())
     largest = np.abs(np.linalg.eigvals(np.array(columns).T)).max()
-    rate = growth(10.0, half_traces(breather, "even"))
+    rate = growth_of_traces(10.0, traces(breather, "even"))
     assert rate > 0.3
     assert np.log(largest) / (4.0 * breather.quarter) == pytest.approx(rate, rel=1e-6)
 
@@ -104,14 +101,14 @@ def test_more_steps_change_nothing(monkeypatch):
     """Neither of the solution nor of its perturbations."""
     for constants, family in ((BELOW, "A = -B"), (ABOVE, "A only")):
         coarse = shoot(constants, 9.0, single_site(constants, 9.0, family, M))
-        traces = half_traces(coarse, "even")
+        found = traces(coarse, "even")
         with monkeypatch.context() as finer:
             finer.setattr(periodic, "FINE_STEPS", 2 * periodic.FINE_STEPS)
             finer.setattr(multipliers, "STEPS", 2 * multipliers.STEPS)
             fine = shoot(constants, 9.0, coarse.data)
             assert np.abs(fine.data - coarse.data).max() < 1e-13
-            changed = half_traces(coarse, "even")
-        assert 0.0 < np.abs(np.sort(changed) - np.sort(traces)).max() < 1e-10
+            changed = traces(coarse, "even")
+        assert 0.0 < np.abs(np.sort(changed) - np.sort(found)).max() < 1e-10
 
 
 # --- Where families exist -------------------------------------------------------------------------
@@ -132,15 +129,6 @@ def test_bands_of_linear_waves(omega, expected):
 def test_odd_multiples_may_meet_a_band(frequency, distance):
     """2.8 lies below the band, 8.4 above it; 3 times 2 lies within, as does 5 times 1."""
     assert distance_from_bands(BELOW, frequency) == pytest.approx(distance)
-
-
-@pytest.mark.parametrize("omega", [-4.0, 0.0, 1.0, 20.0])
-def test_free_intervals_are_where_no_odd_multiple_meets_a_band(omega):
-    constants = Constants(epsilon=1.0, gamma=1.0, omega=omega)
-    free = free_intervals(constants)
-    for frequency in np.linspace(0.05, 30.0, 1201):
-        inside = any(low < frequency < high for low, high in free)
-        assert inside == (distance_from_bands(constants, frequency) > 0.0)
 
 
 @pytest.mark.parametrize(

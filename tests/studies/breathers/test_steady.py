@@ -8,7 +8,7 @@ from pendula.models.amplitudes import rates
 from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.models.tangent import tangent_rates
-from pendula.studies.breathers import branches, steady
+from pendula.studies.breathers import steady
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
 HERE = steady.Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=30)
@@ -118,34 +118,3 @@ def test_the_size_of_the_steps_of_the_coupling_changes_no_state(monkeypatch):
     monkeypatch.setattr(steady, "LARGEST_CHANGE", 0.0)
     with pytest.raises(steady.NotFoundError, match="ends at 0 of the coupling"):
         steady.continued(HERE, REAL)
-
-
-# --- Where families are born and turn stable ------------------------------------------------------
-
-
-@pytest.mark.parametrize(("parent", "omega"), [(EQUAL, -0.7), (IMAGINARY, -2.1)])
-def test_the_pitchforks_of_one_pair_are_those_of_the_closed_form(parent, omega):
-    """A = B bifurcates at -gamma, A = -B at -3 gamma."""
-    alone = steady.Chain(epsilon=0.0, gamma=0.7, omega=omega, half_width=1)
-    found = branches.pitchfork(alone, parent, 1.2 * omega, 0.9 * omega)
-    assert found == pytest.approx(omega, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("parent", "daughter"), [(EQUAL, ASYMMETRIC), (IMAGINARY, ASYMMETRIC_IMAGINARY)]
-)
-def test_a_daughter_turns_at_the_pitchfork(parent, daughter):
-    chain = steady.Chain(epsilon=0.3, gamma=1.0, omega=-5.0, half_width=8)
-    branch = branches.follow(chain, daughter, steady.continued(chain, daughter), stop=-5.0)
-    turns = branches.turning_point(branch)
-    found = branches.pitchfork(chain, parent, turns - 0.05, turns + 0.05)
-    assert found == pytest.approx(turns, abs=1e-5)
-
-
-def test_a_threshold_is_where_the_verdict_changes_and_the_same_on_twice_the_chain():
-    short, long = (steady.Chain(1.0, 1.0, 0.0, half) for half in (8, 16))
-    found = branches.threshold(short, EQUAL, -9.0, -5.0, 1e-2)
-    assert branches.threshold(long, EQUAL, -9.0, -5.0, 1e-2) == pytest.approx(found, abs=0.1)
-    for low, high in ((found + 0.1, -5.0), (-9.0, found - 0.1)):
-        with pytest.raises(steady.NotFoundError, match="stable at"):
-            branches.threshold(short, EQUAL, low, high, 1e-2)

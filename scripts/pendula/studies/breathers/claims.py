@@ -3,9 +3,9 @@
 import numpy as np
 
 from pendula.configuration.paper import MAPS
-from pendula.ledger.changes import exchange, put, roll, scale
+from pendula.ledger.changes import exchange, put, scale
 from pendula.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
-from pendula.ledger.claim import CHANGE, FACTOR, Control, claim
+from pendula.ledger.claim import Control, claim
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -16,26 +16,21 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )  # fmt: skip
-from pendula.ledger.cutoff import Cutoff, once
+from pendula.ledger.cutoff import once
 from pendula.models.pairs import FAMILIES
 
 SECTION = 7
 PLACE = "Section 6, breathers"
 
 STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
-GROWTH, MAP = "breathers/growth", "breathers/fates"
+MAP = "breathers/fates"
 
 RATES = ("growth", "growth_half")
-NEXT_FAMILY = roll("growth_half", {"family": 1})
-OTHER_ORDER = roll("case_distance", {"family": 1})
-NEXT_FREQUENCY = roll("measured_growth", {"frequency": 1})
 ALL_SPREAD = put(("share", "share_low", "share_high"), 1.0)
 OF_FIG_2, OF_FIG_3, OF_FIG_4 = 8.0, -4.0, 0.0
 """Omega of the paper's figures."""
 DATA_POWER = 26.0
 """P of the paper's large data, A_0 = 5 and B_0 = 1."""
-AS_FLOQUET = Cutoff(1e-3, "perturbations stay below 1e-4, so that quadratic terms are smaller")
-FIRST_ORDER = Cutoff(0.1, "a law of first order in gamma is off by about gamma, up to 0.1")
 
 
 def at_omega(dataset, omega: float):
@@ -111,87 +106,6 @@ def periodic_stable(periodic) -> Finding:
     return judge(measured, criterion, f"tested at {int(found.sum())} frequencies")
 
 
-def verdicts_that_differ(dataset) -> int:
-    """Return how many states are stable on one chain and unstable on another one."""
-    differ = (dataset["growth"] > 0.0) != (dataset["growth_half"] > 0.0)
-    return int((differ & np.isfinite(dataset["growth"])).sum())
-
-
-@claim(
-    PLACE,
-    "The stability of a breather does not depend on the length of the chain.",
-    (STEADY, PERIODIC),
-    (
-        Control("steady states with the growth rates of another family", {STEADY: NEXT_FAMILY}),
-        Control("periodic ones with the growth rates of another family", {PERIODIC: NEXT_FAMILY}),
-    ),
-)
-def stable_on_any_chain(steady, periodic) -> Finding:
-    """Compare verdicts with those on half of the half-width, above the frequencies of waves.
-
-    Within them the waves of a finite chain are few, and its multipliers leave the unit circle by
-    four at values that change with its length.
-    """
-    above = known(periodic)["frequency"] > periodic["highest_wave"]
-    outside = periodic[["growth", "growth_half"]].where(above)
-    measured = {
-        "steady": verdicts_that_differ(steady),
-        "periodic": verdicts_that_differ(outside),
-        "compared": np.isfinite(steady["growth"]).sum() + np.isfinite(outside["growth"]).sum(),
-        "known_steady": np.isfinite(steady["growth"]).mean(),
-    }
-    criterion = AllOf(
-        AtLeast(1, "compared"),
-        Above(MAJORITY, "known_steady", says="share of steady states that are known"),
-        AtMost(0, "steady", "periodic", says="states of different stability on two chains"),
-    )
-    within = periodic[["growing", "growing_half"]].where(~above)
-    if not np.isfinite(within["growing"]).any():
-        return judge(measured, criterion)
-    longer, shorter = (int(within[name].max()) for name in ("growing", "growing_half"))
-    caveat = (
-        "not at frequencies of linear waves, where resonance with the waves of a finite chain gives"
-        f" {longer} growing multipliers, and {shorter} on a chain half as long"
-    )
-    return judge(measured, criterion, caveat)
-
-
-@claim(
-    PLACE,
-    "Where a family of breathers becomes unstable, multipliers of opposite signatures collide.",
-    (PERIODIC,),
-    (Control("multipliers of equal signatures", put("collision_signature", 1)),),
-)
-def opposite_signatures_collide(periodic) -> Finding:
-    """Decide by the product of the two Krein signatures beside each collision."""
-    met = np.isfinite(known(periodic)["collision_frequency"])
-    if not met.any():
-        raise UndecidableError("no family becomes unstable at these frequencies")
-    product = periodic["collision_signature"].astype(float).prod("colliding").where(met)
-    quartets = met & (periodic["collision_multiplier"].sel(part="im") > 0.0)
-    measured = {"collisions": met.sum(), "quartets": quartets.sum()}
-    measured["largest_product"] = product.max()
-    criterion = Below(0.0, "largest_product", says="product of the two Krein signatures")
-    return judge(measured, criterion)
-
-
-@claim(
-    PLACE,
-    "In the nonlinear flow perturbations of unstable breathers grow at the Floquet rates.",
-    (PERIODIC,),
-    (Control("the growth rates of the flow at the next frequency", NEXT_FREQUENCY),),
-)
-def grows_as_floquet_says(periodic) -> Finding:
-    """Compare the rates of even and of odd perturbations, above the frequencies of waves."""
-    rates = known(periodic)["measured_growth"]
-    off = abs(rates / periodic["parity_growth"].where(np.isfinite(rates)) - 1.0)
-    measured = {"compared": np.isfinite(rates).sum(), "largest_difference": off.max()}
-    if not measured["compared"]:
-        raise UndecidableError("no breather is unstable above the frequencies of waves")
-    says = "largest relative difference of the growth rates"
-    return judge(measured, Below(AS_FLOQUET, "largest_difference", says=says))
-
-
 @claim(
     PLACE,
     "The large initial condition of Fig 3 has less P than any periodic breather at Omega = -4 "
@@ -212,43 +126,6 @@ def data_below_breathers(periodic) -> Finding:
 
 
 @claim(
-    PLACE,
-    "A localised motion with a frequency in the band of linear waves gains P from a weak drive, as"
-    " perturbation theory predicts, until its frequency leaves the band.",
-    (GROWTH,),
-    (
-        Control("half of the predicted rate", scale("predicted_gain", 0.5)),
-        Control("predictions for other drives", exchange("gamma", names="predicted_gain")),
-    ),
-)
-def grows_by_drive(growth) -> Finding:
-    """Compare what runs with gamma of a tenth or less gain with the law, while it predicts gain."""
-    weak = growth.sel(gamma=growth["gamma"] <= 0.1)
-    if not weak.sizes["gamma"]:
-        raise UndecidableError("no run has a weak drive")
-    most = float(weak["predicted_gain"].max())
-    middle = (weak["predicted_gain"] > 0.25 * most) & (weak["predicted_gain"] < 0.75 * most)
-    off = abs(weak["gained"] - weak["predicted_gain"]).where(middle) / most
-    strong = growth.sel(gamma=growth["gamma"].max())
-    measured = {
-        "largest_difference": off.max(),
-        "drives": weak.sizes["gamma"],
-        "ends_at": (weak["gained"].isel(output=-1) / most).max(),
-        "strongest": growth["gamma"].max(),
-        "passed_by": float(strong["time"].where(strong["gained"] > most).min()),
-    }
-    criterion = AllOf(
-        Below(
-            FIRST_ORDER,
-            "largest_difference",
-            says="largest error of the prediction, over the gain",
-        ),
-        Below(FACTOR, "ends_at", says="gain at the end over the predicted one"),
-    )
-    return judge(measured, criterion)
-
-
-@claim(
     "Beyond the paper, Fig 3 lower and Fig 6 right",
     "At Omega = -4 the large initial condition spreads over the chain, but most of those "
     "perturbed by 1 % do not.",
@@ -266,8 +143,6 @@ def spreading_is_an_accident(sensitivity) -> Finding:
         "small_at_least": sensitivity["share_low"].values[small].min(),
         "large_at_most": sensitivity["share_high"].values[large].max(),
         "of_large": sensitivity["share"].values[large].max(),
-        "scanned": sensitivity.sizes["initial"],
-        "of_the_scan": sensitivity["spread"].mean(),
         "members": float(sensitivity.attrs["members"]),
     }
     said = "confidence limit of the share that spreads"
@@ -278,49 +153,6 @@ def spreading_is_an_accident(sensitivity) -> Finding:
     spread = measured["of_large"]
     some = f"{100 * spread:.2g} % of the runs perturbed by 1e-2 and more spread too"
     return judge(measured, criterion, some if spread > 0 else "")
-
-
-@claim(
-    "Section 6, breathers, Fig 2 lower",
-    "The large case at Omega = 8 ends as a breather near the stable family in which B is driven "
-    "by A.",
-    (MAP, PERIODIC),
-    (
-        Control(
-            "the large case at Omega = -4",
-            {MAP: exchange("case", "fig2_large", "fig3_large")},
-            on=("fig3_large",),
-        ),
-        Control("distances from other families", {MAP: OTHER_ORDER}),
-        Control("distances twenty times as large", {MAP: scale("case_distance", 20.0)}),
-    ),
-    on=("fig2_large",),
-)
-def ends_near_stable(fates, periodic) -> Finding:
-    """Require an end near this family and far from others, where this one is stable."""
-    if "fig2_large" not in fates["case"].values:
-        raise UndecidableError("the large case at Omega = 8 was not run")
-    end = fates.sel(case="fig2_large")
-    apart = end["case_distance"].set_index(family="family")
-    own, others = float(apart.sel(family="A only")), apart.drop_sel(family="A only")
-    frequency = float(end["case_breather_frequency"])
-    if np.isnan(frequency):
-        own = np.inf  # no breather, no family
-    family = at_omega(known(periodic), OF_FIG_2).sel(family="A only").sortby("frequency")
-    above = int(np.searchsorted(family["frequency"].values, frequency))
-    beside = family["growth"].isel(frequency=slice(max(above - 1, 0), above + 1))
-    measured = {
-        "frequency": frequency,
-        "distance": own,
-        "times_nearer": others.min(skipna=False) / own if np.isfinite(own) else 0.0,
-        "largest_growth": beside.max(),
-    }
-    criterion = AllOf(
-        Below(CHANGE, "distance", says="distance from the family over the size of the breather"),
-        AtLeast(FACTOR, "times_nearer", says="distance from the next family over this one"),
-        AtMost(0.0, "largest_growth"),
-    )
-    return judge(measured, criterion)
 
 
 def one_that_disperses(fates):

@@ -1,4 +1,4 @@
-"""The dataset of steady states, and how the study rounds values whose last bits LAPACK decides."""
+"""The datasets of steady and of periodic breathers, rounded where LAPACK decides the last bits."""
 
 from collections.abc import Mapping, Sequence
 
@@ -7,54 +7,42 @@ import numpy as np
 from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents
-from pendula.ends import DIRICHLET
-from pendula.models.amplitudes import Chain, energy
-from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import Constants
 
-from . import branches, steady
+from . import multipliers, periodic, steady, waves
 
 PARTS = Variable(("part",), ["re", "im"])
-DIGITS, GROWTH_DIGITS = 10, 7
-"""Significant digits of states and of rates: rates come from roots of eigenvalues."""
-BESIDE = 0.05
-"""How far from the turning point of the daughter the pitchfork is looked for, in units of gamma."""
+DIGITS, GROWTH_DIGITS, LEAST_DIGITS = 10, 7, 7
+"""Significant digits of states, of rates, which come from roots of eigenvalues, and of minima."""
+RATE = "largest rate of growth of a perturbation"
 
 
-def kept(dimensions, values, words: str, digits: int | None = DIGITS) -> Variable:
-    """Return a variable rounded to so many significant digits, or as it is if they are None.
-
-    NaN stands where a family has no state, or no state that the words speak of.
-    """
+def kept(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
+    """Return a variable rounded to so many significant digits. NaN stands where there is none."""
     words += "; NaN: there is none" if np.isnan(values).any() else ""
-    if digits is None:
-        return Variable(dimensions, values, words)
     about = {"significant_digits": digits}
     return Variable(dimensions, rounded(values, digits), words, attributes=about)
 
 
-def energy_of(constants: Constants, state: np.ndarray) -> float:
-    """Return H of equation (8) of an even complex state, (component, site 0..M)."""
-    y = np.zeros((4, state.shape[1] + 2))
-    y[::2, 1:-1], y[1::2, 1:-1] = state.real, state.imag
-    chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
-    return float(energy(chain, y))
+def _rates(over: tuple[str, ...], values: np.ndarray) -> dict[str, Variable]:
+    """Return rates of growth, (2, ...), on half of the half-width and on all of it."""
+    return {
+        "growth": kept(over, values[1], RATE, GROWTH_DIGITS),
+        "growth_half": kept(over, values[0], f"{RATE} on half of the half-width", GROWTH_DIGITS),
+    }
 
 
 def steady_contents(
-    epsilon: float, gamma: float, omegas: Sequence[float], half_width: int, stability: Mapping
-) -> Contents:  # fmt: skip
-    """Return all families at each Omega, where they are born, and where they are stable.
+    epsilon: float, gamma: float, omegas: Sequence[float], half_width: int
+) -> Contents:
+    """Return all families at each Omega; NaN where a family does not exist.
 
-    Rates of growth are also found on half of `half_width`. `stability` has for a family the
-    interval of Omega `between` which its stability changes, and the distance `to` which this is
-    found.
+    Rates of growth are also found on half of `half_width`.
     """
     halves = half_width // 2, 2 * (half_width // 2)
     shape = (len(FAMILIES), len(omegas))
-    amplitude = np.full((2, 2, *shape), np.nan)
-    power, energies = np.full((2, *shape), np.nan)
+    amplitude, power = np.full((2, 2, *shape), np.nan), np.full(shape, np.nan)
     rates = np.full((2, *shape), np.nan)  # on each of the two chains
     for i, family in enumerate(FAMILIES):
         for j, omega in enumerate(omegas):
@@ -67,8 +55,7 @@ def steady_contents(
             turned = state * (1j if family.imaginary else 1.0)
             amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
             power[i, j] = steady.power(state).sum()
-            energies[i, j] = energy_of(Constants(epsilon=epsilon, gamma=gamma, omega=omega), turned)
-    over, rate = ("family", "omega"), "largest rate of growth of a perturbation"
+    over = ("family", "omega")
     variables = {
         "part": PARTS,
         "component": COMPONENTS,
@@ -76,57 +63,60 @@ def steady_contents(
         "omega": Variable(("omega",), np.array(omegas, dtype=float)),
         "amplitude": kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
         "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
-        "energy": kept(over, energies, "conserved energy H of equation (8)"),
-        "growth": kept(over, rates[1], rate, GROWTH_DIGITS),
-        "growth_half": kept(over, rates[0], f"{rate} on half of the half-width", GROWTH_DIGITS),
-        **_births(epsilon, gamma, halves[0]),
-        **_thresholds(epsilon, gamma, halves, stability),
+        **_rates(over, rates),
     }
-    about = {"epsilon": epsilon, "gamma": gamma, "half_width": halves[1]}
-    about["residual"] = steady.TOLERANCE
+    about = {"epsilon": epsilon, "gamma": gamma, "residual": steady.TOLERANCE}
     return variables, {"title": "Steady states localised at one pair", **about}
 
 
-def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable]:
-    """Return the Omega of the two pitchforks, by the eigenvalue, and by the arc of the daughter."""
-    names, pitchforks, turning_points = [], [], []
-    for daughter, parent in ((FAMILIES[2], FAMILIES[1]), (FAMILIES[4], FAMILIES[3])):
-        highest = -gamma if parent.kind == "equal" else -3.0 * gamma  # where epsilon = 0
-        chain = steady.Chain(epsilon, gamma, highest - gamma, half_width)
-        state = steady.continued(chain, daughter)
-        points = branches.follow(chain, daughter, state, stop=highest - gamma)
-        top = branches.turning_point(points)
-        near = top - BESIDE * gamma, top + BESIDE * gamma
-        names.append(daughter.name)
-        pitchforks.append(branches.pitchfork(chain, parent, *near))
-        turning_points.append(top)
-    over = ("born_family",)
-    return {
-        "born_family": Variable(over, names, "family born in a pitchfork"),
-        "pitchfork": kept(over, pitchforks, "Omega of the pitchfork", 8),
-        "turning_point": kept(
-            over, turning_points, "Omega where the family turns, from its arc", 6
+def periodic_contents(
+    epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
+    half_widths: Mapping[str, int],
+) -> Contents:  # fmt: skip
+    """Return the three families at each Omega and frequency; NaN where a family does not exist.
+
+    `half_widths` has the least and the most that a chain may have. Rates of growth are also found
+    on half of the half-width that a breather needs.
+    """
+    frequencies = sorted(frequencies)
+    shape = (len(periodic.FAMILIES), len(omegas), len(frequencies))
+    amplitude, power, rates = (np.full((2, *shape), np.nan) for _ in range(3))
+    least = np.full((len(periodic.INSTANTS), *shape[:2]), np.nan)
+    given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
+    for j, constants in enumerate(given):
+        for i, family in enumerate(periodic.FAMILIES):
+            found = [*periodic.family_of(constants, family, frequencies, half_widths)]
+            for one in found:
+                at = (slice(None), i, j, frequencies.index(one.frequency))
+                amplitude[at], power[at] = one.data[:, 0], steady.power(one.data)
+                rates[at] = multipliers.growth(periodic.on_half(one)), multipliers.growth(one)
+            if found:
+                least[:, i, j] = [periodic.least_power(found, one) for one in periodic.INSTANTS]
+    over = ("family", "omega", "frequency")
+    variables = {
+        "component": COMPONENTS,
+        "family": Variable(("family",), list(periodic.FAMILIES), "family of periodic breathers"),
+        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
+        "frequency": Variable(
+            ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
         ),
+        "highest_wave": Variable(
+            ("omega",), [waves.highest(one) for one in given], "highest frequency of linear waves"
+        ),
+        "instant": Variable(
+            ("instant",), list(periodic.INSTANTS), "instant of the period, seen from A and B"
+        ),
+        "amplitude": kept(
+            ("component", *over), amplitude, "amplitude on a site, site 0, when both are real"
+        ),
+        "power": kept(
+            ("component", *over), power, "power P of each component, the largest of a period"
+        ),
+        "least_power": kept(
+            ("instant", *over[:2]), least, "least P of a family, at and between its frequencies",
+            LEAST_DIGITS,
+        ),
+        **_rates(over, rates),
     }  # fmt: skip
-
-
-def _thresholds(
-    epsilon: float, gamma: float, halves: tuple[int, int], stability: Mapping
-) -> dict[str, Variable]:  # fmt: skip
-    """Return the Omega below which families are stable, on chains of both half-widths."""
-    named = {family.name: family for family in FAMILIES}
-    found = [
-        [
-            branches.threshold(
-                steady.Chain(epsilon, gamma, 0.0, half), named[name], *ends, stability["to"]
-            )
-            for half in halves
-        ]
-        for name, ends in stability["between"].items()
-    ]
-    over = ("stable_family", "chain_half_width")
-    return {
-        over[0]: Variable(over[:1], list(stability["between"]), "family that can be stable"),
-        over[1]: Variable(over[1:], list(halves), "half-width"),
-        "stable_below": kept(over, found, "Omega below which a family is stable", 6),
-    }
+    about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
+    return variables, {"title": "Periodic breathers localised at one pair", **about}

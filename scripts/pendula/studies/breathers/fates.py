@@ -15,12 +15,9 @@ Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) con
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
 factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B keep theirs. Where zero is unstable
 no wave has a bound, and all growth counts.
-
-A motion that stays is a breather only if it is periodic: `nearest` says how this is measured.
 """
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -30,8 +27,6 @@ from pendula.problem import Constants, Problem
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import find_reduction, unpack
 from pendula.simulation.simulate import integrate
-
-from .nearest import Families, Follower, crossings, distances, family_of_shape, unreturned
 
 FATES = ("disperses", "stays", "moves", "spreads")
 DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))
@@ -97,52 +92,21 @@ def fate_of(problem: Problem, final: np.ndarray) -> int:
     return SPREADS if power.sum() > most else DISPERSES
 
 
-class End(NamedTuple):
-    """What one run, or each of many, has come to; NaN, 0 or -1 where a quantity is not known."""
-
-    fate: int | np.ndarray
-    held: float | np.ndarray  # share of P on the three pairs at the centre
-    distances: np.ndarray  # (family,): of a breather from each family of periodic ones
-    unreturned: float | np.ndarray = np.nan  # of what stays: P that does not return, see `nearest`
-    periodic: int | np.ndarray = -1  # whether what stays is periodic, and so a breather
-    frequency: float | np.ndarray = np.nan  # lambda of the breather
-    family: int | np.ndarray = 0  # whose symmetry the breather has, from 1 on
-    distance: float | np.ndarray = np.nan  # of the breather from this family
-
-
-def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
-    """Return what becomes of the data of a problem; the flag `stop` ends the run."""
-    reduction = find_reduction(problem.amplitudes)
-    _, _, y, _ = integrate(problem, reduction, lambda run, *given: run(*given, stop))
-    final = unpack(y, reduction)
-    fate, power = fate_of(problem, final), power_by_distance(final)
-    unknown = np.full(len(families.names), np.nan)
-    end = End(fate, share_of_three_pairs(power)[0], unknown)
-    if fate != STAYS:
-        return end
-    # the frequency of one amplitude between neighbours at rest
-    square = float((final.real**2 + final.imag**2).max())
-    guess = problem.constants.omega - 2.0 * problem.constants.epsilon + 0.5 * square
-    found = crossings(Follower(problem, final, stop), guess)
-    if found is None:
-        return end
-    left = unreturned(found, float(power[2:].mean() / 2.0))
-    if left > 1.0:
-        return end._replace(unreturned=left, periodic=0)
-    off, family = distances(found, families), family_of_shape(found, families.names)
-    return End(fate, end.held, off, left, 1, found.frequency, 1 + family, off[family])
-
-
-def ends(problems: Iterable[Problem], families: Families) -> End:
-    """Return what becomes of the data of many problems, as arrays (problem, ...).
+def fates_of(problems: Iterable[Problem]) -> np.ndarray:
+    """Return the fates of the data of many problems, (problem,).
 
     All run in one thread, since a thread takes as long as a tenth of a run.
     """
 
-    def follow(stop: np.ndarray) -> list[End]:
-        return [end_of(one, families, stop) for one in problems if not stop[0]]
+    def run(one: Problem, stop: np.ndarray) -> int:
+        reduction = find_reduction(one.amplitudes)
+        _, _, y, _ = integrate(one, reduction, lambda run, *given: run(*given, stop))
+        return fate_of(one, unpack(y, reduction))
 
-    return End(*(np.array(values) for values in zip(*interruptible(follow), strict=True)))
+    def run_all(stop: np.ndarray) -> list[int]:
+        return [run(one, stop) for one in problems if not stop[0]]
+
+    return np.array(interruptible(run_all))
 
 
 def on_one_pair(problem: Problem, a: complex, b: complex) -> Problem:
@@ -150,28 +114,27 @@ def on_one_pair(problem: Problem, a: complex, b: complex) -> Problem:
     return problem.changed(initial=np.array([[a], [b]], complex))
 
 
-def map_of_amplitudes(problem: Problem, amplitudes: np.ndarray, families: Families) -> End:
-    """Return the end of each real (A_0, B_0) from a list for both, as arrays (A_0, B_0, ...).
+def map_of_amplitudes(problem: Problem, amplitudes: np.ndarray) -> np.ndarray:
+    """Return the fate of each real (A_0, B_0) from a list for both, as an array (A_0, B_0).
 
     Exchanging A and B changes no fate, so that one half mirrors the other.
     """
     rows, columns = np.tril_indices(len(amplitudes))
     data = zip(amplitudes[rows], amplitudes[columns], strict=True)
-    found = ends((on_one_pair(problem, a, b) for a, b in data), families)
-    number = np.empty(2 * [len(amplitudes)], dtype=int)
-    number[rows, columns] = number[columns, rows] = np.arange(len(rows))
-    return End(*(values[number] for values in found))
+    found = np.empty(2 * [len(amplitudes)], dtype=int)
+    fates = fates_of(on_one_pair(problem, a, b) for a, b in data)
+    found[rows, columns] = found[columns, rows] = fates
+    return found
 
 
 def map_of_phases(
-    problem: Problem, amplitudes: np.ndarray, phases: np.ndarray, ratio: float, families: Families
-) -> End:
-    """Return the end of each A_0 with B_0 = ratio A_0 exp(i phase), as arrays (A_0, phase, ...)."""
+    problem: Problem, amplitudes: np.ndarray, phases: np.ndarray, ratio: float
+) -> np.ndarray:
+    """Return the fate of each A_0 with B_0 = ratio A_0 exp(i phase), as an array (A_0, phase)."""
     sizes = ratio * amplitudes[:, None]
     others = complex_of(sizes * cos(phases), sizes * sin(phases))
     data = zip(np.repeat(amplitudes, len(phases)), others.ravel(), strict=True)
-    found = ends((on_one_pair(problem, a, b) for a, b in data), families)
-    return End(*(values.reshape(*others.shape, *values.shape[1:]) for values in found))
+    return fates_of(on_one_pair(problem, a, b) for a, b in data).reshape(others.shape)
 
 
 # --- Shares of an area ----------------------------------------------------------------------------

@@ -14,10 +14,10 @@ Module `multipliers` computes their stability.
 
 Existence. On an infinite chain the tails decay if no odd multiple of lambda meets the frequencies
 of linear waves, equation (15): with kappa between Omega - 4 epsilon and Omega, +-kappa for A + B
-and +-sqrt(kappa^2 - 4 gamma^2) for A - B. So lambda lies above all of them, or in a gap below (see
-`waves.free_intervals`). Into the gap at Omega = -4, 2.7 to 3.5, "A only" and "A = -B" can be
-continued from gamma = 0, but they end at gamma of 0.2 to 0.5 and 0.7 to 0.95. A = B does not feel
-the drive and has the one harmonic lambda, which only has to lie above Omega.
+and +-sqrt(kappa^2 - 4 gamma^2) for A - B. So lambda lies above all of them, or in a gap below. Into
+the gap at Omega = -4, 2.7 to 3.5, "A only" and "A = -B" can be continued from gamma = 0, but they
+end at gamma of 0.2 to 0.5 and 0.7 to 0.95. A = B does not feel the drive and has the one harmonic
+lambda, which only has to lie above Omega.
 """
 
 from collections.abc import Mapping, Sequence
@@ -28,19 +28,16 @@ from scipy.optimize import minimize_scalar
 
 from pendula.numerics.elementary import geometric, log
 from pendula.numerics.matrices import times
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants
 
 from .quarter_period import FINE_STEPS, STEPS, flow
 from .steady import NotFoundError, exchange_sign, power
-from .waves import distance_from_bands, free_intervals, highest
+from .waves import distance_from_bands, highest
 
 FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
 TOLERANCE = 1e-13
 """Largest |Re A| and |Re B| at a quarter of a period, relative to the largest at the start."""
-DECIMALS = 9
-"""Of breathers from which runs start: LAPACK finds breathers, whose last bits differ between
-processors, and runs from rounded data have the same bits on all."""
 ITERATIONS = 30
 SLOWEST = 0.3
 """An error that falls by less in one iteration requires a new matrix."""
@@ -114,6 +111,12 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
 
 
+def on_half(breather: Breather) -> Breather:
+    """Return the breather of the same frequency on a chain of half the half-width."""
+    data = widened(breather.data, breather.data.shape[1] // 2 + 1)
+    return shoot(breather.constants, breather.frequency, data)
+
+
 def quarter_later(breather: Breather, steps: int, changes: Sequence = ()) -> np.ndarray:
     """Return where a breather and small changes of its data are after a quarter of a period.
 
@@ -142,8 +145,8 @@ CLOSE = 1e-5
 it is known to 1e-9 of itself."""
 
 
-def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
-    """Return the frequency at which a family has the least P at an instant, and this P.
+def least_power(family: list[Breather], instant: str) -> float:
+    """Return the least P of a family at an instant.
 
     It lies between the neighbours of the member with the least P; if this is the first or the last
     member, P falls to the end, and it is this member.
@@ -152,7 +155,7 @@ def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
     powers = [float(power_at(one, instant).sum()) for one in family]
     middle = int(np.argmin(powers))
     if middle in (0, len(family) - 1):
-        return family[middle].frequency, powers[middle]
+        return powers[middle]
     start = widened(family[middle].data, family[middle - 1].data.shape[1])
 
     def total(frequency: float) -> float:
@@ -160,7 +163,7 @@ def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
 
     ends = family[middle - 1].frequency, family[middle + 1].frequency
     found = minimize_scalar(total, bounds=ends, method="bounded", options={"xatol": CLOSE})
-    return float(found.x), float(found.fun)
+    return float(found.fun)
 
 
 def _matrix(guess: Breather, symmetry: int) -> np.ndarray:
@@ -196,7 +199,7 @@ def family_of(constants: Constants, family: str, frequencies, half_widths: Mappi
     Each starts from the one before. "A only" can end above the waves, where it has become A = B.
     """
     wanted = sorted(frequencies, reverse=True)
-    edge = constants.omega if family == "A = B" else free_intervals(constants)[-1][0]
+    edge = constants.omega if family == "A = B" else highest(constants)
     half_width = half_width_for(constants, wanted[0], **half_widths)
     data = single_site(constants, wanted[0], family, half_width)
     for before, frequency in zip([wanted[0], *wanted], wanted, strict=False):
@@ -225,26 +228,6 @@ def _between(edge: float, start: float, end: float) -> list[float]:
     count = max(1, int(np.ceil(max(counts) - 1e-9)))
     away = geometric(start - edge, end - edge, count + 1)[1:-1]
     return [*(float(edge + one) for one in away), end]
-
-
-def unfolded(data: np.ndarray) -> np.ndarray:
-    """Return even data (..., site 0..M) on the whole chain, (..., site -M..M)."""
-    return np.concatenate([data[..., :0:-1], data], axis=-1)
-
-
-def problem_from(
-    constants: Constants, initial: np.ndarray, end_time: float, output_step: float,
-    tolerance: float, half_width: int = 0,
-) -> Problem:  # fmt: skip
-    """Return the problem of data (component, site -M..M), on their chain if no other one is given.
-
-    It rests beyond its ends, and is integrated by the Taylor method.
-    """
-    return Problem(
-        constants=constants, half_width=half_width or initial.shape[1] // 2, boundary="dirichlet",
-        initial=initial.astype(complex), end_time=end_time, output_step=output_step,
-        solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
-    )  # fmt: skip
 
 
 def real_data(data: np.ndarray) -> np.ndarray:

@@ -12,49 +12,20 @@ from pendula.configuration.values import (
     Model,
     Name,
     Natural,
-    Number,
     Numbers,
     Positive,
     Positives,
-    Steps,
     Tolerance,
     Whole,
-    Window,
     model,
 )
-from pendula.models.pairs import FAMILIES
 
-
-class PositiveSteps(Steps):
-    """Equally spaced values above zero."""
-
-    first: Positive
-    last: Positive
-
-
-Steady = model(
-    omegas=Numbers,
-    half_width=Annotated[Whole, Field(ge=4)],
-    # where families turn stable: the interval searched, and to what distance
-    stability=model(between=dict[str, Window], to=Positive),
-)
+Steady = model(omegas=Numbers, half_width=Annotated[Whole, Field(ge=4)])
 
 Periodic = model(
     omegas=Numbers,
     frequencies=Positives,
     half_widths=model(least=Annotated[Whole, Field(ge=2)], most=Count),
-)
-
-# How the drive feeds a localised motion.
-Growth = model(
-    omega=Number,
-    start=Positive,
-    frequencies=PositiveSteps,
-    end_times=Annotated[dict[Positive, Positive], Field(min_length=1)],
-    # of the free breather and of the driven chain
-    half_widths=model(profile=Annotated[Whole, Field(ge=2)], chain=Count),
-    outputs=Annotated[Whole, Field(ge=2)],
-    tolerance=Tolerance,
 )
 
 # Share of runs that spread, by the size of a random change of the data.
@@ -63,8 +34,7 @@ Sensitivity = model(
     end_time=Positive,
     sizes=Positives,
     members=Count,
-    scan=PositiveSteps,
-    long=model(members=Count, scan=PositiveSteps),
+    long=model(members=Count),
     tolerance=Tolerance,
     seed=Natural,
 )
@@ -82,8 +52,7 @@ class Fates(Model):
     largest: Positive
     points: Annotated[Whole, Field(ge=3)]
     phases: model(**PHASES, ratio=Positive)
-    checked: Count
-    long: model(points=Annotated[Whole, Field(ge=3)], phases=model(**PHASES), checked=Count)
+    long: model(points=Annotated[Whole, Field(ge=3)], phases=model(**PHASES))
     tolerance: Tolerance
 
     def grid(self, size: Model) -> dict[str, Any]:
@@ -103,7 +72,6 @@ class Fates(Model):
             "turned": amplitudes(size.phases.amplitudes),
             "phases": (2.0 * np.pi * np.arange(1, points + 1) / points - np.pi).tolist(),
             "ratio": self.phases.ratio,
-            "checked": size.checked,
         }
 
 
@@ -114,24 +82,13 @@ class Settings(Model):
     gamma: Positive
     steady: Steady
     periodic: Periodic
-    growth: Growth
     sensitivity: Sensitivity
     fates: Fates
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the families and cases, or takes too long."""
-        names = [family.name for family in FAMILIES]
-        for name, (low, high) in self.steady.stability.between.items():
-            if name not in names:
-                yield f"steady.stability.between.{name}", f"is none of {', '.join(names)}"
-            elif not low < high:
-                says = f"[{low:g}, {high:g}] does not run forward"
-                yield f"steady.stability.between.{name}", says
         if self.periodic.half_widths.least > self.periodic.half_widths.most:
             yield "periodic.half_widths.least", "is larger than `most`"
-        for key, given in (("fates", self.fates), ("fates.long", self.fates.long)):
-            if 2 * given.checked > given.points:
-                yield f"{key}.checked", f"leaves fewer than two of {given.points} amplitudes"
         absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
         yield from absent
         if not absent:

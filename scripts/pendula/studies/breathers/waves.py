@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from pendula.numerics.elementary import cos
 from pendula.problem import Constants
 
 
@@ -27,36 +26,3 @@ def distance_from_bands(constants: Constants, frequency: float) -> float:
     multiples = np.arange(1, 3 + 2 * int(highest(constants) / frequency), 2) * frequency
     away = [np.maximum(low - multiples, multiples - high) for low, high in bands(constants)]
     return float(max(0.0, np.min(away)))
-
-
-def free_intervals(constants: Constants) -> list[tuple[float, float]]:
-    """Return the intervals of frequencies none of whose odd multiples meets a band, rising.
-
-    Only there a periodic breather can exist on an infinite chain. The last one has no upper end.
-    """
-    taken = []
-    for low, high in bands(constants):
-        # from this multiple on the bands, divided by it and by the next odd one, overlap
-        last = int(2.0 * low / (high - low)) + 2
-        taken += [(low / m, high / m) for m in range(1, last, 2)]
-        taken.append((0.0, high / last))
-    free, reached = [], 0.0
-    for low, high in sorted(taken):
-        if low > reached:
-            free.append((reached, low))
-        reached = max(reached, high)
-    return [*free, (reached, np.inf)]
-
-
-def band_traces(constants: Constants, frequency: float) -> list[tuple[float, float]]:
-    """Return the intervals of nu = -cos(pi omega / lambda) that the bands of `bands` fill.
-
-    A wave exp(-i omega tau) has the multiplier -exp(-i pi omega / lambda) over half a period of a
-    breather, with the change of sign there.
-    """
-    found = []
-    for low, high in bands(constants):
-        inside = np.arange(np.ceil(low / frequency), np.floor(high / frequency) + 1.0) * frequency
-        traces = -cos(np.pi / frequency * np.concatenate([[low, high], inside]))
-        found.append((float(traces.min()), float(traces.max())))
-    return found
