@@ -22,7 +22,6 @@ MADE_TOGETHER = {
     "fig4_spacetime": "Where the chain moves in the cases of fig4, made together with it",
     "fig5": "Fig 5: norms against half-width for small amplitudes",
     "fig6": "Fig 6: norms against half-width for large amplitudes",
-    "pendula_remainder": "Errors of the expansion against time and against mu, and its horizons",
     "pendula_over_the_top": "The chaotic state of the pendula, and first passages over the top",
     "growth_law": "The infinite chain: norms against time, and the exponents that they follow",
     "front": "The infinite chain: the speed of the front, and the bulk behind it",
@@ -30,7 +29,7 @@ MADE_TOGETHER = {
 }
 FIGURES = [
     *(*MADE_TOGETHER, "fig1", "energy_drift", "trust_horizons", "stability_chart", "bounds"),
-    *("lifetimes", "fates", "pendula_threshold", "pendula_phases"),
+    *("lifetimes", "fates"),
 ]
 
 
@@ -52,7 +51,7 @@ DATASETS = [
     *(*SWEEPS, *SECOND_SWEEPS),
     *checks(*CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
-    *(*rules.pendula.input.datasets, rules.pendula.input.film),
+    *rules.pendula.input.datasets,
     *datasets("unbounded", *SETTINGS.unbounded.names, *MAPS, "thermal", "growth", "front"),
     *(*PROVED_CURVES, *datasets("certified", "wrong/curve", "breathers")),
 ]
@@ -117,7 +116,6 @@ NAMED = {
 }
 LONGER_STUDIES = {
     "fates": "The map of fates on a fine grid, which takes minutes",
-    "remainder": "The error of the expansion to the end of the paper's runs, which takes a minute",
     "over_the_top": "The chaotic state, and first passages over the top, with many members for long",
 }
 for name, text in LONGER_STUDIES.items():

@@ -6,7 +6,6 @@ from pendula.studies.chaos import figures as chaos
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
 from pendula.studies.pendula import figures as pendula
-from pendula.studies.pendula import figures_phases
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
@@ -59,12 +58,9 @@ FIGURES = {
               "breathers/fates", "quoted/breathers"),
     "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes, "checks/lifetimes"),
     "pendula_over_the_top": (
-        figures_phases.draw_over_the_top, figures_phases.gather_over_the_top,
+        pendula.draw_over_the_top, pendula.gather_over_the_top,
         "pendula/sea", "pendula/over_the_top", "unbounded/thermal",
     ),
-    "pendula_phases": (figures_phases.draw_phases, figures_phases.gather_phases, "pendula/phases"),
-    "pendula_remainder": (pendula.draw_remainder, pendula.gather_remainder, "pendula/remainder"),
-    "pendula_threshold": (pendula.draw_threshold, pendula.gather_threshold, "pendula/threshold"),
     "bounds": (bounds_figure.draw_bounds, bounds_figure.gather_bounds,
                "checks/cases", "checks/sweeps", "checks/samples",
                "checks/sharpness", "checks/chain_growth"),

@@ -102,7 +102,7 @@ def test_every_variable_is_named_and_has_units(plot):
 
 GOING = {
     "symmetry", "lyapunov", "ensembles", "sensitivity", "front",
-    "breathers", "pendula_threshold", "pendula_remainder", "pendula_phases",
+    "breathers",
     "window_map", *OWN,
 }  # fmt: skip
 

@@ -209,14 +209,11 @@ def _pendula(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     `on` leaves of a part that runs many cases these alone.
     """
     given = paper()["pendula"][name]
-    own = tuple(f"pendula.{name}.{key}" for key in given if key not in ("long", "ends", "case"))
+    own = tuple(f"pendula.{name}.{key}" for key in given if key not in ("long", "case"))
     if "case" in given:
         return (*own, *_keys(given["case"], *FINITE))
-    if name == "phases":
-        return (*own, *_of_all(on or paper()["cases"], *FINITE, "end_time"))
-    cases = on or tuple(given.get("ends", ()))
-    ends = tuple(f"pendula.{name}.ends.{case}" for case in cases if "ends" in given)
-    return (*own, *ends, *(key for case in cases for key in _keys(case, *FINITE)))
+    cases = (on or paper()["cases"]) if name == "remainder" else ()
+    return (*own, *(key for case in cases for key in _keys(case, *FINITE)))
 
 
 def _certified(name: str, on: tuple[str, ...]) -> tuple[str, ...]:

@@ -1,8 +1,7 @@
-"""Thresholds and rates of the pendula: SciPy's Mathieu functions, Hill's matrix, and runs."""
+"""Thresholds of the pendula: SciPy's Mathieu functions, multipliers, and runs."""
 
 import numpy as np
 import pytest
-from flint import acb, acb_mat, ctx
 from pendula.configuration.paper import paper
 from pendula.models.linear_chain import gamma_0
 from pendula.problem import Constants, Problem
@@ -30,50 +29,27 @@ def test_what_the_first_tongue_does_not_reach_is_infinite():
     highest = mathieu_a(1, np.linspace(0.0, mathieu.BEYOND, 4001)).max() - 1.0
     assert np.isfinite(mathieu.first_tongue(highest - 1e-3))
     assert mathieu.first_tongue(highest + 1e-3) == np.inf
-    assert mathieu.wave_threshold(highest + 1e-3) == mathieu.second_tongue(highest + 1e-3)
 
 
-@pytest.mark.parametrize(
-    "of", [mathieu.first_tongue, mathieu.second_tongue, lambda offset: mathieu.growth(offset, 1.1)]
-)
+@pytest.mark.parametrize("of", [mathieu.first_tongue, mathieu.second_tongue])
 def test_deeper_fractions_change_no_bit(of, monkeypatch):
     found = of(OFFSETS)
     monkeypatch.setattr(mathieu, "DEPTH", 2 * mathieu.DEPTH)
     assert np.array_equal(of(OFFSETS), found)
 
 
-def fastest_of_hill(offset, q, count=12):
-    """Return the largest growth of series in e^(i (2 k + 1) theta), by Hill's equations.
-
-    In 50 digits, because eigenvalues of doubles lose half of their digits at a threshold.
-    """
-    size = 2 * count
-    matrix = acb_mat(2 * size, 2 * size)
-    for i, k in enumerate(range(-count, count)):
-        matrix[i, i] = matrix[size + i, size + i] = acb(0, -(2 * k + 1))
-        matrix[i, size + i], matrix[size + i, i] = 1, -(1 + acb(offset))
-        for beside in {i - 1, i + 1} & set(range(size)):
-            matrix[size + i, beside] = acb(q)
-    with ctx.workprec(170):
-        found = matrix.eig(algorithm="approx")
-    # those with other imaginary parts are the same s + 2 i m, cut off at the ends
-    return max(float(s.real) for s in found if abs(float(s.imag)) < 0.5)
-
-
-def test_growth_is_that_of_hills_matrix():
-    at = (-0.1, 0.3), (0.0, 1e-3), (0.02, 0.02006), (0.5, 1.0), (0.56, 1.1), (1.2, 3.0), (-0.5, 4.0)
-    for offset, q in at:
-        exact = fastest_of_hill(offset, q)
-        assert float(mathieu.growth(offset, q)) == pytest.approx(exact, rel=1e-12)
+def of_wave(offset):
+    """Return the q up to which the wave with a = 1 + offset is stable."""
+    return np.minimum(mathieu.first_tongue(offset), mathieu.second_tongue(offset))
 
 
 def test_a_band_is_as_stable_as_its_weakest_wave():
     rng = np.random.default_rng(5)
     for _ in range(30):
         low, high = np.sort(rng.uniform(-0.9, 2.9, 2))
-        within = mathieu.wave_threshold(np.linspace(low, high, 400))
+        within = of_wave(np.linspace(low, high, 400))
         assert mathieu.band_threshold(low, high) <= within.min()
-        edges = mathieu.wave_threshold(np.array([low, high])).min() if low > 0 or high < 0 else 0.0
+        edges = of_wave(np.array([low, high])).min() if low > 0 or high < 0 else 0.0
         assert mathieu.band_threshold(low, high) == pytest.approx(edges, rel=1e-14)
 
 
@@ -122,51 +98,32 @@ def test_the_edge_of_the_band_is_the_first_to_lose_stability(omega, curvature, m
 )
 def test_the_second_resonance_takes_all_stability_between_its_ends(omega, grows):
     """Where the wave with a = 4 is in the band, any drive makes it grow."""
-    low, high = threshold.second_resonance(0.3, 1.0)
-    assert (low < omega < high) == (threshold.pendula_threshold(omega, 0.3, 1.0) == 0.0) == grows
+    high = 1.0 - 0.75 / 0.3**2  # 1 + mu^2 s = 4 omega^2 for an s from 0 to 4
+    assert (high - 1.0 < omega < high) == grows
+    assert (threshold.pendula_threshold(omega, 0.3, 1.0) == 0.0) == grows
     largest = max(multiplier(omega, 0.3, 0.5, curvature) for curvature in np.linspace(0, 4, 61))
     assert (largest > 1.001) == grows
 
 
 @pytest.mark.parametrize("epsilon", [1.0, 0.75])
 def test_corrections_are_those_of_small_mu(epsilon):
-    """What is left after two terms is of the order mu^6."""
+    """What is left is of the order mu^4."""
     omegas = np.array([-6.0, -4.0, -1.0, 5.0, 8.0, 12.0])
     left = []
     for mu in (0.02, 0.01):
-        two = threshold.correction(omegas, epsilon) + mu * mu * threshold.next_correction(
-            omegas, epsilon
-        )
         exact = threshold.pendula_threshold(omegas, mu, epsilon)
-        left.append(exact - gamma_0(omegas, epsilon) - mu * mu * two)
-    assert left[0] / left[1] == pytest.approx(np.full(6, 64.0), rel=0.05)
-
-
-def test_long_chains_have_the_threshold_of_the_infinite_one():
-    omegas = np.array([-4.0, 8.0])
-    infinite = threshold.pendula_threshold(omegas, 0.2, 1.0)
-    off = [
-        threshold.finite_pendula_threshold(omegas, 0.2, 1.0, sites) - infinite
-        for sites in (99, 199)
-    ]
-    assert off[0] / off[1] == pytest.approx([4.0, 4.0], rel=1e-3)  # as (N + 1)^-2
-    assert np.all(off[1] > 0)
-
-
-def test_a_short_chain_loses_stability_by_one_of_its_waves():
-    sites, omega, mu = 5, 1.3, 0.2
-    found = float(threshold.finite_pendula_threshold(omega, mu, 1.0, sites))
-    waves = 4.0 * np.sin(np.pi * np.arange(1, sites + 1) / (2 * (sites + 1))) ** 2
-    assert max(multiplier(omega, mu, 0.999 * found, s) for s in waves) < 1.0 + 1e-9
-    assert max(multiplier(omega, mu, 1.001 * found, s) for s in waves) > 1.0 + 1e-5
+        first = mu * mu * threshold.correction(omegas, epsilon)
+        left.append(exact - gamma_0(omegas, epsilon) - first)
+    assert left[0] / left[1] == pytest.approx(np.full(6, 16.0), rel=0.05)
 
 
 @pytest.mark.parametrize(("factor", "grows"), [(0.98, False), (1.02, True)])
 def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, grows):
     """Newton's equations with the sine, from tiny angles in the wave that is the first to grow."""
     sites, omega, mu = 5, 8.0, 0.2
-    gamma = factor * float(threshold.finite_pendula_threshold(omega, mu, 1.0, sites))
     angle = np.pi * sites / (sites + 1)
+    square, curvature = 1.0 / (mu * mu) + omega, 4.0 * np.sin(angle / 2) ** 2
+    gamma = factor * 0.5 * square * float(of_wave((curvature - omega) / square))
     wave = {n - 2: 1e-12 * np.sin(angle * (n + 1)) for n in range(sites)}
     run = simulate(Problem.of({
         "epsilon": 1.0, "gamma": gamma, "omega": omega, "half_width": 2, "boundary": "dirichlet",
@@ -175,18 +132,7 @@ def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, gr
         "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-25},
     }))  # fmt: skip
     late, later = (run.l2[0][1000 * i : 1000 * (i + 1)].max() for i in (1, 2))
-    square = threshold.squared_frequency(omega, mu) / (mu * mu)
-    rate = mathieu.growth((4.0 * np.sin(angle / 2) ** 2 - omega) / square, 2.0 * gamma / square)
-    per_tau = 2.0 * np.sqrt(threshold.squared_frequency(omega, mu)) / (mu * mu) * float(rate)
-    assert bool(per_tau > 0.0) == grows
-    assert np.log(later / late) / 10.0 == pytest.approx(per_tau, abs=2e-3)
-
-
-@pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (0.0, 0.0), (8.0, 4.0)])
-def test_rates_are_those_of_the_fastest_wave(omega, curvature):
-    mu, gamma = 0.3, 3.0
     period = 0.5 * mu * mu * np.pi / np.sqrt(1.0 + mu * mu * omega)  # of the drive, in tau
-    waves = [multiplier(omega, mu, gamma, s) for s in np.linspace(0.0, 4.0, 5)]
-    found = float(threshold.pendula_rate(omega, mu, gamma, 1.0))
-    assert found == pytest.approx(np.log(max(waves)) / period, rel=1e-9)
-    assert max(waves) == multiplier(omega, mu, gamma, curvature)
+    per_tau = np.log(multiplier(omega, mu, gamma, curvature)) / period
+    assert (per_tau > 1e-3) == grows
+    assert np.log(later / late) / 10.0 == pytest.approx(per_tau, abs=2e-3)

@@ -70,14 +70,6 @@ def test_orders_are_those_of_the_limit():
     assert np.isnan(remainder.orders(np.where(np.arange(6)[:, None] < 2, errors, np.nan))).all()
 
 
-def test_the_horizon_is_the_first_visible_error():
-    tau = np.array([1.0, 2.0, 3.0])
-    assert remainder.horizon(tau, np.array([0.0, 0.3, 0.1]), np.array([2.0, 1.0, 1.0]), 0.1) == 2.0
-    assert (
-        remainder.horizon(tau, np.array([0.0, 0.1, 0.1]), np.array([2.0, 1.0, 1.0]), 0.1) == np.inf
-    )
-
-
 # --- Runs -----------------------------------------------------------------------------------------
 
 

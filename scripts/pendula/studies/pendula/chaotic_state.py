@@ -20,8 +20,9 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.confidence import Limits, event_rate, median_limits, share_limits
+from pendula.datasets.trajectories import Contents
+from pendula.measures.confidence import Limits, event_rate, share_limits
+from pendula.models.bounds import theorem_3_bound
 from pendula.numerics.elementary import sin, square_modulus
 from pendula.problem import Problem, name_window
 from pendula.simulation.ensembles import draw_members
@@ -34,7 +35,6 @@ EDGES = np.linspace(0.0, 8.0, 41)
 TOP = np.pi
 REDUCED = {
     "site_power": ((), "mean of |A_n|^2 + |B_n|^2 over sites and time"),
-    "l2_level": ((), "mean of the l2 norm over the time window"),
     "linf_level": ((), "mean of the l-infinity norm over the time window"),
     "wave_power": (("even_wave",), "mean |A(k)|^2 over the chain and time"),
     "modulus_share": (("modulus",), "share of moduli in a cell"),
@@ -65,7 +65,6 @@ def reduce_member(problem: Problem, window: tuple[float, float]) -> dict:
     squares = square_modulus(amplitudes)
     return {
         "site_power": squares.sum(axis=0).mean(),
-        "l2_level": np.sqrt(squares.sum(axis=(0, 1))).mean(),
         "linf_level": np.sqrt(squares.max(axis=(0, 1))).mean(),
         "wave_power": spectrum(amplitudes),
         "modulus_share": np.histogram(np.sqrt(squares), EDGES)[0] / squares.size,
@@ -89,11 +88,9 @@ def measure_sea(
     for name, (rest, words) in REDUCED.items():
         values = np.array([[one[name] for one in row] for row in rows])
         variables[name] = Variable(("mu", "member", *rest), values, words)
-    _, shared = describe_cases({"sea": problem})
-    title = f"The sea of the pendula beside that of the amplitudes, over {name_window(window)}"
-    about = {"perturbation": size, "members": members, "seed": seed}
-    about |= {"window": name_window(window), "omega": problem.constants.omega}
-    return variables, {**shared, **about, "title": f"{title}; mu = 0 stands for (4)"}
+    title = f"The chaotic state of pendula and of amplitudes, over {name_window(window)}"
+    about = {"title": f"{title}; mu = 0 stands for (4)", "omega": problem.constants.omega}
+    return variables, about
 
 
 # --- Over the top --------------------------------------------------------------------------------
@@ -120,6 +117,12 @@ def passage(problem: Problem, per_period: int) -> Passage:
     angles = (run.l2 * run.l2).sum(axis=0).max()
     power = float(angles) / (4.0 * problem.mu * problem.mu)
     return Passage(float(run.tau[beyond[0]]) if beyond.size else np.inf, so_far, power)
+
+
+def allowed(problem: Problem) -> float:
+    """Return the bound of P by Theorem 3 on the data of a problem of (4)."""
+    energy = simulate(problem.changed(end_time=problem.output_step)).energy[0]
+    return float(theorem_3_bound(energy, problem.sites, problem.constants))
 
 
 def passed_by(times: np.ndarray, tau: np.ndarray) -> Limits:
@@ -151,12 +154,12 @@ def measure_over_the_top(
         "angle_so_far": Variable(
             (*over, "tau"), angles, "largest angle of any pendulum so far", "rad"),
         "angle_power": Variable(over, powers, "largest sum of (x / 2 mu)^2 over all pendula"),
+        "theorem_3_power": Variable(
+            ("member",), [allowed(one) for one in drawn], "bound C_N of P by Theorem 3"),
     }  # fmt: skip
     for name, rest, found, words in (
         ("passed", ("tau",), [passed_by(row, tau) for row in times],
          "share of members that have gone over the top"),
-        ("passage_median", (), [median_limits(row) for row in times],
-         "median time of the first passage, from order statistics"),
         ("passage_rate", (), [event_rate(row, settled, problem.end_time) for row in times],
          "rate of first passages after the settled time, per unit of tau; NaN: none was left"),
     ):  # fmt: skip
@@ -165,8 +168,5 @@ def measure_over_the_top(
         variables[name] = Variable(over, value, words)
         variables[f"{name}_low"] = Variable(over, low, f"{words}, lower confidence limit")
         variables[f"{name}_high"] = Variable(over, high, f"{words}, upper confidence limit")
-    _, shared = describe_cases({"sea": problem})
-    about = {"perturbation": size, "members": members, "seed": seed, "settled": settled}
-    about |= {"comment": NOT_KNOWN} if np.isnan(angles).any() else {}
-    title = "When pendula go over the top, and how far they turn then"
-    return variables, {**shared, **about, "omega": problem.constants.omega, "title": title}
+    about = {"comment": NOT_KNOWN} if np.isnan(angles).any() else {}
+    return variables, {"title": "When pendula go over the top, and how far they turn", **about}

@@ -1,10 +1,10 @@
-"""Lemma 1 for the pendula: its limit in mu, its correction, its rates, and its sentence."""
+"""Lemma 1 for the pendula: its limit in mu, its correction, and its sentence."""
 
 from itertools import pairwise
 
 import numpy as np
 
-from pendula.ledger.changes import roll, scale
+from pendula.ledger.changes import scale
 from pendula.ledger.claim import Control, claim
 from pendula.ledger.criterion import (
     Above,
@@ -131,35 +131,6 @@ def correction_of_the_threshold(threshold) -> Finding:
         Below(0.0, "largest_shift_above", says="shift of the threshold above the band"),
     )
     return judge(measured, criterion)
-
-
-@claim(
-    PLACE,
-    "The growth rates of unstable pendula are those of Lemma 1, with an error of the order mu^2.",
-    (THRESHOLD,),
-    (
-        Control("growth rates at exchanged detunings", roll("rate_lemma", {"growth_omega": 1})),
-        Control(
-            "growth rates with an error of the order mu",
-            lambda one: one.assign(wave_rate=one["rate_lemma"] * (1.0 + one["mu"])),
-        ),
-    ),
-)
-def rates_of_the_pendula(threshold) -> Finding:
-    """Take the order of the largest difference, over the largest rate, at the two smallest mu.
-
-    Near a threshold a rate is the root of a small difference, and that threshold itself moves; so
-    squares of rates are compared.
-    """
-    ordered = smallest_mus(threshold)
-    square, law = ordered["wave_rate"] ** 2, ordered["rate_lemma"] ** 2
-    missed = (abs(square - law) / law.max("gamma")).max(("growth_omega", "gamma")).values
-    mu = ordered["mu"].values
-    if not missed[-1] > 0:
-        raise UndecidableError("no wave grows at any of the drives")
-    order = order_between(missed[-2], missed[-1], mu)
-    measured = {"order": order, "largest_miss": missed[0], "at_mu": mu[0], "least_miss": missed[-1]}
-    return judge(measured, Near(2.0, ORDER, "order", says="order in mu of the difference"))
 
 
 @claim(

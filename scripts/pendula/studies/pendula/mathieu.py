@@ -1,4 +1,4 @@
-"""Mathieu's equation: the drive at which a wave loses stability, and how fast it grows then.
+"""Mathieu's equation: the drive at which a wave loses stability.
 
 Mathieu's equation is z'' + (a - 2 q cos 2 theta) z = 0, with q > 0. Two of its curves bound the
 region where a wave of the chain is stable (NIST Digital Library of Mathematical Functions, 28.2
@@ -13,7 +13,7 @@ import numpy as np
 DEPTH = 12
 """Terms of a continued fraction; twice as many change no bit (tests/studies/pendula)."""
 MOST = 1_000
-"""Iterations after which something is wrong; they need ten, and near a threshold some tens."""
+"""Iterations after which something is wrong; they need ten."""
 ROUNDING = 2.0**-49
 """Relative rounding of a square: eight units in the last place."""
 BEYOND = 4.0
@@ -35,17 +35,13 @@ def _fraction(square, gaps):
     return found, slope
 
 
-def _settled(step, start: np.ndarray, scale=0.0) -> np.ndarray:
-    """Return what `step` leaves as it is, by iteration from `start`.
-
-    The square of the result moves by a few units in the last place no more: of its own, or of that
-    of `scale`, if this is larger.
-    """
+def _settled(step, start: np.ndarray) -> np.ndarray:
+    """Return what `step` leaves as it is, by iteration from `start`: its square no longer moves."""
     found = start
     for _ in range(MOST):
         old, found = found, step(found)
         moved = np.abs(found - old) * (found + old)
-        if np.all((moved <= ROUNDING * np.maximum(found, scale) ** 2) | np.isinf(found)):
+        if np.all((moved <= ROUNDING * found**2) | np.isinf(found)):
             return found
     raise ArithmeticError(f"no fixed point after {MOST} iterations")
 
@@ -85,11 +81,6 @@ def second_tongue(offset) -> np.ndarray:
     return _settled(step, np.sqrt(below_four * (12.0 + below_four)))
 
 
-def wave_threshold(offset) -> np.ndarray:
-    """Return the q up to which the wave with a = 1 + `offset` is stable, for -1 < offset < 3."""
-    return np.minimum(first_tongue(offset), second_tongue(offset))
-
-
 def band_threshold(lowest, highest) -> np.ndarray:
     """Return the q up to which all waves with offsets from `lowest` to `highest` are stable.
 
@@ -122,30 +113,3 @@ def strength(constants, mu: float) -> float:
     """Return q of the drive, 2 |gamma| mu^2 / omega^2."""
     square = squared_frequency(constants.omega, mu) / (mu * mu)
     return float(2.0 * abs(constants.gamma) / square)
-
-
-# --- Growth within the first tongue --------------------------------------------------------------
-
-
-def growth(offset, q) -> np.ndarray:
-    """Return the rate per unit of theta at which the wave with a = 1 + `offset` grows; 0 if stable.
-
-    A solution that grows is e^(s theta) times a series in e^(i (2 k + 1) theta), and the one with
-    the largest s of the first tongue is real. Hill's equations for its terms, a continued fraction
-    on either side of k = 0 and k = -1, meet where |offset + s^2 + 2 i s - T(s)| = q, with
-    T = q^2 / (d_1 - q^2 / (d_2 - ...)) and d_k = a + (s + i (2 k + 1))^2. This is solved for the s
-    in 2 i s by iteration.
-    """
-    offset, q = np.broadcast_arrays(np.asarray(offset, dtype=float), np.asarray(q, dtype=float))
-
-    def step(s):
-        near, real, imaginary = offset + s * s, np.zeros(offset.shape), np.zeros(offset.shape)
-        for k in range(DEPTH, 0, -1):  # T, from its last term
-            x = near - 4.0 * k * (k + 1) - real
-            y = 2.0 * (2 * k + 1) * s - imaginary
-            over = q * q / (x * x + y * y)
-            real, imaginary = x * over, -y * over
-        level = near - real
-        return 0.5 * (imaginary + np.sqrt(np.maximum(0.0, (q - level) * (q + level))))
-
-    return _settled(step, np.zeros(offset.shape), q)

@@ -22,7 +22,6 @@ from pendula.compiled import kernel
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
 from pendula.integrators import DONE, FAULTS, dop853
-from pendula.measures.difference import VISIBLE
 from pendula.models.expansion import Expansion, angle, corrected_start, rates
 from pendula.models.pendula import frequency
 from pendula.numerics.elementary import exp, log, product, turn
@@ -193,16 +192,6 @@ def up_to(taus: np.ndarray, sizes: np.ndarray, ends: np.ndarray, run_end: float)
     return np.where(ends <= run_end, np.maximum.accumulate(sizes)[last], np.nan)
 
 
-def horizon(taus: np.ndarray, errors: np.ndarray, sizes: np.ndarray, part: float) -> float:
-    """Return the first tau at which the error so far is `part` of the largest angle so far.
-
-    Infinite where it never is.
-    """
-    largest, size = np.maximum.accumulate(errors), np.maximum.accumulate(sizes)
-    beyond = np.flatnonzero(largest >= part * size)
-    return float(taus[beyond[0]]) if beyond.size else np.inf
-
-
 # --- Errors by case, mu and end ------------------------------------------------------------------
 
 
@@ -210,8 +199,6 @@ class Errors(NamedTuple):
     """Errors of the expansions in one run of the pendula; with mu as first axis, in several."""
 
     right: np.ndarray  # (expansion, end)
-    angles: np.ndarray  # (end,): the largest
-    horizons: np.ndarray  # (expansion,)
     wrong: np.ndarray  # (wrong expansion,), up to the shortest run's end
 
 
@@ -236,12 +223,9 @@ def follow(problem: Problem, ends: np.ndarray, spacing: float, wrong_end: float)
         given = taus, turned, angles, list(thirds.values()), counts
         sizes = misses(problem, corrected, *given, reduction)
         missed |= dict(zip(thirds, sizes, strict=True))
-    _, swings = window_maxima(found, np.abs(angles).max(axis=(1, 2))[places])
     right = [window_maxima(found, missed[name][places]) for name in RIGHT]
     return Errors(
         np.array([up_to(tau, size, ends, problem.end_time) for tau, size in right]),
-        up_to(right[0][0], swings, ends, problem.end_time),
-        np.array([horizon(tau, size, swings, VISIBLE) for tau, size in right]),
         np.array([missed[name][:brief].max() for name in WRONG]),
     )
 
@@ -295,28 +279,23 @@ def orders(errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def remainder_contents(
     problems: Mapping[str, Problem],
-    run_ends: Mapping[str, Mapping[float, float]],
+    run_ends: Mapping[float, float],
     end_step: float,
     spacing: float,
     step: Callable[[str], None] = lambda message: None,
 ) -> Contents:
-    """Return the errors of all cases; `run_ends` gives by case and mu how far the pendula are run.
+    """Return the errors of all cases; `run_ends` gives by mu how far the pendula are run.
 
-    All cases have the same mu, each half of the one before, and the same solver.
+    Each mu is half of the one before. Errors are of the times up to each multiple of `end_step`.
     """
-    mus = np.array(list(next(iter(run_ends.values()))), dtype=float)
-    last = np.array([list(run_ends[name].values()) for name in problems], dtype=float)
+    mus, last = (np.array([*one], dtype=float) for one in (run_ends, run_ends.values()))
     ends = end_step * np.arange(1, round(last.max() / end_step) + 1)
     found = []
     for name, problem in problems.items():
-        found.append(measure(problem, run_ends[name], ends, spacing))
+        found.append(measure(problem, run_ends, ends, spacing))
         step(f"{name} done ({len(found)} of {len(problems)})")
     errors = np.array([one.right for one in found])  # (case, mu, expansion, end)
     order, off = orders(errors.transpose(1, 2, 0, 3))
-    powers = np.array([mus * mus * mus, mus * mus * mus * mus * mus])
-    constant = np.full(order.shape, np.nan)
-    for one in (errors / powers.T[:, :, None]).transpose(1, 2, 0, 3):
-        constant = np.where(np.isfinite(one), one, constant)  # of the last mu that has one
     wrong = np.array([one.wrong for one in found])  # (case, mu, wrong expansion)
     over, reduced = ("expansion", "case", "mu", "end"), ("expansion", "case", "end")
     variables = {
@@ -324,28 +303,15 @@ def remainder_contents(
         "case": Variable(("case",), list(problems)),
         "mu": Variable(("mu",), mus),
         "end": Variable(("end",), ends, "end of the time window, which begins at 0"),
-        "omega": Variable(("case",), [float(one.constants.omega) for one in problems.values()]),
-        "pendula_end": Variable(("case", "mu"), last, "end of the run of the pendula"),
+        "pendula_end": Variable(("mu",), last, "end of the run of the pendula"),
         "error": Variable(over, errors.transpose(2, 0, 1, 3),
                           f"error of an angle, the largest up to the end{LOST}", "rad"),
         "order": Variable(reduced, order, f"order in mu of the error as mu goes to zero{LOST}"),
         "order_uncertainty": Variable(reduced, off, f"what the order in mu may be off by{LOST}"),
-        "error_constant": Variable(
-            reduced, constant,
-            f"error over mu^3, of the corrected expansion mu^5, at the least mu{LOST}", "rad"),
-        "largest_angle": Variable(("case", "mu", "end"), np.array([one.angles for one in found]),
-                                  "largest angle up to the end", "rad"),
-        "visible_from": Variable(
-            over[:3], np.array([one.horizons for one in found]).transpose(2, 0, 1),
-            "slow time at which the error is a visible part of the largest angle"),
         "wrong_expansion": Variable(("wrong_expansion",), list(WRONG), "expansion that is wrong"),
         "wrong_error": Variable(("wrong_expansion", "case", "mu"), wrong.transpose(2, 0, 1),
                                 "largest error of an angle by a wrong expansion", "rad"),
         "wrong_order": Variable(("wrong_expansion", "case"), orders(wrong.transpose(1, 2, 0))[0],
                                 "order in mu of the error of a wrong expansion"),
     }  # fmt: skip
-    (solver,) = {tuple(sorted(one.solver.items())) for one in problems.values()}
-    about = {"title": "The expansion (3) and its next order beside Newton's equations (1)"}
-    about |= {"visible_part": VISIBLE, "spacing": spacing}
-    about |= {"solver" if key == "name" else f"solver_{key}": value for key, value in solver}
-    return variables, about
+    return variables, {"title": "The expansion (3) and its next order beside Newton's equations"}

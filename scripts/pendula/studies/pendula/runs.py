@@ -7,18 +7,15 @@ would have to search a whole period for its maximum. A pendulum that has gone ov
 amplitude: its envelope then only shows how far it has turned, from a size of pi / (2 mu) on.
 """
 
-from math import ceil
-
 import numpy as np
 
 from pendula.integrators import DONE, FAULTS
 from pendula.models.pendula import amplitudes_of, frequency
-from pendula.numerics.elementary import modulus
-from pendula.problem import AMPLITUDES, PENDULA, Problem
+from pendula.problem import PENDULA, Problem
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, find_reduction
 from pendula.simulation.models import MODELS
-from pendula.simulation.simulate import IntegrationError, Trajectory, simulate
+from pendula.simulation.simulate import IntegrationError, simulate
 
 from .mathieu import strings_grow
 
@@ -77,35 +74,15 @@ def until_lost(problem: Problem) -> Problem:
     """Return a problem of the pendula, ended where one of them is LOST to a drive without bounds.
 
     Where the drive makes the strings grow, pendula over the top turn exponentially faster, and the
-    number of steps grows alike: in ten units of tau it may become 1e10. Where a pendulum is lost
-    before the first output, the problem has outputs at shorter steps.
+    number of steps grows alike: in ten units of tau it may become 1e10. The problem has several
+    outputs in a period.
     """
     if not strings_grow(problem.constants, problem.mu):
         return problem
-    each = ceil(2.0 * problem.output_step / period_of(problem))
-    looks = problem.changed(output_step=problem.output_step / each)
-    times = MODELS[problem.model].times(looks)
-    angles = angles_at(looks, times, find_reduction(problem.amplitudes), piece=1)
+    times = MODELS[problem.model].times(problem)
+    angles = angles_at(problem, times, find_reduction(problem.amplitudes), piece=1)
     known = np.isfinite(angles[:, 0, 0]).sum() - 1
-    if known < each:
-        return looks.changed(end_time=float(looks.times[known]))
-    return problem.changed(end_time=float(problem.times[known // each]))
-
-
-def envelopes(problem: Problem) -> tuple[Trajectory, np.ndarray]:
-    """Return the run of a problem of (4) or of pendula, and |A_n|, |B_n|.
-
-    The moduli are (component, site, time), NaN after the time at which a pendulum is lost.
-    """
-    if problem.model == AMPLITUDES:
-        run = simulate(problem.changed(snapshot_every=1))
-        return run, run.modulus
-    run = simulate(until_lost(problem.changed(snapshot_every=1)))
-    moduli = modulus(amplitudes_of(*run.snapshots, problem.constants.omega, problem.mu))
-    found = np.full((*moduli.shape[:2], problem.times.size), np.nan)
-    known = np.searchsorted(problem.times, run.tau[-1], side="right")
-    found[..., :known] = moduli[..., :known]
-    return run, found
+    return problem.changed(end_time=float(problem.times[known]))
 
 
 def states(problem: Problem) -> tuple[np.ndarray, np.ndarray]:

@@ -14,12 +14,10 @@ from pendula.configuration.values import (
     Count,
     Model,
     Name,
-    Names,
     Natural,
     Numbers,
     Positive,
     Positives,
-    Steps,
     Tolerance,
     Whole,
     Window,
@@ -27,7 +25,7 @@ from pendula.configuration.values import (
 )
 from pendula.problem import Constants
 
-from .mathieu import second_tongue, squared_frequency, strength, strings_grow
+from .mathieu import squared_frequency, strength, strings_grow
 
 PERIOD_SECONDS = 2e-6
 """Computing time of a period of a pair of pendula."""
@@ -41,83 +39,53 @@ class Threshold(Model):
     epsilon: Positive
     omegas: Numbers
     mus: Positives
-    half_width: Count
-    growth: model(omegas=Numbers, gammas=Steps)
-    curve: Steps
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield where Mathieu's equation is not known well enough."""
-        mu, gamma, driven = max(self.mus), self.growth.gammas.last, self.growth.omegas
-        lowest = {"omegas": min(self.omegas), "growth.omegas": min(driven)}
-        for key, omega in {**lowest, "curve.first": self.curve.first}.items():
-            if 4.0 * squared_frequency(omega, mu) <= 1.0:
-                where = f"has {omega:g}, and at mu = {mu:g} every wave there lies"
-                way_out = f"take an Omega above {-0.75 / (mu * mu):.4g}, or a smaller mu"
-                yield key, f"{where} above the second resonance of the drive: {way_out}"
-        if 4.0 * squared_frequency(min(driven), mu) <= 1.0:
-            return
-        for omega in driven:
-            square = squared_frequency(omega, mu) / (mu * mu)
-            highest = (4.0 * self.epsilon - omega) / square
-            if highest >= 3.0 or 2.0 * gamma / square >= second_tongue(highest):
-                where = f"has {gamma:g}, at which waves of Omega = {omega:g} and mu = {mu:g} grow"
-                way_out = "take a smaller gamma or mu"
-                yield "growth.gammas", f"{where} by the second resonance of the drive: {way_out}"
+        mu, omega = max(self.mus), min(self.omegas)
+        if 4.0 * squared_frequency(omega, mu) <= 1.0:
+            where = f"has {omega:g}, and at mu = {mu:g} every wave there lies"
+            way_out = f"take an Omega above {-0.75 / (mu * mu):.4g}, or a smaller mu"
+            yield "omegas", f"{where} above the second resonance of the drive: {way_out}"
 
 
 class Remainder(Model):
     """The error of the expansion (3), and of its next order."""
 
     mus: Annotated[list[Positive], Field(min_length=3)]
-    ends: Annotated[dict[Name, list[Positive]], Field(min_length=1)]
+    ends: list[Positive]
     end_step: Positive
     spacing: Positive
     tolerance: Tolerance
-    long: Positive
 
     @property
-    def run_ends(self) -> dict[str, dict[float, float]]:
-        """How far the pendula are run, by case and mu."""
-        return {case: dict(zip(self.mus, ends, strict=True)) for case, ends in self.ends.items()}
-
-    @property
-    def long_ends(self) -> dict[str, dict[float, float]]:
-        """The same of the longer study."""
-        return {case: dict.fromkeys(self.mus, self.long) for case in self.ends}
+    def run_ends(self) -> dict[float, float]:
+        """How far the pendula are run, by mu."""
+        return dict(zip(self.mus, self.ends, strict=True))
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield what gives no order in mu, is no whole number of steps, or has no case."""
+        """Yield what gives no order in mu, or is no whole number of steps."""
         if any(abs(2.0 * fine / coarse - 1.0) > 1e-9 for coarse, fine in pairwise(self.mus)):
             yield "mus", "must each be half of the one before: orders are read off such pairs"
         if not is_multiple(self.end_step, self.spacing):
             yield "end_step", f"is not a whole number of `spacing`, {self.spacing:g}"
-        for case, ends in self.ends.items():
-            if len(ends) != len(self.mus):
-                told = f"has {len(ends)} ends for {len(self.mus)} values of mu"
-                yield f"ends.{case}", f"{told}: give one for each"
-            for end in ends:
-                if not is_multiple(end, self.end_step):
-                    yield f"ends.{case}", f"{end:g} is not a whole number of {self.end_step:g}"
-        if not is_multiple(self.long, self.end_step):
-            yield "long", f"is not a whole number of `end_step`, {self.end_step:g}"
-        if absent := list(settings.absent("cases", "ends", list(self.ends))):
-            yield from absent
+        for end in self.ends:
+            if not is_multiple(end, self.end_step):
+                yield "ends", f"{end:g} is not a whole number of {self.end_step:g}"
+        if len(self.ends) != len(self.mus):
+            told = f"has {len(self.ends)} ends for {len(self.mus)} values of mu"
+            yield "ends", f"{told}: give one for each"
             return
-        mu = self.mus[0]
-        for case in self.ends:
+        mu, cases = self.mus[0], [name for name in PAPER_CASES if name in settings.cases]
+        for case in cases:
             omega = float(settings.cases[case].omega)
             if not squared_frequency(omega, mu) > 0.0:
                 where = f"has {mu:g}, at which the pendula of {case} have no frequency"
                 way_out = f"take a mu below {np.sqrt(-1.0 / omega):.4g}"
                 yield "mus", f"{where}, since 1 + mu^2 Omega is not positive: {way_out}"
-        if all(len(ends) == len(self.mus) for ends in self.ends.values()):
-            for key, run_ends in (("ends", self.run_ends), ("long", self.long_ends)):
-                seconds = 0.0
-                for case, by_mu in run_ends.items():
-                    periods = sum(end / (mu * mu) for mu, end in by_mu.items()) / 3.0
-                    pairs = integrated_pairs(settings.problem(case))
-                    seconds += PERIOD_SECONDS * periods * pairs
-                yield from settings.excess(key, [Cost(seconds, 0.0)])
+        pairs = sum(integrated_pairs(settings.problem(case)) for case in cases)
+        periods = sum(end / (mu * mu) for mu, end in self.run_ends.items()) / 3.0
+        yield from settings.excess("ends", [Cost(PERIOD_SECONDS * periods * pairs, 0.0)])
 
 
 class Followed(Model):
@@ -170,28 +138,6 @@ class Drawn(Model):
     seed: Natural
 
 
-class Phases(Followed):
-    """The paper's cases as pendula."""
-
-    may_lose = True
-    mus: Positives
-    output_step: Positive
-    look_every: Count
-    ensemble: Drawn
-
-    def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the paper's cases."""
-        ends = [settings.cases[name].end_time for name in PAPER_CASES if name in settings.cases]
-        times = {"end_time": max(ends, default=1.0)}  # all cases are run to the last end
-        yield from self.unfit(settings, PAPER_CASES, self.mus, "mus", **times)
-        drawn = self.ensemble
-        if drawn.case in PAPER_CASES:
-            of_one = settings, [drawn.case], [max(self.mus)], "ensemble.members", drawn.members
-            yield from self.unfit(*of_one, **times)
-        else:
-            yield "ensemble.case", f"is {drawn.case}; take one of {', '.join(PAPER_CASES)}"
-
-
 class Sea(Drawn, Followed):
     """The chaotic state that fills the chain."""
 
@@ -228,32 +174,16 @@ class OverTheTop(Drawn, Followed):
         yield from self.unfit(settings, [self.case], self.mus, "mus", times, **length)
 
 
-class Film(Followed):
-    """Pendula to look at."""
-
-    cases: Names
-    mu: Positive
-    reach: Natural
-    periods: Count
-    per_period: Annotated[Whole, Field(ge=4)]
-
-    def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the cases."""
-        yield from self.unfit(settings, self.cases, [self.mu], "mu", where="cases")
-
-
 class Settings(Model):
     """Section `pendula` of the configuration."""
 
     threshold: Threshold
     remainder: Remainder
-    phases: Phases
     sea: Sea
     over_the_top: OverTheTop
-    film: Film
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield the faults of each topic."""
-        for topic in ("threshold", "remainder", "phases", "sea", "over_the_top", "film"):
+        for topic in ("threshold", "remainder", "sea", "over_the_top"):
             for key, text in getattr(self, topic).faults(settings):
                 yield f"{topic}.{key}", text
