@@ -8,7 +8,7 @@ from accepted import BASELINE, datasets
 from pendula.datasets.json_files import load_json
 from pendula.ledger.claim import Origin
 from pendula.ledger.decide import join_claims
-from pendula.ledger.tables import facts, tally
+from pendula.ledger.tables import tally
 from pendula.ledger.verdicts import all_claims, decide, evaluate
 
 ROWS = load_json(BASELINE / "claims.json")["rows"]
@@ -23,7 +23,7 @@ TURNS = {
 
 def test_the_paper_is_read_in_many_rows_and_each_sentence_once():
     counts = {origin: sum(counted.values()) for origin, counted in tally(ROWS).items()}
-    assert sum(counts.values()) == len(facts(ROWS)) < len(ROWS) and counts[Origin.PAPER] >= 70
+    assert sum(counts.values()) == len(ROWS) and counts[Origin.PAPER] >= 70
     assert len({row["says"] + row["place"] for row in ROWS}) == len(ROWS)
 
 

@@ -11,7 +11,7 @@ import xarray as xr
 from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.rows import Ledger, load, on_figure
-from pendula.ledger.tables import facts, tally
+from pendula.ledger.tables import tally
 from pendula.measures.confidence import CONFIDENCE
 from pendula.measures.levels import levelling
 from pendula.report.results import Results
@@ -117,7 +117,7 @@ def gather(results: Results) -> dict[str, Any]:
 def counts(rows: list[dict]) -> dict[str, str]:
     """Return how many claims of the paper are of each kind and have each verdict, and controls."""
     of_paper = Counter(tally(rows).get(Origin.PAPER, {}))
-    kinds = Counter(row["kind"] for row in facts(rows) if row["origin"] == Origin.PAPER)
+    kinds = Counter(row["kind"] for row in rows if row["origin"] == Origin.PAPER)
     controls = [one["passes"] for row in rows for one in row["controls"]]
     of_all = "" if all(controls) else f"{controls.count(True)} of the"
     found = {

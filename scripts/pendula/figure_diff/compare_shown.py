@@ -34,8 +34,8 @@ OF_THE_MACHINE = {
     "report.html": rb'<section id="run">(?:(?!</?section).)*</section>',
     "live.html": rb'"code": "[\w+/=]*"',
 }
-"""What two pages hold of the machine, each once: processor, versions and times of jobs; and code that
-numba writes for the processor, whose bits are compared where it runs."""
+"""What two pages hold of the machine, each once: processor, versions and times of jobs; and code
+that numba writes for the processor, whose bits are compared where it runs."""
 
 FOLLOWS = ("data", ENTRY, "ticks", "points", "measured", "because", "cutoffs", "rests_on", "checks")
 """Entries of a description, and of a ledger, whose words follow the numbers of chaotic datasets."""

@@ -84,8 +84,7 @@ class Claim(NamedTuple):
 
     `needs` names the datasets that decide it: paths below results/ without their ending. `on` names
     the cases and sweeps that it is on, where a dataset holds others as well. Functions of several
-    studies may decide one sentence: each has a `reading` then, such as "ensembles". Sentences that
-    the same numbers decide name their `fact`, and count as one.
+    studies may decide one sentence: each has a `reading` then, such as "ensembles".
     """
 
     name: str
@@ -97,7 +96,6 @@ class Claim(NamedTuple):
     on: tuple[str, ...] = ()
     reading: str = ""
     kind: Kind = Kind.OBSERVATION
-    fact: str = ""
 
     @property
     def origin(self) -> Origin:
@@ -121,7 +119,6 @@ def claim(
     on: tuple[str, ...] = (),
     reading: str = "",
     kind: Kind = Kind.OBSERVATION,
-    fact: str = "",
 ) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
 
@@ -130,7 +127,7 @@ def claim(
 
     def declare(function: Callable) -> Callable:
         fed = tuple(_by_name(control, needs) for control in controls)
-        about = (function.__name__, place, says, needs, function, fed, on, reading, kind, fact)
+        about = (function.__name__, place, says, needs, function, fed, on, reading, kind)
         function.claim = Claim(*about)
         return function
 

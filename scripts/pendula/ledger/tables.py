@@ -61,21 +61,13 @@ def _without_repeats(values: Iterable) -> list:
     return kept
 
 
-def facts(rows: Iterable[dict]) -> list[dict]:
-    """Return the rows, and of those on one fact only one with the worst of their verdicts."""
-    found: dict[str, dict] = {}
-    for row in sorted(rows, key=_from_the_worst):
-        found.setdefault(row["fact"] or row["name"], row)
-    return list(found.values())
-
-
 def _from_the_worst(row: dict) -> int:
     return [*map(str, WORST_FIRST), row["verdict"]].index(row["verdict"])
 
 
 def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
-    """Return by origin how many facts have each verdict; what no fact has is left out."""
-    counts = Counter((row["origin"], row["verdict"]) for row in facts(rows))
+    """Return by origin how many rows have each verdict; what no row has is left out."""
+    counts = Counter((row["origin"], row["verdict"]) for row in rows)
     by_origin = {
         str(origin): {str(v): counts[origin, v] for v in Verdict if counts[origin, v]}
         for origin in Origin

@@ -168,7 +168,6 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
         "says": claim.says,
         "reading": claim.reading,
         "kind": str(claim.kind),
-        "fact": claim.fact,
         "decided_by": list(claim.needs),
         "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
         "measured": _plain(finding),

@@ -62,7 +62,6 @@ def judged_order(remainder, expansion: str, whole: float, cases=STABLE) -> Findi
     (REMAINDER,),
     (Control("amplitudes with the slow time mu^2 t", of_wrong("order", SLOW, "leading")),),
     on=ALL,
-    fact="order of the expansion",
 )
 def expansion_order(remainder) -> Finding:
     return judged_order(remainder, "leading", 3.0, ALL)
