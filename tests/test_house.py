@@ -11,6 +11,7 @@ LIBRARY = sources.SCRIPTS / "pendula"
 MODULES = sorted(path.relative_to(LIBRARY) for path in LIBRARY.rglob("*.py"))
 
 STOREYS = (
+    ("live",),
     ("notebook",),
     ("article", "own_cases"),
     ("studies",),

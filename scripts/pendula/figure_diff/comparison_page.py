@@ -19,7 +19,8 @@ def render(verdict: Verdict, made: Path, folder: Path) -> str:
         for name, *_ in told
         if name.endswith(".png")
     }
-    shown = {"verdict": verdict, "told": told, "pictures": pictures}
+    title = f"Figure diff: {verdict.faults} fault{'' if verdict.faults == 1 else 's'}"
+    shown = {"title": title, "sections": [], "verdict": verdict, "told": told, "pictures": pictures}
     return page.render("comparison_page.html.j2", Path(__file__).parent, **shown)
 
 

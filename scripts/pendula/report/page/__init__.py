@@ -10,13 +10,14 @@ from markupsafe import Markup
 HERE = Path(__file__).parent
 
 
-def render(template: str, **values) -> str:
+def render(template: str, folder: Path = HERE, **values) -> str:
     """Return the page of a template filled with values, with its style and the style's hash.
 
-    Text is escaped; a value that the template names and nobody gave is an error.
+    The template lies in `folder` or in this package, which has that of a page with sections. Text
+    is escaped; a value that the template names and nobody gave is an error.
     """
     environment = Environment(
-        loader=FileSystemLoader(HERE / "templates"),
+        loader=FileSystemLoader([folder, HERE / "templates"]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -22,9 +22,8 @@ from pendula.compiled import TESTED
 from pendula.ends import DIRICHLET
 from pendula.models.amplitudes import Chain
 from pendula.models.chain import MIRROR
-
-from .observables import blank_record
-from .solvers import SOLVERS
+from pendula.simulation.observables import blank_record
+from pendula.simulation.solvers import SOLVERS
 
 TRIPLE, FEATURES = "wasm32-unknown-unknown", "+simd128,+bulk-memory,+sign-ext"
 OPTIMISED = 3

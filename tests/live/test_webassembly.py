@@ -2,7 +2,7 @@
 
 import pytest
 from pendula.figure_diff.compare_shown import comparable
-from pendula.simulation.webassembly import WebAssemblyError, _for_small_pointers, webassembly
+from pendula.live.webassembly import WebAssemblyError, _for_small_pointers, webassembly
 
 STRUCTURE = "{ ptr, ptr, i64, double, [3 x i64] }"
 

@@ -20,12 +20,13 @@ from pendula.datasets.netcdf import read
 from pendula.integrators import FAULTS
 from pendula.measures.difference import VISIBLE
 from pendula.problem import read_initial
+from pendula.report import page
+from pendula.report.words import case_of
 from pendula.simulation.solvers import SOLVERS
-from pendula.simulation.webassembly import webassembly
 
-from .page import HERE, digest, render
-from .words import case_of
+from .webassembly import webassembly
 
+HERE = Path(__file__).parent
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
 """Of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), which takes words here, not bytes. Any
 change of one word changes it."""
@@ -51,19 +52,19 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
         "visible": VISIBLE,
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
     }
-    style, more, script = (
-        (HERE / name).read_text(encoding="utf-8") for name in ("style.css", "live.css", "live.js")
-    )
-    page = render(
+    files = (page.HERE / "style.css", HERE / "live.css", HERE / "live.js")
+    common, own, script = (file.read_text(encoding="utf-8") for file in files)
+    text = page.render(
         "live.html.j2",
+        HERE,
         data=Markup(json.dumps(data, ensure_ascii=False)),
-        live_style=Markup(style + more),
-        live_script=Markup(script),
-        style_hash=digest(style + more),
-        script_hash=digest(script),
+        style=Markup(common + own),
+        script=Markup(script),
+        style_hash=page.digest(common + own),
+        script_hash=page.digest(script),
     )
     with complete_or_absent(html) as partial:
-        Path(partial).write_text(page, encoding="utf-8")
+        Path(partial).write_text(text, encoding="utf-8")
 
 
 def marks(run: xr.Dataset) -> np.ndarray:
