@@ -13,7 +13,7 @@ from helpers import ROOT, package, skip, snakemake_with, wait_for
 from oracle import CASES
 from pendula.datasets.netcdf import read, write
 from pendula.figure_diff import hashes
-from pendula.live import write_live
+from pendula.live.write import write_live
 from pendula.measures.difference import first_above, norm_difference
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate

@@ -26,4 +26,4 @@ use rule job as live with:
     pathvars:
         made="live",
     params:
-        call=function("pendula.live.write_live"),
+        call=function("pendula.live.write.write_live"),
