@@ -51,11 +51,11 @@ def test_comparing_failing_and_accepting_by_name(finished, clone):
     assert "Figure diff: 5 faults" in (results / "figure_diff/index.html").read_text()
 
     # A changed table is accepted by its name, although other files are damaged.
-    table = results / "tables/hard_cases.md"
+    table = results / "tables/claims.md"
     table.write_text(table.read_text() + "changed")
-    result = snakemake(clone, finished, "accept_figures", *MINE, "accept=tables/hard_cases")
+    result = snakemake(clone, finished, "accept_figures", *MINE, "accept=tables/claims")
     assert result.returncode == 0 and "1 files accepted, 1 of them new or changed" in said(result)
-    assert (finished / MY_BASELINE / "tables/hard_cases.md").read_text().endswith("changed")
+    assert (finished / MY_BASELINE / "tables/claims.md").read_text().endswith("changed")
 
 
 def test_everything_that_a_full_run_makes_is_in_the_baseline(full_run):

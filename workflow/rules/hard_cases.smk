@@ -10,15 +10,3 @@ use rule dataset as hard_cases with:
     params:
         call=function("pendula.studies.hard_cases.outcomes.hard_cases_contents"),
         cases=SETTINGS.hard_cases.plain(),
-
-
-use rule job as hard_cases_table with:
-    "The hard cases as a table to read: results/tables/hard_cases.md"
-    input:
-        data="<results>/checks/hard_cases.nc",
-    output:
-        table="<results>/tables/hard_cases.md",
-    pathvars:
-        made="tables/hard_cases",
-    params:
-        call=function("pendula.studies.hard_cases.table.tabulate_hard_cases"),

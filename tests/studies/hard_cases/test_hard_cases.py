@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from accepted import BASELINE, dataset
 from helpers import chosen
 from pendula.studies.hard_cases import errors
 from pendula.studies.hard_cases.outcomes import evaluate
 from pendula.studies.hard_cases.settings import MEASURES
-from pendula.studies.hard_cases.table import page
 
 CASES = chosen("hard_cases").plain()
 SHORTER = {"drift_of_energy": {"tau": 200.0}, "miss_of_short_chain": {"half_width": 500}}
@@ -44,11 +42,3 @@ def test_an_error_is_sound_up_to_what_is_expected(error, expected, sound, monkey
 def test_another_refusal_than_the_expected_one_is_not_sound(expected):
     case = case_of("a step of 1e-12")
     assert not evaluate(case | {"expected": expected}, case["solvers"][0])["sound"]
-
-
-def test_the_page_of_the_accepted_outcomes_is_the_accepted_one():
-    accepted = (BASELINE / "tables/hard_cases.md").read_text()
-    assert "\n\n".join(page(dataset("checks/hard_cases"))) + "\n" == accepted
-    wrong = dataset("checks/hard_cases").copy(deep=True)
-    wrong["sound"][0] = 0
-    assert page(wrong)[-1].count("| NO |") == 1
