@@ -30,8 +30,8 @@ class Node:
 
     Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, part,
     shift), and ("clock", name): a function of the time that the system has by its name. The others
-    are add, sub, neg, mul, div, sin and cos. Power series have one leaf more, ("carried", i), and
-    halves of squares, see pendula.models.series_graph.
+    are add, sub, neg, mul, div, sin, cos, exp, log and sqrt. Power series have one leaf more,
+    ("carried", i), and halves of squares, see pendula.models.series_graph.
     """
 
     def __init__(self, operation: str, *operands):
@@ -144,8 +144,15 @@ def mul(a: Node, b: Node) -> Node:
 
 
 def reciprocal(a: Node) -> Node:
-    """Return 1 / a of a constant."""
+    """Return 1 / a."""
     return number(1.0 / a.operands[0]) if is_number(a) else node("div", ONE, a)
+
+
+def div(a: Node, b: Node) -> Node:
+    """Return a / b; by a constant it is a product with its reciprocal."""
+    if a is ZERO:
+        return a
+    return mul(reciprocal(b), a) if b.level == CONSTANT and a is not ONE else node("div", a, b)
 
 
 BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul}
@@ -215,7 +222,7 @@ def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) 
     """Return the values of nodes, whatever numbers value(leaf) gives for their leaves.
 
     These may be numbers of any kind that adds and multiplies: arrays, multiprecision reals,
-    integers where no leaf is a fraction. `functions` has `sin` and `cos` of them.
+    integers where no leaf is a fraction. `functions` has sin, cos, exp, log and sqrt of them.
     """
     known: dict[Node, Any] = {}
     for one in in_order(nodes):
@@ -255,6 +262,14 @@ def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[No
                 return mul(node("cos", a), made[a])
             case "cos", a:
                 return neg(mul(node("sin", a), made[a]))
+            case "exp", a:
+                return mul(one, made[a])
+            case "log", a:
+                return div(made[a], a)
+            case "sqrt", a:
+                return div(made[a], mul(TWO, one))
+            case "div", a, b:
+                return div(sub(made[a], mul(one, made[b])), b)
         return change(one)
 
     for one in in_order(nodes):

@@ -7,9 +7,10 @@ A model is a file such as this one (see docs/own_models.md):
     def i_dt(p, u):
         return p.epsilon * lap(u) + abs2(u) * u - 1j * p.gamma * u
 
-`i_dt` returns i du_n/dt of each field; `d2_dt2` in its place returns the second derivatives of real
-fields. `p` has the parameters, and the time `p.t`. The function is called once, with symbols in
-place of numbers, which record each operation in a graph (`symbols`, `graph`).
+`i_dt` returns i du_n/dt of each field. `d2_dt2` in its place returns the second derivatives of real
+fields, and may take their velocities behind them: d2_dt2(p, x, v) or d2_dt2(p, x, y, vx, vy). `p`
+has the parameters, and the time `p.t`. The function is called once, with symbols in place of
+numbers, which record each operation in a graph (`symbols`, `graph`).
 """
 
 import inspect
@@ -39,9 +40,22 @@ from .graph import (
     rebuilt,
 )
 from .model_file import SEED, placed, run_file, same
-from .symbols import ModelError, Value, abs2, conj, cos, lap, shift, sin
+from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
 
-__all__ = ["Model", "ModelError", "Value", "abs2", "conj", "cos", "lap", "shift", "sin"]
+__all__ = [
+    "Model",
+    "ModelError",
+    "Value",
+    "abs2",
+    "conj",
+    "cos",
+    "exp",
+    "lap",
+    "log",
+    "shift",
+    "sin",
+    "sqrt",
+]
 
 
 class Model:
@@ -76,12 +90,8 @@ class Model:
         self.second_order = d2_dt2 is not None
         functions = [one for one in (i_dt, d2_dt2, conserved) if one is not None]
         self.text = text or "\n".join(_source_of(function) for function in functions)
-        symbols = [
-            Value(leaf(c, 0), ZERO if self.second_order else leaf(c, 1))
-            for c in range(len(self.fields))
-        ]
-        self.rates = self._rates_of(self._called(i_dt or d2_dt2, symbols))
-        kept = self._called(conserved, symbols) if conserved else {}
+        self.rates = self._rates_of(self._called(i_dt or d2_dt2))
+        kept = self._called(conserved) if conserved else {}
         self.conserved = self._densities(kept)
 
     @classmethod
@@ -143,7 +153,20 @@ class Model:
 
     # --- The trace
 
-    def _called(self, function: Callable, symbols: list[Value]) -> Any:
+    def _called(self, function: Callable) -> Any:
+        """Return what a function of the model returns for symbols; with velocities if it takes
+        them."""
+        values = [
+            Value(leaf(c, 0), ZERO if self.second_order else leaf(c, 1))
+            for c in range(len(self.fields))
+        ]
+        velocities = [Value(leaf(c, 1)) for c in range(len(self.fields))]
+        known = [values, values + velocities] if self.second_order else [values]
+        symbols = next((one for one in known if _takes(function, 1 + len(one))), None)
+        if symbols is None:
+            named = ", ".join(("p", *self.fields))
+            more = f", or ({named}, and a velocity of each)" * self.second_order
+            raise ModelError(f"{self.name}: {function.__name__} must take ({named}){more}")
         try:
             return function(_Parameters(self.parameters), *symbols)
         except Exception as error:
@@ -203,12 +226,21 @@ class Model:
         return rebuilt(self.rates, reflected) == rebuilt(self.rates, ordered)
 
     @cached_property
+    def separable(self) -> bool:
+        """Whether the equations are of second order and their forces free of velocities."""
+        found = leaves_in(self.rates[1::2], "field")
+        return self.second_order and not any(one.operands[1] for one in found)
+
+    @cached_property
     def driven(self) -> bool:
         """Whether the equations depend on the time."""
         return bool(leaves_in(self.rates, "time"))
 
     def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
-        """Return a bound of the rates at which fields of the size `peak` turn or grow."""
+        """Return a bound of the rates at which fields of the size `peak` turn or grow.
+
+        Where a function has no derivative at rest, that of the fields at rest leaves it out.
+        """
         given = {name: value for name, value in self.parameters.items() if not callable(value)}
         sizes = {name: float(np.abs(value).max()) for name, value in (given | parameters).items()}
 
@@ -222,8 +254,9 @@ class Model:
         rows = np.zeros(len(self.rates))
         for found in leaves_in(self.rates, "field"):
             change = derivative(self.rates, lambda one, found=found: number(one is found))
-            rows += np.abs(evaluate(change, size))
-        return float(rows.max())
+            with np.errstate(all="ignore"):
+                rows += np.abs(evaluate(change, lambda one: np.float64(size(one))))
+        return float(rows.max() if peak else np.nan_to_num(rows, posinf=0.0).max())
 
     def tangent(self) -> "Model":
         """Return the model of a solution and a small perturbation of it: twice the fields."""
@@ -307,6 +340,15 @@ def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
     if kind == "fields" and not found:
         raise ModelError(f"{model}: fields is empty; give the name of a field, such as ('u',)")
     return found
+
+
+def _takes(function: Callable, count: int) -> bool:
+    """Return whether a function can be called with so many values."""
+    try:
+        inspect.signature(function).bind(*range(count))
+    except TypeError:
+        return False
+    return True
 
 
 def _source_of(function: Callable) -> str:

@@ -2,7 +2,7 @@
 
 What there is. A `Vector` is eight doubles in a vector register, its lanes, numbered 0 to 7.
 `load` and `store` move one between a register and eight neighbouring numbers of an array, `fill`
-repeats one number, + - * and unary - work lane by lane. `left_neighbours` and `right_neighbours`
+repeats one number, + - * / and unary - work lane by lane. `left_neighbours` and `right_neighbours`
 shift lanes, so that each site sees the one beside it. `keep_lanes` replaces the lanes behind the
 last site, `larger_magnitude` and `largest_lane` find the largest absolute value. A `VectorView` is
 a state (row, column) seen a vector at a time: `y[row, j]` of the view reads or writes the vector
@@ -138,12 +138,13 @@ def store(typing_context, array, index, value):
 
 
 def define_operator(symbol, instruction):
-    """Define `vector symbol vector` and `number symbol vector` by an instruction of LLVM."""
+    """Define an operator of two vectors, or of a vector and a number, by an instruction of LLVM."""
 
     @type_callable(symbol)
     def type_of_result(context):
         def typed(one, other):
-            return vector if other == vector and one in (vector, types.float64) else None
+            known = {one, other} <= {vector, types.float64} and vector in (one, other)
+            return vector if known else None
 
         return typed
 
@@ -155,10 +156,15 @@ def define_operator(symbol, instruction):
     def of_number_and_vector(context, builder, signature, arguments):
         return getattr(builder, instruction)(repeat(builder, arguments[0]), arguments[1])
 
+    @lower_builtin(symbol, vector, types.float64)
+    def of_vector_and_number(context, builder, signature, arguments):
+        return getattr(builder, instruction)(arguments[0], repeat(builder, arguments[1]))
+
 
 define_operator(operator.add, "fadd")
 define_operator(operator.sub, "fsub")
 define_operator(operator.mul, "fmul")
+define_operator(operator.truediv, "fdiv")
 
 
 @type_callable(operator.neg)
@@ -169,6 +175,62 @@ def type_of_negative(context):
 @lower_builtin(operator.neg, vector)
 def negate(context, builder, signature, arguments):
     return builder.fneg(arguments[0])
+
+
+def of_either(generated):
+    """Return a function of a vector or of one number, lane by lane, by instructions of LLVM.
+
+    generated(builder, value, wide) writes them, where wide(one) is a constant of as many lanes.
+    """
+
+    @intrinsic
+    def function(typing_context, value):
+        if value not in (vector, types.float64):
+            return None
+
+        def generate(context, builder, signature, arguments):
+            lanes = signature.args[0] == vector
+
+            def wide(one):
+                return constant(one.type, [one.constant] * LANES) if lanes else one
+
+            return generated(builder, arguments[0], wide)
+
+        return value(value), generate
+
+    return function
+
+
+@of_either
+def square_root(builder, value, wide):
+    """Return the square root, which is rounded alike everywhere; NaN below zero."""
+    suffix = "v8f64" if value.type == VECTOR else "f64"
+    kind = ir.FunctionType(value.type, [value.type])
+    root = cgutils.get_or_insert_function(builder.module, kind, f"llvm.sqrt.{suffix}")
+    return builder.call(root, [value])
+
+
+@of_either
+def power_of_two(builder, value, wide):
+    """Return 2^k of a whole number k, as if k were within -1022..1023."""
+    double = ir.DoubleType()
+    for limit, compare in ((double(1023.0), ">"), (double(-1022.0), "<")):
+        beyond = builder.fcmp_ordered(compare, value, wide(limit))
+        value = builder.select(beyond, wide(limit), value)
+    whole = BITS if value.type == VECTOR else WHOLE
+    # k + 1023 + 2^52 has k + 1023 in its last bits
+    bits = builder.bitcast(builder.fadd(value, wide(double(2.0**52 + 1023.0))), whole)
+    return builder.bitcast(builder.shl(bits, wide(WHOLE(52))), value.type)
+
+
+@of_either
+def whole_exponent(builder, value, wide):
+    """Return the k of x = m 2^k with m from sqrt(1/2) to sqrt(2), for normal x > 0."""
+    whole = BITS if value.type == VECTOR else WHOLE
+    bits = builder.bitcast(value, whole)
+    moved = builder.sub(bits, wide(WHOLE(0x3FE6_A09E_667F_3BCD)))
+    exponent = builder.ashr(moved, wide(WHOLE(52)))
+    return builder.sitofp(exponent, value.type)
 
 
 # --- What passes between the lanes --------------------------------------------------------------

@@ -4,8 +4,24 @@ from typing import Any
 
 import numpy as np
 
-from .graph import CONSTANT, TWO, ZERO, Node, add, mul, neg, node, number, reciprocal, shifted, sub
+from .graph import (
+    CONSTANT,
+    TWO,
+    ZERO,
+    Node,
+    add,
+    div,
+    mul,
+    neg,
+    node,
+    number,
+    reciprocal,
+    shifted,
+    sub,
+)
 
+HIGHEST_POWER = 16
+"""Whole powers up to this one are products; others are exponentials of a logarithm."""
 LONGEST_SHIFT = 7
 """How far along the chain an equation may look: within the next block of a vector."""
 
@@ -75,20 +91,24 @@ class Value:
 
     def __truediv__(self, other):
         other = Value.of(other)
-        if max(other.re.level, other.im.level) > CONSTANT:
-            raise ModelError("only division by numbers and parameters is supported")
         if other.im is not ZERO:
             return self * other.conjugate() / abs2(other)
+        if other.re.level > CONSTANT:
+            return Value(div(self.re, other.re), div(self.im, other.re))
         inverse = reciprocal(other.re)
         return Value(mul(inverse, self.re), mul(inverse, self.im))
 
     def __pow__(self, exponent):
-        if not isinstance(exponent, int) or not 1 <= exponent <= 9:
-            raise ModelError(f"the power {exponent!r}: give a whole number from 1 to 9")
-        power = self
-        for _ in range(exponent - 1):
+        if isinstance(exponent, float) and exponent.is_integer():
+            exponent = int(exponent)
+        if not isinstance(exponent, int) or abs(exponent) > HIGHEST_POWER:
+            if isinstance(exponent, int | float | Value) and not isinstance(exponent, bool):
+                return exp(Value.of(exponent) * log(self))
+            raise ModelError(f"the power {exponent!r}: give a number or a parameter")
+        power = Value(number(1.0)) if exponent == 0 else self
+        for _ in range(abs(exponent) - 1):
             power = power * self
-        return power
+        return power if exponent >= 0 else 1 / power
 
     def __neg__(self):
         return Value(neg(self.re), neg(self.im))
@@ -121,6 +141,8 @@ class Value:
             if ufunc.__name__ == "absolute":
                 return abs(self)
             raise ModelError(f"{ufunc.__name__} of a field or a parameter has no rule")
+        if ufunc.__name__ == "power" and isinstance(operands[0], Value):
+            return operands[0] ** operands[1]
         return rule(*map(Value.of, operands))
 
     def _refuse(self, *_):
@@ -168,6 +190,23 @@ def cos(w: Value) -> Value:
     return _of_real("cos", w)
 
 
+def exp(w: Value) -> Value:
+    """Return the exponential."""
+    w = Value.of(w)
+    size = Value(number(1.0) if w.re is ZERO else node("exp", w.re))
+    return size if w.im is ZERO else size * Value(node("cos", w.im), node("sin", w.im))
+
+
+def log(w: Value) -> Value:
+    """Return the natural logarithm of a real value, which must stay positive."""
+    return _of_real("log", w)
+
+
+def sqrt(w: Value) -> Value:
+    """Return the square root of a real value, which must stay positive."""
+    return _of_real("sqrt", w)
+
+
 def _of_real(name: str, w: Value) -> Value:
     w = Value.of(w)
     if w.im is not ZERO:
@@ -184,5 +223,9 @@ UFUNCS = {
     "conjugate": conj,
     "sin": sin,
     "cos": cos,
+    "exp": exp,
+    "log": log,
+    "sqrt": sqrt,
+    "power": Value.__pow__,
 }
 """Functions of NumPy by their names, with their rules."""

@@ -119,7 +119,7 @@ class OwnCase(Case):
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a solver that does not take the equations of the case."""
-        known = OF_OWN_MODELS + (OF_SECOND_ORDER if self.model.second_order else ())
+        known = OF_OWN_MODELS + (OF_SECOND_ORDER if self.model.separable else ())
         if solver.name not in known:
             text = f"{solver.name} does not take models of one's own"
             yield "solver.name", f"{text}; give one of {', '.join(known)}"

@@ -46,7 +46,7 @@ CLOCK_SERIES = """\
 
 def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
     """Return the parts of rates, and of what their series carry along."""
-    _, found = with_carried(list(rates))
+    *_, found = with_carried(list(rates), site_dependent)
     return parts_of([*rates, *(one for pair in found for one in pair)], site_dependent)
 
 
@@ -74,7 +74,7 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
     return "".join([
         HEAD,
         rates_text(rates, names, reach),
-        Series(rates, names).text(reach),
+        Series(rates, names, site_dependent).text(reach),
         clocks_text(parts, names),
     ])  # fmt: skip
 
@@ -86,7 +86,7 @@ def load_series(model: Model) -> ModuleType:
     the clocks are expected one after the other from `spare_start` on.
     """
     names = Names(parts_of_rates(model.rates, frozenset()), by_name=True)
-    return load_text(HEAD + Series(model.rates, names, alike=True).text(model.reach))
+    return load_text(HEAD + Series(model.rates, names, frozenset(), alike=True).text(model.reach))
 
 
 def load_rule(rates: tuple[Node, ...], *states: str):

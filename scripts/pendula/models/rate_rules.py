@@ -64,6 +64,15 @@ class Rule:
             case "sin" | "cos" as which, a:
                 both = self.code.name(("both", a), lambda: f"sine_and_cosine({self.value(a)})")
                 return f"{both}[{int(which == 'cos')}]"
+            case "div", a, b if self.is_scalar(b) and not self.is_scalar(a):
+                return f"(1.0 / {self.value(b)}) * {self.value(a)}"
+            case "div", a, b:
+                return f"{self.value(a)} / {self.value(b)}"
+            case "exp", a:
+                return f"exponential({self.value(a)})"
+            case "log" | "sqrt" as which, a:
+                name = {"log": "logarithm", "sqrt": "root"}[which]
+                return f"{name}_and_inverse({self.value(a)})[0]"
         raise ModelError(f"{one.operation} of a field or of the time has no rule")
 
     def _sum(self, a: Node, b: Node, sign: str) -> str:

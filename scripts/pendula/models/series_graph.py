@@ -1,8 +1,11 @@
-"""What power series make of the graph of a model: halves of squares, and sines carried along.
+"""What power series make of the graph of a model: halves of squares, and functions carried along.
 
-The sine and the cosine of an expression s have the rates cos(s) s' and -sin(s) s', and are carried
-along with the fields as if they were two more.
+A function of the fields obeys a differential equation of its own, made of products alone: exp(s)
+has the rate exp(s) s', 1 / s has -s' / s^2, and so on. So it is carried along with the fields, as
+if it were one more. At the beginning of each step it is computed from its argument.
 """
+
+from typing import NamedTuple
 
 from pendula.graph import (
     CONSTANT,
@@ -19,8 +22,10 @@ from pendula.graph import (
 )
 from pendula.symbols import ModelError
 
+from .statements import is_clock
+
 MOST_ROWS = 64
-"""Sines whose rates hold the sine of a neighbour, and so on, would need ever more rows."""
+"""Functions whose rates hold those of a neighbour, and so on, would need ever more rows."""
 
 
 def with_half_squares(nodes: list[Node]) -> list[Node]:
@@ -52,24 +57,57 @@ def is_sum_of_products(one: Node) -> bool:
 
 
 def carried(i: int) -> Node:
-    """Return the leaf of a sine or cosine that is carried along."""
+    """Return the leaf of a row that is carried along."""
     return node("carried", i)
 
 
-def with_carried(rates: list[Node]) -> tuple[list[Node], list[tuple[Node, Node]]]:
-    """Return the rates with sines and cosines as leaves, and (angle, rate) of what is carried.
+class Carried(NamedTuple):
+    """Functions of one argument that are carried along together, as rows from `first` on."""
 
-    The leaves are ("carried", i): the sine of an angle, and its cosine behind it.
-    """
-    angles: list[Node] = []
+    kind: str
+    argument: Node
+    first: int
+
+    def rates(self, speed: Node) -> list[Node]:
+        """Return the rates of the rows, where the argument has the rate `speed`."""
+        one, other = carried(self.first), carried(self.first + 1)
+        match self.kind:
+            case "turn":  # sine, cosine
+                return [mul(other, speed), neg(mul(one, speed))]
+            case "exp":
+                return [mul(one, speed)]
+            case "inverse":
+                return [neg(mul(mul(one, one), speed))]
+            case "log":  # logarithm, inverse
+                return [mul(other, speed), neg(mul(mul(other, other), speed))]
+        half = mul(number(0.5), mul(other, speed))  # root, inverse of the root
+        return [half, neg(mul(mul(other, other), half))]
+
+
+KINDS = {
+    "sin": ("turn", 0), "cos": ("turn", 1), "exp": ("exp", 0), "div": ("inverse", 0),
+    "log": ("log", 0), "sqrt": ("sqrt", 0),
+}  # fmt: skip
+"""The functions that are carried along: of each the kind, and its row among those of the kind."""
+ROWS = {"turn": 2, "exp": 1, "inverse": 1, "log": 2, "sqrt": 2}
+
+
+def with_carried(
+    rates: list[Node], site_dependent: frozenset[str]
+) -> tuple[list[Node], list[Carried], list[tuple[Node, Node]]]:
+    """Return the rates with functions of the fields as leaves, these functions, and (argument,
+    rate) of each of their rows."""
+    kept: dict[tuple[str, Node], Carried] = {}
 
     def as_leaf(one: Node, operands: list[Node]) -> Node | None:
-        if one.level < MOTION or one.operation not in ("sin", "cos"):
+        if one.level == CONSTANT or one.operation not in KINDS or is_clock(one, site_dependent):
             return None
-        angle = one.operands[0]
-        if angle not in angles:
-            angles.append(angle)
-        return carried(2 * angles.index(angle) + (one.operation == "cos"))
+        kind, row = KINDS[one.operation]
+        argument = one.operands[-1]
+        first = sum(ROWS[name] for name, _ in kept)
+        found = kept.setdefault((kind, argument), Carried(kind, argument, first))
+        leaf = carried(found.first + row)
+        return mul(operands[0], leaf) if one.operation == "div" else leaf
 
     def flow(one: Node) -> Node:
         if one.operation == "field":
@@ -77,11 +115,12 @@ def with_carried(rates: list[Node]) -> tuple[list[Node], list[tuple[Node, Node]]
             return shifted(rates[2 * component + part], by)
         return number(one.operation == "time")
 
-    made, found = rebuilt(rates, as_leaf), []
-    while len(found) < 2 * len(angles):
-        i = len(found)
-        angle, speed = rebuilt([angles[i // 2], derivative([angles[i // 2]], flow)[0]], as_leaf)
-        found += [(angle, mul(carried(i + 1), speed)), (angle, neg(mul(carried(i), speed)))]
+    made, found, done = rebuilt(rates, as_leaf), [], 0
+    while done < len(kept):
+        group = list(kept.values())[done]
+        argument, speed = rebuilt([group.argument, derivative([group.argument], flow)[0]], as_leaf)
+        found += [(argument, rate) for rate in group.rates(speed)]
+        done += 1
         if len(found) > MOST_ROWS:
-            raise ModelError("the sine of what depends on neighbours needs ever more of them")
-    return made, found
+            raise ModelError("a function of what depends on neighbours needs ever more of them")
+    return made, list(kept.values()), found

@@ -25,6 +25,14 @@ from .statements import Code, Names, require_alike
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
 SHIFTS = {1: "right_neighbours", -1: "left_neighbours"}
+STARTS = {
+    "turn": (("sine", "cosine"), "sine_and_cosine({})"),
+    "exp": (("grown",), "exponential({})"),
+    "inverse": (("inverse",), "1.0 / ({})"),
+    "log": (("logarithm", "inverse"), "logarithm_and_inverse({})"),
+    "sqrt": (("root", "inverse"), "root_and_inverse({})"),
+}
+"""What is carried along at order 0: the names of the rows, and what computes them."""
 RULE = """
 SPARE = {spare} * LANES
 WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
@@ -44,9 +52,16 @@ class Series:
     One that is for fields that are `alike` is written once, and goes through both of them.
     """
 
-    def __init__(self, model_rates: tuple[Node, ...], names: Names, alike: bool = False):
+    def __init__(
+        self,
+        model_rates: tuple[Node, ...],
+        names: Names,
+        site_dependent: frozenset[str],
+        alike: bool = False,
+    ):
         self.alike, self.names = alike, names
-        rates, self.found = with_carried(list(model_rates[:2] if alike else model_rates))
+        rows = list(model_rates[:2] if alike else model_rates)
+        rates, self.groups, self.found = with_carried(rows, site_dependent)
         nodes = with_half_squares([*rates, *(part for pair in self.found for part in pair)])
         self.components = len(rates) // 2
         self.clocks = {one: i for i, one in enumerate(names.clocks)}
@@ -138,13 +153,14 @@ class Series:
         return depth
 
     def _start_carried(self, code: Code) -> None:
-        """Write sines and cosines at order 0, from their angles."""
-        for i in range(0, len(self.found), 2):
-            angle = self._start(self.angles[i], code)
+        """Write the functions that are carried along at order 0, from their arguments."""
+        for group in self.groups:
+            argument = self._start(self.angles[group.first], code)
             code("if k == 0:")
-            code(f"sine, cosine = sine_and_cosine({angle})", 1)
-            code(f"store(m, {self.place(carried(i), '0')}, sine)", 1)
-            code(f"store(m, {self.place(carried(i + 1), '0')}, cosine)", 1)
+            names, text = STARTS[group.kind]
+            code(f"{', '.join(names)} = {text.format(argument)}", 1)
+            for row, name in enumerate(names):
+                code(f"store(m, {self.place(carried(group.first + row), '0')}, {name})", 1)
 
     def _start(self, one: Node, code: Code) -> str:
         """Return the expression of the coefficient of order 0."""

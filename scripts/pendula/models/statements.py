@@ -58,20 +58,15 @@ def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
     """Return the largest expressions of parameters alone, and the functions of time."""
     constants, at_sites, clocks = {}, {}, {}
 
-    def depends_on_site(one: Node) -> bool:
-        return any(part.operands[0] in site_dependent for part in leaves_in([one], "parameter"))
-
     def visit(one: Node) -> None:
         if one.level == CONSTANT:
             if not is_number(one):
-                (at_sites if depends_on_site(one) else constants)[one] = None
+                (at_sites if depends_on_site(one, site_dependent) else constants)[one] = None
         elif one.operation in ("time", "clock"):
             clocks[one] = None
-        elif one.level == CLOCK and one.operation in ("sin", "cos"):
+        elif is_clock(one, site_dependent):
             clocks[one] = None
             for found in affine(one.operands[0]):
-                if depends_on_site(found):
-                    raise ModelError("the sine of an angle that depends on time and site")
                 visit(found)
         else:
             for operand in one.inputs:
@@ -82,13 +77,25 @@ def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
     return Parts(tuple(constants), tuple(at_sites), tuple(clocks))
 
 
+def depends_on_site(one: Node, site_dependent: frozenset[str]) -> bool:
+    """Return whether an expression has a parameter with a value for each site."""
+    return any(part.operands[0] in site_dependent for part in leaves_in([one], "parameter"))
+
+
+def is_clock(one: Node, site_dependent: frozenset[str]) -> bool:
+    """Return whether a node is a sine or cosine of the time that is the same at all sites, and
+    whose angle grows steadily."""
+    if one.level != CLOCK or one.operation not in ("sin", "cos"):
+        return False
+    angle = one.operands[0]
+    return affine(angle)[0].level == CONSTANT and not depends_on_site(angle, site_dependent)
+
+
 def affine(angle: Node) -> tuple[Node, Node]:
     """Return frequency and phase of an angle that grows steadily with the time."""
     time = node("time")
     frequency = derivative([angle], lambda one: number(one is time))[0]
     phase = rebuilt([angle], lambda one, _: ZERO if one is time else None)[0]
-    if frequency.level > CONSTANT:
-        raise ModelError("a sine or cosine of the time must be of frequency times p.t plus phase")
     return frequency, phase
 
 

@@ -77,6 +77,9 @@ def exp(x):
         return np.ldexp(1.0 + t, k)
 
 
+sqrt = np.sqrt  # IEEE 754 rounds it alike everywhere
+
+
 def expm1(x):
     """Return e^x - 1, with an error below 1.5 ulp, for x < 709."""
     t, k = _reduced_exp(x)

@@ -11,6 +11,7 @@ from pendula.model import Model
 from pendula.model_file import values_at
 from pendula.models.generated import load_text, module_text, parts_of_rates
 from pendula.models.toolbox import System
+from pendula.numerics import elementary
 from pendula.problem import Problem
 from pendula.simd import LANES
 
@@ -43,7 +44,7 @@ def run_{name}(system, y, times, controls, work, record, stop):
 
 def solver_names(model: Model) -> list[str]:
     """Return the solvers that take a model: each of the last two needs equations of one kind."""
-    takes = {"kahan_li": model.second_order, "crank_nicolson": not model.driven}
+    takes = {"kahan_li": model.separable, "crank_nicolson": not model.driven}
     return [name for name in SOLVERS if takes.get(name, True)]
 
 
@@ -115,9 +116,9 @@ def make_system(problem: Problem, reduction: Reduction):
         value = values[name]
         return value if np.ndim(value) == 0 else moved(value, by, problem.boundary)
 
-    constants = map(float, evaluate(parts.constants, leaf))
+    constants = map(float, evaluate(parts.constants, leaf, elementary))
     at_sites = np.zeros((max(1, len(parts.at_sites)), problem.sites + 2 + 2 * LANES))
-    for row, value in enumerate(evaluate(parts.at_sites, leaf)):
+    for row, value in enumerate(evaluate(parts.at_sites, leaf, elementary)):
         at_sites[row, 1 : 1 + problem.sites] = value
     rows = 2 * len(model.fields)
     wide = np.zeros((rows, sites + 2 * model.reach))
