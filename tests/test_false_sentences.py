@@ -72,9 +72,9 @@ PLANTED = [
     ((row_of("theorem_1", lambda row: row.update(verdict="not reproduced")),),
      "claims.md has another verdict on theorem_1"),
     ((row_of("theorem_3", failed),), "theorem_3 is confirmed, and its control"),
-    ((run_with("fig3_large", gamma=0.5), row_of("ends_near_stable", lambda row: [
+    ((run_with("fig4_large", gamma=0.5), row_of("fig2_maxima", lambda row: [
         one.update(verdict="not reproduced") for one in row["controls"]])),
-     "ends_near_stable was fed the large case at Omega = -4"),
+     "fig2_maxima was fed the large case at Omega = 0"),
     ((replaced("figures/fig2.json", "Omega = 8", "Omega = 6"),), "fig2 has titles at Omega = [6.0"),
     ((replaced("figures/fig2.json", "Not the paper's", "As"),), "fig2 and its data do not both"),
     ((dataset("figures/fig2", lambda figure: figure.drop_attrs(deep=False)),),
