@@ -1,29 +1,34 @@
 """The dataset of steady breathers with their proofs: existence, uniqueness, and stability."""
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import COMPONENTS, Contents
-from pendula.models.pairs import FAMILIES
+from pendula.models.pairs import FAMILIES, Family
 
 from . import balls, existence, spectra
 from .states import Chain, Verdict, find_state
 
-PROVED = {
-    "radius": "a true state lies within this l-infinity distance, infinite where none is proved",
-    "unique_radius": "no other true state lies within this distance",
-    "contraction": "bound of 1 - A DF: below one, A is as good as an inverse",
-    "tail_factor": "bound of the decay from site to site beyond the sites that are kept",
-}
-"""What `existence.Proof` holds, in its order; rounded to the safe side."""
 REFUSED = existence.Proof(radius=np.inf, unique=0.0, contraction=np.inf, decay=np.inf)
+UNDECIDED = spectra.Spectrum(Verdict.UNDECIDED, 0.0, np.inf)
 FLAGS = {
     "flag_values": np.array([int(one) for one in Verdict], np.int8),
     "flag_meanings": " ".join(one.name.lower() for one in Verdict),
 }
+
+
+class Proved(NamedTuple):
+    """What is proved near a computed state."""
+
+    chain: Chain  # on which it is proved
+    family: Family
+    state: np.ndarray  # (component, site 0..M)
+    proof: existence.Proof
+    refusal: str  # why nothing is proved
 
 
 def breathers_contents(
@@ -36,88 +41,71 @@ def breathers_contents(
     States of `wrong` are found at `omega` and tested at `tested_at`. What is refused has
     an infinite radius.
     """
-    kept, chain = half_widths["block"], half_widths["chain"]
-    found = [_proved(gamma, half_widths, one) for one in proofs]
-    refused = [_proved(gamma, {"block": kept}, one) for one in wrong]
+    block, chain = half_widths["block"], half_widths["chain"]
+    infinite = [prove(gamma, block, one, infinite=True) for one in proofs]
+    finite = [prove(gamma, chain, one, infinite=False) for one in proofs]
+    refused = [prove(gamma, block, one, infinite=True) for one in wrong]
+    stability = [decide(one) for one in finite]
     of, of_wrong = ("proof",), ("wrong_proof",)
-
-    def numbers(names: Mapping[str, str]) -> dict[str, Variable]:
-        """Return a variable for each number that is proved; `names` has their long names."""
-        return {
-            name: Variable(of, [one[name] for one in found], words) for name, words in names.items()
-        }
-
+    amplitude = f"{NAMES['amplitude']}; divided by i in the imaginary families"
     variables = {
         "component": COMPONENTS,
-        "site": Variable(("site",), np.arange(kept + 1)),
+        "site": Variable(("site",), np.arange(block + 1)),
         "chain_site": Variable(("chain_site",), np.arange(chain + 1), "site of the finite chain"),
-        **_labels(of, proofs, ""),
-        **numbers(PROVED | {"chain_radius": "the same radius on the finite chain"}),
+        "family": Variable(of, [one.family.name for one in infinite], "family of states"),
+        "omega": Variable(of, [one.chain.omega for one in infinite]),
+        "epsilon": Variable(of, [one.chain.epsilon for one in infinite]),
+        "amplitude": Variable((*of, "component", "site"),
+                              np.array([one.state for one in infinite]), amplitude),
+        "radius": Variable(
+            of, [one.proof.radius for one in infinite],
+            "a true state lies within this l-infinity distance, infinite where none is proved"),
+        "unique_radius": Variable(of, [one.proof.unique for one in infinite],
+                                  "no other true state lies within this distance"),
+        "contraction": Variable(of, [one.proof.contraction for one in infinite],
+                                "bound of 1 - A DF: below one, A is as good as an inverse"),
+        "tail_factor": Variable(
+            of, [one.proof.decay for one in infinite],
+            "bound of the decay from site to site beyond the sites that are kept"),
+        "proof_refusal": Variable(of, [one.refusal for one in infinite], "why nothing is proved"),
+        "chain_amplitude": Variable((*of, "component", "chain_site"),
+                                    np.array([one.state for one in finite]),
+                                    f"{amplitude}, finite chain"),
+        "chain_radius": Variable(of, [one.proof.radius for one in finite],
+                                 "the same radius on the finite chain"),
         "stable": Variable(
-            of, np.array([one["stable"] for one in found], np.int8),
-            "whether the state on the finite chain is proved stable or unstable", attributes=FLAGS,
-        ),
-        **numbers({
-            "growth_low": "lower bound of the fastest rate of growth",
-            "growth_high": "upper bound of the fastest rate of growth",
-        }),
-        **{
-            f"{prefix}amplitude": Variable(
-                (*of, "component", f"{prefix}site"),
-                np.array([one[f"{prefix}amplitude"] for one in found]),
-                f"{NAMES['amplitude']}, {place}; divided by i in the imaginary families",
-            )
-            for prefix, place in (("", "infinite chain"), ("chain_", "finite chain"))
-        },
-        "proof_refusal": Variable(of, [one["refusal"] for one in found], "why nothing is proved"),
-        **_labels(of_wrong, wrong, "wrong_"),
-        "tested_omega": Variable(
-            of_wrong, [float(one["tested_at"]) for one in wrong],
-            "detuning Omega at which the wrong state is tested",
-        ),
+            of, np.array([one.verdict for one in stability], np.int8),
+            "whether the state on the finite chain is proved stable or unstable", attributes=FLAGS),
+        "growth_low": Variable(of, [one.growth_low for one in stability],
+                               "lower bound of the fastest rate of growth"),
+        "growth_high": Variable(of, [one.growth_high for one in stability],
+                                "upper bound of the fastest rate of growth"),
         "wrong_radius": Variable(
-            of_wrong, [one["radius"] for one in refused],
-            "radius that is proved of the wrong state, infinite if it is refused",
-        ),
-        "wrong_refusal": Variable(
-            of_wrong, [one["refusal"] for one in refused], "why the wrong state is refused"
-        ),
+            of_wrong, [one.proof.radius for one in refused],
+            "radius that is proved of the wrong state, infinite if it is refused"),
+        "wrong_refusal": Variable(of_wrong, [one.refusal for one in refused],
+                                  "why the wrong state is refused"),
     }  # fmt: skip
     title = "Steady breathers whose existence and stability are proved"
-    about = {"gamma": gamma, "half_width": kept, "chain_half_width": chain, "bits": balls.BITS}
+    about = {"gamma": gamma, "half_width": block, "chain_half_width": chain, "bits": balls.BITS}
     return variables, {"title": title, **about}
 
 
-def _labels(of: tuple[str], proofs: Sequence[Mapping], prefix: str) -> dict[str, Variable]:
-    """Return which state each proof is of."""
-    return {
-        f"{prefix}family": Variable(of, [str(one["family"]) for one in proofs], "family of states"),
-        f"{prefix}omega": Variable(of, [float(one["omega"]) for one in proofs], NAMES["omega"]),
-        f"{prefix}epsilon": Variable(
-            of, [float(one["epsilon"]) for one in proofs], NAMES["epsilon"]
-        ),
-    }
-
-
-def _proved(gamma: float, half_widths: Mapping[str, int], given: Mapping) -> dict:
-    """Return what is proved of one state, by the names of the dataset."""
+def prove(gamma: float, half_width: int, given: Mapping, infinite: bool) -> Proved:
+    """Return what is proved near the state that is found at `omega`, where it is to be tested."""
     (family,) = (one for one in FAMILIES if one.name == given["family"])
-    s = family.drive(gamma)
-    found = {"stable": Verdict.UNDECIDED, "growth_low": 0.0, "growth_high": np.inf}
-    for name, prefix in (("block", ""), ("chain", "chain_")):
-        if name not in half_widths:
-            continue
-        chain = Chain(float(given["epsilon"]), gamma, float(given["omega"]), half_widths[name])
-        state = find_state(chain, family)
-        tested = chain._replace(omega=float(given.get("tested_at", chain.omega)))
-        try:
-            proof, why = existence.prove(tested, s, state, infinite=name == "block"), ""
-        except existence.RefusedError as error:
-            proof, why = REFUSED, str(error)
-        found |= {f"{prefix}{key}": value for key, value in zip(PROVED, proof, strict=True)}
-        found[f"{prefix}refusal"] = why
-        found[f"{prefix}amplitude"] = state
-        if name == "chain" and np.isfinite(proof.radius):
-            spectrum = spectra.decide(tested, family, state, proof.radius)
-            found |= zip(("stable", "growth_low", "growth_high"), spectrum, strict=True)
-    return found
+    chain = Chain(float(given["epsilon"]), gamma, float(given["omega"]), half_width)
+    state = find_state(chain, family)
+    tested = chain._replace(omega=float(given.get("tested_at", chain.omega)))
+    try:
+        proof, why = existence.prove(tested, family.drive(gamma), state, infinite), ""
+    except existence.RefusedError as error:
+        proof, why = REFUSED, str(error)
+    return Proved(tested, family, state, proof, why)
+
+
+def decide(found: Proved) -> spectra.Spectrum:
+    """Return what is proved of the spectrum of a state on a finite chain."""
+    if not np.isfinite(found.proof.radius):
+        return UNDECIDED
+    return spectra.decide(found.chain, found.family, found.state, found.proof.radius)
