@@ -3,7 +3,7 @@
 Each page that quotes results is what its template gives. A template, and a page without one, holds
 no digit and no number word outside of an expression, save where a rule below allows it: a name that
 contains a digit, or a value that defines what the sentence is about. What expressions name comes
-from the sections of the report, which test_accepted.py holds to the datasets, and from facts.py.
+from facts.py.
 """
 
 import ast

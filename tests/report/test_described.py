@@ -62,4 +62,5 @@ def test_a_figure_is_told_by_its_caption_and_the_size_of_its_picture(tmp_path):
     found = figure(tmp_path / "figures/fig5.nc", tmp_path)
     assert found[:3] == ("figures/fig5", about["caption"], [-4.0, 0.0])
     assert (found.width, found.height) == (30, 20)
+    assert (found.label, found._replace(stem="own/cases/fig5").label) == ("Fig 5", "")
     assert (found.place, found.headline) == ("figure_fig5", "Norms of A, Ω = −4 and 0")

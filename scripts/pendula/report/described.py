@@ -38,6 +38,12 @@ class Figure(NamedTuple):
         return f"figure_{self.stem.removeprefix('figures/').replace('/', '-')}"
 
     @property
+    def label(self) -> str:
+        """The name of a figure of the paper, such as Fig 5, and nothing for others."""
+        found = re.fullmatch(r"figures/fig(\d)", self.stem)
+        return f"Fig {found[1]}" if found else ""
+
+    @property
     def headline(self) -> str:
         """How the caption begins, with the detunings that the figure shows."""
         shown = " and ".join(map(number, self.omegas))

@@ -70,8 +70,8 @@ def write_report(
         _run(folder / "logs"),
     ]  # fmt: skip
     title = f"{TITLE}: the paper, {'with other settings' if differs else 'replicated'}"
-    told = {"verdict": verdict(rows), "differs": [*differs.values()]}
-    write_page(html, "report.html.j2", title, sections, **told)
+    first = {"verdict": verdict(rows), "differs": [*differs.values()]}
+    write_page(html, "report.html.j2", title, sections, **first)
 
 
 def write_page(html: str, template: str, title: str, sections: list[Section], **values) -> None:

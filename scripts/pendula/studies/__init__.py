@@ -10,12 +10,12 @@ STUDIES = (
     *("paper", "theory", "chaos", "breathers", "pendula", "unbounded", "certified"),
     *("hard_cases", "reference"),
 )
-"""The studies whose claims, sections and settings are collected, in the order in which they are
+"""The studies whose claims and settings are collected, in the order in which they are
 told. A study with a module `settings` has its choices in config/<name>.yaml."""
 
 
 def modules(part: str) -> dict[str, ModuleType]:
-    """Return the module of this name, such as "section", of each of STUDIES that has one."""
+    """Return the module of this name, such as "settings", of each of STUDIES that has one."""
     names = {study: f"pendula.studies.{study}.{part}" for study in STUDIES}
     return {study: import_module(name) for study, name in names.items() if find_spec(name)}
 
