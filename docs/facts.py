@@ -35,6 +35,9 @@ def topics(baseline: Baseline) -> dict[str, dict]:
         "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
         "long": {"exponent": exponent(baseline["quoted/unbounded"])},
         "proved": proved(baseline),
+        "captions": {
+            name: baseline[f"figures/{name}"].attrs["caption"] for name in ("pendula_over_the_top",)
+        },
         "hard_cases": hard_cases(baseline["checks/hard_cases"]),
         "speed": speed(baseline["speed/work_precision"]),
         "speeds": speeds(baseline),
