@@ -19,9 +19,18 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(items):
-    """Put long tests before all others, and give all workers one order."""
+    """Put long tests before all others, and give all workers one order.
+
+    A worker begins with its own share of that order. All that read the shared quick run are in the
+    first share, so that no other worker waits while one makes it.
+    """
     first = tuple(str(Path(__file__).parent / name) for name in FIRST)
-    items.sort(key=lambda item: (not str(item.path).startswith(first), item.path))
+
+    def place(item) -> tuple:
+        reads = "full_run" in getattr(item, "fixturenames", ())
+        return not (reads or str(item.path).startswith(first)), not reads, item.path
+
+    items.sort(key=place)
 
 
 def pytest_collection_finish():

@@ -19,7 +19,6 @@ import pytest
 import yaml
 from pendula.configuration.files import gather
 from pendula.configuration.messages import load
-from pendula.ledger.verdicts import _row, all_claims
 
 ROOT = Path(__file__).resolve().parents[1]
 Finished = subprocess.CompletedProcess
@@ -79,12 +78,6 @@ def wait_for(happened: Callable[[], object]) -> None:
     while not happened():
         assert time.monotonic() - start < HANGS, "what the test waits for did not happen"
         time.sleep(0.01)
-
-
-def verdict_of(name: str, sources: dict, module: str) -> str:
-    """Return the verdict of one claim of a module, as `evaluate` finds it with those of all."""
-    (claim,) = (claim for claim in all_claims(module) if claim.name == name)
-    return _row(claim, sources, {})["verdict"]
 
 
 def chosen(study: str, *over: str):
