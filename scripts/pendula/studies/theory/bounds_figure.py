@@ -32,9 +32,9 @@ CAPTION = (
     "P = ‖A‖² + ‖B‖² in ℓ² and the bounds of Theorems 1 to 3. (a): P at the start, its largest "
     "value in each run, and the bounds that apply to the case; Theorem 2 with bonds also counts "
     "the energy of the springs. (b): the largest P over its bound, for random initial conditions "
-    "(bars) and for a wave on a long chain (blue). (c): the "
-    "largest P over its smallest bound in the sweeps over the half-width M. (d): P that runs on N "
-    "sites reach at Ω = 0, and its bound by Theorem 3."
+    "(bars) and for a wave on a long chain (blue). (c): the largest P over its smallest bound in "
+    "the sweeps over the half-width M. (d): P that runs on N sites reach at Ω = 0, and its bound "
+    "by Theorem 3."
 )
 
 
@@ -53,14 +53,16 @@ def gather_bounds(cases, sweeps, samples, sharpness, growth) -> xr.Dataset:
 @style.styled
 def draw_bounds(data: xr.Dataset) -> Figure:
     """Draw cases and what the bounds allow above, the sweeps and the growth with N below."""
-    figure = style.new_figure(style.DOUBLE, 5.6)
+    figure = style.new_figure(style.DOUBLE, 6.0)
     (cases, forms), (swept, growth) = figure.subplots(2, 2)
     _draw_cases(cases, data)
     _draw_forms(forms, data)
     _draw_sweeps(swept, data)
     _draw_growth(growth, data)
     for letter, axes in zip("abcd", (cases, forms, swept, growth), strict=True):
-        axes.annotate(letter, (0, 1), (-16, 4), "axes fraction", "offset points", weight="bold")
+        axes.annotate(
+            f"({letter})", (0, 1), (-22, 4), "axes fraction", "offset points", weight="bold"
+        )
     return figure
 
 
@@ -98,7 +100,7 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     longest = data["reached"].sel(form=list(FORMS)).isel(reached_sites=-1)
     mark = {"color": style.BLUE, "markeredgewidth": 2}
     axes.plot(longest, rows, "|", **mark, markersize=14)
-    axes.plot([], [], "|", **mark, markersize=8, label=f"a wave on {int(sites[-1])}")
+    axes.plot([], [], "|", **mark, markersize=8, label=f"a wave on {int(sites[-1])} sites")
     axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
     axes.set_yticks(rows, [words for _, words in FORMS.values()])
     axes.invert_yaxis()
@@ -116,7 +118,7 @@ def _draw_sweeps(axes: Axes, data: xr.Dataset) -> None:
     axes.axhline(1, color="black", lw=0.8, dashes=(4, 2))
     half_width_axis(axes)
     axes.set(yscale="log", xlabel="half-width $M$", ylabel="largest $P$ over its smallest bound")
-    axes.legend(loc="lower left", fontsize=7)
+    _legend_above(axes, 1)
 
 
 def _draw_growth(axes: Axes, data: xr.Dataset) -> None:

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import numpy as np
+
 from pendula.ledger.changes import exchange, scale, take
 from pendula.ledger.claim import LARGE, SMALL, Control, Kind, checks, claim, number
 from pendula.ledger.criterion import (
@@ -204,7 +206,7 @@ theorem_2 = theorem(
 def positive_depth(identities, case) -> Finding:
     """By (25) -H / P is at least a - P / 4; the barrier is the square of a = |Omega| - 2 gamma."""
     finding, radius = proved(identities, "(25)"), number(case, "delta_0")
-    least = number(case, "barrier") ** 0.5 - 0.25 * radius
+    least = np.sqrt(number(case, "barrier")) - 0.25 * radius
     measured = {**finding.measured, "least_depth": least, "radius": radius}
     deep = Above(0.0, "least_depth", says="least -H / P within the radius by (25)")
     return judge(measured, AllOf(finding.criterion, deep))

@@ -7,7 +7,7 @@ energy of (1) in the frame that turns with the pendula, averaged over a turn, gi
 """
 
 from collections.abc import Callable, Mapping
-from math import factorial
+from math import prod
 from types import SimpleNamespace
 
 import numpy as np
@@ -38,7 +38,7 @@ SLOW = HALF
 """The rate of the slow time tau in the paper's mu^2 t."""
 DOUBLE = COSINE**2 - SINE**2
 """The cosine of 2 omega t, by which the drive acts."""
-SINES = SimpleNamespace(sin=lambda x: x - fmpq(1, 6) * x**3)
+SINES = SimpleNamespace(sin=lambda x: x - fmpq(1, 6) * x * x * x)
 """The sine of an angle of order mu, up to mu^4."""
 
 
@@ -62,9 +62,8 @@ def averaged(found):
 
 def mean_of_powers(j: int, k: int) -> fmpq:
     """Return the mean of cos^j sin^k over a turn, for even j and k."""
-    half = (j + k) // 2
-    top = factorial(j) * factorial(k)
-    return fmpq(top, 4**half * factorial(j // 2) * factorial(k // 2) * factorial(half))
+    odd, even = (*range(1, j, 2), *range(1, k, 2)), range(2, j + k + 1, 2)
+    return fmpq(prod(odd), prod(even))
 
 
 def angles(state=STATE) -> np.ndarray:
@@ -104,7 +103,8 @@ def first_harmonic(ends, slow=SLOW, drive=DOUBLE) -> list:
 def newtons_energy(ends, x: np.ndarray):
     """Return the potential energy of (1) up to the fourth order of the angles."""
     right, left = joined(ends, x)
-    own = (HALF * x**2 - fmpq(1, 24) * x**4).sum()
+    squares = x * x
+    own = (HALF * squares - fmpq(1, 24) * squares * squares).sum()
     coupled = HALF * EPSILON * MU**2 * ((right - left) ** 2).sum()
     return own + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
 
