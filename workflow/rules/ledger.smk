@@ -4,7 +4,7 @@ NOT_DECIDING = ("not_shown", "short_chart")  # but in the article
 RESTS_ON = {  # by part: the datasets that its claims rest on
     "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
     "solvers": [
-        *(*TRAJECTORIES, *SWEEPS, *SECOND_SWEEPS),
+        *(*SWEEPS, *SECOND_SWEEPS),
         *checks("cases", "lyapunov", "ensembles", "members", "solvers"),
     ],
     "theory": [

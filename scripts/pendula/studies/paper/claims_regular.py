@@ -2,10 +2,8 @@
 
 from pendula.ledger.changes import exchange
 from pendula.ledger.chaos import chaotic
-from pendula.ledger.claim import LARGE, SMALL, Control, checks, claim
+from pendula.ledger.claim import Control, checks, claim
 from pendula.ledger.criterion import AtMost, Finding, judge
-from pendula.measures.norms import constants, total_power
-from pendula.models.bounds import theorem_3_bound
 from pendula.models.linear_chain import gamma_0
 
 SECTION = 5
@@ -35,24 +33,3 @@ def stable_is_regular(lyapunov, cases) -> Finding:
     names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
     caveat = f"{names} is chaotic though its chain at rest is stable" if names else ""
     return judge(measured, criterion, caveat)
-
-
-@claim(
-    "Theorem 3",
-    "On N sites the l2 norm is bounded for all parameters and initial conditions.",
-    (*SMALL, *LARGE),
-    controls=(
-        Control(
-            "the bound of a chain of three sites",
-            {"fig4_small": lambda run: run.assign_attrs(half_width=1)},
-        ),
-    ),
-    reading="runs of the paper",
-)
-def finite_bound(*trajectories) -> Finding:
-    ratios = []
-    for ds in trajectories:
-        sites = 2 * int(ds.attrs["half_width"]) + 1
-        bound = theorem_3_bound(float(ds["energy"][0]), sites, constants(ds))
-        ratios.append(total_power(ds).max() / bound)
-    return judge({"largest": max(ratios)}, AtMost(1.0, "largest", says="largest P over C_N"))
