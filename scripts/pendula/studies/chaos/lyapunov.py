@@ -113,7 +113,7 @@ def spectra(
     case, chain, index = ("spectrum_case", "spectrum_half_width", "index")
     words = "all Lyapunov exponents of a short chain, per unit of tau"
     alone = "all Lyapunov exponents of the shortest chain at gamma = 0, per unit of tau"
-    half = "half of the confidence interval"
+    half, end = "half of the confidence interval", "; NaN: beyond the last of a shorter chain"
     return {
         case: Variable((case,), list(problems), "case, on a short chain"),
         chain: Variable((chain,), list(end_times), "half-width of the short chain"),
@@ -121,10 +121,10 @@ def spectra(
         "spectrum_end_time": Variable(
             (chain,), ends[:-1], "end time of the runs on the short chain"
         ),
-        "exponents": Variable((case, chain, index), rates[:, :-1], words),
-        "exponents_error": Variable((case, chain, index), errors[:, :-1], f"{words}: {half}"),
-        "exponents_undriven": Variable((case, index), rates[:, -1], alone),
-        "exponents_error_undriven": Variable((case, index), errors[:, -1], f"{alone}: {half}"),
+        "exponents": Variable((case, chain, index), rates[:, :-1], words + end),
+        "exponents_error": Variable((case, chain, index), errors[:, :-1], f"{words}: {half}{end}"),
+        "exponents_undriven": Variable((case, index), rates[:, -1], alone + end),
+        "exponents_error_undriven": Variable((case, index), errors[:, -1], f"{alone}: {half}{end}"),
     }
 
 
