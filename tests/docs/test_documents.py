@@ -33,11 +33,11 @@ LEFT_OUT = [
     r"<!--.*?-->",
 ]
 NAMES = [
-    r"Fig(s|ure)?\s\d(( to|,| and)\s\d)*",
+    r"Fig(s|ure)?\s\d+(( to|,| and)\s\d+)*",
     r"\[\d\]",  # a reference
     r"^\| \d(, with \S+)? \|",  # the number of a figure in the table of figures
     r"Lemma \d",
-    r"Theorems?\s\d(\s(to|and)\s\d)?|Section \d",
+    r"Theorems?\s\d(\s(to|and)\s\d)?|Sections?\s\d( to \d)?",
     r"\bl2²?\b",  # a norm
     r"ode45|DOP853|BM6",
     r"x86-64|AVX2|AVX-512|netCDF-4|HDF5",
