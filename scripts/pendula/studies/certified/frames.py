@@ -86,7 +86,6 @@ from .fixed_point import (
 from .norm import UP
 from .regular import TINY, UNIT, Certified, exponential, norms_of
 
-PARTS = ("start", "defect", "quadratic", "evaluation")
 ORDER = 24
 """Order of the tangent polynomials; what they leave out is as small as rounding."""
 DIGITS = 20
@@ -94,7 +93,7 @@ DIGITS = 20
 SLACK = 2.0**-10
 """The part of an error that the quadratic term may add to it over a step."""
 UNIT_ERROR = 3
-"""The place of the unit error among the parts that grow."""
+"""The place of the unit error among the parts that grow: start, defect, quadratic term, and it."""
 
 
 class Tube(NamedTuple):

@@ -38,24 +38,21 @@ class StepError(ArithmeticError):
     """No step that is long enough makes the last term of the polynomials small."""
 
 
-def find_curve(
-    problem: Problem, order: int = ORDER, longest: float = LONGEST, left_out: float = LEFT_OUT
-) -> Curve:
+def find_curve(problem: Problem, order: int = ORDER) -> Curve:
     """Return polynomials up to the end of a problem; its solver is not used.
 
-    `left_out` is the largest part of the first term that the last one may be. Raises StepError
-    where the steps would have to be shorter than SHORTEST.
+    Raises StepError where the steps would have to be shorter than SHORTEST.
     """
-    step = longest
+    step = LONGEST
     while step >= SHORTEST:
-        terms = _try(problem, order, step, left_out)
+        terms = _try(problem, order, step)
         if terms is not None:
             return Curve(step, terms)
         step *= 0.5
     raise StepError(f"steps of {SHORTEST:g} are too long for polynomials of order {order}")
 
 
-def _try(problem: Problem, order: int, step: float, left_out: float) -> np.ndarray | None:
+def _try(problem: Problem, order: int, step: float) -> np.ndarray | None:
     """Return the terms of all steps, nothing where the last term of one is too large."""
     amplitudes = problem.amplitudes
     count = int(np.ceil(problem.end_time / step))
@@ -64,7 +61,7 @@ def _try(problem: Problem, order: int, step: float, left_out: float) -> np.ndarr
     for own in terms:
         own[0] = state
         _continue(own, problem, step)
-        if not np.abs(own[-1]).max() <= left_out * np.abs(state).max():
+        if not np.abs(own[-1]).max() <= LEFT_OUT * np.abs(state).max():
             return None
         state = add_up(own)[0]
     return np.ascontiguousarray(terms.swapaxes(0, 1))
