@@ -126,8 +126,8 @@ NAMED["sensitivity"] = (
     ["<results>/long/breathers/sensitivity.nc"],
 )
 for case in PAPER_CASES:
-    stem = f"<results>/trajectories/{case}"
-    NAMED[case] = f"The case {case} by every solver", [f"{stem}.nc", *by_solvers(stem, ALL_SOLVERS)]
+    runs = [f"{case}.{solver}" for solver in ALL_SOLVERS]
+    NAMED[case] = f"The case {case} by every solver", datasets("trajectories", case, *runs)
 for sweep in PAPER_SWEEPS:
     files = expand(
         "<results>/sweeps/{sweep}{solver}.nc", sweep=sweep, solver=["", ".crank_nicolson"]

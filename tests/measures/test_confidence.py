@@ -33,13 +33,6 @@ def test_limits_of_a_difference_are_welch_s(stats):
     assert confidence.difference_limits([2.0, 2.0], [1.0, 1.0]) == (1.0, 1.0, 1.0)
 
 
-def test_the_chance_of_two_means_is_that_of_welch_s_test(stats):
-    one, other = [1.0, 2.0, 4.0, 3.5], [2.5, 5.0, 4.5, 6.0, 5.5, 3.0]
-    given = [(np.mean(x), np.std(x, ddof=1), len(x)) for x in (one, other)]
-    expected = stats.ttest_ind(one, other, equal_var=False).pvalue
-    assert confidence.chance_of_means(*given) == pytest.approx(expected, abs=1e-6)
-
-
 @pytest.mark.parametrize(("count", "members"), [(0, 10), (3, 10), (10, 10)])
 def test_limits_of_a_share_are_exact(stats, count, members):
     known = stats.binomtest(count, members).proportion_ci(0.95, "exact")

@@ -160,10 +160,6 @@ def figure_files(stem):
     return [report(picture, category="Figures"), *others]
 
 
-def by_solvers(stem, solvers):
-    return [f"{stem}.{solver}.nc" for solver in solvers]
-
-
 def ensembles_of(*names):
     """Return the dataset of the ensembles if one of these cases or sweeps has one, else nothing."""
     made = {*SETTINGS.chaos.ensembles.cases, *SETTINGS.chaos.ensembles.sweeps}

@@ -66,17 +66,6 @@ def chance_of_draw(value, mean, deviation, members: int):
     return np.round(2.0 * special.stdtr(members - 1, -score), 6)
 
 
-def chance_of_means(one, other):
-    """Return the chance that means of normal draws are as far apart as these, by Welch.
-
-    Both are a mean, a deviation and a number of draws; means and deviations are of one shape.
-    """
-    (mean, deviation, draws), (other_mean, other_deviation, other_draws) = one, other
-    parts = deviation * deviation / draws, other_deviation * other_deviation / other_draws
-    score = np.abs(mean - other_mean) / np.sqrt(sum(parts))
-    return np.round(2.0 * special.stdtr(_freedom(parts, (draws, other_draws)), -score), 6)
-
-
 def _freedom(parts, draws):
     """Return Welch's degrees of freedom of a difference, from the squared errors of both means."""
     below = sum(part * part / (count - 1) for part, count in zip(parts, draws, strict=True))

@@ -1,6 +1,6 @@
 """The runs that figures and claims rest on: a case by a solver, and a case on many chains."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 from pendula.datasets.trajectories import Contents, sweep_contents, trajectory_contents
 from pendula.problem import Problem
@@ -15,12 +15,6 @@ def run_case(name: str, problem: Problem) -> Contents:
         cut = result.outcome.rejected
         print(f"{name}: the iteration did not contract; {cut} steps were cut")
     return trajectory_contents(name, problem, result)
-
-
-def run_by_solvers(name: str, problems: Mapping[str, Problem]) -> Iterator[Contents]:
-    """Yield the observables of a case by each of its solvers."""
-    for problem in problems.values():
-        yield run_case(name, problem)
 
 
 def run_sweep(
