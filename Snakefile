@@ -24,8 +24,7 @@ MADE_TOGETHER = {
     "fig6": "Fig 6: norms against half-width for large amplitudes",
     "pendula_over_the_top": "The chaotic state of the pendula, and first passages over the top",
     "growth_law": "The infinite chain: norms against time, and the exponents that they follow",
-    "front": "The infinite chain: the speed of the front, and the bulk behind it",
-    "window_map": "Maxima over windows [10, T] on chains of half-width M: the map over (M, T)",
+    "fronts": "The infinite chain: its two fronts, and the states behind them",
 }
 FIGURES = [
     *(*MADE_TOGETHER, "fig1", "energy_drift", "trust_horizons", "stability_chart", "bounds"),
@@ -52,7 +51,7 @@ DATASETS = [
     *checks(*CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
     *rules.pendula.input.datasets,
-    *datasets("unbounded", *SETTINGS.unbounded.names, *MAPS, "thermal", "growth", "front"),
+    *datasets("unbounded", *SETTINGS.unbounded.names, "thermal", "growth", "fronts"),
     *(*PROVED_CURVES, *datasets("certified", "wrong/curve", "breathers")),
 ]
 

@@ -25,8 +25,13 @@ from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.spreading import fit_exponent  # noqa: E402
 from pendula.studies.breathers.figures import MAPS, SAME_RUNS  # noqa: E402
-from pendula.studies.unbounded.bulk import mean_powers, slope_powers, thermal_powers  # noqa: E402
-from pendula.studies.unbounded.measured import BULK, FRONT, speeds  # noqa: E402
+from pendula.studies.unbounded.bulk import (  # noqa: E402
+    BEHIND,
+    law_of,
+    mean_powers,
+    slope_ratios,
+)
+from pendula.studies.unbounded.measured import speeds  # noqa: E402
 
 GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
 QUOTED = ROOT / "tests/baseline/quoted"
@@ -35,14 +40,15 @@ QUOTED = ROOT / "tests/baseline/quoted"
 def keep_unbounded(results: Path, folder: Path) -> None:
     """Keep exponents, fronts and powers of the long study of the infinite chain."""
     long = results / "long/unbounded"
-    rows = [_case(read(long / f"{name}.nc")) for name in GIVEN["cases"]]
+    states = read(results / "unbounded/thermal.nc"), read(long / "transverse.nc")
+    rows = [_case(read(long / f"{name}.nc"), *states) for name in GIVEN["cases"]]
     kept = {
         "case": Variable(("case",), GIVEN["cases"], "case of the paper, on the infinite chain"),
         **{
             name: Variable(("case",), [row[name][0] for row in rows], title)
             for name, (_, title) in rows[0].items()
         },
-        **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
+        **_omegas(read(long / "omegas.nc"), read(long / "fronts.nc")),
     }
     title = "The long study of the infinite chain, reduced to what the documents quote"
     _write(folder / "unbounded.nc", title, kept, epsilon=1.0, gamma=1.0, **GIVEN["long"]["solver"])
@@ -82,21 +88,18 @@ def _exponent(run: xr.Dataset, variant: int = 0):
     return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
-def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
-    """Return the numbers of a case, each with what it is."""
-    # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
-    pulled = bool(run["predicted_delay"][0] > 0)
-    level = FRONT if pulled else BULK
-    speed, error = speeds(run, level, corrected=pulled)
+def _case(run: xr.Dataset, *states: xr.Dataset) -> dict[str, tuple[float, str]]:
+    """Return the numbers of a case, each with what it is; `states` are those of its law."""
+    speed, error = speeds(run, corrected=True)
     sites = 2 * int(run["front"].isel(piece_tau=-1).max()) + 1
     predicted, tau = float(run["predicted_speed"][0]), float(run["tau"][-1])
     measured = {
         "exponent": (_exponent(run), "exponent of tau in the l2 norm over the last octaves"),
-        "bulk_power": (
-            mean_limits(mean_powers(run, level)[0]),
-            "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
+        "power": (mean_limits(mean_powers(run, BEHIND)[0]), f"mean of P {BEHIND}"),
+        "law_ratio": (
+            slope_ratios(run, law_of(run, *states))[0],
+            "slope of l2^2 over that of its law",
         ),
-        "slope_power": (slope_powers(run)[0], "the same mean, from the slope of l2^2"),
     }
     return {
         "end": (tau, "slow time at the end"),
@@ -109,26 +112,18 @@ def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
     }
 
 
-def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
-    """Return the exponent and P of the bulk at each Omega, beside that of the thermal state."""
-    omegas, along = run["omega"].values, ("varied_omega",)
-    powers = mean_limits(mean_powers(run).T)
-    exponents = [_exponent(run, variant).value for variant in range(len(omegas))]
-    end = Variable((), float(run["tau"][-1]), "slow time at the end of the runs over Omega")
-    return {
-        "omega_end": end,
-        "varied_omega": Variable(along, omegas, "detuning Omega"),
+def _omegas(run: xr.Dataset, fronts: xr.Dataset) -> dict[str, Variable]:
+    """Return the exponent at each Omega, and what was measured of the fronts."""
+    exponents = [_exponent(run, variant).value for variant in range(run.sizes["variant"])]
+    of_fronts = {
+        str(name): Variable(("omega",), values.values, values.attrs["long_name"])
+        for name, values in fronts.variables.items()
+        if values.dims == ("omega",)
+    }
+    return of_fronts | {
+        "omega_end": Variable((), float(run["tau"][-1]), "slow time at the end of these runs"),
         "omega_exponent": Variable(
-            along, exponents, "exponent of tau in the l2 norm over the last two octaves"
-        ),
-        "omega_bulk_power": Variable(
-            along, powers.value, "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"
-        ),
-        "omega_bulk_power_error": Variable(along, powers.half, HALF),
-        "omega_thermal_power": Variable(
-            along,
-            thermal_powers(thermal, omegas),
-            "the same mean in the thermal state of zero energy",
+            ("omega",), exponents, "exponent of tau in the l2 norm over the last two octaves"
         ),
     }
 

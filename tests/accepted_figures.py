@@ -33,12 +33,6 @@ def gather_sweeps(figure: str, windows: tuple[str, str], norms: list[str]):
     return paper.gather_sweeps(*sweeps, *windows, norms, dataset("checks/ensembles"))
 
 
-def gather_map(*maps):
-    return unbounded.gather_window_map(list(maps), [*MAPS], [*MAPS.values()])
-
-
-MAPS = {"fig5_left": 50.0, "fig5_right": 50.0, "fig6_left": 70.0, "fig6_right": 70.0}
-"""The sweeps of the paper, and where the window ends that it draws."""
 FIGURES = {
     "fig1": (chain_figure.draw, chain_figure.gather),
     "fig2": (paper.draw_norms, lambda: gather_norms("fig2")),
@@ -69,12 +63,7 @@ FIGURES = {
         lambda *charts: theory.gather_chart(*charts, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
         "checks/chart", "checks/short_chart", "checks/windows",
     ),
-    "front": (front_figure.draw_front, front_figure.gather_front, "unbounded/front"),
+    "fronts": (front_figure.draw_fronts, front_figure.gather_fronts, "unbounded/fronts"),
     "growth_law": (unbounded.draw_growth_law, unbounded.gather_growth_law, "unbounded/growth"),
-    "window_map": (
-        unbounded.draw_window_map,
-        gather_map,
-        *(f"unbounded/map_{sweep}" for sweep in MAPS),
-    ),
 }  # fmt: skip
 """What draws a figure, what gathers what it shows, and from which datasets."""

@@ -16,7 +16,7 @@ from pendula.datasets.netcdf import read, save, write
 from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
-from pendula.studies.unbounded.measured import measure_front, measure_growth
+from pendula.studies.unbounded.measured import measure_fronts, measure_growth
 from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy, thermal_variables
 
 CHECKS = {
@@ -27,7 +27,7 @@ CHECKS = {
 """One check for each kind of function in `numerics`, with what makes it take no time."""
 NODES = 6
 GROWN = ("fig4_small", "fig3_large", "fig3_small", "fig2_large")
-UNBOUNDED = ("growth", "front", "thermal")
+UNBOUNDED = ("growth", "fronts", "thermal")
 PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
 """A steady breather whose proof takes a state, an inverse in balls, and a spectrum."""
 NAMES = (*CHECKS, *UNBOUNDED, "proofs")
@@ -36,9 +36,9 @@ NAMES = (*CHECKS, *UNBOUNDED, "proofs")
 def unbounded(given: Path) -> dict[str, xarray.Dataset]:
     """Return what is fitted to and averaged over runs on infinite chains, and thermal states."""
     runs = {path.stem: read(str(path)) for path in given.glob("*.nc")}
-    growth = measure_growth({name: runs[name] for name in GROWN}, runs["thermal"])
-    ends = (runs["omegas"], runs["fig4_small"], runs["fig3_large"], runs["thermal"])
-    return {"growth": growth, "front": measure_front(*ends)}
+    states = runs["thermal"], runs["transverse"]
+    growth = measure_growth({name: runs[name] for name in GROWN}, *states)
+    return {"growth": growth, "fronts": measure_fronts(runs["omegas"], *states[::-1])}
 
 
 def make(given: Path, made: Path, *every: str) -> None:
@@ -51,8 +51,8 @@ def make(given: Path, made: Path, *every: str) -> None:
     for name, data in (datasets | unbounded(given)).items():
         save(str(made / f"{name}.nc"), data)
     constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
-    cold, warm = (state_of_energy(constants, energy, NODES) for energy in (0.0, 4.0))
-    thermal = thermal_variables([cold], [warm], NODES) | maximum_variables(cold)
+    both, alone = (state_of_energy(constants, 0.0, NODES, alike) for alike in (False, True))
+    thermal = thermal_variables([both], [alone], NODES) | maximum_variables(both)
     write(str(made / "thermal.nc"), thermal, {})
     write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
 

@@ -28,10 +28,6 @@ ROUNDED = {
     "ensemble_equilibrium": 1e-7,
     "unbounded_in_time": 1e-6,
     "unbounded_band": 0.02,
-    "unbounded_small": 1e-7,
-    "unbounded_slope": 1e-9,
-    "unbounded_warm": 3e-6,
-    "unbounded_determined": 1e-7,
     "curves_certified": 1e-5,
 }
 """What the seven digits of the accepted datasets leave open of small differences, by claim."""

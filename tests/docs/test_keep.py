@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from pendula.datasets.netcdf import read
 from pendula.studies.breathers.fates import FATES
+from pendula.studies.unbounded.measured import measure_fronts
 
 
 def test_the_chain_without_ends_is_reduced_to_its_numbers(tmp_path):
@@ -14,12 +15,14 @@ def test_the_chain_without_ends_is_reduced_to_its_numbers(tmp_path):
                    for power, speed in ((0.0, 0.5), (0.51, 0.4)))  # fmt: skip
     runs = {
         "thermal": made_up.thermal(),
+        "transverse": made_up.transverse(),
         "fig4_small": made_up.spread(0.5),
         "omegas": made_up.spread((0.5, 0.4), variants=2, omegas=(-1.0, 2.0)),
         # where the chain at rest is stable no delay is predicted
         **{name: run.assign(predicted_delay=run["predicted_delay"] * np.nan)
            for name, run in (("fig3_large", slow), ("fig3_small", still), ("fig2_large", still))},
     }  # fmt: skip
+    runs["fronts"] = measure_fronts(runs["omegas"], runs["transverse"], runs["thermal"])
     for name, run in runs.items():
         folder = tmp_path / ("unbounded" if name == "thermal" else "long/unbounded")
         folder.mkdir(parents=True, exist_ok=True)
@@ -27,11 +30,12 @@ def test_the_chain_without_ends_is_reduced_to_its_numbers(tmp_path):
     keep.main(tmp_path, tmp_path / "quoted")
     kept = read(tmp_path / "quoted/unbounded.nc")
     assert kept["exponent"].values[:2] == pytest.approx([0.5, 0.51], abs=0.02)
-    assert kept["speed"].values[:2] == pytest.approx([2.9, 0.4], abs=0.03)
-    assert kept["bulk_power"].values[0] == pytest.approx(16.0, rel=0.02)
+    assert kept["speed"].values[0] == pytest.approx(2.9, abs=0.03)
+    assert kept["power"].values[0] == pytest.approx(made_up.POWER, rel=0.02)
     assert kept["omega_exponent"].values == pytest.approx([0.5, 0.4], abs=0.02)
-    assert kept["omega_bulk_power"].values == pytest.approx(16.0, rel=0.02)
-    assert kept["omega_thermal_power"].values == pytest.approx(16.0)
+    assert kept["power_between"].values == pytest.approx(made_up.ALONE, rel=0.02)
+    assert kept["thermal_power"].values == pytest.approx(made_up.POWER)
+    assert kept["second_front_speed"].values == pytest.approx(made_up.SECOND, abs=0.03)
 
 
 def made_up_fates() -> xr.Dataset:

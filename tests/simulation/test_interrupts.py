@@ -20,6 +20,7 @@ from pendula.simulation.observables import blank_record
 from pendula.simulation.simulate import IntegrationError, simulate
 from pendula.simulation.solvers import SOLVERS
 from pendula.studies.unbounded import active_sites
+from pendula.studies.unbounded.sums import in_sums
 from problems import constants_of, problem_of
 
 # --- The flag in the kernels ----------------------------------------------------------------------
@@ -44,8 +45,9 @@ def tangent(problem):
 
 
 def piece_without_ends(problem):
-    state = active_sites.begin(problem.initial, problem.half_width)
-    return active_sites.advance(problem.constants, state, problem.times, problem.solver)
+    own = in_sums(problem)
+    state = active_sites.begin(own.initial, own.half_width)
+    return active_sites.advance(own, state, own.times, {})
 
 
 @pytest.mark.parametrize(

@@ -100,15 +100,11 @@ def test_every_variable_is_named_and_has_units(plot):
         assert variable.attrs["long_name"] and variable.attrs["units"], name
 
 
-GOING = {"front", "window_map"}
-
-
 def test_every_figure_has_a_caption(plot):
     """Plain sentences, without formulas in TeX, values left out or bounds of what is not known."""
-    if plot.name not in GOING:
-        caption = read(plot.file).attrs["caption"]
-        assert len(caption) > 40 and caption.endswith(".")
-        assert not set("${}\\") & set(caption) and "nan" not in caption
+    caption = read(plot.file).attrs["caption"]
+    assert len(caption) > 40 and caption.endswith(".")
+    assert not set("${}\\") & set(caption) and "nan" not in caption
 
 
 @style.styled

@@ -21,7 +21,7 @@ ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
     *("figures", "fig1", "norms_in_time", "norms_by_half_width", "energy_drift", "bounds"),
     *("stability_chart", "trust_horizons", "lifetimes", "draw_fates", "draw_over_the_top"),
-    *("draw_front", "draw_growth_law", "draw_window_map"),
+    *("draw_fronts", "draw_growth_law"),
 }
 
 

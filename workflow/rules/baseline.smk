@@ -60,9 +60,8 @@ RESTS_ON_CHAOS = [
     *("breathers/fates:*", "breathers/sensitivity:*", "figures/fates:*"),
     *("checks/lifetimes:*", "figures/lifetimes:*"),
     # Chains of other lengths, and without ends, at the detuning of a chaotic case
-    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/front:*"),
-    *(f"unbounded/{name}:*" for name in ("amplitudes", "front", "omegas", "tolerances")),
-    *("unbounded/front:modulus", "figures/front:modulus"),
+    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
+    *(f"unbounded/{name}:*" for name in ("fronts", "omegas", "transverse")),
     # The sea that fills a chain of pendula
     *("pendula/sea:*", "figures/pendula_over_the_top:wave_power"),
     "figures/pendula_over_the_top:sea_density",

@@ -22,9 +22,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
     ],
     "unbounded": [
         *datasets("breathers", "sensitivity"),
-        *datasets("unbounded", "fig2_large", "fig3_small", "fig3_large", "fig4_small"),
-        *datasets("unbounded", "omegas", "amplitudes", "thermal"),
-        *datasets("unbounded", "map_fig5_left", "map_fig5_right", "map_fig6_left"),
+        *datasets("unbounded", *SETTINGS.unbounded.names, "thermal"),
     ],
     "certified": [
         *(*PROVED_CURVES, *datasets("certified", "wrong/curve")),

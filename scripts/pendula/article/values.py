@@ -89,7 +89,6 @@ def gather(results: Results) -> dict[str, Any]:
     numbers = Numbers(results)
     functions = ("labels", "of", "share", "n", "share_of", "verdicts")
     compared, study = results["checks/solvers"], results[LONG]
-    ratio = abs(study["omega_bulk_power"] / study["omega_thermal_power"] - 1.0)
     return {
         **{name: getattr(numbers, name) for name in functions},
         "counts": counts(load(results)),
@@ -105,8 +104,8 @@ def gather(results: Results) -> dict[str, Any]:
         "runs_level": level_of_runs(results),
         "mark": MARK,
         "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),
-        "omegas": results.quote(LONG, study.sizes["varied_omega"]),
-        "furthest": numbers.long(LONG, percent(ratio.max())),
+        "omegas": results.quote(LONG, study.sizes["omega"]),
+        "slopes": numbers.long(LONG, span(study["slope_ratio"].values, 3)),
         "largest_bound": largest_bound(results),
         "radius": upward(results["certified/breathers"]["radius"].max()),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),

@@ -166,23 +166,17 @@ def _swept(name: str) -> tuple[str, ...]:
 
 def _unbounded(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     given = paper()["unbounded"]
-    shared = ("output_step", "perturbation", "short.solver")
-    whole = tuple(f"unbounded.{key}" for key in shared)
+    shared = ("output_step", "perturbation", "short.solver", "short.rest")
     if name == "thermal":
-        cases = ("fig4_small", given["thermal"]["warm"]["case"])
-        return ("unbounded.thermal", *(key for case in cases for key in _keys(case, *EQUATION)))
-    if name in ("growth", "front"):
-        runs = (*given["cases"], *given["varied"], "thermal")
+        own = tuple(f"unbounded.{key}" for key in ("omegas", "nodes", "density_nodes"))
+        return (*own, *_keys(given["omegas"]["case"], *EQUATION))
+    if name in ("growth", "fronts"):
+        runs = (*given["cases"], "omegas", "transverse", "thermal")
         return tuple(dict.fromkeys(path for run in runs for path in _unbounded(run)))
-    if name.startswith("map_"):
-        sweep = name.removeprefix("map_")
-        keys = ("half_widths", "end_time", "output_step", "rest", f"members.{sweep}")
-        maps = tuple(f"unbounded.short.maps.{key}" for key in keys)
-        return (*whole, *maps, *_keys(paper()["sweeps"][sweep]["case"], *DATA))
-    varied = given["varied"].get(name)
-    own = (f"unbounded.varied.{name}",) if varied else ()
-    extent = ("unbounded.short.rest", f"unbounded.short.runs.{name}")
-    return (*whole, *own, *extent, *_keys(varied["case"] if varied else name, *DATA))
+    whole = tuple(f"unbounded.{key}" for key in (*shared, f"short.runs.{name}"))
+    if name in given["cases"]:
+        return (*whole, *_keys(name, *DATA))
+    return (*whole, "unbounded.omegas", *_keys(given["omegas"]["case"], *DATA))
 
 
 MAPS = "the maps"

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 import xarray as xr
-from accepted import dataset
 from pendula.measures.difference import PARAMETERS
 from pendula.studies.paper import figures, solvers
-from pendula.studies.unbounded import figures as unbounded
 
 EDITED = {
     "epsilon": 2.0,
@@ -64,14 +62,6 @@ def test_of_another_case_the_paper_states_no_drift(trajectories):
     assert np.isnan(float(data["stated_drift"].sel(case="fig2_small")))
     assert data["kept_until"].sel(case="fig2_small").isnull().all()
     assert (data["kept_until"].sel(case="fig2_large", solver="ode45") == np.inf).all()
-
-
-def test_the_papers_window_is_not_drawn_on_a_map_that_ends_before():
-    maps = {name: dataset(f"unbounded/map_{name}") for name in ("fig5_left", "fig5_right")}
-    end = float(maps["fig5_left"]["end"][-1])
-    for ends, times in (([end, end + 1.0], 4), ([end + 1.0, end + 1.0], 0)):
-        data = unbounded.gather_window_map([*maps.values()], [*maps], ends)
-        assert labels(unbounded.draw_window_map(data)).count("the paper's $T$") == times
 
 
 def test_runs_of_different_lengths_and_sweeps_over_other_half_widths_are_drawn_whole(

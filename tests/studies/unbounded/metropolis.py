@@ -9,16 +9,21 @@ import numpy as np
 RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 100, 100, 4
 
 
-def sample(constants, beta, seed=1):
+def sample(constants, beta, seed=1, antisymmetric=False):
     """Return of each ring its power and energy a site, moduli of A, and the largest of A and B.
 
     Power and energy are means, (ring,); moduli are (kept, ring, site), the largest (kept, ring).
+    With `antisymmetric` B = -A throughout.
     """
     rng = np.random.default_rng(seed)
     a, b = rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
+    b = -a if antisymmetric else b
     step, powers, energies, moduli, largest = 1.0, [], [], [], []
     for count in range(SETTLING + KEPT):
-        taken = [offer_moves(constants, beta, a, b, parity, step, rng) for parity in (0, 1)]
+        taken = [
+            offer_moves(constants, beta, a, b, parity, step, rng, antisymmetric)
+            for parity in (0, 1)
+        ]
         for _ in range(TURNS):
             offer_turns(constants, beta, a, b, rng)
         if count < SETTLING:  # half of the moves should be taken
@@ -32,10 +37,11 @@ def sample(constants, beta, seed=1):
     return *means, np.array(moduli), np.array(largest)
 
 
-def offer_moves(constants, beta, a, b, parity, step, rng):
+def offer_moves(constants, beta, a, b, parity, step, rng, antisymmetric):
     """Offer every second site a move; their bonds have no site in common. Return what was taken."""
     here = (slice(None), slice(parity, None, 2))
     moves = step * rng.normal(size=(2, *a[here].shape, 2)) @ [1.0, 1.0j]
+    moves[1] = -moves[0] if antisymmetric else moves[1]
     old, new = a[here], a[here] + moves[0]
     other, another = b[here], b[here] + moves[1]
     change = local_energy(constants, new, another) - local_energy(constants, old, other)

@@ -4,17 +4,24 @@ import numpy as np
 import pytest
 import xarray as xr
 from accepted import dataset
-from made_up_unbounded import POWER, exact, spread, thermal
-from pendula.studies.unbounded.measured import measure, measure_growth, resolution, speeds
+from made_up_unbounded import ALONE, OMEGAS, POWER, SECOND, exact, spread, thermal, transverse
+from pendula.studies.unbounded.measured import (
+    measure,
+    measure_fronts,
+    measure_growth,
+    resolution,
+    second_speeds,
+    speeds,
+)
 
 TAU = np.arange(2.0, 202.0, 2.0)
 
 
 def front_of(way, tau=TAU, rest=0.0):
     """Return a run of the shape that `speeds` reads, with the places `way` of its front."""
-    front = (("variant", "member", "piece_tau", "front_power"), way[None, None, :, None])
+    front = (("variant", "member", "piece_tau"), way[None, None])
     predicted = {"predicted_delay": ("variant", [1.4]), "predicted_rest": ("variant", [rest])}
-    return xr.Dataset({"front": front} | predicted, {"piece_tau": tau, "front_power": [1e-2]})
+    return xr.Dataset({"front": front} | predicted, {"piece_tau": tau})
 
 
 def test_the_speed_of_a_made_up_front():
@@ -51,8 +58,7 @@ def test_the_limits_of_a_speed_are_those_of_its_mean_over_members():
 
 
 def test_the_law_has_no_fitted_constant_and_the_offset_is_found():
-    one = measure_growth({"fig4_small": exact()}, thermal()).isel(case=0)
-    assert one["law"] == pytest.approx(2.0 * 2.9 * POWER)
+    one = measure_growth({"fig4_small": exact()}, thermal(), transverse()).isel(case=0)
     left = one["l2_rate"].sel(band="mean") - one["law_rate"]
     np.testing.assert_allclose(left, one["offset_rate"], rtol=1e-6)
     np.testing.assert_allclose(one["offset_rate"] * one["span_tau"], -50.0, rtol=0.02)
@@ -60,18 +66,45 @@ def test_the_law_has_no_fitted_constant_and_the_offset_is_found():
 
 @pytest.mark.parametrize("name", ["epsilon", "gamma"])
 def test_a_run_of_other_constants_than_the_thermal_states_has_no_law(name):
-    growth = measure_growth({"fig4_small": spread()}, thermal().assign_attrs({name: 2.0}))
-    assert all(growth[law].isnull().all() for law in ("law", "law_rate", "thermal_linf"))
+    other = thermal().assign_attrs({name: 2.0})
+    growth = measure_growth({"fig4_small": spread()}, other, transverse())
+    assert all(growth[law].isnull().all() for law in ("law_rate", "thermal_linf"))
+
+
+def test_both_fronts_and_the_powers_behind_them_are_those_of_the_made_up_runs():
+    run = spread(variants=4, omegas=OMEGAS, members=3)
+    found = measure_fronts(run, transverse(), thermal())
+    np.testing.assert_allclose(found["second_front_speed"], SECOND, atol=0.02)
+    np.testing.assert_allclose(found["front_speed"], 2.9, atol=0.03)  # its delay is not added back
+    np.testing.assert_allclose(found["power_behind"], POWER, rtol=0.01)
+    np.testing.assert_allclose(found["power_between"], ALONE, rtol=0.01)
+    assert found["shown_omega"] == 5.0
+    # |S|^2 is one behind the second front, 180 sites behind the first, and nothing before it
+    behind = found["symmetric_power_behind_front"].isel(omega=0)
+    end = int(run["front"][0, 0, -1]) - int(run["second_front"][0, 0, -1])
+    assert (behind.where(behind["distance"] < end - 20, 0.0) < 1e-9).all()
+    assert (behind.where(behind["distance"] > end + 20, 1.0) == 1.0).all()
+
+
+def test_where_both_fields_never_filled_the_chain_there_is_no_second_front():
+    run = spread(variants=2, omegas=OMEGAS[:2])
+    empty = (run["kind"] == "|S|^2") & (run["variant"] == 1)
+    emptied = run.assign(region_mean=run["region_mean"].where(~empty, 1e-3))
+    speed, error = second_speeds(emptied)
+    assert np.isfinite(speed).tolist() == np.isfinite(error).tolist() == [True, False]
+    found = measure_fronts(emptied, transverse(), thermal())
+    assert np.isnan(found["power_behind"].values).tolist() == [False, True]
 
 
 GROWN = ("fig4_small", "fig3_large", "fig2_large", "fig3_small")
 
 
-def test_the_accepted_runs_give_the_accepted_growth_and_front():
-    runs = {name: dataset(f"unbounded/{name}") for name in (*GROWN, "omegas", "thermal")}
-    of_front = (runs[name] for name in ("omegas", "fig4_small", "fig3_large", "thermal"))
-    made = measure({name: runs[name] for name in GROWN}, *of_front)
-    for name, found in zip(("growth", "front"), made, strict=True):
+def test_the_accepted_runs_give_the_accepted_growth_and_fronts():
+    names = (*GROWN, "omegas", "transverse", "thermal")
+    runs = {name: dataset(f"unbounded/{name}") for name in names}
+    states = (runs[name] for name in names[len(GROWN) :])
+    made = measure({name: runs[name] for name in GROWN}, *states)
+    for name, found in zip(("growth", "fronts"), made, strict=True):
         accepted = dataset(f"unbounded/{name}")
         assert found.variables.keys() == accepted.variables.keys()
         for key, values in accepted.variables.items():

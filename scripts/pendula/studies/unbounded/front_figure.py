@@ -1,197 +1,101 @@
-"""The front on the infinite chain in pictures: its speed, and the bulk behind it."""
+"""The two fronts on the infinite chain in pictures: in space and time, and over Omega."""
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from pendula.drawing import style
-from pendula.numerics.elementary import geometric, interpolated, log
 
-LATE = 10
-"""The lines of the delay are laid through so many of the last points of the front's way."""
+WIDTH = 3.35
+"""The width of one column of a journal page, in inches."""
 
-MILLI = 1e3
-ASIDE = 0.07
-"""Points at one Omega stand beside each other by so much."""
+LEAST = 1e-16
+"""Powers below this one have its colour."""
 
-GREEN = "#16876b"
-BULK_LOOK = {"color": style.RED, "lw": 1.1, "label": "behind the front"}
-THERMAL_LOOK = {"color": "black", "lw": 0.9, "ls": "--", "label": "thermal"}
-DOTS = {"color": style.RED, "marker": "o", "ms": 3.0, "lw": 0, "elinewidth": 0.9, "capsize": 1.5}
-RINGS = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
-TERM_LOOKS = {
-    "cubic": (style.RED, "-", "cubic"),
-    "detuning": ("#b07800", "-.", "detuning"),
-    "drive": (GREEN, "--", "drive"),
-    "bonds": (style.BLUE, ":", "bonds"),
-}
+DOTS = {"marker": "o", "ms": 3.0, "lw": 0, "elinewidth": 0.9, "capsize": 1.5}
+FIRST = {**DOTS, "color": style.RED}
+SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
+LINES = {"color": "black", "lw": 0.9}
+WAY = {"color": "white", "lw": 1.0, "path_effects": [withStroke(linewidth=2.2, foreground="black")]}
+CAPTION = (
+    "The two fronts on the infinite chain. (a), (b): the powers of A − B and of A + B in space and "
+    "time at one Ω, with the places of the fronts. (c): their speeds, measured (dots) and "
+    "predicted (lines). (d): the power of a pair behind the second front and between the fronts, "
+    "over that of the thermal state of both fields; the dashed line is that of the thermal state "
+    "with A = −B. Bars are confidence intervals of the mean."
+)
 
 
-def gather_front(front: xr.Dataset) -> xr.Dataset:
-    """Return what `measured.measure_front` has made."""
-    return front
+def gather_fronts(fronts: xr.Dataset) -> xr.Dataset:
+    """Return what `measured.measure_fronts` has made."""
+    return fronts.assign_attrs(caption=CAPTION)
 
 
 @style.styled
-def draw_front(data: xr.Dataset) -> Figure:
-    """Draw the front (its way and its speed), the power of the bulk, and the state it is in."""
-    figure = style.new_figure(style.DOUBLE, 6.2)
-    parts = (
-        *(_draw_positions, _draw_speeds, _draw_differences),
-        *(_draw_way, _draw_powers, _draw_ratios),
-        *(_draw_terms, _draw_spectrum, _draw_distribution),
-    )
-    grid = figure.subplots(3, 3).ravel()
-    for axes, part, letter in zip(grid, parts, "abcdefghi", strict=True):
-        part(axes, data)
-        axes.set_title(f"({letter})", loc="left", fontsize=8)
+def draw_fronts(data: xr.Dataset) -> Figure:
+    """Draw both fronts in space and time, their speeds over Omega, and the powers behind them."""
+    figure = style.new_figure(WIDTH, 3.9)
+    (alone, both), (speeds, powers) = figure.subplots(2, 2)
+    mesh = _draw_in_time(alone, data, "antisymmetric_power")
+    _draw_in_time(both, data, "symmetric_power")
+    both.sharey(alone)
+    both.tick_params(labelleft=False)
+    alone.set_ylabel(r"$\tau$")
+    bar = figure.colorbar(mesh, ax=[alone, both], location="top", aspect=30, pad=0.02)
+    bar.set_label(rf"power at $\Omega = {float(data['shown_omega']):g}$")
+    _draw_speeds(speeds, data)
+    _draw_powers(powers, data)
+    titles = (r"(a) $|A - B|^2 / 2$", r"(b) $|A + B|^2 / 2$", "(c)", "(d)")
+    for axes, title in zip((alone, both, speeds, powers), titles, strict=True):
+        axes.set_title(title, loc="left")
     return figure
 
 
-def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
-    omegas, tau = data["omega"].values, data["piece_tau"]
-    for omega, colour in ((omegas[len(omegas) // 2], style.RED), (omegas[0], GREEN)):
-        label = rf"$\Omega = {omega:g}$"
-        axes.plot(tau, data["front"].sel(omega=omega), color=colour, lw=1.4, label=label)
-        speed = interpolated(omega, data["line_omega"].values, data["line_speed"].values)
-        ends = np.array([0.0, float(tau[-1])])
-        axes.plot(ends, speed * ends, color="black", lw=0.7, ls="--")
-    axes.lines[-1].set_label(r"$v^*\tau$")
-    shown = data["large_tau"].values <= float(tau[-1])
-    large = data["large_tau"].values[shown], data["large_front"].values[shown]
-    label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
-    axes.plot(*large, color=style.BLUE, lw=1.1, label=label)
-    axes.set(xlabel=r"$\tau$", ylabel="site of the front")
-    _end_above(axes, 1.9 * float(data["front"].max()))
-    axes.legend(loc="upper left", handlelength=1.4)
-
-
-def _end_above(axes: Axes, top: float, bottom: float | None = None) -> None:
-    """Let an axis end at `top`, unless nothing is drawn since the data have no front."""
-    if np.isfinite(top):
-        axes.set_ylim(bottom, top)
-
-
-def _unstable(axes: Axes, data: xr.Dataset) -> tuple[float, float]:
-    """Shade the Omega at which the chain at rest is unstable; return their ends."""
-    low, high = -2 * data.attrs["gamma"], 2 * data.attrs["gamma"] + 4 * data.attrs["epsilon"]
-    axes.axvspan(low, high, color="0.92", zorder=0)
-    axes.set_xlabel(r"$\Omega$")
-    return low, high
+def _draw_in_time(axes: Axes, data: xr.Dataset, name: str):
+    tau, sites = data["piece_tau"].values, data["cell_site"].values
+    values = np.maximum(data[name].transpose("piece_tau", "cell_site").values, LEAST)
+    mesh = axes.pcolormesh(
+        sites, tau, values, norm=LogNorm(LEAST, 10.0), cmap="magma", shading="nearest",
+        rasterized=True,
+    )  # fmt: skip
+    for front, dashes in (("front_site", "-"), ("second_front_site", (0, (3, 1.5)))):
+        axes.plot(data[front], tau, ls=dashes, **WAY)
+    axes.set_xlim(0.0, 1.15 * max(10.0, float(data["front_site"].max())))
+    axes.set_xlabel("site $n$")
+    return mesh
 
 
 def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the speeds; outside of the unstable band the line is no speed of a front."""
-    low, high = _unstable(axes, data)
-    line, inside = data["line_speed"], (data["line_omega"] >= low) & (data["line_omega"] <= high)
-    axes.plot(data["line_omega"], line.where(inside), color="black", lw=0.9, label="linear front")
-    look = {"color": "0.4", "lw": 0.9, "ls": (0, (3, 1.5))}
-    axes.plot(data["line_omega"], line.where(~inside), label="group velocity", **look)
-    limits = data["corrected_speed_error"]
-    axes.errorbar(data["omega"], data["corrected_speed"], limits, label="measured", **DOTS)
-    axes.set_ylabel(r"speed (sites per unit of $\tau$)")
-    axes.legend(loc="lower center", handlelength=1.4)
-
-
-def _draw_differences(axes: Axes, data: xr.Dataset) -> None:
-    """Draw what speeds are off linear spreading, before and after the delay is added back."""
-    _unstable(axes, data)
-    axes.axhline(0.0, color="black", lw=0.8)
-    series = (("speed", "as it is", RINGS, -ASIDE), ("corrected_speed", "corrected", DOTS, ASIDE))
-    ends = []
-    for name, label, look, aside in series:
-        off = MILLI * (data[name] - data["predicted_speed"])
-        limits = MILLI * data[f"{name}_error"]
-        axes.errorbar(data["omega"] + aside, off, limits, label=label, **look)
-        ends += [float((off - limits).min()), float((off + limits).max())]
-    span = max(ends) - min(ends)
-    _end_above(axes, max(ends) + 0.25 * span, min(ends) - 0.05 * span)
-    axes.set_ylabel(r"$10^3$ (speed $- v^*)$")
-    axes.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1.0)
-
-
-def _draw_way(axes: Axes, data: xr.Dataset) -> None:
-    tau = data["way_tau"].values
-    axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5, label="measured")
-    fine = geometric(tau[0], tau[-1], 200)
-    delay, rest = float(data["delay"]), float(data["front_rest"])
-    looks = (("--", 0.0, r"$-\frac{3}{2\lambda}\,\ln\tau$"), ("-", rest, "and the next term"))
-    for dashes, next_term, label in looks:
-        at, line = (-delay * log(t) - next_term / np.sqrt(t) for t in (tau[-LATE:], fine))
-        line += float(data["behind"][-LATE:].mean()) - at.mean()
-        axes.plot(fine, line, color="black", lw=0.9, ls=dashes, label=label)
-    axes.set_xscale("log")
-    axes.set_xlabel(r"$\tau$")
-    axes.set_ylabel(rf"front $- v^*\tau$ (sites), $\Omega = {data.attrs['omega']:g}$")
-    _end_above(axes, float(data["behind"].max()) + 4.8)
-    axes.legend(loc="upper right", handlelength=1.6)
+    """Draw the speeds of both fronts, measured and predicted."""
+    omega = data["omega"]
+    for name, line, look, label in (
+        ("front_speed", "linear_speed", FIRST, "first"),
+        ("second_front_speed", "predicted_second_speed", SECOND, "second"),
+    ):
+        axes.plot(omega, data[line], **LINES, ls="-" if label == "first" else (0, (4, 2)))
+        limits = data[f"{name}_error"]
+        axes.errorbar(omega, data[name], limits.where(np.isfinite(limits)), label=label, **look)
+    axes.set_ylim(bottom=0)
+    axes.set(xlabel=r"$\Omega$", ylabel=r"speed (sites per $\tau$)")
+    axes.legend(loc="lower left", handlelength=1.0)
 
 
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the mean power of the bulk over Omega beside that of the thermal state."""
-    axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
-    axes.errorbar(data["omega"], data["mean_power"], data["mean_power_error"], label="bulk", **DOTS)
-    axes.set_ylim(bottom=0)
-    axes.set(xlabel=r"$\Omega$", ylabel="mean power $P$ of a site")
-    axes.legend(loc="upper right")
-
-
-def _draw_ratios(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the power of the bulk over that of the thermal state, measured in two ways."""
-    axes.axhline(1.0, **THERMAL_LOOK)
-    series = (
-        ("mean_power", "mean", DOTS, ASIDE),
-        ("slope_power", r"slope of $\ell^2$ squared", RINGS, -ASIDE),
-    )
-    for name, label, look, aside in series:
-        ratio = data[name] / data["expected_power"]
-        limits = data[f"{name}_error"] / data["expected_power"]
-        limits = limits.where(np.isfinite(limits))  # one run shows no scatter
-        axes.errorbar(data["omega"] + aside, ratio, limits, label=label, **look)
-    axes.set(xlabel=r"$\Omega$", ylabel="power over thermal power")
-    axes.legend(loc="lower left", handlelength=1.2)
-
-
-def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the terms of the energy per site against the distance to the front."""
-    for term, (colour, dashes, label) in TERM_LOOKS.items():
-        values = data["mean_terms"].values[list(data["term"].values).index(term)]
-        if np.any(values):
-            axes.plot(data["scaled_site"], values, color=colour, ls=dashes, lw=1.1, label=label)
-    total = data["mean_terms"].sum("term")
-    axes.plot(data["scaled_site"], total, color="black", lw=1.1, label="sum")
-    _end_above(axes, 1.75 * float(data["mean_terms"].max()))
-    axes.set(xlabel="site over that of the front", ylabel="energy per site")
-    axes.legend(loc="upper right", ncols=2, columnspacing=1.0, handlelength=1.6)
-
-
-def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the spectrum behind the front beside that of the thermal state."""
-    for name, look in (("spectrum", BULK_LOOK), ("thermal_spectrum", THERMAL_LOOK)):
-        values = data[name].values
-        both = 0.5 * (values + np.roll(values[::-1], 1))  # k and -k are alike
-        half = slice(0, len(values) // 2 + 1)
-        axes.plot(data["wave_number"][half] / np.pi, both[half], **look)
-    _end_above(axes, 1.45 * float(data["spectrum"].max()), 0.0)
-    axes.set(
-        xlabel=r"wave number $k / \pi$",
-        ylabel=rf"mean $|A(k)|^2$, $\Omega = {data.attrs['omega']:g}$",
-    )
-    axes.legend(loc="upper left")
-
-
-def _draw_distribution(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the distribution of the moduli beside that of the thermal state."""
-    measured = data["density"].where(data["density"] > 0)
-    thermal = data["thermal_density"].where(data["thermal_density"] > 0)
-    axes.plot(data["modulus"], measured, **BULK_LOOK)
-    axes.plot(data["thermal_modulus"], thermal, **THERMAL_LOOK)
-    axes.set_yscale("log")
-    axes.set_xlim(0, 1.02 * float(data["modulus"].max()))
-    _end_above(axes, 20.0 * float(measured.max()), 0.5 * float(measured.min()))
-    axes.set(
-        xlabel="modulus $|A_n|$, $|B_n|$",
-        ylabel=rf"density of the moduli, $\Omega = {data.attrs['omega']:g}$",
-    )
-    axes.legend(loc="upper right")
+    """Draw the powers behind the fronts over that of the thermal state of both fields."""
+    omega, thermal = data["omega"], data["thermal_power"]
+    axes.axhline(1.0, **LINES)
+    axes.plot(omega, data["thermal_antisymmetric_power"] / thermal, **LINES, ls=(0, (4, 2)))
+    for name, look, label in (
+        ("power_between", FIRST, "between"),
+        ("power_behind", SECOND, "behind both"),
+    ):
+        limits = data[f"{name}_error"] / thermal
+        axes.errorbar(
+            omega, data[name] / thermal, limits.where(np.isfinite(limits)), label=label, **look
+        )
+    axes.set_ylim(bottom=0.7)
+    axes.set(xlabel=r"$\Omega$", ylabel="$P$ over thermal $P$")
+    axes.legend(loc="lower left", handlelength=1.0)

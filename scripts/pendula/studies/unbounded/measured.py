@@ -1,11 +1,11 @@
-"""What is measured of runs on infinite chains: growth of the norms, speeds, the bulk behind.
+"""What is measured of runs on infinite chains: growth of the norms, the fronts, the states behind.
 
-Where the chain at rest is unstable, a front moves at the speed v of linear spreading and leaves a
-thermal bulk of mean power P per site on both sides. The norm is then l2 = (2 v P tau)^(1/2).
+Where the chain at rest is unstable, a front moves at the speed v_1 of linear spreading. Behind it
+A = -B, up to a second front, whose speed is v_2. With the powers P' between the fronts and P behind
+the second one the norm is l2 = (2 (v_2 P + (v_1 - v_2) P') tau)^(1/2).
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, replace
 from itertools import pairwise
 
 import numpy as np
@@ -17,49 +17,41 @@ from pendula.datasets.trajectories import shared_by
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import local_exponents
 from pendula.measures.spreading import lay_line
-from pendula.numerics.elementary import complex_of, geometric, interpolated, log, modulus
-from pendula.problem import Constants
+from pendula.numerics.elementary import geometric, interpolated, log
 
+from .active_sites import LEVEL
 from .bulk import (
+    BEHIND,
+    BETWEEN,
+    CELL,
     FIRST_OF_LINE,
-    LENGTH,
+    KINDS,
     POWER,
-    TERMS,
-    bulk_of,
-    energy_terms,
+    law_of,
     mean_powers,
-    profile,
-    slope_powers,
-    spectrum,
-    statistics_of,
+    slope_ratios,
     thermal_powers,
 )
 from .extremes import mean_maximum
-from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, REST, SITE_OF_FRONT, linear_front
-
-RESOLVES = "limits, to each side: what the places of a front between two sites resolve"
-
-FRONT, BULK = 1e-2, 4.0
-"""Powers at which a front is found: of a pulled one, and of a bulk amid waves that it radiates."""
+from .front import PIECE_TAU, PREDICTED_SPEED, SITE_OF_FRONT
 
 SETTLED = 1 / 3
 """The part of a run that is left out: at first the speed is below the one it tends to."""
 
+SHOWN = 4.0
+"""The Omega whose fronts are shown in space and time."""
+
 
 def measure(
-    runs: Mapping[str, xr.Dataset],
-    omegas: xr.Dataset,
-    bulk: xr.Dataset,
-    large: xr.Dataset,
-    thermal: xr.Dataset,
+    runs: Mapping[str, xr.Dataset], omegas: xr.Dataset, transverse: xr.Dataset, thermal: xr.Dataset
 ) -> Iterator[xr.Dataset]:
-    """Yield the growth of `runs`, which are by case, and the front.
+    """Yield the growth of `runs`, which are by case, and the fronts of `omegas`, runs over Omega.
 
-    `omegas` are runs over Omega; `bulk` and `large` are the two whose bulk is looked at, in an
-    unstable and in a stable chain at rest; `thermal` are the states that it is compared with.
+    `transverse` has the predicted speed of the second front, `thermal` the states that those behind
+    the fronts are compared with.
     """
-    yield measure_growth(runs, thermal)
-    yield measure_front(omegas, bulk, large, thermal)
+    yield measure_growth(runs, thermal, transverse)
+    yield measure_fronts(omegas, transverse, thermal)
 
 
 # --- Growth ---------------------------------------------------------------------------------------
@@ -69,17 +61,26 @@ POINTS, OCTAVES = 120, 4
 BAND = ("lowest", "mean", "highest")
 """What is kept of a norm over the members of an ensemble."""
 FIRST, SPANS = 10.0, 16
-"""Where the comparison with the law 2 v P tau begins, and its spans, equally long in log tau."""
+"""Where the comparison with the law begins, and its spans, equally long in log tau."""
 
 
-def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
+def measure_growth(
+    runs: Mapping[str, xr.Dataset], thermal: xr.Dataset, transverse: xr.Dataset
+) -> xr.Dataset:
     """Return series, exponents and laws of the ensembles in `runs`, by case.
 
     `runs` are datasets of `long_runs.run_variables`, and the first variant of each is measured.
-    `thermal` holds the mean power of the thermal states over Omega. All values are dimensionless.
+    `thermal` and `transverse` hold the powers of the thermal states and the speeds of the second
+    front that the law takes. All values are dimensionless.
     """
     first = [run.isel(variant=0) for run in runs.values()]
-    found = [_growth_of(run, thermal) | _rates_of(run, thermal) for run in first]
+    laws = [
+        law_of(run, thermal, transverse)[0] if _is_of(thermal, run) else np.nan * run["tau"].values
+        for run in runs.values()
+    ]
+    found = [
+        _growth_of(run, thermal) | _rates_of(run, law) for run, law in zip(first, laws, strict=True)
+    ]
     variables = {
         "case": Variable(("case",), list(runs)),
         "band": Variable(("band",), list(BAND), "value over the members of the ensemble"),
@@ -104,7 +105,7 @@ def _growth_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     exponents, errors = np.array([fit.value for fit in fits]), _known([fit.half for fit in fits])
     equilibrium = np.full(len(times), np.nan)
     if _is_of(thermal, run) and abs(float(run["omega"] - thermal["bound_omega"])) <= 1e-9:
-        reached = float(run["predicted_speed"]) * (times - _delay(run) * log(times))
+        reached = float(run["predicted_speed"]) * times - float(run["predicted_delay"]) * log(times)
         equilibrium = mean_maximum(thermal, np.maximum(1.0, reached))
     both, octave = "of A and B together", ("octave",)
     of_error = "95 % limits of the exponent of tau in l2 by Student's t, to each side"
@@ -122,34 +123,26 @@ def _growth_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     }
 
 
-def _rates_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
-    """Return l2^2 / tau over spans of time and its law, in which no constant is fitted.
+def _rates_of(run: xr.Dataset, law: np.ndarray) -> dict[str, Variable]:
+    """Return l2^2 / tau over spans of time, and its law (tau,), in which no constant is fitted.
 
-    Where the law begins is not known, so that an offset of l2^2 is fitted beside it. It is NaN
-    where the chain at rest is stable or no state was solved.
+    Where the law begins is not known, so that an offset of l2^2 is fitted beside it.
     """
-    tau, law = run["tau"].values, np.nan
-    if _is_of(thermal, run) and run["predicted_delay"] > 0.0:
-        power = float(thermal_powers(thermal, run["omega"].values))
-        law = 2.0 * float(run["predicted_speed"]) * power
-    squares = run["l2"].transpose("member", "tau").values ** 2
+    tau, squares = run["tau"].values, run["l2"].transpose("member", "tau").values ** 2
     edges = geometric(FIRST, float(tau[-1]), SPANS + 1)
     spans = [(tau >= a) & (tau <= b) for a, b in pairwise(edges)]
     means = np.array([(squares[:, span] / tau[span]).mean(axis=1) for span in spans]).T
-    passed = tau - _delay(run) * log(np.maximum(tau, 1.0))
     late = tau >= FIRST_OF_LINE * tau[-1]
-    offset = (squares.mean(axis=0) - law * passed)[late].mean()
-    law_rates = np.array([law * (passed[span] / tau[span]).mean() for span in spans])
+    offset = (squares.mean(axis=0) - law)[late].mean()
+    law_rates = np.array([(law[span] / tau[span]).mean() for span in spans])
     offsets = np.array([offset * (1.0 / tau[span]).mean() for span in spans])
     along, of = ("span",), "l2^2 / tau, mean over a span of time"
     limits = f"half of the 95 % limits of the mean {of}"
-    at_last = "2 v P: l2^2 / tau by linear spreading and the thermal bulk, for long times"
     return {
         "span_tau": Variable(along, np.sqrt(edges[:-1] * edges[1:]), "middle of a span of tau"),
         "l2_rate": Variable(("band", "span"), _band(means), of),
         "rate_limits": Variable(along, _known(mean_limits(means).half), limits),
-        "law": Variable((), law, at_last),
-        "law_rate": Variable(along, law_rates, "that law with the delay of a pulled front"),
+        "law_rate": Variable(along, law_rates, f"{of}, by thermal states and predicted fronts"),
         "offset_rate": Variable(along, offsets, "b / tau, with the offset b of l2^2 fitted"),
     }
 
@@ -157,11 +150,6 @@ def _rates_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
 def _is_of(thermal: xr.Dataset, run: xr.Dataset) -> bool:
     """Return whether thermal states over Omega were solved for the other constants of a run."""
     return all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
-
-
-def _delay(run: xr.Dataset) -> float:
-    """Return the time that a pulled front loses per unit of log tau."""
-    return float(run["predicted_delay"] / run["predicted_speed"])
 
 
 def _known(halves) -> np.ndarray:
@@ -174,13 +162,7 @@ def _band(values: np.ndarray) -> np.ndarray:
     return np.array([values.min(axis=0), values.mean(axis=0), values.max(axis=0)])
 
 
-# --- The front, and the bulk behind it ------------------------------------------------------------
-
-SPANS_OF_WAY = 36
-"""Spans of log tau in which the front's way is averaged."""
-
-BINS, HIGHEST, MODULI = 24, 1.2, 40
-"""Cells of a profile, how far it reaches beyond the front, and cells of a distribution."""
+# --- The fronts, and the states behind them -------------------------------------------------------
 
 
 def resolution(tau: np.ndarray) -> float:
@@ -193,7 +175,7 @@ def resolution(tau: np.ndarray) -> float:
     return 1.5 / ((1.0 - SETTLED) * float(tau[-1]))
 
 
-def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def speeds(run, corrected: bool = False, name: str = "front") -> tuple[np.ndarray, np.ndarray]:
     """Return the speeds of each variant of a dataset of runs, mean over members, and their limits.
 
     A speed is the slope of the front's site over time, of the late part of a run. `corrected` adds
@@ -201,7 +183,7 @@ def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarr
     no less than the `resolution`.
     """
     tau = run["piece_tau"].values
-    way = run["front"].sel(front_power=level).transpose("variant", "member", "piece_tau").values
+    way = run[name].transpose("variant", "member", "piece_tau").values
     if corrected:
         delay, rest = (run[f"predicted_{name}"].values[:, None, None] for name in ("delay", "rest"))
         way = way + delay * log(tau) + rest / np.sqrt(tau)
@@ -212,109 +194,93 @@ def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarr
     return limits.value, np.maximum(half, resolution(tau))
 
 
-def measure_front(
-    omegas: xr.Dataset, bulk: xr.Dataset, large: xr.Dataset, thermal: xr.Dataset
-) -> xr.Dataset:
-    """Return fronts over Omega, the way of one of them, and the state behind it.
+def second_speeds(run) -> tuple[np.ndarray, np.ndarray]:
+    """Return the same of the second front, NaN where |S|^2 behind it has not reached LEVEL."""
+    filled = mean_powers(run, BEHIND, KINDS[1]).mean(axis=1) > LEVEL
+    return tuple(np.where(filled, one, np.nan) for one in speeds(run, name="second_front"))
 
-    `omegas` are runs over Omega, `bulk` the run whose bulk is looked at, `large` one whose bulk
-    spreads where the chain at rest is stable. `thermal` are the states without energy that the
-    bulk is compared with.
-    """
-    constants = Constants.of(bulk.attrs)
-    omega, line = omegas["omega"].values, np.linspace(-4.0, 8.0, 97)
-    plain, plain_error = speeds(omegas)
-    corrected, corrected_error = speeds(omegas, corrected=True)
-    power, slopes = mean_limits(mean_powers(omegas).T), slope_powers(omegas)
-    speed_at = [linear_front(replace(constants, omega=value)).speed for value in line]
+
+def measure_fronts(omegas: xr.Dataset, transverse: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
+    """Return speeds and powers over Omega, profiles at the end, and one run in space and time."""
+    omega, about = omegas["omega"].values, "half of the 95 % limits of that"
+    law = slope_ratios(omegas, law_of(omegas, thermal, transverse))
+    (first, first_error), (second, second_error) = speeds(omegas), second_speeds(omegas)
+    formed = np.where(np.isfinite(second), 1.0, np.nan)
+    behind = mean_limits((mean_powers(omegas, BEHIND) * formed[:, None]).T)
+    between = mean_limits(mean_powers(omegas, BETWEEN).T)
+    known = transverse.reindex(omega=omega, method="nearest", tolerance=1e-9)
+    states = [thermal_powers(thermal, omega, f"{of}power") for of in ("", "antisymmetric_")]
+    of_speed = "in sites per unit of tau"
+    alone = "in the thermal state of the chain with A = -B"
+    energies = [mean_powers(omegas, one, "H").mean(axis=1) for one in (BEHIND, BETWEEN)]
     over_omega = {
         "omega": (omega,),
-        "speed": (plain, "measured speed of the front, in sites per unit of tau"),
-        "speed_error": (plain_error, f"{RESOLVES} of that speed"),
-        "corrected_speed": (corrected, "speed of the front, its delay added back"),
-        "corrected_speed_error": (corrected_error, f"{RESOLVES} of that speed"),
-        "predicted_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
-        "mean_power": (power.value, POWER),
-        "mean_power_error": (_known(power.half), f"half of the 95 % limits of the {POWER}"),
-        "expected_power": (
-            thermal_powers(thermal, omega), f"{POWER} in the thermal state at the same Omega"
+        "front_speed": (first, f"speed of the first front, {of_speed}"),
+        "front_speed_error": (first_error, f"{about}, or what the places of the front resolve"),
+        "linear_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
+        "second_front_speed": (second, f"speed of the second front, {of_speed}"),
+        "second_front_speed_error": (second_error, about),
+        "predicted_second_speed": (
+            known["second_speed"].values, "speed at which a small A + B spreads on A = -B"
         ),
-        "slope_power": ([one.value for one in slopes], f"{POWER}, from the slope of l2^2"),
-        "slope_power_error": (
-            [one.half for one in slopes], "half of the 95 % limits of that from the slope"
+        "predicted_second_speed_error": (known["second_speed_error"].values, about),
+        "transverse_exponent": (
+            known["exponent"].values.max(axis=1), "largest exponent of a small A + B on A = -B"
         ),
+        "power_behind": (behind.value, f"{POWER} {BEHIND}"),
+        "power_behind_error": (_known(behind.half), about),
+        "power_between": (between.value, f"{POWER} {BETWEEN}"),
+        "power_between_error": (_known(between.half), about),
+        "energy_behind": (energies[0] * formed, f"energy H of a pair, its mean {BEHIND}"),
+        "energy_between": (energies[1], f"energy H of a pair, its mean {BETWEEN}"),
+        "thermal_power": (states[0], f"{POWER} in the thermal state"),
+        "thermal_antisymmetric_power": (states[1], f"{POWER} {alone}"),
+        "slope_ratio": (
+            [one.value for one in law], "slope of l2^2 over that of its law, in which nothing fits"
+        ),
+        "slope_ratio_error": ([one.half for one in law], about),
     }  # fmt: skip
-    first = omegas["front"].sel(front_power=FRONT).isel(member=0)
-    of_bulk = large["front"].sel(front_power=BULK).squeeze("variant").isel(member=0)
     variables = {
         **{name: Variable(("omega",), *given) for name, given in over_omega.items()},
-        "line_omega": Variable(("line_omega",), line, "detuning Omega, on a finer grid"),
-        "line_speed": Variable(("line_omega",), speed_at, PREDICTED_SPEED),
-        "piece_tau": Variable(("piece_tau",), omegas["piece_tau"].values, PIECE_TAU),
-        "front": Variable(("omega", "piece_tau"), first.values, SITE_OF_FRONT),
-        "large_tau": Variable(
-            ("large_piece",), large["piece_tau"].values, "slow time, stable chain"
-        ),
-        "large_front": Variable(
-            ("large_piece",), of_bulk.values, "site where the bulk ends, stable chain"
-        ),
-        **_way(bulk.squeeze("variant")),
-        **_behind(bulk.squeeze("variant"), constants),
-        **_thermal(thermal, constants.omega),
+        **_profiles(omegas),
+        **_in_time(omegas.isel(variant=int(np.abs(omega - SHOWN).argmin()))),
     }
-    title = "The front on infinite chains, and the bulk behind it"
-    about = {**shared_by([omegas.attrs, bulk.attrs]), **asdict(constants)}
-    return as_xarray(variables, {**about, "title": title, "large_omega": large.attrs["omega"]})
+    title = "The two fronts on infinite chains, and the states behind them"
+    return as_xarray(variables, {**omegas.attrs, "title": title})
 
 
-def _way(bulk: xr.Dataset) -> dict[str, Variable]:
-    """Return how far the front falls behind the speed of linear spreading, mean over members."""
-    tau, v = bulk["piece_tau"].values, float(bulk["predicted_speed"])
-    way = bulk["front"].sel(front_power=FRONT).transpose("member", "piece_tau").values
-    behind = (way - v * tau).mean(axis=0)
-    # waves at its edge move a front to and fro: means over short spans of log time show its way
-    spans = np.digitize(log(tau), np.linspace(log(tau[0]), log(tau[-1]), SPANS_OF_WAY))
-    found = [spans == span for span in np.unique(spans)]
+def _profiles(omegas: xr.Dataset) -> dict[str, Variable]:
+    """Return |S|^2 and |D|^2 at the end against the distance from the first front."""
+    ends = omegas["front"].isel(member=0, piece_tau=-1).values
+    count = max(1, int(ends.max()) // CELL)
+    found = {}
+    for sign, name in (("+", "symmetric_power"), ("-", "antisymmetric_power")):
+        values = np.full((len(ends), count), np.nan)
+        for row, end, cells in zip(values, ends, omegas[name].isel(piece_tau=-1), strict=True):
+            behind = cells.values[: max(0, int(end) // CELL)][::-1]
+            row[: behind.size] = behind
+        long_name = f"|A_n {sign} B_n|^2 / 2 at the end, mean over {CELL} sites"
+        found[f"{name}_behind_front"] = Variable(("omega", "distance"), values, long_name)
+    distance = CELL * (np.arange(count) + 0.5)
+    of_distance = "sites from the first front backwards"
+    return found | {"distance": Variable(("distance",), distance, of_distance)}
+
+
+def _in_time(run: xr.Dataset) -> dict[str, Variable]:
+    """Return |S|^2 and |D|^2 of one run in space and time, with the places of its fronts."""
+    one = run.isel(member=0)
+    sites = CELL * (np.arange(one.sizes["cell"]) + 0.5)
+    axes = ("piece_tau", "cell_site")
     return {
-        "way_tau": Variable(("span",), [tau[s].mean() for s in found], "slow time, mean of a span"),
-        "behind": Variable(("span",), [behind[s].mean() for s in found], "site of front - v tau"),
-        "delay": Variable((), float(bulk["predicted_delay"]), DELAY),
-        "front_rest": Variable((), float(bulk["predicted_rest"]), REST),
-    }
-
-
-def _behind(bulk: xr.Dataset, constants: Constants) -> dict[str, Variable]:
-    """Return profiles, spectrum and distribution of the final states of all members."""
-    fronts = bulk["front"].isel(piece_tau=-1).sel(front_power=FRONT).values.astype(int)
-    edges = np.linspace(0.0, HIGHEST, BINS + 1)
-    terms, spectra, moduli = [], [], []
-    for sites, front in zip(bulk["state"].values, fronts, strict=True):
-        terms.append(profile(energy_terms(sites, constants), (edges * front).astype(int)))
-        for amplitude in complex_of(sites[0::2], sites[1::2])[:, bulk_of(front)]:
-            spectra.append(spectrum(amplitude, LENGTH))
-            moduli.append(modulus(amplitude))
-    moduli = np.concatenate(moduli)
-    cells = np.linspace(0.0, 1.05 * moduli.max(), MODULI + 1)
-    density = np.histogram(moduli, cells, density=True)[0]
-    middles = 0.5 * (edges[1:] + edges[:-1])
-    return {
-        "term": Variable(("term",), list(TERMS), "term of the energy (8)"),
-        "mean_terms": Variable(("term", "bin"), np.mean(terms, axis=0), "terms of H per site"),
-        "scaled_site": Variable(("bin",), middles, "site over that of the front"),
-        **statistics_of(np.mean(spectra, axis=0), density, cells),
-    }
-
-
-def _thermal(thermal: xr.Dataset, omega: float) -> dict[str, Variable]:
-    """Return of the thermal states what the bulk is compared with, for some of it at one Omega."""
-    one = thermal.reindex(omega=[omega], method="nearest", tolerance=1e-9).isel(omega=0)
-    taken = [thermal["omega"], thermal["power"], one["modulus"], one["density"], one["spectrum"]]
-    dims = {"omega": "state", "modulus": "cell", "wave": "wave"}
-    return {
-        f"thermal_{values.name}": Variable(
-            tuple(dims[dim] for dim in values.dims),
-            values.values,
-            f"{values.attrs['long_name']}, thermal state",
-        )
-        for values in taken
+        "piece_tau": Variable(("piece_tau",), one["piece_tau"].values, PIECE_TAU),
+        "cell_site": Variable(("cell_site",), sites, "site in the middle of a cell"),
+        "shown_omega": Variable((), float(one["omega"]), "detuning Omega of the run in time"),
+        **{
+            name: Variable(axes, one[name].values, one[name].attrs["long_name"])
+            for name in ("symmetric_power", "antisymmetric_power")
+        },
+        **{
+            f"{name}_site": Variable(("piece_tau",), one[name].values, f"{SITE_OF_FRONT}{more}")
+            for name, more in (("front", ""), ("second_front", ", second one"))
+        },
     }

@@ -3,8 +3,9 @@
 Nothing is sampled: an eigenvector of the operator (see `transfer`) gives the means of a site. Their
 error is that of the grid, which a coarser and wider grid measures.
 
-The energy needs no bond. The mean of y dH/dy is 4 / beta a site, and y dH/dy is 2 H plus twice the
-quartic term: the energy a site is 2 / beta - <quartic>.
+The energy needs no bond. The mean of y dH/dy is f / beta a site with f coordinates, and y dH/dy is
+2 H plus twice the quartic term: the energy a site is f / (2 beta) - <quartic>. Two fields have four
+coordinates a site, and the chain with A = -B has two.
 
 Bits: the states have the same bits on every machine. Densities need a Bessel function and products
 of large matrices, whose last bits differ by some 4e-15: they are rounded to DECIMALS, so that one
@@ -23,7 +24,7 @@ from pendula.numerics.elementary import cos, exp, log, sin
 from pendula.problem import Constants
 
 from . import transfer
-from .bulk import LENGTH, POWER, TERMS, statistics_of
+from .bulk import POWER
 from .extremes import law_of_maxima
 
 HOT, COLD = 1e-3, 1e5
@@ -35,6 +36,9 @@ HALVINGS, SECANTS = 7, 12
 DIGITS, DECIMALS, PLACES = 7, 6, 10
 LAST_DIGIT = float(f"1e-{DIGITS}")
 """Significant digits of what is published, the decimals of densities, and of the law of maxima."""
+
+LAGS = 64
+"""Sites over which products are correlated: as long are the pieces whose spectra they are."""
 
 
 class NoStateError(ValueError):
@@ -52,8 +56,12 @@ class ThermalState(NamedTuple):
     vector: np.ndarray  # psi, the sum of its squares is one
 
 
-def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalState:
+def state_of_energy(
+    constants: Constants, energy: float, nodes: int, antisymmetric: bool = False
+) -> ThermalState:
     """Return the thermal state with an energy per site, on `nodes` half-nodes a coordinate.
+
+    It is that of both fields, or of the chain with A = -B.
 
     Three grids follow each other: one with half of the nodes finds beta roughly and how far the
     distribution reaches, one with three quarters gives the error, the last gives the state.
@@ -62,7 +70,7 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
     few, some = nodes // 2, 3 * nodes // 4
 
     def is_too_hot(beta: float) -> bool:
-        grid = transfer.half_nodes(transfer.widest(constants, beta), few)
+        grid = transfer.half_nodes(transfer.widest(constants, beta), few, antisymmetric)
         return _excess(constants, beta, grid, energy)[0] < 0.0
 
     if not is_too_hot(HOT) or is_too_hot(COLD):
@@ -75,7 +83,7 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
     beta = float(np.sqrt(hot * cold))
     reach, powers = transfer.widest(constants, beta), []
     for count, wider in ((few, 1.0), (some, 1.1), (nodes, 1.0)):
-        grid = transfer.half_nodes(wider * reach, count)
+        grid = transfer.half_nodes(wider * reach, count, antisymmetric)
         beta, operator, vector = _refined(constants, beta, grid, energy)
         reach = transfer.reach_of(operator, vector)
         powers.append(float(np.sum(vector * vector * operator.power)))
@@ -88,7 +96,7 @@ def _excess(constants, beta, grid, energy, vector=None) -> tuple:
     operator = transfer.make_operator(constants, beta, grid)
     vector = transfer.leading(operator, vector)
     quartic = float(np.sum(vector * vector * operator.quartic))
-    return beta * (energy + quartic) - 2.0, operator, vector
+    return beta * (energy + quartic) - 0.5 * operator.freedom, operator, vector
 
 
 def _refined(constants, beta, grid, energy) -> tuple:
@@ -105,19 +113,7 @@ def _refined(constants, beta, grid, energy) -> tuple:
     raise ArithmeticError("no temperature with this energy was found")
 
 
-# --- What a state is like -------------------------------------------------------------------------
-
-
-def terms_of(state: ThermalState) -> np.ndarray:
-    """Return the means of the terms of (8) a site, in the order of `bulk.TERMS`."""
-    operator = state.operator
-    chance = (state.vector * state.vector).sum(axis=0)
-    _, t, _, q = np.ix_(*operator.nodes)
-    quartic = 2.0 / state.beta - state.energy
-    detuning = operator.constants.omega * state.power
-    drive = -2.0 * operator.constants.gamma * float(np.sum(chance * (t * t - q * q)))
-    return np.array([quartic, detuning, drive, state.energy - quartic - detuning - drive])
-
+# --- Correlations, and the distribution of a modulus ----------------------------------------------
 
 PARITIES = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 1, 1, 0))
 """Those of each coordinate times psi, see `transfer.EVEN`."""
@@ -146,15 +142,10 @@ def products_of(state: ThermalState, lags: int) -> np.ndarray:
     return found * np.where(np.arange(lags) % 2, -1.0, 1.0)
 
 
-def correlation_length(products: np.ndarray) -> float:
-    """Return the sites over which the slowest of the products falls by a factor of e."""
-    last = [np.flatnonzero(even).max() for even in products[:, 0::2]]
-    ratios = [even[at] / even[at - 1] for even, at in zip(products[:, 0::2], last, strict=True)]
-    return float(-2.0 / log(max(ratios)))
-
-
 def spectrum_of(products: np.ndarray) -> np.ndarray:
-    """Return the spectrum of A, as `bulk.spectrum` takes it from pieces as long as the products."""
+    """Return the spectrum of A.
+
+    It is the mean of |A(k)|^2 over pieces of the chain that are as long as the products."""
     lags = np.arange(products.shape[1])
     shares = (1.0 - lags / len(lags)) * 0.5 * products.sum(axis=0)
     waves = cos(2.0 * np.pi / len(lags) * (np.outer(lags, lags) % len(lags)))
@@ -168,11 +159,15 @@ def density_of(state: ThermalState, cells: np.ndarray, finer: int) -> np.ndarray
     a modulus below r. The operator itself interpolates psi to the `finer` nodes that this needs.
     """
     old = state.operator
-    nodes = transfer.half_nodes(old.nodes[:, -1], finer)
+    nodes = transfer.half_nodes(np.array([one[-1] for one in old.nodes]), finer, False)
     new = transfer.make_operator(old.constants, old.beta, nodes)
-    bonds = transfer.bonds_between(old.beta, old.constants.epsilon, nodes, old.nodes)
+    bonds = tuple(
+        transfer.bonds_between(old.beta, old.constants.epsilon, to, start)
+        for to, start in zip(nodes, old.nodes, strict=True)
+    )
     psi = transfer.normalised(new.roots * transfer.smoothed(bonds, old.roots * state.vector))
     # midpoints in k: so fine that images of A stay away, up to what the nodes resolve
+    nodes = np.array(nodes)
     step = np.pi / max(np.sqrt(2.0) * float(nodes.max()), float(cells[-1]))
     last = np.pi / (2.0 * float(nodes[:, 0].max()))
     k = step * (np.arange(int(last / step)) + 0.5)
@@ -205,81 +200,81 @@ HIGHEST_MODULUS, CELLS, BOUNDS = 12.0, 80, 60
 
 
 def solve_thermal(
-    epsilon: float, gamma: float, omegas: list[float], bulk_omega: float, warm_omega: float,
-    energies: list[float], nodes: int, density_nodes: int,
+    epsilon: float, gamma: float, omegas: list[float], bulk_omega: float, nodes: int,
+    density_nodes: int,
 ) -> Contents:  # fmt: skip
-    """Return the states without energy at all `omegas`, and those of `energies` at `warm_omega`.
+    """Return the states without energy at all `omegas`, of both fields and of A = -B.
 
-    Where there is no such state it is left out. The law of the largest modulus is that of the state
+    Where one has no such state it is left out. The law of the largest modulus is that of the state
     whose Omega is nearest to `bulk_omega`.
     """
-    cold, warm = [], []
-    asked = [*((cold, omega, 0.0) for omega in omegas), *((warm, warm_omega, e) for e in energies)]
-    for states, omega, energy in asked:
+    both, alone = [], []
+    for omega in omegas:
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         try:
-            states.append(state_of_energy(constants, energy, nodes))
+            states = [state_of_energy(constants, 0.0, nodes, alike) for alike in (False, True)]
         except NoStateError as error:
             print(f"left out: {error}")
-    nearest = min(cold, key=lambda one: abs(one.operator.constants.omega - bulk_omega))
+            continue
+        both.append(states[0])
+        alone.append(states[1])
+    nearest = min(both, key=lambda one: abs(one.operator.constants.omega - bulk_omega))
+    title = "Thermal states of the infinite chain, by its transfer operator"
     attributes = {
-        "title": "Thermal states of the infinite chain, by its transfer operator",
-        "epsilon": epsilon, "gamma": gamma, "warm_omega": warm_omega, "nodes": 2 * nodes,
+        "title": title, "epsilon": epsilon, "gamma": gamma, "nodes": 2 * nodes,
         "density_nodes": 2 * density_nodes,
     }  # fmt: skip
-    return thermal_variables(cold, warm, density_nodes) | maximum_variables(nearest), attributes
+    return thermal_variables(both, alone, density_nodes) | maximum_variables(nearest), attributes
 
 
 def thermal_variables(
-    states: list[ThermalState], warm: list[ThermalState], density_nodes: int
+    both: list[ThermalState], alone: list[ThermalState], density_nodes: int
 ) -> dict[str, Variable]:
-    """Return the states of zero energy, one for each Omega, and the `warm` ones over the energy.
+    """Return the states of zero energy, one for each Omega, of both fields and of A = -B.
 
     `density_nodes` are the half-nodes a coordinate from which densities are summed.
     """
-    cells, omega, energy = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1), "omega", "site_energy"
+    omegas = [one.operator.constants.omega for one in both]
+    cells = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1)
+    waves = 2.0 * np.pi * np.arange(LAGS) / LAGS
     # of 0 and -0 processors take either for the larger one, and a sum with zero has no sign
     densities = [
-        np.maximum(0.0, density_of(one, cells, density_nodes).round(DECIMALS)) + 0.0
-        for one in states
+        np.maximum(0.0, density_of(one, cells, density_nodes).round(DECIMALS)) + 0.0 for one in both
     ]
-    products = [products_of(state, LENGTH) for state in states]
-    lengths = list(map(correlation_length, products))
-    length = "sites over which the slowest correlation falls by e"
-    statistics = statistics_of(list(map(spectrum_of, products)), densities, cells, (omega,))
-    words = "in the thermal state of a given energy a site"
+    spectra = rounded(np.array([spectrum_of(products_of(one, LAGS)) for one in both]), DIGITS - 1)
     return {
-        "omega": Variable((omega,), [one.operator.constants.omega for one in states]),
-        "term": Variable(("term",), list(TERMS), "term of the energy (8)"),
-        **_means(states, omega, "", "in the thermal state of no energy"),
-        "correlation_length": _to_digits(4, Variable((omega,), lengths, length)),
-        **statistics,
-        "spectrum": _to_digits(DIGITS - 1, statistics["spectrum"]),
-        "density": statistics["density"]._replace(attributes={"decimal_places": DECIMALS}),
-        "site_energy": Variable((energy,), [one.energy for one in warm], "energy H a site"),
-        **_means(warm, energy, "warm_", words),
-    }
+        "omega": Variable(("omega",), omegas),
+        **_means(both, "", "in the thermal state of no energy"),
+        **_means(alone, "antisymmetric_", "in that of the chain with A = -B"),
+        "wave_number": Variable(("wave",), waves, "wave number k", "rad"),
+        "spectrum": Variable(
+            ("omega", "wave"), spectra, "mean |A(k)|^2 over pieces of the chain",
+            attributes={"significant_digits": DIGITS - 1},
+        ),
+        "modulus": Variable(("modulus",), 0.5 * (cells[1:] + cells[:-1])),
+        "density": Variable(
+            ("omega", "modulus"), densities, "probability density of the modulus",
+            attributes={"decimal_places": DECIMALS},
+        ),
+    }  # fmt: skip
 
 
-def _means(states: list[ThermalState], along: str, prefix: str, words: str) -> dict:
-    terms = np.reshape([terms_of(one) for one in states], (-1, len(TERMS)))
-    betas, powers, errors = (
-        [getattr(one, name) for one in states] for name in ("beta", "power", "power_error")
-    )
+def _means(states: list[ThermalState], prefix: str, words: str) -> dict[str, Variable]:
     of_error = f"error of the discretisation and rounding of that {POWER}"
-    found = {
-        "beta": (DIGITS, Variable((along,), betas, f"inverse temperature {words}")),
-        "power": (DIGITS, Variable((along,), powers, f"{POWER} {words}")),
-        "power_error": (2, Variable((along,), errors, of_error)),
-        "terms": (DIGITS, Variable((along, "term"), terms, f"terms of H per site {words}")),
+    named = {
+        "beta": (DIGITS, f"inverse temperature {words}"),
+        "power": (DIGITS, f"{POWER} {words}"),
+        "power_error": (2, of_error),
     }
-    return {f"{prefix}{name}": _to_digits(*given) for name, given in found.items()}
-
-
-def _to_digits(count: int, variable: Variable) -> Variable:
-    """Return the variable rounded to so many significant digits, which it states."""
-    said = {"significant_digits": count}
-    return variable._replace(values=rounded(variable.values, count), attributes=said)
+    return {
+        f"{prefix}{name}": Variable(
+            ("omega",),
+            rounded(np.array([getattr(one, name) for one in states]), digits),
+            long_name,
+            attributes={"significant_digits": digits},
+        )
+        for name, (digits, long_name) in named.items()
+    }
 
 
 def maximum_variables(state: ThermalState) -> dict[str, Variable]:

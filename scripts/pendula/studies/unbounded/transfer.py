@@ -12,7 +12,7 @@ A bond is a product of four factors, one a coordinate, so that an integral over 
 small sums. They are taken by the midpoint rule, which converges exponentially for smooth functions
 that decay. H keeps its value under changes of signs that keep the sign of s t p q. Therefore the
 nodes with s, t, p, q > 0 suffice, with two values at each: that of (s, t, p, q), and that of
-(s, t, p, -q).
+(s, t, p, -q). On the chain with A = -B s and p have the one node zero.
 """
 
 from typing import NamedTuple
@@ -34,15 +34,23 @@ SETTLED = 1e-9
 
 
 class Operator(NamedTuple):
-    """The operator at one beta on m^4 nodes; an array (2, m, m, m, m) holds both signs of q."""
+    """The operator at one beta on m^4 nodes; an array (2, m, m, m, m) holds both signs of q.
+
+    With A = -B there are m^2 nodes, (2, 1, m, 1, m).
+    """
 
     constants: Constants
     beta: float
-    nodes: np.ndarray  # (coordinate, m), the positive half of each
-    bonds: np.ndarray  # (parity, coordinate, m, m), even and odd
+    nodes: tuple[np.ndarray, ...]  # of each coordinate the positive half, (m,)
+    bonds: tuple[np.ndarray, ...]  # of each coordinate on even and odd functions, (parity, m, m)
     roots: np.ndarray  # square roots of the weights
     quartic: np.ndarray  # quartic energy of a site
     power: np.ndarray  # (m, m, m, m): |y|^2
+
+    @property
+    def freedom(self) -> int:
+        """The number of coordinates of a site that are not held at zero."""
+        return sum(nodes.size > 1 for nodes in self.nodes)
 
 
 def widest(constants: Constants, beta: float) -> np.ndarray:
@@ -57,20 +65,23 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
     return np.full(4, np.sqrt(4.0 * c + np.sqrt(least + 8.0 * REACH / beta)))
 
 
-def half_nodes(reach: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` midpoints between 0 and each of `reach`, (coordinate, count)."""
-    return np.multiply.outer(reach, (np.arange(count) + 0.5) / count)
+def half_nodes(reach: np.ndarray, count: int, antisymmetric: bool) -> tuple[np.ndarray, ...]:
+    """Return `count` midpoints between 0 and each of `reach`; s and p are zero where A = -B."""
+    found = [one * (np.arange(count) + 0.5) / count for one in reach]
+    if antisymmetric:
+        found[0] = found[2] = np.zeros(1)
+    return tuple(found)
 
 
 def bonds_between(beta: float, epsilon: float, to: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Return the factors of a bond on even and odd functions, (parity, coordinate, to, node)."""
-    step = 2.0 * nodes[:, 0, None, None]  # the midpoint rule
-    apart, across = to[:, :, None] - nodes[:, None, :], to[:, :, None] + nodes[:, None, :]
+    """Return the factor of a bond on even and odd functions of a coordinate, (parity, to, node)."""
+    step = 2.0 * nodes[0] if nodes.size > 1 else 1.0  # the midpoint rule
+    apart, across = to[:, None] - nodes, to[:, None] + nodes
     near, far = (step * exp(-beta * epsilon * d * d) for d in (apart, across))
     return np.array([near + far, near - far])
 
 
-def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Operator:
+def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ...]) -> Operator:
     """Return the operator on given nodes."""
     epsilon, gamma, omega = constants
     s, t, p, q = np.ix_(*nodes)
@@ -79,7 +90,7 @@ def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Opera
     quartic = (power * power + 4.0 * products * products) / 8.0
     whole = quartic + (omega - 4.0 * epsilon) * power - 2.0 * gamma * (t * t - q * q)
     roots = exp(-0.5 * beta * (whole - whole.min()))
-    bonds = bonds_between(beta, epsilon, nodes, nodes)
+    bonds = tuple(bonds_between(beta, epsilon, one, one) for one in nodes)
     return Operator(constants, beta, nodes, bonds, roots, quartic, power)
 
 
@@ -104,13 +115,15 @@ EVEN = (0, 0, 0, 0)
 odd in q has the opposite parities."""
 
 
-def smoothed(bonds: np.ndarray, values: np.ndarray, parity: tuple[int, ...] = EVEN) -> np.ndarray:
+def smoothed(
+    bonds: tuple[np.ndarray, ...], values: np.ndarray, parity: tuple[int, ...] = EVEN
+) -> np.ndarray:
     """Return the integral of a bond times a function over a site."""
     parts = 0.5 * (values[0] + values[1]), 0.5 * (values[0] - values[1])
     done = []
     for odd, part in enumerate(parts):
-        for axis in range(4):
-            bond = bonds[parity[axis] ^ odd, axis]
+        for axis, of_axis in enumerate(bonds):
+            bond = of_axis[parity[axis] ^ odd]
             result = np.empty((part.size // part.shape[0], len(bond)))
             flat = np.ascontiguousarray(part).reshape(len(part), -1)
             pass_through(bond, flat, np.empty(flat.shape[1]), result)
