@@ -21,6 +21,11 @@ def chaotic_cases_alone_have_ensembles(lyapunov, ensembles):
     return set(chaotic(lyapunov)) == set(ensembles["case"].values)
 
 
+def errors_grow_faster_once_the_motion_of_fig_3_has_filled_the_chain(lyapunov):
+    early, late = (lyapunov.sel(case="fig3_large").isel(span=span) for span in (0, 1))
+    return early["exponent_high"] < late["exponent_low"] and 1.6 < early["exponent"] < 2.2
+
+
 def every_solver_leaves_every_chaotic_trajectory(trust, lyapunov):
     return (
         np.isfinite(trust["horizon"].sel(level="visible", case=chaotic(lyapunov))).all()
@@ -51,6 +56,8 @@ def reversed_cases(dataset):
 
 STATEMENTS = [
     (chaotic_cases_alone_have_ensembles, ("checks/lyapunov", "checks/ensembles"), reversed_cases),
+    (errors_grow_faster_once_the_motion_of_fig_3_has_filled_the_chain, ("checks/lyapunov",),
+     lambda lyapunov: lyapunov.isel(span=[1, 0])),
     (every_solver_leaves_every_chaotic_trajectory, ("checks/trust", "checks/lyapunov"),
      reversed_cases),
     (rates_of_steady_states_lie_in_their_enclosures, ("certified/breathers", "breathers/steady"),

@@ -101,6 +101,7 @@ def periodic_stable(periodic) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "breathers"),
+        Above(float(here["highest_wave"]), "lowest_frequency", says="lowest frequency of any"),
         AtMost(0.0, "largest_growth", "largest_growth_half", says="growth rate on two chains"),
     )
     return judge(measured, criterion, f"tested at {int(found.sum())} frequencies")
