@@ -4,13 +4,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pendula.datasets.checks import table, tabulate, variable
+from pendula.datasets.checks import table, variable
 from pendula.measures.norms import power_of
 from pendula.models import bounds
 from pendula.numerics.elementary import square_modulus
 from pendula.problem import Constants
 
-from .bounds import NUMBERS
 from .equations import (
     alternating,
     one_pair,
@@ -42,38 +41,24 @@ def check_theorem_3_constant(constants: Constants, amplitude: float, longest: in
         {"sites": sizes},
         printed=variable(printed, dims, "H minus the bound with gamma, as printed"),
         corrected=variable(corrected, dims, "H minus the bound with 2 gamma"),
-        violation=variable(
-            -corrected, dims, "excess of the corrected bound over H", tolerance=1e-12
-        ),
         smallest=variable(smallest, (), "smallest chain that breaks the printed bound"),
     )
 
 
 def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
-    amplitudes = one_pair(sites, pair)
-    start, energy = power_of(amplitudes), total_energy(constants, "dirichlet", amplitudes)
-    (delta_0, c_0), gap = bounds.theorem_2_constants(constants), bounds.theorem_2_gap(constants)
-    numbers = {
-        "start": start,
-        "delta_0": delta_0,
-        "c_0": c_0,
-        "depth": -energy,
-        "barrier": gap * gap,
-        "widened_barrier": bounds.widened_barrier(constants)[1],
-        "widened_delta_0": bounds.widened_delta_0(constants),
-        "widened_bound": float(bounds.widened_bound(energy, start, constants)),
-    }
-    about = {
-        **{name: NUMBERS[name] for name in ("start", "delta_0", "c_0")},
-        "depth": "-H, which Theorem 2 takes for positive",
-        "barrier": "barrier of -H in (25)",
-        "widened_barrier": "barrier of -H with the bonds kept",
-        "widened_delta_0": "radius of the widened theorem",
-        "widened_bound": "its bound on P",
-    }
-    title = "The small case at Omega = -4 and the region that Theorem 2 covers"
-    return tabulate(title, {}, [numbers], about)
+    delta_0, _ = bounds.theorem_2_constants(constants)
+    gap = bounds.theorem_2_gap(constants)
+    return table(
+        "The small case at Omega = -4 and the region that Theorem 2 covers",
+        {},
+        start=variable(power_of(one_pair(sites, pair)), (), "P at the start, delta"),
+        delta_0=variable(delta_0, (), "radius of Theorem 2"),
+        barrier=variable(gap * gap, (), "barrier of -H in (25)"),
+        widened_delta_0=variable(
+            bounds.widened_delta_0(constants), (), "radius of the theorem with the bonds kept"
+        ),
+    )
 
 
 def check_bootstrap(constants: Constants, part: float, longest: float) -> dict:
