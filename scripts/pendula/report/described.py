@@ -54,7 +54,7 @@ class Variable(NamedTuple):
     """A variable of a dataset in words."""
 
     name: str
-    says: str
+    meaning: str
     units: str
     dimensions: str
     values: str
