@@ -8,7 +8,7 @@ from pendula.datasets.checks import table, variable
 from pendula.measures.norms import power_of
 from pendula.models import bounds
 from pendula.numerics.elementary import square_modulus
-from pendula.problem import Constants
+from pendula.problem import Constants, write_initial
 
 from .equations import (
     alternating,
@@ -95,15 +95,21 @@ def check_bootstrap(constants: Constants, part: float, longest: float) -> dict:
 
 def check_not_shown(half_widths, window, omega: float, solver: Mapping) -> dict:
     """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
-    constants, peaks = Constants(epsilon=1.0, gamma=1.0, omega=omega), []
+    constants, pair, peaks = Constants(epsilon=1.0, gamma=1.0, omega=omega), (1.0, 0.1), []
     for half_width in half_widths:
-        data = one_pair(2 * half_width + 1, (1.0, 0.1))
+        data = one_pair(2 * half_width + 1, pair)
         outputs = round(40 * window[1])
         trajectory = run(constants, "dirichlet", data, window[1], outputs, solver)
         inside = trajectory.tau >= window[0]
         peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))
-    return table(
+    found = table(
         f"Largest l2 on [{window[0]:g}, {window[1]:g}] at Omega = {omega:g}, small data",
         {"half_width": half_widths},
         l2=variable(peaks, ("half_width",), "l2 norm over the chain, largest in the window"),
     )
+    found["attrs"] |= {
+        **vars(constants),
+        "boundary": "dirichlet",
+        "initial": write_initial({0: pair}),
+    }
+    return found
