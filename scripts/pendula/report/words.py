@@ -93,25 +93,6 @@ def with_error(value: float, error: float) -> str:
     return f"{value:.{places}f}{FIRM}±{FIRM}{error:.{places}f}".replace("-", MINUS)
 
 
-def horizon_in_words(time: float, until: float, end: float, digits: int = 4) -> str:
-    """Return when a run leaves its reference: a number, never, or why that is not known.
-
-    Both are known up to `until`, which is NaN where the case has no reference; the run ends at
-    `end`.
-    """
-    if np.isnan(until):
-        return "no reference"
-    if np.isfinite(time):
-        return number(time, digits)
-    return "never" if until >= end else f"not by {number(until, digits)}, the reference's end"
-
-
-def horizons_in_words(trust, digits: int = 4) -> list[str]:
-    """Return the same of each level of one case and solver in the dataset `checks/trust`."""
-    known = float(trust["known_until"]), float(trust["run_end"])
-    return [horizon_in_words(float(time), *known, digits) for time in trust["horizon"].values]
-
-
 def percent(part: float, digits: int = 2) -> str:
     """Return a fraction in per cent: 13 %. What is not the whole is not rounded to it: 99.5 %."""
     value = 100.0 * float(part)
