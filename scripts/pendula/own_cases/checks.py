@@ -28,7 +28,7 @@ from pendula.measures.growth import (
     mean_rate_error,
     predict,
 )
-from pendula.measures.norms import power_of
+from pendula.measures.norms import growth_margin, power_of
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
 from pendula.numerics.elementary import log, modulus, product, square_modulus
@@ -171,6 +171,10 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
 
 # --- The paper's statements -----------------------------------------------------------------------
 
+MARGIN = {
+    "from_start": "largest P over its bound (19)",
+    "steepest": "steepest log P over 4 gamma",
+}
 RADIANS, PANELS = 40.0, 24
 """The balance of Lemma 2 is integrated while the data turn by RADIANS, on so many panels."""
 
@@ -179,7 +183,9 @@ def beside_bounds(run: xr.Dataset) -> dict:
     """Return the trajectory's numbers beside its bounds, and the theorem that covers it."""
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no ratios
         numbers = case_numbers(run)
+        margin = growth_margin(run["tau"].values, run["l2"].values, float(run.attrs["gamma"]))
     described = {name: variable(numbers[name], (), text) for name, (text, _) in NUMBERS.items()}
+    described |= {name: variable(margin[name], (), text) for name, text in MARGIN.items()}
     drift = float(np.abs(run["energy"] - run["energy"][0]).max())
     return described | {"energy_drift": variable(drift, (), "largest |H - H(0)|")}
 

@@ -118,9 +118,6 @@ def spectra(
         case: Variable((case,), list(problems), "case, on a short chain"),
         chain: Variable((chain,), list(end_times), "half-width of the short chain"),
         index: Variable((index,), np.arange(1, 1 + most), "number of the exponent"),
-        "spectrum_end_time": Variable(
-            (chain,), ends[:-1], "end time of the runs on the short chain"
-        ),
         "exponents": Variable((case, chain, index), rates[:, :-1], words + end),
         "exponents_error": Variable((case, chain, index), errors[:, :-1], f"{words}: {half}{end}"),
         "exponents_undriven": Variable((case, index), rates[:, -1], alone + end),

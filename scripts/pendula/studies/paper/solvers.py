@@ -42,7 +42,6 @@ EARLY = 10.0
 
 COMPARED = {
     "drift": "drift of the energy, |H(tau) - H(0)|",
-    "initial_energy": "energy at the start, H(0)",
     "of": "reading of the drift: as it is, or relative to |H(0)|",
     "span": "span of slow time from the start",
     "until": "end of the span of slow time",
@@ -62,7 +61,6 @@ TRUSTED = {
     "size": "size of the level, as a part of full scale",
     "horizon": f"first tau at which a norm is off by the level, {ABSENT}",
     "known_until": "last tau at which run and reference are both known; NaN: no reference",
-    "run_end": "end of the runs of the case",
     "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
     "full scale of its norms; NaN: nothing is proved",
     "proved_until": "last tau at which this bound is not visible; NaN: nothing is proved",
@@ -126,7 +124,6 @@ def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
     return xr.Dataset(
         {
             "drift": (("solver", "tau"), values),
-            "initial_energy": energy,
             "largest_drift": (("solver", "of", "span"), np.stack(spans, axis=-1)),
             "until": ("span", ends),
             "stated_drift": stated,
@@ -193,7 +190,6 @@ def _trust_case(
     found = apart.to_dataset().assign(
         horizon=xr.concat(times, xr.Variable("level", list(LEVELS))),
         known_until=known_until(apart),
-        run_end=float(run["tau"][-1]),
         proven_bound=bound,
         proved_until=known_until(bound.where(bound <= VISIBLE)),
     )

@@ -7,7 +7,7 @@ import xarray as xr
 
 from pendula.datasets.checks import columns, describe, table, tabulate, variable
 from pendula.ends import DIRICHLET, kind_of
-from pendula.measures.norms import growth_margin, power_of, total_power
+from pendula.measures.norms import power_of, total_power
 from pendula.models.bounds import (
     best_bound,
     proven_region,
@@ -33,9 +33,6 @@ NUMBERS = {
     "theorem_3": ("C_N of Theorem 3", None),
     "best": ("smallest bound that holds", None),
     "delta_0": ("radius of Theorem 2", None),
-    "c_0": ("constant C_0 of Theorem 2", None),
-    "from_start": ("largest P over its bound (19)", None),
-    "steepest": ("steepest log P over 4 gamma", 1.0 + 1e-6),
 }
 """The numbers of a trajectory, each with its long name and its tolerance."""
 
@@ -46,7 +43,7 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
     sites = 2 * int(trajectory.attrs["half_width"]) + 1
     energy, power = float(trajectory["energy"][0]), total_power(trajectory)
     start, observed = float(power[0]), np.float64(power.max())
-    delta_0, c_0 = theorem_2_constants(constants)
+    delta_0, _ = theorem_2_constants(constants)
     at_rest = kind_of(boundary) == DIRICHLET
     best = best_bound(energy, start, sites, constants, boundary)
     numbers = {
@@ -60,8 +57,6 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
         "best": best,
         "ratio": observed / best,
         "delta_0": delta_0,
-        "c_0": c_0,
-        **growth_margin(trajectory["tau"].values, trajectory["l2"].values, constants.gamma),
     }
     region = proven_region(energy, start, constants, boundary)
     return {"region": region, **{name: float(value) for name, value in numbers.items()}}

@@ -90,9 +90,8 @@ def check_picard(constants: Constants, sites: int, norm: float, longer: float, s
         "rooted_limits_apart": "difference of the limits for a rate that is not Lipschitz",
     }
     coords = {"boundary": BOUNDARIES, "way": ["forwards", "backwards"]}
-    length = variable(span, (), "length of the interval in tau")
     title = "Picard's iterates of the integral equations (16)"
-    return tabulate(title, coords, rows, about, picard_span=length)
+    return tabulate(title, coords, rows, about)
 
 
 def check_dependence(
