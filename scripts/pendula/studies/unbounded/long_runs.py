@@ -74,7 +74,6 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         "linf": of_runs("linf", ("tau",), f"{NAMES['linf']}, {both}"),
         "front": of_runs("front", look, SITE_OF_FRONT),
         "second_front": of_runs("second_front", look, f"{SITE_OF_FRONT}, second one"),
-        "width": of_runs("width", look, "last site that is integrated, W"),
         "region_mean": of_runs(
             "means", (*look, "region", "kind"), "mean over a region; NaN: it has no sites"
         ),

@@ -262,7 +262,6 @@ def thermal_variables(
 def _means(states: list[ThermalState], prefix: str, words: str) -> dict[str, Variable]:
     of_error = f"error of the discretisation and rounding of that {POWER}"
     named = {
-        "beta": (DIGITS, f"inverse temperature {words}"),
         "power": (DIGITS, f"{POWER} {words}"),
         "power_error": (2, of_error),
     }
