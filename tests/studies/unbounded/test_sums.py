@@ -33,7 +33,7 @@ def places(problem, piece=2.0):
     """Return where |A + B|^2 / 2 ends on the infinite chain, after each piece of a run."""
     state, rooms, found = begin(problem.initial), {}, []
     for i in range(round(problem.end_time / piece)):
-        state = widen(state, None, 1e-60)
+        state = widen(state, None, 1e-20)
         advance(problem, state, piece * np.array([i, i + 0.5, i + 1]), rooms)
         sites = right_half(state, True)
         sums = sites[:2] if problem.model is not EQUATIONS else turned(sites)[:2]
