@@ -16,10 +16,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
         *checks("ensembles", "ensembles_uneven", "members", "lifetimes"),
     ],
     "breathers": rules.breathers.input.datasets,
-    "pendula": [
-        *rules.pendula.input.datasets,
-        *(*datasets("unbounded", "thermal"), *checks("lyapunov")),
-    ],
+    "pendula": [*rules.pendula.input.datasets, *datasets("unbounded", "thermal")],
     "unbounded": [
         *datasets("breathers", "sensitivity"),
         *datasets("unbounded", *SETTINGS.unbounded.names, "thermal"),
