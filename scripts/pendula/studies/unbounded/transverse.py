@@ -66,7 +66,9 @@ def solve_transverse(
             ("omega",), second, "predicted speed of the second front, sites per unit of tau"
         ),
         "second_speed_error": Variable(
-            ("omega",), np.where(second > 0.0, crossings.half * speeds, np.nan), limits
+            ("omega",),
+            np.where(second > 0.0, crossings.half * speeds, np.nan),
+            f"{limits}; NaN: no second front is predicted",
         ),
     }
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
