@@ -7,7 +7,7 @@ from typing import Any
 
 from job import arguments, called, datasets_in, name_of, run, step
 from pendula.datasets.netcdf import read, save, write
-from pendula.datasets.stated import stated
+from pendula.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
 from pendula.problem import Problem, by_name
 
 
@@ -30,10 +30,16 @@ def make(snakemake) -> None:
         told = of_output(path, plain)
         if isinstance(contents, tuple):
             variables, attributes = contents
-            write(path, variables, stated(told, variables, names, function) | attributes)
+            said = stated(told, variables, names, function)
+            write(path, variables, said | own(attributes))
         else:
             said = stated(told, map(str, contents.variables), names, function)
-            save(path, contents.assign_attrs(said | contents.attrs))
+            save(path, contents.assign_attrs({**contents.attrs, **(said | own(contents.attrs))}))
+
+
+def own(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return attributes without what a copy of those of another dataset would say of its making."""
+    return {key: one for key, one in attributes.items() if key not in (COMPUTED_BY, COMPUTED_FROM)}
 
 
 def of_output(path: str, given: Mapping[str, Any]) -> dict[str, Any]:

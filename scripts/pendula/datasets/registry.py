@@ -63,6 +63,13 @@ NAMES = {
     "end": "end of the time window",
     "error": "error",
     "order": "order in mu of the error",
+    "span": "span of",
+    "region": "region",
+    "kind": "kind of",
+    "distance": "distance",
+    "contraction": "contraction",
+    "exponent": "exponent of",
+    "antisymmetric_power": "power",
 }
 """Long names of variables that several datasets share; all of them have the units "1"."""
 ANGLES = ("linf", "l2", "modulus", "final", "error")

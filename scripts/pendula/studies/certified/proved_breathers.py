@@ -51,7 +51,6 @@ def breathers_contents(
     variables = {
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(block + 1)),
-        "chain_site": Variable(("chain_site",), np.arange(chain + 1), "site of the finite chain"),
         "family": Variable(of, [one.family.name for one in infinite], "family of states"),
         "omega": Variable(of, [one.chain.omega for one in infinite]),
         "epsilon": Variable(of, [one.chain.epsilon for one in infinite]),
@@ -63,14 +62,11 @@ def breathers_contents(
         "unique_radius": Variable(of, [one.proof.unique for one in infinite],
                                   "no other true state lies within this distance"),
         "contraction": Variable(of, [one.proof.contraction for one in infinite],
-                                "bound of 1 - A DF: below one, A is as good as an inverse"),
+                                "contraction bound of 1 - A DF: below 1, A is nearly an inverse"),
         "tail_factor": Variable(
             of, [one.proof.decay for one in infinite],
             "bound of the decay from site to site beyond the sites that are kept"),
         "proof_refusal": Variable(of, [one.refusal for one in infinite], "why nothing is proved"),
-        "chain_amplitude": Variable((*of, "component", "chain_site"),
-                                    np.array([one.state for one in finite]),
-                                    f"{amplitude}, finite chain"),
         "chain_radius": Variable(of, [one.proof.radius for one in finite],
                                  "the same radius on the finite chain"),
         "stable": Variable(

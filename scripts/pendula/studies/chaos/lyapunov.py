@@ -51,7 +51,7 @@ def largest_exponents(
     value, low, high = np.moveaxis(np.array(found), -1, 0)
     described, shared = describe_cases(problems)
     by_member, by_span = ("case", "member", "tau"), ("case", "span")
-    says = "largest Lyapunov exponent on the span, per unit of tau"
+    says = "exponent of Lyapunov, the largest on the span, per unit of tau"
     variables = {
         **described,
         "span": Variable(("span",), [name_window(span) for span in spans], "span of time"),

@@ -22,7 +22,7 @@ from pendula.problem import Constants, on_sites, place, read_initial
 from .equations import total_energy
 
 NUMBERS = {
-    "region": ("theorem that covers the case", None),
+    "region": ("region of the theorem that covers the case", None),
     "ratio": ("largest P over its smallest bound", 1.0),
     "energy": ("conserved energy H of equation (8), at the start", None),
     "start": ("P at the start, delta", None),

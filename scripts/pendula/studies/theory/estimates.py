@@ -83,7 +83,7 @@ def check_picard(constants: Constants, sites: int, norm: float, longer: float, s
             }
             rows.append(row)
     about = {
-        "contraction": ("largest change of an iterate over the one before", 0.5),
+        "contraction": ("contraction: largest change of an iterate over the one before", 0.5),
         "picard_error": ("last iterate minus the solution", 1e-10),
         "limits_apart": ("difference of the limits of two first guesses", 1e-10),
         "long_contraction": "contraction on a longer interval",

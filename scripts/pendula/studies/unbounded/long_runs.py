@@ -63,12 +63,14 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
 
     both, look = "of A and B together", ("piece_tau",)
     cells = np.array([_cells_of(members[0], runs) for members in runs])
-    of_cells = f"mean of {{}} over cells of {CELL} sites, in the first member"
+    of_cells = f"power, mean of {{}} over cells of {CELL} sites, in the first member"
     return {
         "tau": Variable(("tau",), first.tau),
         "piece_tau": Variable(("piece_tau",), first.piece_tau, PIECE_TAU),
-        "region": Variable(("region",), list(REGIONS), "part of the chain"),
-        "kind": Variable(("kind",), list(KINDS), "quantity of a pair, with S = (A + B) / sqrt 2"),
+        "region": Variable(("region",), list(REGIONS), "region of the chain"),
+        "kind": Variable(
+            ("kind",), list(KINDS), "kind of quantity of a pair, with S = (A + B) / sqrt 2"
+        ),
         "omega": of_variants([p.constants.omega for p in problems]),
         "l2": of_runs("l2", ("tau",), f"{NAMES['l2']}, {both}"),
         "linf": of_runs("linf", ("tau",), f"{NAMES['linf']}, {both}"),

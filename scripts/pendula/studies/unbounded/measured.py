@@ -152,6 +152,11 @@ def _is_of(thermal: xr.Dataset, run: xr.Dataset) -> bool:
     return all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
 
 
+def _over_omega(values, long_name: str = "") -> Variable:
+    missing = "; NaN: no second front" if np.isnan(np.asarray(values, dtype=float)).any() else ""
+    return Variable(("omega",), values, f"{long_name}{missing}")
+
+
 def _known(halves) -> np.ndarray:
     """Return limits, and NaN in place of the infinite ones of a single member."""
     return np.where(np.isfinite(halves), halves, np.nan)
@@ -241,7 +246,7 @@ def measure_fronts(omegas: xr.Dataset, transverse: xr.Dataset, thermal: xr.Datas
         "slope_ratio_error": ([one.half for one in law], about),
     }  # fmt: skip
     variables = {
-        **{name: Variable(("omega",), *given) for name, given in over_omega.items()},
+        **{name: _over_omega(*given) for name, given in over_omega.items()},
         **_profiles(omegas),
         **_in_time(omegas.isel(variant=int(np.abs(omega - SHOWN).argmin()))),
     }
@@ -259,10 +264,10 @@ def _profiles(omegas: xr.Dataset) -> dict[str, Variable]:
         for row, end, cells in zip(values, ends, omegas[name].isel(piece_tau=-1), strict=True):
             behind = cells.values[: max(0, int(end) // CELL)][::-1]
             row[: behind.size] = behind
-        long_name = f"|A_n {sign} B_n|^2 / 2 at the end, mean over {CELL} sites"
+        long_name = f"|A_n {sign} B_n|^2 / 2 at the end, mean over {CELL} sites; NaN: ahead"
         found[f"{name}_behind_front"] = Variable(("omega", "distance"), values, long_name)
     distance = CELL * (np.arange(count) + 0.5)
-    of_distance = "sites from the first front backwards"
+    of_distance = "distance from the first front backwards, in sites"
     return found | {"distance": Variable(("distance",), distance, of_distance)}
 
 
