@@ -63,7 +63,7 @@ def test_a_run_of_other_cases_has_a_notice():
     ("claim", "verdict"),
     [
         ("theorem_1", "not reproduced"),
-        ("transition_amplitude", "confirmed"),
+        ("transition_amplitude", "not reproduced"),
         ("fig6_caption", "confirmed"),
         ("balance", "not reproduced"),  # of which the article says nothing while it holds
         ("lemma_1_for_the_pendula", "confirmed"),
