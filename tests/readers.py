@@ -95,7 +95,10 @@ def _readers(run: Run, claims: list[Claim]) -> dict[str, list[Words]]:
     readers: dict[str, list[Words]] = {name: [] for name in run.datasets}
     for text, shows in ((run.article, 'figure("{}"'), (run.pages, "`{}`")):
         for name in run.datasets:
-            if shows.format(name.removeprefix(FIGURES)) in text or name in words_of_text(text):
+            if (
+                shows.format(name.removeprefix(FIGURES)) in text
+                or name in words_of_text(text).names
+            ):
                 readers[name].append(words_of_text(text))
     for claim in claims:
         words = words_of_function(claim.decide.__module__, claim.decide.__name__)

@@ -120,7 +120,6 @@ def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(full_run, clone)
     change(clone / "scripts/pendula/studies/theory/checks.py")
     jobs = planned(clone, full_run)
     assert set(jobs) == CHECK_RULES | FIGURE_RULES | {
-        "enclose_constants",  # beside what the checks have stored
         *("decide_claims", "claims", "report", "article", "all"),
     }
     assert jobs["decide_claims"] == 2  # on the theory, and on figures that the paper does not show

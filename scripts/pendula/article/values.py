@@ -100,7 +100,9 @@ def gather(results: Results) -> dict[str, Any]:
         ),
         "allowed": number((compared["allowed_drift"] / compared["stated_drift"]).max()),
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
-        "cells": sum(results[f"checks/{one}"]["measured"].size for one in ("chart", "short_chart")),
+        "cells": sum(
+            results[one]["measured"].size for one in ("checks/chart", "checks/short_chart")
+        ),
         "runs_level": level_of_runs(results),
         "mark": MARK,
         "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),

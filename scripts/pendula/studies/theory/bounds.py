@@ -13,7 +13,6 @@ from pendula.models.bounds import (
     proven_region,
     theorem_1_bound,
     theorem_2_bound,
-    theorem_2_constants,
     theorem_3_bound,
     widened_bound,
 )
@@ -32,7 +31,6 @@ NUMBERS = {
     "widened": ("the same with the bonds kept", None),
     "theorem_3": ("C_N of Theorem 3", None),
     "best": ("smallest bound that holds", None),
-    "delta_0": ("radius of Theorem 2", None),
 }
 """The numbers of a trajectory, each with its long name and its tolerance."""
 
@@ -43,7 +41,6 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
     sites = 2 * int(trajectory.attrs["half_width"]) + 1
     energy, power = float(trajectory["energy"][0]), total_power(trajectory)
     start, observed = float(power[0]), np.float64(power.max())
-    delta_0, _ = theorem_2_constants(constants)
     at_rest = kind_of(boundary) == DIRICHLET
     best = best_bound(energy, start, sites, constants, boundary)
     numbers = {
@@ -56,7 +53,6 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
         "theorem_3": theorem_3_bound(energy, sites, constants),
         "best": best,
         "ratio": observed / best,
-        "delta_0": delta_0,
     }
     region = proven_region(energy, start, constants, boundary)
     return {"region": region, **{name: float(value) for name, value in numbers.items()}}
