@@ -52,11 +52,10 @@ FIGURES = {
               "breathers/fates", "quoted/breathers"),
     "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes, "checks/lifetimes"),
     "pendula_over_the_top": (
-        pendula.draw_over_the_top, pendula.gather_over_the_top,
-        "pendula/sea", "pendula/over_the_top", "unbounded/thermal",
+        pendula.draw_over_the_top, pendula.gather_over_the_top, "pendula/over_the_top",
     ),
     "bounds": (bounds_figure.draw_bounds, bounds_figure.gather_bounds,
-               "checks/cases", "checks/sweeps", "checks/samples",
+               "checks/cases", "checks/samples",
                "checks/sharpness", "checks/chain_growth"),
     "stability_chart": (
         theory.draw_chart,

@@ -20,7 +20,6 @@ MAY_DIFFER = ("report", "drawing", "figure_diff", "archive")
 
 ALLOWED = {
     ("studies/certified/fixed_point.py", "**"): "powers of integers, which are exact",
-    ("studies/unbounded/thermal.py", "@"): "the density is rounded to its digits",
     ("studies/breathers/steady.py", "@"): "rates are rounded before they are stored",
     ("studies/breathers/multipliers.py", "@"): "rates are rounded before they are stored",
     ("own_cases/breathers.py", "@"): "what is found is rounded before it is stored",

@@ -63,10 +63,7 @@ RESTS_ON_CHAOS = [
     *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
     *(f"unbounded/{name}:*" for name in ("fronts", "omegas", "transverse")),
     # The sea that fills a chain of pendula
-    *("pendula/sea:*", "figures/pendula_over_the_top:wave_power"),
-    "figures/pendula_over_the_top:sea_density",
-    # The largest of all sweeps
-    "checks/sweeps:swept_ratio",
+    "pendula/sea:*",
 ]
 # Variables that are divided by the largest value of a whole run: in a chaotic case it is one of the tail.
 DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]

@@ -47,7 +47,7 @@ from pendula.problem import Constants, name_window
 from pendula.sources import SCRIPTS, digest_of, digest_of_code, files_of_module, modules_of
 from pendula.studies import files_of_part
 from pendula.studies.certified.norm import NotDefiniteError, find_form
-from pendula.studies.theory.settings import GROUPS, OBSERVED, PROVED
+from pendula.studies.theory.settings import GROUPS, PROVED
 
 # By these every case of the paper is integrated, the paper's own solvers first.
 ALL_SOLVERS = ["ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor"]
@@ -80,7 +80,7 @@ SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "ensembles_uneven", "members", "lifetimes"]
 THEORY_CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group)]
-CHECKS = [*THEORY_CHECKS, *OBSERVED]
+CHECKS = [*THEORY_CHECKS, "cases"]
 SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
 SHOWN |= {n: [f"fig{n}_left", f"fig{n}_right"] for n in "56"}
 

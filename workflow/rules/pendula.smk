@@ -59,11 +59,9 @@ use rule dataset as measure_over_the_top with:
 
 
 use rule figure as draw_over_the_top with:
-    "The chaotic state of the pendula, and first passages over the top"
+    "First passages of the pendula over the top"
     input:
-        sea="<results>/{size}pendula/sea.nc",
         over_the_top="<results>/{size}pendula/over_the_top.nc",
-        thermal="<results>/unbounded/thermal.nc",
     pathvars:
         made="<size>figures/pendula_over_the_top",
     params:

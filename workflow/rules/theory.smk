@@ -43,14 +43,11 @@ use rule check_not_shown as check_bounds with:
 
 
 use rule dataset as check_observed with:
-    "The paper's own cases and sweeps beside the bounds of its theorems"
+    "The paper's own cases beside the bounds of its theorems"
     input:
         trajectories=TRAJECTORIES,
-        sweeps=SWEEPS,
-    output:
-        checks(*OBSERVED),
     pathvars:
-        made="checks/observed",
+        made="checks/cases",
     params:
         call=function("pendula.studies.theory.bounds.check_observed"),
 
@@ -73,7 +70,6 @@ use rule figure as bounds with:
     "Theorems 1 to 3: observed norms against their bounds"
     input:
         cases="<results>/checks/cases.nc",
-        sweeps="<results>/checks/sweeps.nc",
         samples="<results>/checks/samples.nc",
         sharpness="<results>/checks/sharpness.nc",
         growth="<results>/checks/chain_growth.nc",

@@ -39,7 +39,6 @@ use rule dataset as thermal with:
         call=function("pendula.studies.unbounded.thermal.solve_thermal"),
         omegas=UNBOUNDED.omegas.values,
         nodes=UNBOUNDED.nodes,
-        density_nodes=UNBOUNDED.density_nodes,
         bulk_omega=SETTINGS.cases["fig4_small"].omega,
 
 

@@ -168,7 +168,7 @@ def _unbounded(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     given = paper()["unbounded"]
     shared = ("output_step", "perturbation", "short.solver", "short.rest")
     if name == "thermal":
-        own = tuple(f"unbounded.{key}" for key in ("omegas", "nodes", "density_nodes"))
+        own = tuple(f"unbounded.{key}" for key in ("omegas", "nodes"))
         return (*own, *_keys(given["omegas"]["case"], *EQUATION))
     if name in ("growth", "fronts"):
         runs = (*given["cases"], "omegas", "transverse", "thermal")
@@ -234,8 +234,6 @@ def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
         swept = [sweep for sweep in swept if sweep in ensemble["sweeps"]]
         of_sweeps = tuple(path for sweep in swept for path in _swept(sweep))
         return ("chaos.ensembles", *of_sweeps, *_of_all(cases, *FINITE, "end_time"))
-    if name == "sweeps":
-        return tuple(path for sweep in swept for path in _sweep(sweep))
     runs = _of_all(cases, *FINITE, "end_time")
     lives = _keys(given["lifetimes"]["case"], *EQUATION, "boundary", "half_width")
     return {

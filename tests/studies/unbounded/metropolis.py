@@ -10,15 +10,15 @@ RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 100, 100, 4
 
 
 def sample(constants, beta, seed=1, antisymmetric=False):
-    """Return of each ring its power and energy a site, moduli of A, and the largest of A and B.
+    """Return of each ring its power and energy a site, and the largest modulus.
 
-    Power and energy are means, (ring,); moduli are (kept, ring, site), the largest (kept, ring).
+    Power and energy are means, (ring,); the largest of A and B are (kept, ring).
     With `antisymmetric` B = -A throughout.
     """
     rng = np.random.default_rng(seed)
     a, b = rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
     b = -a if antisymmetric else b
-    step, powers, energies, moduli, largest = 1.0, [], [], [], []
+    step, powers, energies, largest = 1.0, [], [], []
     for count in range(SETTLING + KEPT):
         taken = [
             offer_moves(constants, beta, a, b, parity, step, rng, antisymmetric)
@@ -31,10 +31,9 @@ def sample(constants, beta, seed=1, antisymmetric=False):
         else:
             powers.append((np.abs(a) ** 2 + np.abs(b) ** 2).mean(axis=1))
             energies.append(energy_of(constants, a, b) / SITES)
-            moduli.append(np.abs(a[:, ::8]))
             largest.append(np.maximum(np.abs(a), np.abs(b)).max(axis=1))
     means = (np.mean(values, axis=0) for values in (powers, energies))
-    return *means, np.array(moduli), np.array(largest)
+    return *means, np.array(largest)
 
 
 def offer_moves(constants, beta, a, b, parity, step, rng, antisymmetric):

@@ -23,7 +23,7 @@ from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
 from pendula.measures.confidence import Limits, event_rate, share_limits
 from pendula.models.bounds import theorem_3_bound
-from pendula.numerics.elementary import sin, square_modulus
+from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem, name_window
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate
@@ -36,37 +36,19 @@ TOP = np.pi
 REDUCED = {
     "site_power": ((), "mean of |A_n|^2 + |B_n|^2 over sites and time"),
     "linf_level": ((), "mean of the l-infinity norm over the time window"),
-    "wave_power": (("even_wave",), "mean |A(k)|^2 over the chain and time"),
     "modulus_share": (("modulus",), "share of moduli in a cell"),
 }
 """What each member is reduced to: dimensions after mu and member, and in words."""
 
 
-def even_waves(sites: int) -> np.ndarray:
-    """Return k in rad of sin(k n), n = 1..N: the even waves of a chain at rest beyond its ends."""
-    return np.pi * np.arange(1, sites + 1, 2) / (sites + 1)
-
-
-def spectrum(amplitudes: np.ndarray) -> np.ndarray:
-    """Return the mean of |A(k)|^2 over components and times of (component, site, time), by wave.
-
-    Its mean over the even waves is the mean square over the sites.
-    """
-    sites = amplitudes.shape[1]
-    shapes = sin(even_waves(sites)[:, None] * np.arange(1, sites + 1))
-    waves = np.array([(shape[:, None] * amplitudes).sum(axis=1) for shape in shapes])
-    return 2.0 / (sites + 1) * len(waves) / sites * square_modulus(waves).mean(axis=(1, 2))
-
-
 def reduce_member(problem: Problem, window: tuple[float, float]) -> dict:
-    """Return P a site, norms, spectrum and distribution of one run, mean over the window."""
+    """Return P a site, norms and distribution of one run, mean over the window."""
     tau, amplitudes = states(problem)
     amplitudes = amplitudes[..., (tau >= window[0]) & (tau <= window[1])]
     squares = square_modulus(amplitudes)
     return {
         "site_power": squares.sum(axis=0).mean(),
         "linf_level": np.sqrt(squares.max(axis=(0, 1))).mean(),
-        "wave_power": spectrum(amplitudes),
         "modulus_share": np.histogram(np.sqrt(squares), EDGES)[0] / squares.size,
     }
 
@@ -79,10 +61,8 @@ def measure_sea(
     every = [LIMIT, *mus]
     drawn = draw_members(problem, size, members, seed)
     rows = [[reduce_member(at_mu(one, mu), window) for one in drawn] for mu in every]
-    waves = even_waves(problem.sites)
     variables = {
         "mu": Variable(("mu",), every),
-        "even_wave": Variable(("even_wave",), waves, "wave number k, even waves", "rad"),
         "modulus": Variable(("modulus",), 0.5 * (EDGES[1:] + EDGES[:-1])),
     }
     for name, (rest, words) in REDUCED.items():

@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
-from pendula.drawing.panels import half_width_axis
 
 BOUNDS = {
     "theorem_1": (">", "#16876b", "Theorem 1"),
@@ -26,40 +25,36 @@ FORMS = {
 }
 """The forms of the bounds: the family of their random data, and their names."""
 
-SWEPT = [("o", style.BLUE), ("s", style.RED), ("^", "#16876b"), ("D", "#7a4fa3")]
 POWER = r"$P = \|A\|^2 + \|B\|^2$"
 CAPTION = (
     "P = ‖A‖² + ‖B‖² in ℓ² and the bounds of Theorems 1 to 3. (a): P at the start, its largest "
     "value in each run, and the bounds that apply to the case; Theorem 2 with bonds also counts "
     "the energy of the springs. (b): the largest P over its bound, for random initial conditions "
-    "(bars) and for a wave on a long chain (blue). (c): the largest P over its smallest bound in "
-    "the sweeps over the half-width M. (d): P that runs on N sites reach at Ω = 0, and its bound "
-    "by Theorem 3."
+    "(bars) and for a wave on a long chain (blue). (c): P that runs on N sites reach at Ω = 0, and "
+    "its bound by Theorem 3."
 )
 
 
-def gather_bounds(cases, sweeps, samples, sharpness, growth) -> xr.Dataset:
-    """Return cases and sweeps with their bounds, what data reach, and what grows with the chain."""
+def gather_bounds(cases, samples, sharpness, growth) -> xr.Dataset:
+    """Return cases with their bounds, what data reach, and what grows with the chain."""
     seen = cases[["omega", "initial", "observed", "start", "ratio", *BOUNDS]]
-    shared = ["omega", "initial", "best"]
-    swept = sweeps[[*shared, "swept_observed"]].rename({name: f"swept_{name}" for name in shared})
     reached = sharpness[["reached"]].rename(sites="reached_sites")
     chains = growth[["late_power", "constant_n"]].sel(omega=0.0, drop=True)
     chains = chains.rename(sites="grown_sites", member="grown_member")
-    drawn = [seen, swept, samples[["worst_sample"]], reached, chains]
+    drawn = [seen, samples[["worst_sample"]], reached, chains]
     return xr.merge(drawn, combine_attrs="drop_conflicts").assign_attrs(caption=CAPTION)
 
 
 @style.styled
 def draw_bounds(data: xr.Dataset) -> Figure:
-    """Draw cases and what the bounds allow above, the sweeps and the growth with N below."""
-    figure = style.new_figure(style.DOUBLE, 6.0)
-    (cases, forms), (swept, growth) = figure.subplots(2, 2)
+    """Draw cases and what the bounds allow above, the growth with N below."""
+    figure = style.new_figure(style.DOUBLE, 5.6)
+    panels = figure.subplot_mosaic("ab;cc", height_ratios=(3, 2))
+    cases, forms, growth = panels.values()
     _draw_cases(cases, data)
     _draw_forms(forms, data)
-    _draw_sweeps(swept, data)
     _draw_growth(growth, data)
-    for letter, axes in zip("abcd", (cases, forms, swept, growth), strict=True):
+    for letter, axes in panels.items():
         axes.annotate(
             f"({letter})", (0, 1), (-22, 4), "axes fraction", "offset points", weight="bold"
         )
@@ -106,19 +101,6 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     axes.invert_yaxis()
     axes.set(xlim=(0, 1.06), xlabel="largest $P$ over its bound")
     _legend_above(axes, 2)
-
-
-def _draw_sweeps(axes: Axes, data: xr.Dataset) -> None:
-    for (marker, colour), name in zip(SWEPT, data["sweep"].values, strict=False):
-        sweep = data.sel(sweep=name)
-        label = _name(sweep["swept_omega"], sweep["swept_initial"]).replace("\n", ", ")
-        ratio = sweep["swept_observed"] / sweep["swept_best"]
-        look = {"color": colour, "marker": marker, "markersize": 3.5, "label": label}
-        axes.plot(data["half_width"], ratio, **look)
-    axes.axhline(1, color="black", lw=0.8, dashes=(4, 2))
-    half_width_axis(axes)
-    axes.set(yscale="log", xlabel="half-width $M$", ylabel="largest $P$ over its smallest bound")
-    _legend_above(axes, 1)
 
 
 def _draw_growth(axes: Axes, data: xr.Dataset) -> None:

@@ -109,9 +109,6 @@ CHECKS = {
 
 GROUPS = {group: tuple(checks) for group, checks in CHECKS.items()}
 
-OBSERVED = ("cases", "sweeps")
-"""The checks of the paper's own trajectories and sweeps, which need their datasets."""
-
 PROVED = ("identities",)
 """What algebra proves, for which there is nothing to set."""
 

@@ -50,7 +50,6 @@ class Settings(Model):
     cases: Names
     omegas: model(case=Name, values=Numbers)
     nodes: Nodes
-    density_nodes: Nodes
     short: Size
     long: Size
 

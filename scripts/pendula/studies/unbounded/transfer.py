@@ -110,20 +110,17 @@ def pass_through(bond, values, row, result):
             result[r, i] = row[r]
 
 
-EVEN = (0, 0, 0, 0)
-"""Parity in s, t, p, q of the part of a function that is even in q, of psi itself. The part that is
-odd in q has the opposite parities."""
+def smoothed(bonds: tuple[np.ndarray, ...], values: np.ndarray) -> np.ndarray:
+    """Return the integral of a bond times a function over a site.
 
-
-def smoothed(
-    bonds: tuple[np.ndarray, ...], values: np.ndarray, parity: tuple[int, ...] = EVEN
-) -> np.ndarray:
-    """Return the integral of a bond times a function over a site."""
+    The part of the function that is even in q is even in s, t and p too, and the part that is odd
+    in q is odd in all.
+    """
     parts = 0.5 * (values[0] + values[1]), 0.5 * (values[0] - values[1])
     done = []
     for odd, part in enumerate(parts):
-        for axis, of_axis in enumerate(bonds):
-            bond = of_axis[parity[axis] ^ odd]
+        for of_axis in bonds:
+            bond = of_axis[odd]
             result = np.empty((part.size // part.shape[0], len(bond)))
             flat = np.ascontiguousarray(part).reshape(len(part), -1)
             pass_through(bond, flat, np.empty(flat.shape[1]), result)
@@ -132,9 +129,9 @@ def smoothed(
     return np.array([done[0] + done[1], done[0] - done[1]])
 
 
-def applied(operator: Operator, values: np.ndarray, parity: tuple[int, ...] = EVEN) -> np.ndarray:
-    """Return the operator applied to a function of the given parity."""
-    return operator.roots * smoothed(operator.bonds, operator.roots * values, parity)
+def applied(operator: Operator, values: np.ndarray) -> np.ndarray:
+    """Return the operator applied to a function with the parities of psi."""
+    return operator.roots * smoothed(operator.bonds, operator.roots * values)
 
 
 def normalised(vector: np.ndarray) -> np.ndarray:
