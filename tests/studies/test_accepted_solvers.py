@@ -28,7 +28,7 @@ def errors_grow_faster_once_the_motion_of_fig_3_has_filled_the_chain(lyapunov):
 
 def every_solver_leaves_every_chaotic_trajectory(trust, lyapunov):
     return (
-        np.isfinite(trust["horizon"].sel(level="visible", case=chaotic(lyapunov))).all()
+        np.isfinite(trust["horizon"].sel(case=chaotic(lyapunov))).all()
         and (trust["difference"].sel(case=chaotic(lyapunov)).max("tau") > VISIBLE).all()
     )
 

@@ -40,7 +40,7 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
     """
     by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
     about = next(iter(by_case.values())).attrs
-    trusted = read(trust).sel(solver=about["solver"], level="visible")
+    trusted = read(trust).sel(solver=about["solver"])
     data = {
         "solver": _solver(about),
         "cases": [

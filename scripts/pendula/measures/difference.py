@@ -24,9 +24,6 @@ from pendula.numerics.elementary import modulus
 VISIBLE = 0.01
 """ASSUME: the part of full scale from which on a reader sees another curve."""
 
-LEVELS = {"line": 0.0067, "visible": VISIBLE}
-"""Parts of the full scale: the width of a line in Figs 2-4 (0.7 pt in 104 pt), and VISIBLE."""
-
 NORMS = ("linf", "l2")
 PARAMETERS = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "output_step")
 

@@ -109,5 +109,5 @@ def test_the_divergence_time_of_a_figure_is_the_horizon_of_the_dataset(make_traj
     shown = gather_norms([run, run], [true, run])["divergence_time"]
     runs = {"small": {"ode45": run}, "large": {"ode45": run}}
     horizons = solvers.trust_solvers(runs, {"small": true, "large": run})["horizon"]
-    stored = horizons.sel(level="visible", solver="ode45")
+    stored = horizons.sel(solver="ode45")
     assert np.array_equal(shown, stored) and list(shown) == [2.0, np.inf]

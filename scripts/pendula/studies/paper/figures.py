@@ -288,7 +288,7 @@ def _draw_visible(axes: Axes, visible: float) -> None:
 
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
     """Return by case how far each solver is from the reference, when it leaves, and the proof."""
-    drawn = trust[["horizon", "size", "proved_until", *LABELS]]
+    drawn = trust[["horizon", "visible", "proved_until", *LABELS]]
     return drawn.assign_attrs(caption=TRUST_CAPTION).assign(
         largest_so_far=_so_far(trust["difference"], DIFFERENCE),
         largest_bound=_so_far(trust["proven_bound"], BOUND),
@@ -306,11 +306,11 @@ def draw_trust(data: xr.Dataset) -> Figure:
 
 
 def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
-    visible = float(case["size"].sel(level="visible"))
+    visible = float(case["visible"])
     if case["horizon"].isnull().all():
         axes.text(0.5, 0.5, UNKNOWN, ha="center", transform=axes.transAxes, fontsize=7)
     for solver in case["solver"].values:
-        one = case.sel(solver=solver, level="visible")
+        one = case.sel(solver=solver)
         time, error = float(one["horizon"]), one["largest_so_far"]
         mark = (time, visible) if np.isfinite(time) or not (error > 0).any() else None
         _draw_difference(axes, error, SOLVER_NAMES[solver], _look(solver), mark)

@@ -16,7 +16,6 @@ from pendula.datasets.trajectories import trajectory_contents
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.difference import (
     ABSENT,
-    LEVELS,
     NORMS,
     VISIBLE,
     difference,
@@ -57,9 +56,8 @@ COMPARED = {
     "visible": "visible part of full scale",
 }
 TRUSTED = {
-    "level": "level of the difference from which on curves are told apart",
-    "size": "size of the level, as a part of full scale",
-    "horizon": f"first tau at which a norm is off by the level, {ABSENT}",
+    "horizon": f"first tau at which a norm is visibly off, {ABSENT}",
+    "visible": COMPARED["visible"],
     "known_until": "last tau at which run and reference are both known; NaN: no reference",
     "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
     "full scale of its norms; NaN: nothing is proved",
@@ -168,7 +166,7 @@ def trust_solvers(
         _trust_case(by_solver, references[case], certified.get(case))
         for case, by_solver in runs.items()
     ]
-    data = _stack(found, runs).assign(size=("level", list(LEVELS.values())))
+    data = _stack(found, runs).assign(visible=VISIBLE)
     title = "Until when each solver's norms are those of the reference"
     return _described(data, TRUSTED, runs, title)
 
@@ -184,11 +182,10 @@ def _trust_case(
         for run in runs.values()
     ]
     apart = xr.concat(errors, xr.Variable("solver", list(runs)))
-    times = [divergence_time(apart, level) for level in LEVELS.values()]
     run = next(iter(runs.values()))
     bound = _proven_bound(run, proved)
     found = apart.to_dataset().assign(
-        horizon=xr.concat(times, xr.Variable("level", list(LEVELS))),
+        horizon=divergence_time(apart),
         known_until=known_until(apart),
         proven_bound=bound,
         proved_until=known_until(bound.where(bound <= VISIBLE)),
