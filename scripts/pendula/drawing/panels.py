@@ -1,6 +1,6 @@
 """Panels that figures of several studies share: one for each case, moduli, sweeps."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
@@ -120,7 +120,10 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
                 middles, halves = bars.data_vars.values()
                 beside = BESIDE * bars["half_width"]
                 axes.errorbar(beside, middles, halves, elinewidth=0.8, **BAR)
-    half_width_axis(axes)
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(FixedLocator(TICKS))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
     said = " and ".join(NORMS[name] for name in norms)
@@ -128,14 +131,6 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
     pair = "all fields" if "model_text" in panel.attrs else pair
     axes.set_ylabel(f"{said} of {pair}{style.name_units(panel[norms[0]])}")
     axes.set_title(style.name_case(panel), loc="left")
-
-
-def half_width_axis(axes: Axes, ticks: Sequence[float] = TICKS) -> None:
-    """Make the horizontal axis logarithmic, with ticks at 1, 2, 5, 10 and so on, or at others."""
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(FixedLocator(ticks))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
 
 
 def _sweep_look(name: str, reading: str) -> dict:

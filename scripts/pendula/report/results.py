@@ -7,7 +7,7 @@ from pendula.configuration.paper import Differences
 from pendula.datasets.netcdf import read
 from pendula.sources import SCRIPTS
 
-from .words import Quote, number, with_error
+from .words import Quote, number
 
 
 class ReportError(RuntimeError):
@@ -44,10 +44,6 @@ class Results:
     def quote(self, name: str, value: float, digits: int = 3) -> Quote:
         """Return a number that links to the dataset it comes from."""
         return self.say(name, number(value, digits))
-
-    def quote_error(self, name: str, value: float, error: float) -> Quote:
-        """Return a number with its standard error, linked in the same way."""
-        return self.say(name, with_error(value, error))
 
     def say(self, name: str, text: str) -> Quote:
         """Return words made from a dataset, or from another file with its ending, linked to it."""
