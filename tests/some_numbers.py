@@ -52,7 +52,7 @@ def make(given: Path, made: Path, *every: str) -> None:
         save(str(made / f"{name}.nc"), data)
     constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
     both, alone = (state_of_energy(constants, 0.0, NODES, alike) for alike in (False, True))
-    thermal = thermal_variables([both], [alone], NODES) | maximum_variables(both)
+    thermal = thermal_variables([both], [alone]) | maximum_variables(both)
     write(str(made / "thermal.nc"), thermal, {})
     write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
 

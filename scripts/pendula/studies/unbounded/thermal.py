@@ -135,12 +135,16 @@ def solve_thermal(
     nearest = min(both, key=lambda one: abs(one.operator.constants.omega - bulk_omega))
     title = "Thermal states of the infinite chain, by its transfer operator"
     attributes = {"title": title, "epsilon": epsilon, "gamma": gamma, "nodes": 2 * nodes}
-    variables = {
+    return thermal_variables(both, alone) | maximum_variables(nearest), attributes
+
+
+def thermal_variables(both: list[ThermalState], alone: list[ThermalState]) -> dict[str, Variable]:
+    """Return the states of zero energy, one for each Omega, of both fields and of A = -B."""
+    return {
         "omega": Variable(("omega",), [one.operator.constants.omega for one in both]),
         **_means(both, "", "in the thermal state of no energy"),
         **_means(alone, "antisymmetric_", "in that of the chain with A = -B"),
     }
-    return variables | maximum_variables(nearest), attributes
 
 
 def _means(states: list[ThermalState], prefix: str, words: str) -> dict[str, Variable]:
