@@ -17,8 +17,24 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-import psutil
-from pendula.sources import SCRIPTS, TOOK
+FAILED = "failed: "
+"""How the reason of a failure begins in a log, above its traceback."""
+
+
+def tell_uncaught(kind: type[BaseException], error: BaseException, trace) -> None:
+    """Say in the log of a job what ended it before `run`, as an import that fails does."""
+    job = getattr(sys.modules["__main__"], "snakemake", None)
+    if job is not None and issubclass(kind, Exception):
+        told = f"{FAILED}{kind.__name__}: {error}\n"
+        with suppress(OSError), open(job.log[0], "w", encoding="utf-8") as log:
+            log.writelines([told, *traceback.format_exception(error)])
+    sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = tell_uncaught
+
+import psutil  # noqa: E402, its absence is said too
+from pendula.sources import SCRIPTS, TOOK  # noqa: E402
 
 # When Python ends, it looks for cycles among a million objects that are about to go anyway. This
 # would take a fifth of a second in every job. While a job runs, Python would look whenever some
@@ -28,9 +44,6 @@ gc.set_threshold(100_000)
 
 OFTEN = 5.0
 """Seconds between two steps that a long job shows on the screen; its log has all steps."""
-
-FAILED = "failed: "
-"""How the reason of a failure begins in a log, above its traceback."""
 
 INTERRUPTED = 130
 """The exit status of a job that Ctrl-C ended, as shells give it."""

@@ -1,9 +1,11 @@
-"""The profile for Slurm: its plugin takes it, kinds of jobs have groups, versions are pinned."""
+"""The profile for Slurm: its plugin takes it, and jobs ask for what they take."""
 
 import re
 
 import yaml
-from helpers import ROOT, package, planned
+from helpers import ROOT, package, planned, run_ready
+from pendula.configuration.cases import Case
+from pendula.configuration.cost import estimate
 
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/profile.yaml").read_text())
 THIS_MACHINE = {"cores", "scheduler", "executor", "forked-modules"}
@@ -16,11 +18,56 @@ def test_the_plugin_plans_the_same_jobs_as_a_run_on_one_machine(tmp_path):
     assert by_slurm == planned(ROOT, tmp_path)
 
 
-def test_every_kind_of_job_is_in_a_group():
-    base = (ROOT / "workflow/rules/base.smk").read_text()
-    groups = re.findall(r'group:\n        "(\w+)"', base)
-    assert len(groups) == base.count("script:")
-    assert PROFILE["group-components"].keys() < set(groups)
+def test_each_job_is_planned_in_its_allocation_as_it_was_outside():
+    """A group is planned again inside of its job, where it may ask for more than Slurm gave."""
+    assert PROFILE["cores"] == 1
+    assert not {"groups", "group-components", "resources"} & PROFILE.keys()
+    rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
+    assert not re.search(r"^\s+group:", rules, re.MULTILINE)
+
+
+def test_what_fails_for_a_reason_is_not_tried_twice_but_what_lost_its_node_is():
+    assert PROFILE["restart-times"] == 0 and PROFILE["slurm-requeue"] is True
+    assert PROFILE["slurm-status-command"] == "squeue"  # which tells who was cancelled
+
+
+ASKED = """
+include: "{project}/Snakefile"
+for case in ("short", "long"):
+    cost = asked(lambda wildcards: estimate(SETTINGS.shown_problem(wildcards)))
+    print("asks", *(cost[name](case, attempt) for attempt in (1, 2) for name in cost))
+for rule in ("trajectory", "trajectory_by_solver", "sweep", "sweep_by_second_solver", "own_checks"):
+    print("of", rule, *sorted({{"mem_mb", "runtime"}} & set(workflow.get_rule(rule).resources)))
+"""
+CASES = {
+    "short": {"omega": 8, "end_time": 2},
+    "long": {"omega": 8, "end_time": 20000, "half_width": 9000, "snapshot_step": 20},
+}
+
+
+def test_a_run_asks_for_what_it_is_estimated_to_take_and_for_more_when_tried_again(tmp_path):
+    (tmp_path / "Snakefile").write_text(ASKED.format(project=ROOT))
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump({"cases": CASES}))
+    command = ["", "-m", "snakemake", "--dry-run", "--cores", "1", "--workflow-profile", "none"]
+    said = run_ready([*command, "--configfile", "mine.yaml", "--", "fig1"], tmp_path)
+    lines = re.findall(r"(?m)^asks (\d+) (\d+) (\d+) (\d+)$", said.stdout + said.stderr)
+    short, long = (tuple(map(int, line)) for line in lines)
+    assert short == (1001, 16, 2002, 32)
+    cost = estimate(Case(**CASES["long"]).shown_problem())
+    assert long[0] > 1e-6 * cost.memory + 300 and long[1] > 3 * cost.seconds / 60 > 20
+    assert long[2:] == (2 * long[0], 2 * long[1])
+    rules = re.findall(r"(?m)^of \w+ mem_mb runtime$", said.stdout + said.stderr)
+    assert len(rules) == 5
+
+
+def test_the_lines_that_a_user_uncomments_leave_a_profile():
+    text = (ROOT / "profiles/slurm/profile.yaml").read_text()
+    chosen = yaml.safe_load(text.replace("  # slurm_", "  slurm_"))["default-resources"]
+    assert chosen == {
+        **PROFILE["default-resources"],
+        "slurm_account": "'...'",
+        "slurm_partition": "'...'",
+    }
 
 
 def test_the_profile_reruns_what_the_default_profile_does():

@@ -11,8 +11,6 @@ rule job:
         "<logs>/<made>.log",
     pathvars:
         made="{made,(?!)}",
-    group:
-        "files"
     conda:
         "../envs/pinned.yaml"
     params:
@@ -31,8 +29,6 @@ rule dataset:
         "<logs>/<made>.log",
     pathvars:
         made="{made,(?!)}",
-    group:
-        "datasets"
     conda:
         "../envs/pinned.yaml"
     params:
@@ -51,8 +47,6 @@ rule figure:
         "<logs>/<made>.log",
     pathvars:
         made="{made,(?!)}",
-    group:
-        "figures"
     conda:
         "../envs/pinned.yaml"
     params:

@@ -2,8 +2,8 @@
 import atexit
 import gc
 import json
+import math
 import os
-import re
 import sys
 from functools import cache
 from pathlib import Path
@@ -32,12 +32,18 @@ for folder in filter(os.path.exists, (".", ".snakemake")):
             "run: name a folder that you may write to, by --directory"
         )
 
-# Jobs find the library and the benchmarks.
+# Jobs find the library and the benchmarks. Jupyter sets its own backend of matplotlib for all that it starts,
+# which fails where it is not installed; the variable is left alone if absent, so that no import is repeated.
 os.environ.update(PYTHONPATH=os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)]))
+if "MPLBACKEND" in os.environ:
+    os.environ["MPLBACKEND"] = "agg"
+
+from reasons import why_jobs_failed
 
 from benchmarks.problems import REGIMES
 from pendula import __version__
 from pendula.archive.contents import code_files
+from pendula.configuration.cost import estimate, with_checks
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import concerning, differences, paper, reason
@@ -127,16 +133,10 @@ pathvars:
 
 
 def what_failed(logs):
-    """Return why jobs failed, as their own logs say; Snakemake's own `logs` name these."""
-    text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
-    told = []
-    for path in dict.fromkeys(re.findall(r"(?m)^    log: (\S+) \(check", text)):
-        said = (
-            Path(path).read_text(encoding="utf-8", errors="replace") if os.path.exists(path) else ""
-        )
-        reasons = re.findall(r"(?ms)^failed: (.*?)\nTraceback", said) or ["it ended without a word"]
-        told += [f"{reason}\n  (more in {from_outside(path)})" for reason in reasons]
-    return "\n".join(told)
+    """Return why jobs failed, as their own logs say or else Snakemake's own `logs`."""
+    texts = [Path(log).read_text(encoding="utf-8", errors="replace") for log in logs]
+    reasons = why_jobs_failed("".join(texts))
+    return "\n".join(f"{why}\n  (more in {from_outside(path)})" for why, path in reasons)
 
 
 def from_outside(path):

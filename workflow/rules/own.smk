@@ -9,6 +9,8 @@ use rule dataset as own_checks with:
         run="<results>/trajectories/{case}.nc",
     pathvars:
         made="own/cases/<own_case>.checks",
+    resources:
+        **asked(lambda wildcards: with_checks(SETTINGS.shown_problem(wildcards.case))),
     params:
         call=function("pendula.own_cases.checks.check_run"),
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),

@@ -130,3 +130,21 @@ def reference_problem(case):
     drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
     ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]
     return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
+
+
+# --- What a job asks of a cluster -----------------------------------------------------------------
+
+START_MB, START_MINUTES = 1000, 15  # of Python, imports and a compilation
+SPARE = 5  # estimates are within a factor of three, and a node may be slower
+
+
+def asked(cost_of):
+    """Return the resources of a job whose run is estimated to take cost_of(wildcards)."""
+
+    def memory(wildcards, attempt):
+        return attempt * (START_MB + math.ceil(2e-6 * cost_of(wildcards).memory))
+
+    def minutes(wildcards, attempt):
+        return attempt * (START_MINUTES + math.ceil(SPARE * cost_of(wildcards).seconds / 60))
+
+    return {"mem_mb": memory, "runtime": minutes}

@@ -19,6 +19,8 @@ use rule dataset as trajectory with:
         kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case)),
     pathvars:
         made="trajectories/<any_case>",
+    resources:
+        **asked(lambda wildcards: estimate(SETTINGS.shown_problem(wildcards.case))),
     params:
         call=function("pendula.studies.paper.runs.run_case"),
         name="{case}",
@@ -31,6 +33,8 @@ use rule trajectory as trajectory_by_solver with:
         kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case), wildcards.solver),
     pathvars:
         made="trajectories/<any_case>.<any_solver>",
+    resources:
+        **asked(lambda wildcards: estimate(SETTINGS.shown_problem(*wildcards))),
     params:
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case, wildcards.solver),
 
@@ -41,6 +45,8 @@ use rule dataset as sweep with:
         kernels=lambda wildcards: kernels_of(SETTINGS.swept_problem(wildcards.sweep)),
     pathvars:
         made="sweeps/<any_sweep>",
+    resources:
+        **asked(lambda wildcards: SETTINGS.cost_of_sweep(wildcards.sweep)),
     params:
         call=function("pendula.studies.paper.runs.run_sweep"),
         name="{sweep}",

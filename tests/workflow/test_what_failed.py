@@ -1,0 +1,98 @@
+"""The last lines of a run say why each job failed, also where the job itself could not."""
+
+import pytest
+from helpers import ROOT, command_of, copy_of_sources, edit, run_ready, snakemake
+from reasons import why_jobs_failed
+
+TARGETS = "results/pendula/threshold.nc", "fig1"
+
+
+@pytest.mark.parametrize("executor", ["forked", "local"])
+def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(tmp_path, executor):
+    project = copy_of_sources(tmp_path / "project")
+    edit(project / "scripts/dataset.py", "from pendula.datasets.netcdf", "import absent\nfrom p")
+    edit(
+        project / "scripts/figure.py",
+        "    files = {",
+        "    import os; os.kill(os.getpid(), 9)\n    files = {",
+    )
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    result = snakemake(project, folder, "--keep-going", "--executor", executor, *TARGETS)
+    assert result.returncode == 1
+    last = result.stderr.splitlines()[-4:]
+    assert "ModuleNotFoundError: No module named 'absent'" in last
+    assert any("killed by" in line and "SIGKILL" in line for line in last), last
+    assert "ended without a word" not in result.stderr
+
+
+SLURM = """
+Error in rule sweep:
+    message: SLURM-job '7' failed, SLURM status is: '{state}'. Detailed failure reason ...
+    jobid: 3
+    output: results/sweeps/mine.nc
+    log: {folder}/own.log, {folder}/slurm.log (check log file(s) for error details)
+    external_jobid: 7
+"""
+STEP = "slurmstepd-n2: error: StepId=41.0 exceeded memory limit (1168646144 > 1048576000), being"
+REASONS = [
+    (
+        "FAILED",
+        "failed: wrong: say why\nTraceback\n",
+        "srun: error: n1: task 0: Exited",
+        "wrong: s",
+    ),
+    ("FAILED", "", f"Reason\n{STEP} killed\nsrun: error: n2: task 0: Killed\n", STEP),
+    (
+        "FAILED",
+        "",
+        "Command x died with <Signals.SIGKILL: 9>\nsrun: error: n",
+        "killed by <Signals",
+    ),
+    ("FAILED", "", "srun: error: Unable to create step: More processors\n", "srun: error: Unable"),
+    (
+        "FAILED",
+        "",
+        "  File x\nModuleNotFoundError: No module named 'y'\n",
+        "ModuleNotFoundError: N",
+    ),
+    (
+        "TIMEOUT",
+        "interrupted: run\nTraceback\n",
+        "",
+        "Slurm ended job 7 (TIMEOUT): its limit of time",
+    ),
+    ("OUT_OF_MEMORY", "", "", "--set-resources sweep:mem_mb=MB"),
+    ("CANCELLED", "", "", "scancel"),
+    ("NODE_FAIL", "", "", "its node was lost"),
+    ("BOOT_FAIL", "", "", "Slurm: job 7 is BOOT_FAIL"),
+]
+
+
+@pytest.mark.parametrize(("state", "own", "screen", "says"), REASONS)
+def test_the_reason_of_a_job_of_slurm(tmp_path, state, own, screen, says):
+    (tmp_path / "own.log").write_text(own)
+    (tmp_path / "slurm.log").write_text(screen)
+    ((reason, more),) = why_jobs_failed(SLURM.format(state=state, folder=tmp_path))
+    assert says in reason
+    assert more == str(tmp_path / ("own.log" if own or not screen else "slurm.log"))
+
+
+def test_each_job_of_a_group_has_its_reason(tmp_path):
+    logs = [tmp_path / "1.log", tmp_path / "2.log"]
+    jobs = "".join(
+        f"        rule sweep:\n            jobid: {n}\n            log: {log} (check log file(s))\n"
+        for n, log in enumerate(logs)
+    )
+    logs[1].write_text("failed: it is wrong\nTraceback\n")
+    text = f"Error in group mine:\n    message: None\n    jobs:\n{jobs}"
+    assert [reason for reason, _ in why_jobs_failed(text)] == [
+        "it ended without a word",
+        "it is wrong",
+    ]
+
+
+def test_a_backend_of_jupyter_that_is_not_installed_ends_no_figure(tmp_path):
+    command = command_of(ROOT, tmp_path, ROOT / "config/quick.yaml", "fig1")
+    result = run_ready(command, MPLBACKEND="module://no_such_module.backend_inline")
+    assert result.returncode == 0, result.stderr

@@ -1,0 +1,70 @@
+"""Why jobs failed: what their logs say, or else Slurm, or the executor of a signal."""
+
+import os
+import re
+from pathlib import Path
+
+FAILURE = r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:\1 +.*\n)*))"
+"""An error in Snakemake's log with its details, which are indented more, as jobs of a group are."""
+TOLD = r"(?ms)^failed: (.*?)\nTraceback"
+"""The reason in the log of a job, see scripts/job.py."""
+OF_SLURM = r"(?m)^.*?((?:srun|slurmstepd\S*|sbatch): error: .*|\w+(?:Error|Exception): .*)$"
+"""What is a reason in the log that Slurm keeps of a job's screen."""
+MORE = {
+    "TIMEOUT": "its limit of time: give it more by --set-resources {rule}:runtime=MINUTES",
+    "OUT_OF_MEMORY": "its limit of memory: give it more by --set-resources {rule}:mem_mb=MB",
+    "CANCELLED": "scancel, or the limit of the partition",
+    "NODE_FAIL": "its node was lost: run the same command again",
+}
+"""What a state of Slurm means, and what to do."""
+SIGNAL = r"died with (<Signals\.\w+: \d+>)"
+"""What Snakemake says of a script that a signal ended."""
+WORDLESS = "it ended without a word"
+
+
+def why_jobs_failed(text: str) -> list[tuple[str, str]]:
+    """Return why each job failed and which file says more, from Snakemake's own log."""
+    found = {}
+    for _, rule, details in re.findall(FAILURE, text):
+        logs = re.search(r"(?m)^ +log: (.*?) \(check", details)
+        for own in [logs[1].split(", ")] if logs and "jobid: " in details else []:
+            reason = [*_said(own[0], TOLD), *_by_slurm(rule, details, own), *_signal(rule, text)]
+            found[own[0]] = (reason or [WORDLESS])[0], next(filter(_filled, own), own[0])
+    return list(found.values())
+
+
+def _by_slurm(rule: str, details: str, logs: list[str]) -> list[str]:
+    """Return what Slurm says of a job: a state that names its limit, or an error on its screen."""
+    state = re.search(r"SLURM status is: '(\w+)", details)
+    means = MORE.get(state[1]) if state else None
+    job = re.search(r"SLURM-job '(\S+)'", details)
+    said = [line for log in logs[1:] for line in _said(log, OF_SLURM)]
+    signals = [f"it was killed by {signal}" for log in logs[1:] for signal in _said(log, SIGNAL)]
+    ended = [f"Slurm ended job {job[1]} ({state[1]}): {means.format(rule=rule)}"] if means else []
+    return [
+        *ended,
+        *signals,
+        *said,
+        *([f"Slurm: job {job[1]} is {state[1]}"] if state and job else []),
+    ]
+
+
+def _signal(rule: str, text: str) -> list[str]:
+    """Return what the executor said of a job that a signal ended, or Snakemake of its command."""
+    forked = re.findall(rf"(?m)^forked: rule {re.escape(rule)} failed: (.*)$", text)
+    alone = re.findall(SIGNAL, text)
+    return forked + [f"it was killed by {signal}" for signal in alone]
+
+
+def _said(path: str, pattern: str) -> list[str]:
+    return re.findall(pattern, _read(path))
+
+
+def _filled(path: str) -> bool:
+    return bool(_read(path).strip())
+
+
+def _read(path: str) -> str:
+    if not os.path.exists(path):
+        return ""
+    return Path(path).read_text(encoding="utf-8", errors="replace")
