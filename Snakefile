@@ -65,7 +65,7 @@ rule all:
         datasets("sweeps", *OWN_SWEEPS),
         [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
         "<results>/claims.json",
-        "<results>/tables/claims.md",
+        expand("<results>/tables/{name}.md", name=["claims", "claims_figures"]),
         *("<results>/report.html", "<results>/live.html"),
         expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
     message:

@@ -142,7 +142,7 @@ class Value:
                 return abs(self)
             raise ModelError(f"{ufunc.__name__} of a field or a parameter has no rule")
         if ufunc.__name__ == "power" and isinstance(operands[0], Value):
-            return operands[0] ** operands[1]
+            return Value.__pow__(*operands)
         return rule(*map(Value.of, operands))
 
     def _refuse(self, *_):

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pendula.model import Model
 from pendula.own_cases.breathers import State, exponents, find_state
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
@@ -14,9 +15,8 @@ FOLDER = Path(__file__).parents[2] / "docs/models"
 
 def problem(name, initial, boundary="dirichlet", half_width=10, end_time=5.0, **parameters):
     """Return the problem of an example from data {site: (field, ...)}."""
-    path = FOLDER / f"{name}.py"
     return Problem.of({
-        "model": {"name": path.name, "text": path.read_text(encoding="utf-8")},
+        "model": Model.read(FOLDER / f"{name}.py"),
         "parameters": parameters, "half_width": half_width, "boundary": boundary,
         "initial": initial, "end_time": end_time, "output_step": 0.5, "snapshot_every": 1,
         "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-13},

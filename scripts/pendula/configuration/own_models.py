@@ -9,6 +9,7 @@ from pydantic import (
     BeforeValidator,
     Field,
     PlainSerializer,
+    SerializationInfo,
     SerializeAsAny,
     WrapValidator,
     model_validator,
@@ -46,6 +47,11 @@ def _as_model(value: Any) -> Traced:
         raise fault(str(error)) from None
 
 
+def _as_written(model: Traced, info: SerializationInfo) -> Any:
+    """Return a model as it is, or in JSON as its plain values."""
+    return model.plain if info.mode == "json" else model
+
+
 class OwnCase(Case):
     """An initial-value problem of traced equations: data and parameters as the model names them."""
 
@@ -58,7 +64,7 @@ class OwnCase(Case):
         BeforeValidator(partial(sites_of, most=None)),
         Field(min_length=1),
     ]
-    model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(lambda model: model, Any)]
+    model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
     parameters: dict[str, Any] = {}
 
     @model_validator(mode="before")
