@@ -70,12 +70,7 @@ def test_the_same_files_give_the_same_bytes_and_belong_to_nobody(project, tmp_pa
     modes = {entry.name: entry.mode for entry in entries if entry.mode != 0o644}
     assert modes == {"pendula-1/run": 0o755, "pendula-1/results/b": 0o755}
     assert {(e.uid, e.gid, e.uname, e.gname) for e in entries} == {(0, 0, "", "")}
-    unpacked = tmp_path / "pendula-1"
-    assert code_files(unpacked) == ["a", "run"]
-    check = ["sha256sum", "--check", "--strict", "manifest-sha256.txt"]
-    assert subprocess.run(check, cwd=unpacked, capture_output=True).returncode == 0
-    (unpacked / "a").write_text("something else")
-    assert subprocess.run(check, cwd=unpacked, capture_output=True).returncode == 1
+    assert code_files(tmp_path / "pendula-1") == ["a", "run"]
 
 
 def test_a_configuration_is_written_whole():

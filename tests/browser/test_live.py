@@ -9,7 +9,7 @@ import numpy as np
 import problems
 import pytest
 import yaml
-from helpers import ROOT, package, skip, snakemake_with, wait_for
+from helpers import ROOT, package, skip, snakemake, wait_for
 from oracle import CASES
 from pendula.datasets.netcdf import read, write
 from pendula.figure_diff import hashes
@@ -151,7 +151,7 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
         live.find_element("id", kind).click()
         wait_for((tmp_path / f"mine.{kind}").exists)
     case = yaml.safe_load((tmp_path / "mine.yaml").read_text())
-    ran = snakemake_with(case, ROOT, tmp_path, "results/trajectories/mine.nc")
+    ran = snakemake(ROOT, tmp_path, "results/trajectories/mine.nc", settings=case)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     found = read(tmp_path / "results/trajectories/mine.nc")
     names, *rows = csv.reader((tmp_path / "mine.csv").read_text().splitlines())

@@ -3,11 +3,10 @@
 from collections import defaultdict
 
 import netCDF4
-import yaml
 from helpers import ROOT
 from pendula.datasets.netcdf import read
 from pendula.datasets.registry import NAMES, UNITS
-from pendula.datasets.stated import COMPUTED_FROM, stated
+from pendula.datasets.stated import COMPUTED_FROM
 
 NOT_COMPUTED = {"figures/fig1", "checks/identities"}
 """A drawing of the chain, and algebra for all constants."""
@@ -40,18 +39,3 @@ def test_every_dataset_says_with_what_it_was_computed_or_names_datasets_that_do(
         # without names of others it says itself what was computed, not only how well
         own = {"epsilon", "gamma", "seed", "case", "problems"} & about.keys()
         assert own or any(sources) or name in NOT_COMPUTED, name
-
-
-def test_checks_of_the_theory_state_every_argument_of_the_configuration(full_run):
-    """They were the ones that did not; some arguments are also coordinates."""
-    quick = yaml.safe_load((ROOT / "config/quick.yaml").read_text())["theory"]
-    whole = yaml.safe_load((ROOT / "config/theory.yaml").read_text())["theory"]
-    asked = 0
-    for path in (full_run / "results/checks").glob("*.nc"):
-        arguments = whole.get(path.stem, {}) | quick.get(path.stem, {})
-        data = read(path)
-        for name, value in stated(arguments, map(str, data.variables), [], stated).items():
-            if not isinstance(value, str):
-                assert data.attrs[name] == value, (path.stem, name)
-                asked += 1
-    assert asked > 50

@@ -106,31 +106,21 @@ def prepare(project: Path, finished: Path, clone: Path) -> None:
     run, and the archive are left out: the quick run is to be accepted, and the clone packed. The
     packages are those of the tests.
     """
-    for name in filter(is_wanted, code_files(project)):
-        (clone / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(project / name, clone / name)
-    git = ["git", "-C", str(clone)]
+    for name in code_files(project):
+        inside = name.removeprefix(BASELINE)
+        if inside == name or inside.split("/")[0] in MADE_ONCE:
+            (clone / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(project / name, clone / name)
     for words in (["init", "--quiet"], ["add", "--all"]):
-        subprocess.run([*git, *words], check=True)
+        subprocess.run(["git", "-C", str(clone), *words], check=True)
     for folder in ("results", ".snakemake"):
         left = shutil.ignore_patterns("archive")
         shutil.copytree(finished / folder, clone / folder, ignore=left)
-    _take_quick_configuration(clone / "config")
-
-
-def is_wanted(name: str) -> bool:
-    """Return whether a file of the project goes into the clone."""
-    inside = name.removeprefix(BASELINE)
-    return inside == name or inside.split("/")[0] in MADE_ONCE
-
-
-def _take_quick_configuration(folder: Path) -> None:
-    quick = yaml.safe_load((folder / "quick.yaml").read_text())
-    for path in sorted(folder.glob("*.yaml")):
+    quick = yaml.safe_load((clone / "config/quick.yaml").read_text())
+    for path in {*clone.glob("config/*.yaml")} - {clone / "config/quick.yaml"}:
         settings = yaml.safe_load(path.read_text())
-        if path.name != "quick.yaml":
-            merged = merge(settings, {key: quick[key] for key in settings.keys() & quick.keys()})
-            path.write_text(yaml.safe_dump(merged, sort_keys=False))
+        merged = merge(settings, {key: quick[key] for key in settings.keys() & quick.keys()})
+        path.write_text(yaml.safe_dump(merged, sort_keys=False))
 
 
 class Reader:
@@ -149,27 +139,30 @@ class Reader:
             (self.folder / file_of(block)).write_text(block.text, encoding="utf-8")
             return Done(0, "")
         if block.kind == "pycon":
-            return self._session(block.text)
+            (self.beside / "session.txt").write_text(block.text, encoding="utf-8")
+            words = ["doctest", "-o", "NORMALIZE_WHITESPACE", str(self.beside / "session.txt")]
+            return self._ready(words, PYTHONPATH=str(self.clone / "scripts"))
         said = ""
         for line in block.text.splitlines():
-            done = self._snakemake(line) if SNAKEMAKE.match(line) else self._shell(line)
+            if SNAKEMAKE.match(line):
+                done = self._ready(shlex.split(line), PATH=self.path, PYTHONPATH="")
+            else:
+                done = self._shell(line)
             said += done.said
             if done.code:
                 break
         return Done(done.code, said)
 
-    def _snakemake(self, line: str) -> Done:
-        """Run Snakemake where its imports are done: they are nearly half of most commands."""
-        command = ["python", "-m", *shlex.split(line)]
-        done = run_ready(command, self.folder, PATH=self.path, PYTHONPATH="")
+    def _ready(self, words: list[str], **variables: str) -> Done:
+        """Run a module where its imports are done: they are nearly half of most commands."""
+        done = run_ready(["python", "-m", *words], self.folder, **variables)
         return Done(done.returncode, done.stdout + done.stderr)
 
     def _shell(self, line: str) -> Done:
         """Run a line in a shell, and stay in the folder to which it leads."""
         reached = self.beside / "folder.txt"
-        script = f"{line}\npwd > {shlex.quote(str(reached))}"
         run = subprocess.run(
-            ["bash", "-euo", "pipefail", "-c", script],
+            ["bash", "-euo", "pipefail", "-c", f"{line}\npwd > {shlex.quote(str(reached))}"],
             cwd=self.folder,
             env={**os.environ, "PATH": self.path, "PYTHONPATH": ""},
             stdin=subprocess.DEVNULL,
@@ -180,10 +173,3 @@ class Reader:
         if not run.returncode:
             self.folder = Path(reached.read_text().rstrip("\n"))
         return Done(run.returncode, run.stdout)
-
-    def _session(self, text: str) -> Done:
-        session = self.beside / "session.txt"
-        session.write_text(text, encoding="utf-8")
-        command = ["python", "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
-        done = run_ready(command, self.folder, PYTHONPATH=str(self.clone / "scripts"))
-        return Done(done.returncode, done.stdout + done.stderr)

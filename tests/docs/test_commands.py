@@ -38,23 +38,19 @@ PRINTED = {page: blocks(ROOT, page) for page in PAGES}
 ALL = [block for found in PRINTED.values() for block in found]
 NOT_RUN = yaml.safe_load((Path(__file__).parent / "not_run.yaml").read_text(encoding="utf-8"))
 AS_PRINTED = bool(os.environ.get("PENDULA_AS_PRINTED"))
-EVERY_DAY = {"dry run", "nothing"}
-"""What may be run every day of a block that is run as it is printed elsewhere."""
 
 
 def first(block: Block) -> tuple[str, str]:
     return block.page, block.text.splitlines()[0]
 
 
-def listed(*kinds: str | None) -> set[tuple[str, str]]:
-    """Return the blocks of not_run.yaml whose key `everyday` is among `kinds`.
-
-    None stands for a block without that key, which is never run as it is printed.
-    """
-    return {(one["page"], one["first"]) for one in NOT_RUN if one.get("everyday") in kinds}
+def listed(*days: str) -> set[tuple[str, str]]:
+    """Return the blocks of not_run.yaml that are run every day in one of these ways."""
+    return {(page, line) for page, found in NOT_RUN.items() for line in found
+            if found[line][0] in days}  # fmt: skip
 
 
-LEFT_OUT = listed(None) if AS_PRINTED else listed(None, "nothing")
+LEFT_OUT = listed("never") if AS_PRINTED else listed("never", "nothing")
 DRY = set() if AS_PRINTED else listed("dry run")
 INLINE = [call for page in PAGES for call in inline_calls(ROOT, page)]
 RUN = [block for block in ALL if block.kind in ("", "pycon") and first(block) not in LEFT_OUT]
@@ -143,19 +139,15 @@ def test_what_a_page_shows_is_what_its_command_prints(played, pair):
     command, output = pair
     said = played[command.name].said
     assert shown(output.text, said), f"{output.text}\nis not in\n{said}"
+    assert not shown(output.text, "something else")
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_every_block_is_of_a_kind_that_is_tried(page):
-    found = PRINTED[page]
-    assert {block.kind for block in found} <= set(KINDS)
-    text = (ROOT / page).read_text(encoding="utf-8")
-    assert len(re.findall("^```", text, re.MULTILINE)) == 2 * len(found)
-    follows = [output for _, output in OUTPUTS if output.page == page]
-    assert [block for block in found if block.kind == "text"] == follows
-
-
-def test_what_a_page_shows_follows_a_command_that_is_run():
+def test_every_block_is_of_a_kind_that_is_tried():
+    for page, found in PRINTED.items():
+        text = (ROOT / page).read_text(encoding="utf-8")
+        assert len(re.findall("^```", text, re.MULTILINE)) == 2 * len(found), page
+    assert {block.kind for block in ALL} <= set(KINDS)
+    assert [block for block in ALL if block.kind == "text"] == [output for _, output in OUTPUTS]
     assert [output.name for command, output in OUTPUTS if command not in RUN] == []
 
 
@@ -167,34 +159,13 @@ def test_a_file_that_is_to_be_saved_is_used_on_its_page(block):
 
 
 def test_what_is_not_run_exists_and_has_a_reason():
-    printed = {
-        (block.page, block.text.splitlines()[0]) for block in ALL if block.kind in ("", "pycon")
-    }
-    entries = listed(None, *EVERY_DAY)
-    assert sorted(entries - printed) == [] and len(entries) == len(NOT_RUN)
-    for entry in NOT_RUN:
-        assert entry["reason"].endswith(".") and (ROOT / entry["instead"]).exists(), entry
-
-
-def test_a_run_and_the_tests_begin_with_the_same_command():
-    """CI gives the command of the tests as it is printed, so that the other needs no play."""
-    run, tests = (block for block in PRINTED["README.md"] if block.mark.endswith(" command"))
-    more = run.text.replace("environment.txt", "environment.txt -r tests/requirements.txt")
-    assert more.replace("&& snakemake", "&& python -m pytest") == tests.text != run.text
-
-
-@pytest.mark.parametrize(
-    ("text", "said", "fits"),
-    [
-        ("fig2  1", "job count\nfig2      1\n", True),
-        ("... identical", "234 identical; see page", True),
-        ("one\nthree", "one\ntwo\nthree", True),
-        ("three\none", "one\ntwo\nthree", False),
-        ("fig2 2", "fig2 1", False),
-    ],
-)
-def test_a_text_is_found_in_what_was_said(text, said, fits):
-    assert shown(text, said) is fits
+    rows = {(page, line): row for page, found in NOT_RUN.items() for line, row in found.items()}
+    assert (
+        sorted(rows.keys() - {first(block) for block in ALL if block.kind in ("", "pycon")}) == []
+    )
+    for day, instead, reason in rows.values():
+        assert day in ("dry run", "nothing", "never") and reason.endswith(".")
+        assert (ROOT / instead).exists(), instead
 
 
 def quoted_messages(page: str) -> list[str]:

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 
 import pytest
-from helpers import ROOT, planned, planned_with, skip, snakemake
+from helpers import ROOT, planned, skip, snakemake
 
 
 def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
@@ -13,12 +13,12 @@ def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
     made = shutil.copytree(full_run, tmp_path / "made", copy_function=shutil.copy)
     for path in made.glob("results/kernels/*"):
         os.utime(path)
-    assert planned(ROOT, made, "paper") == {}
+    assert planned(ROOT, made, "figures") == {}
 
 
 def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(full_run, tmp_path):
     settings = {"cases": {"mine": {"omega": 8, "end_time": 2}}}
-    before = planned_with(settings, ROOT, tmp_path, "results/trajectories/mine.nc")
+    before = planned(ROOT, tmp_path, "results/trajectories/mine.nc", settings=settings)
     assert before == {"compile_solver": 1, "trajectory": 1}
     solvers = ("--config", "solvers={dop853: {rtol: 1e-5}}")
     jobs = planned(ROOT, full_run, *solvers)

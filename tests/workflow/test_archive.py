@@ -6,7 +6,6 @@ Lost figures are drawn anew there by tests/docs/test_commands.py, as docs/archiv
 import getpass
 import json
 import os
-import shutil
 import socket
 import subprocess
 import tarfile
@@ -18,11 +17,6 @@ from pendula import __version__
 
 NAME = f"pendula-{__version__}"
 ARCHIVE = f"results/archive/{NAME}.tar.gz"
-DRAWING = {
-    *("figures", "fig1", "norms_in_time", "norms_by_half_width", "energy_drift", "bounds"),
-    *("stability_chart", "trust_horizons", "lifetimes", "draw_fates", "draw_over_the_top"),
-    *("draw_fronts", "draw_growth_law"),
-}
 
 
 @pytest.fixture
@@ -52,12 +46,6 @@ def test_the_archive_is_packed_anew_when_any_file_changes(full_run, unpacked):
     assert planned(unpacked, full_run, "archive") == {}
     edit(unpacked / "LICENSE", "BSD 3-Clause License", "BSD 3-Clause Licence")
     assert planned(unpacked, full_run, "archive") == {"archive": 1}
-
-
-def test_without_any_figure_jobs_that_draw_are_all_that_is_planned(unpacked):
-    shutil.rmtree(unpacked / "results/figures")
-    plan = planned(unpacked, unpacked, "figures")
-    assert {"fig1", "norms_by_half_width", "bounds"} <= plan.keys() <= DRAWING
 
 
 def test_the_crate_describes_every_result(full_run):

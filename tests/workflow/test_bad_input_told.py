@@ -6,7 +6,10 @@ The sentences are those of tests/configuration/bad_input.yaml. Here stands what 
 import subprocess
 
 import pytest
-from helpers import NOISE, ROOT, run_ready, snakemake, snakemake_with
+from helpers import ROOT, run_ready, snakemake
+
+NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
+"""What of Snakemake's words tells a person nothing."""
 
 
 def refused(result: subprocess.CompletedProcess) -> str:
@@ -19,7 +22,7 @@ def refused(result: subprocess.CompletedProcess) -> str:
 
 def test_a_bad_configuration_stops_before_any_job(tmp_path):
     settings = {"cases": {"mine": {"omgea": 3, "half_width": -2, "solver": "dop835"}}, "swepes": {}}
-    said = refused(snakemake_with(settings, ROOT, tmp_path))
+    said = refused(snakemake(ROOT, tmp_path, settings=settings))
     for part in (
         "the configuration has 5 errors:\n  ",
         "cases.mine.omega: is missing",
@@ -34,7 +37,7 @@ def test_a_bad_configuration_stops_before_any_job(tmp_path):
 
 def test_own_without_a_case_is_told(tmp_path):
     settings = {"limits": {"hours": 2}}
-    said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))
+    said = refused(snakemake(ROOT, tmp_path, "own", settings=settings))
     assert "the configuration has no case and no sweep of your own: give some by --config" in said
 
 
@@ -47,7 +50,7 @@ def test_what_is_misspelt_is_named(tmp_path, wrong):
 
 def test_a_baseline_is_named_by_config_alone_and_is_a_folder(tmp_path):
     """A file that named one would send what is accepted elsewhere, unseen."""
-    said = refused(snakemake_with({"baseline": "elsewhere"}, ROOT, tmp_path, "accept_figures"))
+    said = refused(snakemake(ROOT, tmp_path, "accept_figures", settings={"baseline": "elsewhere"}))
     assert "baseline: is not a known key" in said
     said = refused(snakemake(ROOT, tmp_path, "figure_diff", "--config", "baseline=7"))
     assert "--config baseline=7: give the path of a folder" in said
@@ -56,7 +59,7 @@ def test_a_baseline_is_named_by_config_alone_and_is_a_folder(tmp_path):
 def test_a_long_run_says_first_what_it_takes(tmp_path):
     settings = {"cases": {"mine": {"omega": 1e5, "end_time": 800}}}
     target = "results/trajectories/mine.nc"
-    result = snakemake_with(settings, ROOT, tmp_path, "--dry-run", target)
+    result = snakemake(ROOT, tmp_path, "--dry-run", target, settings=settings)
     assert result.returncode == 0
     said = result.stdout + result.stderr
     assert said.index("cases.mine: the run and its checks take about") < said.index("Building DAG")

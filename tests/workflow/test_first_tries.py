@@ -10,7 +10,7 @@ from hashlib import sha256
 import pytest
 import yaml
 from edits import EDITS
-from helpers import ROOT, command_of, edit, planned, run_ready, snakemake, snakemake_with
+from helpers import ROOT, command_of, edit, planned, run_ready, snakemake
 from pendula.configuration.cases import Case
 from pendula.datasets.netcdf import read
 
@@ -28,7 +28,7 @@ def drawn(tmp_path_factory):
     settings = {"cases": {"wild": {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}}}
     options = ("--executor", "local", "--cores", "1", "--keep-going")
     targets = "results/trajectories/wild.nc", "fig1"
-    result = snakemake_with(settings, ROOT, folder, *options, *targets)
+    result = snakemake(ROOT, folder, *options, *targets, settings=settings)
     assert result.returncode == 1
     (folder / "said.txt").write_text(result.stderr)
     return folder
@@ -36,10 +36,6 @@ def drawn(tmp_path_factory):
 
 def test_cores_and_the_executor_change_no_byte(drawn, full_run):
     assert bytes_of(drawn) == bytes_of(full_run)
-
-
-def test_everything_can_be_made_anew(full_run):
-    assert planned(ROOT, full_run, "--forceall", "fig1") == {"fig1": 1}
 
 
 def test_keep_going_makes_what_does_not_rest_on_a_failed_job_and_says_at_the_end_why_it_failed(
@@ -65,23 +61,20 @@ MODULE = """
 module pendula:
     snakefile:
         "{root}/Snakefile"
-{prefix}
+    prefix:
+        "elsewhere/"
 
 use rule * from pendula as pendula_*
 """
 
 
-@pytest.mark.parametrize("folder", ["", "elsewhere/"])
-def test_another_workflow_uses_this_one_as_a_module(tmp_path, folder):
-    prefix = f'    prefix:\n        "{folder}"\n' if folder else ""
-    (tmp_path / "Snakefile").write_text(MODULE.format(root=ROOT, prefix=prefix))
-    picture = f"{folder}results/figures/fig1.png"
-    how = ["--cores", "1"] if folder else ["-n"]
-    done = run_ready(["", "-m", "snakemake", *how, picture], tmp_path)
+def test_another_workflow_uses_this_one_as_a_module(tmp_path):
+    (tmp_path / "Snakefile").write_text(MODULE.format(root=ROOT))
+    picture = "elsewhere/results/figures/fig1.png"
+    done = run_ready(["", "-m", "snakemake", "--cores", "1", picture], tmp_path)
     assert done.returncode == 0 and f"Drawing {picture}" in done.stdout + done.stderr, done.stderr
-    if folder:
-        assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
-        assert (tmp_path / "elsewhere/results/logs/figures/fig1.log").exists()
+    assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "elsewhere/results/logs/figures/fig1.log").exists()
 
 
 def test_a_deleted_file_is_made_again_and_nothing_else(finished):
@@ -124,8 +117,8 @@ def test_studies_run_on_what_edited_cases_have_become(finished):
 def test_touch_takes_an_edit_for_done(finished, clone):
     """Without it the case is run again: see test_reruns.py."""
     edit(clone / "config/config.yaml", "{<<: *large, omega: 0}", "{<<: *large, omega: 0.5}")
-    assert snakemake(clone, finished, "--touch", "paper").returncode == 0
-    assert planned(clone, finished, "paper") == {}
+    assert snakemake(clone, finished, "--touch", "fig4").returncode == 0
+    assert planned(clone, finished, "fig4") == {}
 
 
 def test_a_lost_record_is_told(drawn, tmp_path):
@@ -135,25 +128,11 @@ def test_a_lost_record_is_told(drawn, tmp_path):
     assert "Rules with missing metadata: fig1" in result.stdout + result.stderr
 
 
-def test_other_triggers_find_a_finished_run_whole(full_run):
-    assert planned(ROOT, full_run, "--rerun-triggers", "code", "mtime") == {}
-
-
 def test_the_report_of_snakemake_shows_each_figure_with_its_rule(full_run, tmp_path):
     page = tmp_path / "page.html"
     result = snakemake(ROOT, full_run, "--report", str(page))
     assert result.returncode == 0, result.stderr
     pictures = [path.name for path in (full_run / "results/figures").glob("*.png")]
     shown = re.findall(r'"name": "(\w+\.png)".*?"rule": "(\w+)"', page.read_text())
-    assert sorted(name for name, _ in shown) == sorted(pictures) and len(shown) >= 30
+    assert sorted(name for name, _ in shown) == sorted(pictures) and len(shown) >= 15
     assert "norms_in_time" in (rules := {rule for _, rule in shown}) and "all" not in rules
-
-
-def test_the_catalogue_of_workflows_finds_what_it_looks_for():
-    """It searches READMEs for two words, and shows how to use what has these files."""
-    readme = (ROOT / "README.md").read_text(encoding="utf-8").lower()
-    assert "snakemake" in readme and "workflow" in readme
-    assert (ROOT / "workflow/Snakefile").exists() and (ROOT / "config/README.md").exists()
-    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
-    assert usage.keys() == {"mandatory-flags", "software-stack-deployment", "report"}
-    assert usage["mandatory-flags"].keys() == {"desc", "flags"}

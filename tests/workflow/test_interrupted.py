@@ -6,7 +6,7 @@ import subprocess
 from hashlib import sha256
 
 import yaml
-from helpers import ROOT, command_of, snakemake_with, wait_for
+from helpers import ROOT, command_of, snakemake, wait_for
 from pendula.configuration.messages import load
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
@@ -86,11 +86,11 @@ def test_a_run_ended_at_any_moment_goes_on_to_the_same_files(tmp_path):
     whole, ended = tmp_path / "whole", tmp_path / "ended"
     ended.mkdir()
     end_when(is_sweeping, signal.SIGKILL, ended)
-    assert snakemake_with(HOURS, ROOT, ended, "--unlock").returncode == 0  # nothing else could
+    assert snakemake(ROOT, ended, "--unlock", settings=HOURS).returncode == 0  # nothing else could
     said = end_when(is_in_a_long_chain, signal.SIGINT, ended)
     assert "Traceback" not in said and "interrupted: run the same command again" in said
     assert not list(ended.glob("results/sweeps/*")) + list(ended.glob("results/sweeps/.*"))
-    result = snakemake_with(SHORT, ROOT, ended, *TARGETS)
+    result = snakemake(ROOT, ended, *TARGETS, settings=SHORT)
     assert result.returncode == 0, result.stderr
     assert "Compiling" not in result.stderr  # done in the first run
     write_whole(whole)

@@ -9,22 +9,12 @@ import subprocess
 import sys
 
 from helpers import change, edit, planned
+from pendula.studies.theory.settings import GROUPS
 
 SIMULATIONS = {"trajectory", "measure_solvers", "sweep", "sweep_by_second_solver"}
 MEASURES = {
     *("measure_lyapunov", "measure_ensembles", "measure_lifetimes", "measure_members"),
 }
-
-
-def test_touching_every_file_changes_nothing(finished, clone):
-    """Neither the project, which is newer than every result, nor what a figure shows.
-
-    What is published is computed in a study and kept in a dataset of its own.
-    """
-    drawn = list((finished / "results/figures").glob("*.nc"))
-    for path in [*clone.rglob("*"), *drawn]:
-        os.utime(path)
-    assert len(drawn) > 15 and planned(clone, finished) == {}
 
 
 def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(full_run, clone):
@@ -40,39 +30,36 @@ def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(fu
     assert jobs["norms_in_time"] < 3 and "fig1" not in jobs
 
 
-def test_figures_and_claims_rerun_alone(full_run, clone):
-    for module in ("paper/chain_figure", "theory/figures", "theory/bounds_figure"):
+def test_figures_claims_checks_and_tangent_equations_rerun_alone(full_run, clone):
+    """What was observed and what algebra proves have no part in what checks do: checks.py."""
+    for module in ("paper/chain_figure", "paper/claims_norms", "theory/figures", "theory/checks"):
         change(clone / f"scripts/pendula/studies/{module}.py")
-    change(clone / "scripts/pendula/studies/paper/claims_norms.py")
+    change(clone / "scripts/pendula/models/tangent.py")
     jobs = planned(clone, full_run)
-    figures = {"fig1", "stability_chart", "bounds"}
-    assert set(jobs) == {*figures, "decide_claims", "claims", "report", "article", "all"}
-    assert jobs["decide_claims"] == 1  # those on the paper's figures
+    assert jobs.keys() & MEASURES == {"measure_lyapunov"} and not jobs.keys() & SIMULATIONS
+    checks = {one for one in jobs if one.startswith("check_")}
+    assert checks == {f"check_{group}" for group in GROUPS}
+    assert {"fig1", "stability_chart", "bounds"} <= jobs.keys()
+    assert {"decide_claims", "claims", "report", "article", "all"} <= jobs.keys()
+    assert not {"norms_by_half_width", "fronts", "fates"} & jobs.keys()
 
 
-def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(full_run, clone):
+def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(finished, clone):
+    """Times of files, comments and docstrings rerun nothing: neither those of the project, which
+    is newer than every result, nor of what a figure shows."""
     equations = clone / "scripts/pendula/models/amplitudes.py"
     text = equations.read_text()
     change(equations)
-    jobs = planned(clone, full_run)
+    jobs = planned(clone, finished)
     assert jobs["trajectory"] == 6 and jobs["measure_solvers"] == 1
     assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 4
     equations.write_text(text)
-    assert planned(clone, full_run) == {}
-
-
-def test_the_tangent_equations_rerun_what_follows_them_and_nothing_else(full_run, clone):
-    change(clone / "scripts/pendula/models/tangent.py")
-    jobs = planned(clone, full_run)
-    assert jobs.keys() & MEASURES == {"measure_lyapunov"}
-    assert not jobs.keys() & SIMULATIONS
-
-
-def test_comments_and_docstrings_rerun_nothing(full_run, clone):
     for module in ("models/amplitudes", "studies/paper/figures", "studies/paper/claims_norms"):
         path = clone / f"scripts/pendula/{module}.py"
         path.write_text(path.read_text().replace('"""', '"""Said again. ', 1) + "# a comment\n")
-    assert planned(clone, full_run) == {}
+    for path in (finished / "results/figures").glob("*.nc"):
+        os.utime(path)
+    assert planned(clone, finished) == {}
 
 
 DRIFT = """
