@@ -1,24 +1,23 @@
 """The last lines of a run say why each job failed, also where the job itself could not."""
 
 import pytest
-from helpers import ROOT, command_of, copy_of_sources, edit, run_ready, snakemake
+from helpers import ROOT, command_of, edit, run_ready, snakemake
 from reasons import why_jobs_failed
 
 TARGETS = "results/pendula/threshold.nc", "fig1"
 
 
 @pytest.mark.parametrize("executor", ["forked", "local"])
-def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(tmp_path, executor):
-    project = copy_of_sources(tmp_path / "project")
-    edit(project / "scripts/dataset.py", "from pendula.datasets.netcdf", "import absent\nfrom p")
+def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_path, executor):
+    edit(clone / "scripts/dataset.py", "from pendula.datasets.netcdf", "import absent\nfrom p")
     edit(
-        project / "scripts/figure.py",
+        clone / "scripts/figure.py",
         "    files = {",
         "    import os; os.kill(os.getpid(), 9)\n    files = {",
     )
     folder = tmp_path / "folder"
     folder.mkdir()
-    result = snakemake(project, folder, "--keep-going", "--executor", executor, *TARGETS)
+    result = snakemake(clone, folder, "--keep-going", "--executor", executor, *TARGETS)
     assert result.returncode == 1
     last = result.stderr.splitlines()[-4:]
     assert "ModuleNotFoundError: No module named 'absent'" in last
@@ -36,12 +35,7 @@ Error in rule sweep:
 """
 STEP = "slurmstepd-n2: error: StepId=41.0 exceeded memory limit (1168646144 > 1048576000), being"
 REASONS = [
-    (
-        "FAILED",
-        "failed: wrong: say why\nTraceback\n",
-        "srun: error: n1: task 0: Exited",
-        "wrong: s",
-    ),
+    ("FAILED", "failed: wrong: why\nTraceback\n", "srun: error: n1: task 0: Exited", "wrong: w"),
     ("FAILED", "", f"Reason\n{STEP} killed\nsrun: error: n2: task 0: Killed\n", STEP),
     (
         "FAILED",
