@@ -3,15 +3,11 @@
 import fcntl
 import os
 from contextlib import chdir
-from functools import cache
 from pathlib import Path
 
-import numpy as np
 import pytest
 from helpers import MY_BASELINE, ROOT, snakemake
 from hypothesis import settings
-from oracle import CASES, slope
-from scipy.integrate import solve_ivp
 
 settings.register_profile(
     "project", deadline=None, derandomize=True, database=None, max_examples=50
@@ -24,27 +20,6 @@ def _away_from_the_users_results(tmp_path_factory):
     """Have all tests stand in an empty folder: that of the project may hold a user's results."""
     with chdir(tmp_path_factory.mktemp("empty")):
         yield
-
-
-@pytest.fixture(scope="session")
-def scipy_solution():
-    """Return a function: the amplitudes (2, 61) of a case of the paper at some tau, by SciPy."""
-
-    @cache
-    def solve(case, tau):
-        omega, pair = CASES[case]
-        start = np.zeros((2, 61), complex)
-        start[:, 30] = pair
-
-        def right_hand_side(_, z):
-            return slope(z.reshape(2, 61), (1.0, 1.0, omega), "dirichlet").ravel()
-
-        run = solve_ivp(
-            right_hand_side, (0, tau), start.ravel(), method="DOP853", rtol=3e-14, atol=1e-14
-        )
-        return run.y[:, -1].reshape(2, 61)
-
-    return solve
 
 
 @pytest.fixture(scope="session")

@@ -7,10 +7,8 @@ from typing import Annotated, Literal, get_args, get_origin
 
 import pytest
 import yaml
-from helpers import ROOT, chosen
-from pendula.configuration import cases, messages, schema, solvers, values
+from helpers import ROOT
 from pendula.configuration.messages import STUDIES, Sections, load
-from pendula.studies import all_modules
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 
@@ -62,24 +60,6 @@ def test_no_number_of_the_configuration_is_read_from_what_is_none():
         if accepts(kind, value) and not (value != value and place.startswith("hard_cases."))
     ]
     assert read == []
-
-
-def test_a_type_has_one_meaning_in_all_settings():
-    modules = [cases, messages, schema, solvers, *all_modules("settings")]
-    assert len(modules) > 10
-    shared = {name: kind for name, kind in vars(values).items() if name[0].isupper()}
-    assert [
-        (module.__name__, name)
-        for module in modules
-        for name in shared.keys() & vars(module).keys()
-        if vars(module)[name] is not shared[name]
-    ] == []
-
-
-def test_what_the_chains_without_ends_run_is_said_for_the_full_run_and_the_long_study():
-    given = chosen("unbounded")
-    for size in (given.short, given.long):
-        assert set(size.runs) == set(given.names)
 
 
 def test_the_configuration_is_read_without_what_computes_or_draws():

@@ -8,7 +8,6 @@ import systems
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, SOLVERS, random_chain, slope
 from pendula.integrators import DONE, NO_CONTRACTION
-from pendula.integrators.fixed_point import PAST, extrapolate
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 
@@ -69,43 +68,12 @@ def test_the_order_is_two_and_leads_to_the_solution(scheme):
     np.testing.assert_allclose((4 * finals[3] - finals[2]) / 3, accurate, atol=1e-5)
 
 
-@each_scheme
-def test_conjugation_reverses_even_inaccurate_steps(scheme):
-    z = random_chain(2)
-    there = run(scheme, z, 2.0, step=0.02)
-    assert there.outcome.rejected == 0
-    back = np.conj(run(scheme, np.conj(there.final), 2.0, step=0.02).final)
-    np.testing.assert_allclose(back, z, atol=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("case", "least", "most"),
-    [("fig2_small", 3e-5, 3.5e-5), ("fig3_small", 1.9e-5, 2.2e-5), ("fig2_large", 4e-2, 4.3e-2)],
-)
-def test_the_energy_by_crank_nicolson_drifts_by_the_square_of_the_step_and_comes_back(
-    case, least, most
-):
-    z, numbers = data_of(case), numbers_of(case)
-    drifts = [
-        drift_of(run("crank_nicolson", z, 50.0, 2000, numbers, step=h)) for h in (0.0025, 0.00125)
-    ]
-    early, whole = drifts[0][:401].max(), drifts[0].max()
-    assert least < whole < most
-    assert whole < 1.1 * early  # what does not grow from tau = 10 to 50 is no secular drift
-    assert whole / drifts[1].max() == pytest.approx(4.0, rel=0.02)
-
-
 @pytest.mark.parametrize("tolerance", [1e-10, 1e-12, 1e-14])
 def test_delfour_fortin_and_payre_keep_the_energy_to_the_tolerance_of_the_iteration(tolerance):
     """At most H's slope (below 1e3 here) times the tolerance a step, over 4000 steps of chaos."""
     controls = {"numbers": numbers_of("fig4_large"), "step": 0.005, "tolerance": tolerance}
     drift = drift_of(run("delfour_fortin_payre", large(), 20.0, 40, **controls)).max()
     assert drift < min(4000 * 1e3 * tolerance, 1e-5)
-
-
-def test_long_steps_of_delfour_fortin_and_payre_keep_the_energy_although_the_solution_is_lost():
-    drift = drift_of(run("delfour_fortin_payre", random_chain(5), 20.0, 40, step=0.1))
-    assert drift.max() < 1e-10
 
 
 # --- Steps between outputs ----------------------------------------------------------------------
@@ -236,18 +204,3 @@ def test_the_tolerance_is_relative_and_a_chain_at_rest_takes_one_iteration_a_ste
     assert small[0] * 2.0**40 == one[0] and small[1] == one[1]
     final, outcome = linear(scheme, [0.0, 1.0], (0.5, 1e-3, 5), start=0j)
     assert (final, outcome) == (0j, (DONE, 1.0, 2, 0, 2 + BEGINNING[scheme]))
-
-
-def test_a_guess_is_exact_where_increments_are_a_polynomial_of_degree_five():
-    places = np.arange(6.0).reshape(2, 3)
-    past, new = np.full((PAST, 2, 3), np.nan), np.zeros((2, 3))
-
-    def state(t):
-        return (0.1 * t + places) ** 6
-
-    for t in range(15):
-        latest = t % PAST
-        past[latest] = state(t + 1) - state(t)
-        if t >= 5:
-            extrapolate(state(t + 1), past, latest, new)
-            np.testing.assert_allclose(new, state(t + 2), rtol=1e-11)

@@ -22,23 +22,6 @@ def test_the_roots_have_four_digits(x):
     assert taylor.fifteenth_root(x) == pytest.approx(x ** (1 / 15), rel=1e-4)
 
 
-@pytest.mark.parametrize("sites", [1, 3, LANES, LANES + 1, 2 * LANES])
-def test_the_sum_of_a_series_is_numpys(sites):
-    y = np.zeros((4, sites + 2))
-    memory = np.random.default_rng(sites).normal(size=(WORK, *y.shape))
-    series = describe(y, memory)
-    c = series.memory[: 2 * series.blocks * BLOCK_SIZE].reshape(
-        2, series.blocks, ORDER + 1, 3, LANES
-    )
-    expected = np.polynomial.polynomial.polyval(-0.7, np.moveaxis(c, 2, 0)[:, :, :, :2])
-    expected = expected.transpose(0, 2, 1, 3).reshape(4, -1)[:, :sites]
-    taylor.evaluate(series, -0.7, y)
-    np.testing.assert_allclose(y[:, 1:-1], expected, rtol=1e-13, atol=1e-13)
-    taylor.advance(series, -0.7)
-    at_start = c[:, :, 0, :2].transpose(0, 2, 1, 3).reshape(4, -1)[:, :sites]
-    np.testing.assert_array_equal(at_start, y[:, 1:-1])
-
-
 @pytest.mark.parametrize("largest", [0.0, 1e-300, 1e-150, 2.0, np.inf, np.nan])
 @pytest.mark.parametrize("place", [0, 5, 11])
 def test_the_largest_modulus_counts_nan_as_larger_than_infinity(largest, place):
@@ -52,12 +35,6 @@ def test_the_largest_modulus_counts_nan_as_larger_than_infinity(largest, place):
     assert taylor.largest_modulus(series, 0) == pytest.approx(
         largest, rel=1e-15, abs=0.0, nan_ok=True
     )
-
-
-def test_work_arrays_hold_the_smallest_component_and_no_more():
-    """A single site of one component has two rows of three numbers in each array."""
-    assert 6 * (WORK - 1) < BLOCK_SIZE + taylor.GHOSTS_SIZE <= 6 * WORK
-    assert taylor.RIGHT + taylor.ORDER_STRIDE == taylor.GHOSTS_SIZE
 
 
 @pytest.mark.parametrize(

@@ -85,12 +85,3 @@ def test_every_site_is_owned_once_and_well_inside(sites):
         assert left + held == sites or left + held - stop >= tiles.MARGIN
         owner[first:stop] += 1
     np.testing.assert_array_equal(owner, 1)
-
-
-@pytest.mark.parametrize(
-    ("sites", "count", "held"),
-    [(1, 1, 1), (512, 1, 512), (513, 2, 287), (1024, 2, 542), (1025, 3, 372), (1536, 3, 542)],
-)
-def test_chains_are_cut_into_tiles_of_about_equal_length(sites, count, held):
-    assert tiles.count_tiles(sites) == count
-    assert tiles.tile_length(sites, count) == held

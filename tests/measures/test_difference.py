@@ -10,7 +10,6 @@ from pendula.measures.difference import (
     divergence_time,
     first_above,
     norm_difference,
-    state_error,
 )
 from pendula.studies.paper.solvers import trust_solvers
 
@@ -71,10 +70,6 @@ def test_the_first_time_above_a_level_counts_and_never_is_not_unknown():
     values = np.array([[0.0, 1.0, 2.0], [0.0, np.nan, 0.0], [np.nan] * 3])
     np.testing.assert_array_equal(first_above([5, 6, 7], values, 1.0), [7.0, np.inf, np.nan])
     assert first_above([5, 6, 7], [0.0, 1.0, 1.0], 1.0) == np.inf
-
-
-def test_the_error_of_a_state_is_that_of_its_worst_component():
-    assert state_error(np.array([1.0, 4.0j]), np.array([1.5, 4.0j])) == 0.125
 
 
 def test_each_solver_has_its_horizon():

@@ -20,15 +20,6 @@ def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts()
     assert mean_rate_error(tau, log_growth[None], 0.0) == pytest.approx([0.1 / np.sqrt(7)])
 
 
-@pytest.mark.parametrize("end", [30.0, 200.0])
-def test_exponential_growth_is_chaos_and_powers_of_time_are_none(end):
-    tau = np.arange(0.0, end + 0.25, 0.25)
-    still = np.ones_like(tau)
-    assert is_chaotic(tau, 1.7 * tau, still)
-    for exponent in (0.0, 1.0, 2.0, 6.0):
-        assert not is_chaotic(tau, exponent * np.log1p(tau), still)
-
-
 def test_what_grows_with_the_solution_or_within_its_error_is_no_chaos():
     tau = np.arange(0.0, 60.25, 0.25)
     assert not is_chaotic(tau, 2.0 * tau, np.exp(2.0 * tau))
@@ -68,15 +59,6 @@ def test_a_growth_counts_after_three_standard_errors_are_taken_off():
         rate = np.log(factor) / 40.0 + errors
         growth = rate * tau + np.concatenate([[0.0], np.cumsum(wiggle[:-1])])
         assert is_chaotic(tau, growth, np.ones_like(tau)) == chaotic
-
-
-def test_an_octave_that_begins_before_the_first_output_begins_there():
-    tau = np.array([0.0, 3.0, 3.5, 4.0, 8.0, 16.0])
-    values = np.where(tau > 0.0, (tau + 1.0) ** 2, 0.0)[None]
-    found = local_exponents(tau, values, 3)[1][0].value
-    x, known = np.linspace(np.log(3.0), np.log(4.0), 60), np.log(tau[1:4])
-    bent = np.interp(x, known, 2.0 * np.log(tau[1:4] + 1.0))
-    assert found == pytest.approx(np.polyfit(x, bent, 1)[0], rel=1e-9)
 
 
 # --- Divergence -----------------------------------------------------------------------------------

@@ -3,12 +3,8 @@
 import numpy as np
 import pytest
 from pendula.measures.levels import (
-    bands,
-    correlation,
     levelling,
     levelling_of_means,
-    moments,
-    relative_range,
 )
 
 WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
@@ -48,24 +44,3 @@ def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end(values, mo
 def test_means_are_level_where_their_errors_hide_the_rest(means, errors, more, found):
     given = np.array(means), np.array(errors)
     assert levelling_of_means(WIDTHS, *given, **{"apart": 2.0} | more) == found
-
-
-def test_the_range_is_relative_to_the_size_of_the_mean():
-    assert relative_range(np.array([1.0, 2.0, 3.0])) == 1.0
-    assert relative_range(np.array([-1.0, -2.0, -3.0])) == 1.0
-
-
-def test_bands_and_moments_are_those_over_the_members():
-    values = np.arange(11.0)[:, None] * [1.0, 10.0]
-    np.testing.assert_allclose(bands(values, (0.05, 0.5)), [[0.5, 5.0], [5.0, 50.0]])
-    found = moments(values)
-    np.testing.assert_allclose(found["mean"], [5.0, 50.0])
-    np.testing.assert_allclose(found["deviation"][0], np.sqrt(11.0))
-    np.testing.assert_allclose(found["error"][0], 1.0)
-
-
-def test_correlations_are_numpys_and_zero_where_nothing_changes():
-    one, other = np.random.default_rng(1).normal(size=(2, 50))
-    assert correlation(one, other) == pytest.approx(np.corrcoef(one, other)[0, 1])
-    assert correlation(one, -3.0 * one + 1.0) == pytest.approx(-1.0)
-    assert correlation(one, np.full(50, 2.0)) == correlation(np.full(50, 2.0), one) == 0.0

@@ -6,16 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
-from pendula.ends import DIRICHLET, FREE, PERIODIC
 from pendula.models.amplitudes import (
     Chain,
-    chain_of_tile,
-    fill_site_terms,
     midpoint_rates,
     rates,
     rates_at_site,
 )
-from pendula.models.chain import MIRROR, can_be_tiled
 from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
@@ -74,31 +70,3 @@ def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_square(boundary,
     midpoint_rates(chain, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
     expected = linear - 0.5j * mean_square * mean
     np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)
-
-
-@pytest.mark.parametrize("right", [DIRICHLET, FREE])
-@pytest.mark.parametrize("left", [DIRICHLET, FREE, MIRROR])
-def test_a_tile_ends_as_the_chain_does_where_it_reaches_an_end(left, right):
-    """The kind of the other end of a tile may be any: it stays in the margin."""
-    chain = Chain(*CONSTANTS, left, right)
-    y = pack(random_chain(3), WHOLE)
-    whole = np.zeros_like(y)
-    rates(chain, y, whole)
-    for first, stop in ((0, 5), (2, 7)):
-        tile, found = y[:, first : stop + 2].copy(), np.zeros((4, stop - first + 2))
-        rates(chain_of_tile(chain, first == 0, stop == 7), tile, found)
-        inner = slice(1 if first == 0 else 2, -1 if stop == 7 else -2)
-        np.testing.assert_array_equal(found[:, inner], whole[:, first : stop + 2][:, inner])
-
-
-def test_all_chains_but_rings_can_be_tiled():
-    tiled = [can_be_tiled(Chain(*CONSTANTS, left, FREE)) for left in (DIRICHLET, FREE, MIRROR)]
-    assert tiled == [True, True, True]
-    assert not can_be_tiled(Chain(*CONSTANTS, PERIODIC, PERIODIC))
-
-
-def test_terms_of_sites_leave_ghosts_alone():
-    y = np.full((4, 5), 0.3)
-    terms = np.full(5, np.nan)
-    fill_site_terms(Chain(*CONSTANTS, FREE, FREE), y, terms)
-    np.testing.assert_array_equal(np.isnan(terms), [True, False, False, False, True])

@@ -1,7 +1,5 @@
 """The power series of the chain against the equations themselves."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -49,34 +47,6 @@ def test_each_kind_of_half_continues_the_series(even, synchronised):
             np.testing.assert_allclose(actual / (size + 1), expected / (size + 1), atol=1e-13)
 
     check()
-
-
-def exact_series(a, numbers):
-    """Return the coefficients of one pair with A = B = a between ends at rest, in fractions."""
-    epsilon, _, omega = map(Fraction, numbers)
-    re, im = [Fraction(a.real)], [Fraction(a.imag)]
-    for k in range(ORDER):
-        squares = [
-            sum(re[j] * re[m - j] + im[j] * im[m - j] for j in range(m + 1)) / 2
-            for m in range(k + 1)
-        ]
-        parts = []
-        for part in (re, im):
-            cubic = sum(squares[m] * part[k - m] for m in range(k + 1))
-            parts.append(((omega - 2 * epsilon) * part[k] + cubic) / (k + 1))
-        re.append(parts[1])
-        im.append(-parts[0])
-    return np.array([complex(float(x), float(y)) for x, y in zip(re, im, strict=True)])
-
-
-@pytest.mark.parametrize("numbers", [(0.1626555824908467, 0.0, 0.0), (1.0, 0.7, -4.0)])
-def test_large_data_whose_products_cancel_keep_their_digits(numbers):
-    """Where the oracle loses digits itself, whole fractions do not; with A = B no drive acts."""
-    z = np.array([[2 + 2j], [2 + 2j]])
-    exact = exact_series(z[0, 0], numbers)
-    found = coefficients(z, numbers, "dirichlet", WHOLE)
-    np.testing.assert_allclose(found[:, 0, 0], exact, rtol=0, atol=1e-12)
-    np.testing.assert_array_equal(found[:, 1], found[:, 0])
 
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free"])

@@ -4,13 +4,10 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from helpers import package
-from pendula.graph import evaluate
 from pendula.model import Model, abs2, conj, lap, shift
 from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.reference.multiprecision import HEYOKA
 from scipy.integrate import solve_ivp
 
 TIGHT = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
@@ -100,35 +97,6 @@ def test_random_polynomials_equal_scipy_on_numpy(numbers):
     expected = solve_ivp(slope, (0.0, 1.0), given.initial.ravel(), **TIGHT).y[:, -1]
     found = simulate(given).final.ravel()
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
-
-
-@pytest.mark.parametrize("numbers", RANDOM)
-def test_random_polynomials_equal_heyoka_on_the_trace(numbers):
-    heyoka = package("heyoka", HEYOKA)
-    given, _ = random_problem(*numbers[:-1], half_width=3)  # heyoka compiles each site
-    rows = np.array([[heyoka.expression(f"y{row}_{n}") for n in range(given.sites)]
-                     for row in range(2 * len(given.initial))])  # fmt: skip
-
-    def at(n):
-        def value(one):
-            if one.operation == "number":
-                return one.operands[0]
-            if one.operation == "parameter":
-                return 0.7 if one.operands[0] == "a" else given.parameters["b"][n]
-            component, part, by = one.operands
-            site = beside(np.arange(given.sites) + 1, by, given.boundary)[n] - 1
-            return rows[2 * component + part][site] if site >= 0 else 0.0
-
-        return evaluate(given.model.rates, value, heyoka)
-
-    slopes = np.transpose([at(n) for n in range(given.sites)])
-    start = np.stack([given.initial.real, given.initial.imag], axis=1).ravel()
-    equations = list(zip(rows.ravel(), slopes.ravel(), strict=True))
-    solver = heyoka.taylor_adaptive(equations, start, tol=1e-15, compact_mode=True)
-    solver.propagate_until(1.0)
-    final = simulate(given).final
-    found = np.stack([final.real, final.imag], axis=1).ravel()
-    np.testing.assert_allclose(found, solver.state, rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])

@@ -3,12 +3,8 @@
 import numpy as np
 import pytest
 from pendula import Case, check, simulate
-from pendula.models.bounds import best_bound, extent, theorem_1_bound, widened_bound
-from pendula.models.linear_chain import gamma_0, infinite_rate
 from pendula.own_cases import answers, checks
 from pendula.problem import Problem
-from pendula.studies.theory.equations import total_energy
-from problems import constants_of
 
 STILL = Case(omega=8, half_width=8, end_time=10)
 SEA = Case(omega=0, half_width=12, end_time=30)
@@ -105,32 +101,6 @@ def test_the_numbers_of_lemma_1_and_of_the_balance(still):
 def test_chains_that_hardly_move_are_no_error(initial):
     found = check(Case(omega=1, half_width=0, boundary="periodic", initial=initial, end_time=0.1))
     assert found["chaotic"] == 0 and float(found["energy_drift"]) < 1e-13
-
-
-def test_changes_keep_to_what_the_run_keeps():
-    changed = SEA.changed(initial={1: (1, 0.1)})
-    cases = (Problem.of(case.problem(end_time=4)) for case in (SEA, changed))
-    even, odd = map(checks.follow, cases)
-    assert even.log_growth[0, -1] > 1 and odd.log_growth[0, -1] > 1
-    assert even.tau[-1] == odd.tau[-1] == 4
-
-
-def test_a_negative_coupling_is_that_of_the_staggered_chain():
-    rng = np.random.default_rng(3)
-    signs = (-1.0) ** np.arange(9)
-    for _ in range(50):
-        state = rng.normal(size=(2, 9)) + 1j * rng.normal(size=(2, 9))
-        constants, mirrored = constants_of((-1.3, 0.4, 2.0)), constants_of((1.3, 0.4, 7.2))
-        energy = total_energy(constants, "dirichlet", state)
-        assert energy == pytest.approx(total_energy(mirrored, "dirichlet", signs * state))
-        power = float(np.sum(np.abs(state) ** 2))
-        for bound in (theorem_1_bound, lambda e, c: widened_bound(e, 1.0, c)):
-            assert bound(energy, constants) == pytest.approx(bound(energy, mirrored))
-        assert power <= theorem_1_bound(energy, constants)
-        assert best_bound(energy, power, 9, constants, "dirichlet") >= power
-    assert extent(constants) == pytest.approx(extent(mirrored))
-    assert gamma_0(2.0, -1.3) == pytest.approx(gamma_0(7.2, 1.3))
-    assert infinite_rate(-2.0, 0.5, -1.0) == pytest.approx(infinite_rate(2.0, 0.5, 1.0))
 
 
 @pytest.mark.parametrize(("gamma", "driven"), [(0.0, False), (1e-12, False), (-0.5, True)])

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from pendula.drawing import style
 from pendula.own_cases import figures
 
@@ -41,12 +40,6 @@ def test_a_chain_at_rest_is_drawn_at_zero_and_without_a_warning(make_trajectory)
         assert axes.get_ylim() == (0, 1) and not np.any(axes.get_lines()[0].get_ydata())
 
 
-def test_one_site_fills_its_picture(make_trajectory):
-    run = make_trajectory().isel(site=[2])
-    figure = figures.draw_spacetime(figures.gather_spacetime(run))
-    assert figure.axes[0].images[0].get_extent() == [-0.5, 5.5, -0.5, 0.5]
-
-
 def test_a_sweep_has_a_panel_for_each_norm(make_sweep):
     figure = figures.draw_sweep(figures.gather_sweep(make_sweep(), mean_window="[10, 40]"))
     sweep = make_sweep().sel(quantity="pair")
@@ -68,20 +61,3 @@ def test_titles_stay_within_their_panels(make_trajectory, initial):
     ]
     for figure in drawn:
         assert figure.get_tightbbox().x1 <= figure.bbox_inches.x1
-
-
-@pytest.mark.parametrize("widths", [[0, 1, 2], list(range(0, 60, 3)), [7, 9, 11]])
-def test_every_half_width_is_on_the_axis(make_sweep, widths):
-    sweep = make_sweep().isel(half_width=[0] * len(widths))
-    sweep = sweep.assign_coords(half_width=("half_width", widths, {"long_name": "M", "units": "1"}))
-    axes = figures.draw_sweep(figures.gather_sweep(sweep)).axes[0]
-    low, high = axes.get_xlim()
-    assert low <= min(widths) and max(widths) <= high
-    shown = [tick for tick in axes.get_xticks() if low <= tick <= high]
-    assert 2 <= len(shown) <= 10
-    assert axes.get_xscale() == ("linear" if 0 in widths else "log")
-
-
-def test_checks_of_another_run_are_no_part_of_the_data(make_trajectory):
-    drawn = figures.gather_norms(make_trajectory())
-    assert isinstance(drawn, xr.Dataset) and set(drawn.data_vars) == {"linf", "l2"}

@@ -7,7 +7,6 @@ import pytest
 from pendula import Case, Model, check, simulate
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import load
-from pendula.configuration.solvers import OF_OWN_MODELS, OF_SECOND_ORDER
 from pendula.model import ModelError, abs2, lap
 from pendula.problem import Problem
 
@@ -286,35 +285,3 @@ def test_longer_chains_of_a_sweep_have_the_same_values_at_the_same_sites():
     np.testing.assert_array_equal(swept(lambda n: n * n), swept([9, 4, 1, 0, 1, 4, 9]))
     with pytest.raises(ConfigurationError, match="other values at the same sites"):
         swept(lambda n: n + n.size)
-
-
-KINDS = {
-    "first": ({"i_dt": lambda p, u: lap(u) + abs2(u) * u}, OF_OWN_MODELS),
-    "second": ({"d2_dt2": lambda p, u: lap(u) - u * u * u}, OF_OWN_MODELS + OF_SECOND_ORDER),
-}
-PAIRS = [(kind, solver) for kind, (_, solvers) in KINDS.items() for solver in solvers]
-
-
-@pytest.mark.parametrize(("kind", "solver"), PAIRS)
-def test_each_solver_that_a_model_allows_runs_from_notebook_and_file(kind, solver, configured):
-    model = Model(fields="u", parameters={}, **KINDS[kind][0])
-    given = {} if solver not in ("kahan_li",) else {"name": solver, "step": 0.01}
-    run = simulate(case(model=model, solver=given or solver))
-    exact = simulate(case(model=model, solver="taylor"))
-    np.testing.assert_allclose(run["final"], exact["final"], atol=1e-5)
-    text = "from pendula.model import lap\nfields = 'u'\nparameters = {}\n"
-    name = "i_dt" if kind == "first" else "d2_dt2"
-    text += f"def {name}(p, u):\n    return lap(u) - u\n"
-    plain = configured(f"initial: {{0: [1]}}, end_time: 1, solver: {solver}", text)
-    assert plain["solver"]["name"] == solver
-
-
-def test_an_error_of_a_model_counts_once(configured):
-    text = "from pendula.model import *\nfields = 'u'\nparameters = {}\ndef i_dt(p, u):\n"
-    with pytest.raises(ConfigurationError) as error:
-        configured("initial: {0: [1]}", f"{text}    return abs(u)\n")
-    assert str(error.value).splitlines() == [
-        "the configuration has 1 error:",
-        "  cases.mine.model: mine.py, line 5: abs has no rule; use abs2(u), the squared modulus",
-        "    return abs(u)",
-    ]

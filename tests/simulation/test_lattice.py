@@ -5,16 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains, random_chain
-from pendula.ends import DIRICHLET, FREE, PERIODIC
 from pendula.models.amplitudes import Chain, energy
-from pendula.models.chain import MIRROR
 from pendula.simulation.lattice import (
     WHOLE,
     Reduction,
     choose_ends,
     find_reduction,
     pack,
-    unfold,
     unpack,
 )
 from pendula.simulation.observables import blank_record, observe
@@ -41,25 +38,7 @@ def test_the_last_bit_of_any_part_breaks_a_symmetry(site, component, imaginary):
     assert find_reduction(z) == Reduction(even=centre, synchronised=False)
 
 
-@pytest.mark.parametrize(
-    ("boundary", "whole", "far"),
-    [("dirichlet", DIRICHLET, DIRICHLET), ("free", FREE, FREE), ("periodic", PERIODIC, FREE)],
-)
-def test_ends_of_the_whole_and_of_half_the_chain(boundary, whole, far):
-    assert choose_ends(boundary, Reduction(False, False)) == (whole, whole)
-    assert choose_ends(boundary, Reduction(True, False)) == (MIRROR, far)
-
-
 # --- The state ----------------------------------------------------------------------------------
-
-
-def test_the_state_holds_parts_in_rows_between_ghosts_and_half_of_it_starts_at_the_centre():
-    z = np.array([[1 + 2j, 3 + 4j, 5 + 6j], [7 + 8j, 9 + 10j, 11 + 12j]])
-    expected = [[0, 1, 3, 5, 0], [0, 2, 4, 6, 0], [0, 7, 9, 11, 0], [0, 8, 10, 12, 0]]
-    np.testing.assert_array_equal(pack(z, WHOLE), expected)
-    even = np.array([[3, 2 + 1j, 1 + 5j, 2 + 1j, 3]] * 2)
-    half = pack(even, Reduction(even=True, synchronised=True))
-    np.testing.assert_array_equal(half, [[0, 1, 2, 3, 0], [0, 5, 1, 0, 0]])
 
 
 @given(st.data(), st.sampled_from(REDUCTIONS))
@@ -69,14 +48,6 @@ def test_a_state_is_as_small_as_the_symmetries_allow_and_gives_the_amplitudes_ba
     sites = z.shape[1] // 2 + 1 if reduction.even else z.shape[1]
     assert y.shape == (2 if reduction.synchronised else 4, sites + 2)
     np.testing.assert_array_equal(unpack(y, reduction), z)
-
-
-def test_unfolding_mirrors_the_sites_and_keeps_later_axes():
-    half = np.arange(6.0).reshape(1, 3, 2)
-    whole = unfold(half, Reduction(even=True, synchronised=True))
-    assert whole.shape == (2, 5, 2)
-    np.testing.assert_array_equal(whole[1, :, 0], [4, 2, 0, 2, 4])
-    np.testing.assert_array_equal(whole[0, :, 1], [5, 3, 1, 3, 5])
 
 
 # --- What is kept of a state --------------------------------------------------------------------
@@ -104,13 +75,6 @@ def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
     np.testing.assert_allclose(record.kept[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
 
 
-@pytest.mark.parametrize("site", range(5))
-def test_the_largest_site_is_found_anywhere(site):
-    z = np.full((2, 5), 0.5 + 0.5j)
-    z[1, site] = 3 - 4j
-    assert observed(z)[2].linf[1, 0] == 5.0
-
-
 def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only():
     z = random_chain(2)
     chain, y, record = observed(z, times=7, i=4, every=2)
@@ -119,10 +83,3 @@ def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only
     np.testing.assert_allclose(record.kept[:, :, 2], np.abs(z), rtol=1e-14)
     assert np.all(observed(z, times=7, i=3, every=2)[2].kept == -1.0)
     assert observed(z, every=0)[2].kept.shape == (2, 5, 0)
-
-
-def test_the_energy_is_left_out_where_nobody_asks_for_it():
-    z = random_chain(2)
-    whole, norms_alone = observed(z)[2], observed(z, energy=False)[2]
-    assert norms_alone.energy.size == 0
-    assert (norms_alone.l2 == whole.l2).all() and (norms_alone.linf == whole.linf).all()

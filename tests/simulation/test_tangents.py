@@ -12,11 +12,7 @@ from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
 from pendula.simulation.tangents import (
     grow,
-    inner,
     orthonormalise,
-    random_tangent,
-    scale,
-    subtract,
 )
 from problems import problem_from
 
@@ -89,27 +85,6 @@ def test_orthonormalising_measures_what_a_qr_decomposition_does():
     np.testing.assert_allclose(lengths, expected, rtol=1e-12)
     after = bundle.reshape(4, ROWS, -1)[1:, :, 1:-1].reshape(3, -1)
     np.testing.assert_allclose(after @ after.T, np.eye(3), atol=1e-14)
-
-
-def test_products_and_sums_leave_the_ghosts_beside_the_chain_alone():
-    """A ghost at the mirror repeats a site, which would count a third time."""
-    u, v = 1.0 + np.arange(24.0).reshape(4, 6), 2.0 + np.arange(24.0).reshape(4, 6) ** 2
-    for kept, weights in ((WHOLE, [1, 1, 1, 1]), (HALF, [1, 2, 2, 2])):
-        chain = Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", kept))
-        assert inner(chain, u, v) == np.sum(weights * u[:, 1:-1] * v[:, 1:-1])
-    less, more = u.copy(), u.copy()
-    subtract(less, 0.5, v)
-    scale(more, 3.0)
-    for found, known in ((less, u - 0.5 * v), (more, 3.0 * u)):
-        np.testing.assert_array_equal(found[:, 1:-1], known[:, 1:-1])
-        np.testing.assert_array_equal(found[:, [0, -1]], u[:, [0, -1]])
-
-
-def test_a_random_vector_is_even_to_the_last_bit_if_that_is_wanted():
-    drawn = [random_tangent(7, np.random.default_rng(1), even=even) for even in (True, False)]
-    np.testing.assert_array_equal(drawn[0], drawn[0][:, ::-1])
-    np.testing.assert_array_equal(drawn[0], drawn[1] + drawn[1][:, ::-1])
-    assert not np.array_equal(drawn[1], drawn[1][:, ::-1])
 
 
 HASH = "669dfa1c71eb6f7b"

@@ -15,6 +15,7 @@ from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.drawing.description import describe
 from pendula.own_cases import figures as own
+from pendula.studies.unbounded.front_figure import WIDTH
 
 
 def gather_own_norms(run, other):
@@ -36,7 +37,7 @@ OWN = {
 @style.styled
 def described(figure) -> dict:
     """Return what a figure shows; to draw it finds its ticks and its margins."""
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     return describe(figure, xr.Dataset())
 
 
@@ -109,15 +110,13 @@ def test_every_figure_has_a_caption(plot):
 
 @style.styled
 def margins(figure):
-    """Return how far the figure stays from the left, lower, right and upper edge of its page."""
-    if layout := figure.get_layout_engine():
-        layout.execute(figure)
+    """Return how far a drawn figure stays from the four edges of its page."""
     page, needed = figure.bbox_inches, figure.get_tightbbox()
     return needed.x0 - page.x0, needed.y0 - page.y0, page.x1 - needed.x1, page.y1 - needed.y1
 
 
 def test_text_is_legible_and_everything_is_on_the_page(plot):
-    assert plot.figure.get_figwidth() == style.DOUBLE
+    assert plot.figure.get_figwidth() in (WIDTH, style.DOUBLE)
     texts = [text for text in plot.figure.findobj(Text) if text.get_text() and text.get_visible()]
     assert texts
     assert min(text.get_fontsize() for text in texts) >= 7

@@ -86,28 +86,6 @@ def test_known_fates(omega, a, b, expected):
     assert sensitivity.has_spread(problem, simulate(problem)) is (expected == SPREADS)
 
 
-def test_two_solitons_that_run_apart_move():
-    """A = B is undriven; these are solitons of the focusing equation with a speed each."""
-    sites = np.arange(-12, 13)
-    pulses = sum(
-        1.4 / np.cosh(0.7 * (side * sites - 5)) * np.exp(-0.8j * side * sites) for side in (1, -1)
-    )
-    even = 0.5 * (pulses + pulses[::-1])
-    run = pair_problem(8.0, 1.0, 1.0, 20.0, initial=np.array([even, even]))
-    assert fates.place_of(fates.power_by_distance(run.initial)) == 5
-    assert fates.place_of(fates.power_by_distance(simulate(run).final)) > 15
-    assert fates.fates_of([run]).tolist() == [MOVES]
-
-
-def test_exchanging_the_components_changes_no_fate():
-    one, other = (simulate(pair_problem(-4.0, *pair)) for pair in ((4.0, 2.5), (2.5, 4.0)))
-    assert np.array_equal(one.final, other.final[::-1])
-    problem, amplitudes = pair_problem(-4.0, 1.0, 1.0), np.array([1.0, 3.0, 5.0])
-    found = fates.map_of_amplitudes(problem, amplitudes)
-    assert np.array_equal(found, found.T)
-    assert (found[0, 0], found[2, 2]) == (DISPERSES, STAYS)
-
-
 def test_a_map_of_phases_turns_b_alone():
     """At phase 0 the data are real: those of the other map."""
     problem = pair_problem(-4.0, 1.0, 1.0, 20.0)
@@ -175,9 +153,3 @@ def test_a_finer_map_is_drawn_if_it_is_of_the_same_runs():
     for other in (maps(9, half_width=29), fine.sel(omega=[8])):
         assert figures.gather_fates(coarse, other)["fate"].shape == (2, 3, 3)
     assert [name.split()[0] for name in figures.KINDS] == list(fates.FATES)
-
-
-def test_shares_have_exact_limits_and_draws_of_their_own():
-    none = sensitivity.shares(pair_problem(8.0, 5.0, 1.0, 5.0), [1e-3, 1e-1], 5, seed=1)
-    assert none.value.tolist() == none.low.tolist() == [0.0, 0.0]
-    assert none.high == pytest.approx(1.0 - 0.025**0.2, abs=1e-6)

@@ -7,8 +7,6 @@ import pytest
 import yaml
 from on_breathers import ABOVE, BELOW, at_twelve, members, run_from, unfolded
 from pendula.problem import Constants
-from pendula.studies.breathers import multipliers, periodic
-from pendula.studies.breathers.multipliers import growth_of_traces, traces
 from pendula.studies.breathers.periodic import (
     FAMILIES,
     least_power,
@@ -68,47 +66,6 @@ def test_the_least_p_of_a_family_lies_between_the_frequencies_of_a_grid(instant,
     powers = [power_at(one, instant).sum() for one in fine]
     assert least == pytest.approx(min(powers), rel=1e-5) and powers[0] > least < powers[-1]
     assert least < (1.0 + 1e-9) * min(powers)
-
-
-def test_where_p_falls_to_the_end_of_a_family_its_least_is_there():
-    falling = members(BELOW, "A = -B", 8.1, 9.0, 10.0)
-    assert least_power(falling, "both real") == power_at(falling[-1], "both real").sum()
-
-
-def test_equal_amplitudes_do_not_feel_the_drive_and_one_pair_has_the_closed_form():
-    free = at_twelve(Constants(epsilon=1.0, gamma=0.0, omega=-4.0), "A = B", M)
-    assert np.abs(free.data - at_twelve(BELOW, "A = B", M).data).max() < 1e-12
-    alone = at_twelve(Constants(epsilon=0.0, gamma=0.0, omega=-4.0), "A = B", 2)
-    assert alone.data[:, 0] == pytest.approx(np.sqrt(2.0 * 16.0), abs=1e-12)
-
-
-def test_multipliers_are_those_of_the_flow():
-    """All even multipliers of an unstable breather, from differences of the nonlinear flow."""
-    short = Constants(epsilon=0.3, gamma=1.0, omega=8.0)
-    breather = shoot(short, 10.0, single_site(short, 10.0, "A = B", M))
-    columns = []
-    for unit in 1e-6 * np.eye(4 * (M + 1)).reshape(-1, 2, 2, M + 1):
-        ends = [after(breather, 4, sign * (unit[0] + 1j * unit[1])).final for sign in (1, -1)]
-        moved = (ends[0] - ends[1])[:, M:] / 2e-6
-        columns.append(np.stack([moved.real, moved.imag]).ravel())
-    largest = np.abs(np.linalg.eigvals(np.array(columns).T)).max()
-    rate = growth_of_traces(10.0, traces(breather, "even"))
-    assert rate > 0.3
-    assert np.log(largest) / (4.0 * breather.quarter) == pytest.approx(rate, rel=1e-6)
-
-
-def test_more_steps_change_nothing(monkeypatch):
-    """Neither of the solution nor of its perturbations."""
-    for constants, family in ((BELOW, "A = -B"), (ABOVE, "A only")):
-        coarse = shoot(constants, 9.0, single_site(constants, 9.0, family, M))
-        found = traces(coarse, "even")
-        with monkeypatch.context() as finer:
-            finer.setattr(periodic, "FINE_STEPS", 2 * periodic.FINE_STEPS)
-            finer.setattr(multipliers, "STEPS", 2 * multipliers.STEPS)
-            fine = shoot(constants, 9.0, coarse.data)
-            assert np.abs(fine.data - coarse.data).max() < 1e-13
-            changed = traces(coarse, "even")
-        assert 0.0 < np.abs(np.sort(changed) - np.sort(found)).max() < 1e-10
 
 
 # --- Where families exist -------------------------------------------------------------------------

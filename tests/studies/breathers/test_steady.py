@@ -62,20 +62,6 @@ def test_the_kernels_of_the_integrators_see_a_state_at_rest_and_its_exponents(fa
     assert found == pytest.approx(expected, abs=3e-7)
 
 
-def test_odd_perturbations_are_those_of_a_chain_whose_centre_is_held():
-    small = HERE._replace(half_width=2)
-    state = steady.continued(small, EQUAL)
-    assert len(steady.squared_exponents(small, 1.0, state, even=True)) == 6
-    assert len(steady.squared_exponents(small, 1.0, state, even=False)) == 4
-
-
-def test_the_phase_of_equal_amplitudes_costs_nothing():
-    chain = HERE._replace(omega=-8.0)
-    squares = steady.squared_exponents(chain, 1.0, steady.continued(chain, EQUAL), even=True)
-    assert np.abs(squares).min() < 1e-11
-    assert steady.growth(squares) == 0.0
-
-
 @pytest.mark.parametrize(("family", "epsilon", "omega", "stable"), [
     (EQUAL, 1.0, -4.0, False), (EQUAL, 1.0, -8.0, True), (REAL, 1.0, -12.0, False),
     (REAL, 1.0, -13.0, True), (ASYMMETRIC, 1.0, -13.0, True), (IMAGINARY, 1.0, -13.0, False),

@@ -91,20 +91,6 @@ def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale, epsilon, hal
     assert cubic == pytest.approx(1.5 * norm(a), rel=1e-9)
 
 
-def test_uniqueness_stops_before_the_next_state():
-    """Zero, the mirror image and other families are states as well: none lies that near."""
-    state = find_state(HERE, EQUAL)
-    others = [np.zeros_like(state), -state, find_state(HERE, REAL), find_state(HERE, ASYMMETRIC)]
-    distances = [np.abs(state - other).max() for other in others]
-    assert 0.1 < proved(EQUAL, state=state).unique < min(distances)
-
-
-def test_the_tail_decays_as_the_linear_chain_allows():
-    """rho + 1 / rho = 2 + 4 for sums at Omega = -4, and 2 + 2 for differences in s = -1."""
-    assert proved(EQUAL).decay == pytest.approx(3.0 - np.sqrt(8.0), rel=1e-12)
-    assert proved(IMAGINARY).decay == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-9)
-
-
 def test_a_large_radius_allows_a_slower_decay_or_none():
     """d = 6 for s = 1: the cubic term takes half of the square of the radius from it."""
     with balls.precision():

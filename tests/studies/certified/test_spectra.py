@@ -90,12 +90,6 @@ def test_states_are_proved_stable_or_not(family, omega, verdict):
         assert found.growth_low - 1e-7 < fastest < found.growth_high + 1e-7
 
 
-def test_a_state_that_is_not_known_well_proves_nothing():
-    """Within a tenth of it the boxes are wider than the distances between eigenvalues."""
-    chain = HERE._replace(omega=-8.0)
-    assert decide(chain, EQUAL, find_state(chain, EQUAL), 0.1).verdict is Verdict.UNDECIDED
-
-
 def test_a_state_that_is_not_of_the_family_is_not_taken_for_stable():
     """The free phase of A = B is what allows the eigenvalue zero: 0.9 times the state has none."""
     chain = HERE._replace(omega=-8.0)

@@ -13,13 +13,6 @@ SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 PROBLEM = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.5, solver=SOLVER)
 
 
-def test_even_data_stay_even():
-    initial = on_sites({0: (1, 2), 2: (3, 4j), -2: (3, 4j)})
-    drawn = perturb(initial, 1e-3, np.random.default_rng(0))
-    np.testing.assert_array_equal(drawn, drawn[:, ::-1])
-    assert (drawn[:, [0, 2]] != initial[:, [0, 2]]).all() and (drawn[:, 1] == 0).all()
-
-
 def test_the_perturbation_has_the_required_relative_size():
     initial = np.repeat([[5.0], [0.2j]], 999, axis=1)
     drawn = perturb(initial, 1e-4, np.random.default_rng(0))

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from accepted import dataset
-from pendula.datasets.netcdf import as_xarray
 from pendula.simulation.simulate import simulate
 from pendula.studies.chaos import lifetimes
 from problems import problem_of
@@ -33,24 +31,6 @@ def test_a_life_is_the_same_in_pieces_as_in_one_run():
 @pytest.mark.parametrize(("case", "a0"), [("fig4_small", 10.0), ("fig2_large", 5.0)])
 def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
     assert lifetimes.follow(problem(case, a0)) == np.inf
-
-
-def test_accepted_lives_are_reduced_as_accepted(monkeypatch):
-    """An ensemble that is known is not run again."""
-    known, followed = dataset("checks/lifetimes"), []
-    amplitudes = known["start_amplitude"].values.tolist()
-
-    def lives_from(problem, a0, *_):
-        followed.append(a0)
-        return known["life"].sel(start_amplitude=a0).values
-
-    monkeypatch.setattr(lifetimes, "lives_from", lives_from)
-    numbers = (known.attrs[name] for name in ("ratio", "perturbation", "members", "seed"))
-    given = problem(end_time=float(known["tau"][-1]))
-    made = as_xarray(*lifetimes.measure_lifetimes(given, amplitudes, *numbers))
-    assert followed == amplitudes
-    for name, one in made.data_vars.items():
-        np.testing.assert_allclose(one, known[name], rtol=1e-5, err_msg=name)
 
 
 def test_members_start_near_both_amplitudes():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from pendula.datasets.netcdf import as_xarray
-from pendula.measures.confidence import Limits
 from pendula.measures.growth import mean_rate, mean_rate_error
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.tangents import grow, random_tangent
@@ -33,36 +32,6 @@ def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spe
     np.testing.assert_array_equal(found.value, mean_rate(tau, growth, 50.0))
     off = 2.36462 * mean_rate_error(tau, growth, 50.0)  # Student's t of seven degrees of freedom
     np.testing.assert_allclose([found.value - found.low, found.high - found.value], [off, off])
-
-
-def test_the_lower_half_of_a_spectrum_has_the_opposite_signs():
-    upper = Limits(np.array([2.0, 0.5]), np.array([1.5, -0.1]), np.array([2.5, 1.1]))
-    found = lyapunov.in_pairs(upper)
-    np.testing.assert_array_equal(found.value, [2.0, 0.5, -0.5, -2.0])
-    np.testing.assert_array_equal(found.low, [1.5, -0.1, -1.1, -2.5])
-    np.testing.assert_array_equal(found.high, [2.5, 1.1, 0.1, -1.5])
-
-
-def test_half_of_the_exponents_are_those_of_the_whole_spectrum():
-    problem = problem_of("fig3_large", half_width=1)
-    half, whole = (lyapunov.follow_many(problem, n, 4.0, SEED, tolerance=1e-13) for n in (6, 12))
-    np.testing.assert_allclose(half.log_growth, whole.log_growth[:6], atol=1e-8)
-
-
-def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_without_a_drive():
-    problem = problem_of("fig3_large")
-    made = lyapunov.spectra({"one": problem}, {1: 20.0, 2: 8.0}, 12.0, SEED)
-    for key, row, half_width, end, gamma in (
-        ("", 0, 1, 20.0, 1.0),
-        ("", 1, 2, 8.0, 1.0),
-        ("_undriven", ..., 1, 12.0, 0.0),
-    ):
-        short = problem.changed(half_width=half_width, gamma=gamma)
-        half = lyapunov.follow_many(short, 2 * short.sites, end, SEED, tolerance=1e-12)
-        one = lyapunov.in_pairs(lyapunov.spectrum_of(half, end / 4))
-        rest = np.full(20 - len(one.value), np.nan)
-        for name, values in (("exponents", one.value), ("exponents_error", one.half)):
-            np.testing.assert_array_equal(made[f"{name}{key}"].values[0][row], [*values, *rest])
 
 
 @pytest.fixture(scope="module")

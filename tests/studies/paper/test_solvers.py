@@ -8,7 +8,7 @@ from oracle import CASES, SOLVERS, hamiltonian
 from pendula.ledger.criterion import Verdict
 from pendula.studies.paper import solvers
 from pendula.studies.paper.claims_energy import drifts
-from pendula.studies.paper.claims_second_solver import of_most, swept_chance
+from pendula.studies.paper.claims_second_solver import swept_chance
 from pendula.studies.paper.figures import gather_norms
 from problems import problem_of
 
@@ -47,12 +47,6 @@ def test_a_drift_by_each_reading_and_until_when_it_is_kept(measured, trajectorie
     assert (until.sel(solver="dop853") == np.inf).all()
 
 
-def test_real_unknowns_take_shorter_steps_than_complex_ones():
-    """A part of a complex number is smaller than its modulus, and its error must be too."""
-    runs = solvers.run_by_all("one", problem_of("fig3_small", half_width=6).plain(), SOLVERS)
-    assert runs["ode45_real"].attrs["steps"] > runs["ode45"].attrs["steps"]
-
-
 @pytest.mark.parametrize(
     ("drift", "start", "verdict", "said"),
     [
@@ -80,12 +74,6 @@ def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, ver
     until = ("span", [10.0, 50.0])
     finding = drifts(xr.Dataset({"largest_drift": largest, "until": until}), "small")
     assert finding.verdict == verdict and said in finding.because.replace("_small", "")
-
-
-def test_one_norm_of_many_does_not_tell_runs_apart_and_most_of_them_do():
-    assert of_most([0.4, 0.9, 0.5, 1e-6]) == pytest.approx(4.0 / 3.0 * 0.5)
-    assert of_most([0.9, 1e-3, 1e-3, 1e-4]) == pytest.approx(4.0 / 3.0 * 1e-3)
-    assert of_most([0.03]) == 0.03
 
 
 def test_the_furthest_half_width_decides_the_chance_of_a_sweep():

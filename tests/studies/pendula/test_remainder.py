@@ -5,7 +5,6 @@ from math import pi
 import numpy as np
 import pytest
 from pendula.problem import PENDULA, Constants, Problem
-from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
 from pendula.studies.pendula import remainder
 
@@ -25,25 +24,6 @@ def problem(omega=-4.0, pair=(1.0, 0.1), **changes):
 
 
 # --- Sampling -------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("mu", [0.4, 0.1, 0.02])
-def test_windows_are_half_periods_that_end_at_multiples_of_the_spacing(mu):
-    found = remainder.samples(mu, 8.0, 1.0, 0.05)
-    half_period = remainder.PHASES * found.step
-    assert half_period == pytest.approx(0.5 * mu**2 * pi / np.sqrt(1.0 + 8.0 * mu**2))
-    ends = found.steps[:, -1] * found.step
-    assert ends[-1] <= 1.0 < ends[-1] + 1.01 * found.step
-    assert found.apart == (half_period < 0.05)
-    if not found.apart:  # no time is left out
-        assert np.array_equal(np.unique(found.steps), np.arange(found.steps.max() + 1))
-
-
-def test_a_peak_is_the_top_of_a_parabola():
-    before, here, after = (2.0 - (x - 0.3) ** 2 for x in (-1.0, 0.0, 1.0))
-    assert remainder.peak(before, here, after) == pytest.approx(2.0, rel=1e-15)
-    assert remainder.peak(1.0, 2.0, 3.0) == 2.0 and remainder.peak(1.0, np.inf, np.inf) == np.inf
-    assert remainder.peak(1.0, 1.0, 1.0) == 1.0
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.02])
@@ -71,20 +51,6 @@ def test_orders_are_those_of_the_limit():
 
 
 # --- Runs -----------------------------------------------------------------------------------------
-
-
-def test_without_the_next_order_the_angles_are_those_of_simulated_amplitudes():
-    """Only the site that is wrong in the angles is missed, by as much as it is wrong."""
-    mu, phases, taus = 0.1, np.array([0.3, 0.7, 2.0]), np.array([0.0, 0.4, 1.0])
-    turned = simulate(problem()).final * np.exp(1j * phases[-1])
-    angles = np.tile(2.0 * mu * turned.real, (3, 1, 1))
-    pendula = problem(model=PENDULA, mu=mu)
-    for wrong in (0.0, 0.01):
-        angles[-1, 1, 3] -= wrong
-        missed = remainder.misses(
-            pendula, False, taus, np.exp(1j * phases), angles, [0.0], [3], WHOLE
-        )
-        assert missed[0, -1] == pytest.approx(wrong, rel=1e-9, abs=1e-11)
 
 
 def test_sites_that_nothing_has_reached_change_no_error():

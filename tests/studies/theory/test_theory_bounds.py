@@ -87,12 +87,6 @@ def test_coercivity_takes_the_worst_split_between_a_and_b(constants):
         assert coercivity(power, constants) == pytest.approx(split.min(), abs=1e-6)
 
 
-@pytest.mark.parametrize("power", [1e-6, 0.1, 0.9, 3.0])
-def test_a_widened_bound_is_where_the_coercivity_reaches_the_energy(power):
-    energy = -coercivity(power, NEGATIVE)
-    assert widened_bound(energy, 0.5 * power, NEGATIVE) == pytest.approx(power, rel=1e-9)
-
-
 def test_exact_values_of_the_bounds():
     assert (extent(NEGATIVE), lipschitz(NEGATIVE, 2.0)) == (10.0, 16.0)
     assert theorem_1_bound(5.5, POSITIVE) == 2.75

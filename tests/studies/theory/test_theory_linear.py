@@ -11,11 +11,9 @@ from pendula.models.linear_chain import (
     stable_windows,
     widest_gamma,
 )
-from pendula.problem import Constants
 from pendula.studies.theory.claims_linear import misclassified
-from pendula.studies.theory.equations import run
 from pendula.studies.theory.stability_chart import resolution
-from pendula.studies.theory.threshold import decaying, exponents, spreading_norms
+from pendula.studies.theory.threshold import exponents
 
 
 def test_gamma_0_is_half_of_the_distance_to_the_band():
@@ -41,15 +39,6 @@ def test_windows_are_exactly_where_the_finite_chain_is_stable(boundary):
     widest = widest_gamma(1.0, 9, boundary)
     assert len(stable_windows(0.999 * widest, 1.0, 9, boundary)) > 0
     assert len(stable_windows(1.001 * widest, 1.0, 9, boundary)) == 0
-
-
-def test_spreading_data_follow_the_librarys_own_chain():
-    omega, end, sites = -4.0, 6.0, 201
-    half = (0.5e-9 + 0.5e-9j) * decaying(sites, 0.6, omega)
-    constants = Constants(epsilon=1.0, gamma=2.0, omega=omega)
-    final = run(constants, "periodic", np.stack([half, -half]), end).final
-    largest = spreading_norms(1.0, omega, [0.6], [end], sites)[0, 1, 0]
-    assert np.abs(final[0] - final[1]).max() / 1e-9 == pytest.approx(largest, rel=1e-4)
 
 
 def test_exponents_of_a_power_beside_a_constant_are_those_of_the_power():

@@ -1,9 +1,11 @@
-"""Active sites: the numbers are those of the whole chain, and sites are added before the front."""
+"""Active sites: the numbers are those of the whole chain, and S and D obey its equations."""
 
 import numpy as np
 import pytest
-from pendula.problem import on_sites
+from oracle import random_chain
+from pendula.models.amplitudes import EQUATIONS
 from pendula.simulation.lattice import WHOLE
+from pendula.simulation.own_models import linearise
 from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
@@ -16,9 +18,9 @@ from pendula.studies.unbounded.active_sites import (
     run_long,
     widen,
 )
-from pendula.studies.unbounded.bulk import site_powers
 from pendula.studies.unbounded.sums import in_sums, turned
 from problems import problem_of
+from scipy.integrate import solve_ivp
 
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
 LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
@@ -73,29 +75,6 @@ def test_a_chaotic_case_is_the_same_while_doubles_follow_it():
     np.testing.assert_allclose(found, whole.final[:, 150 : 150 + found.shape[1]], atol=1e-10)
 
 
-def test_sites_are_added_by_blocks_and_never_beyond_the_chain():
-    free = run_long(problem(end_time=60.0, solver=LOOSE), REST)
-    assert not (np.diff(free.width) % BLOCK).any() and free.width[-1] > 2 * BLOCK
-    assert (free.front < free.width).all()
-    short = run_long(problem(half_width=70, end_time=60.0, solver=LOOSE), REST)
-    assert short.width.max() == short.width[-1] == 70
-
-
-@pytest.mark.parametrize("rest", [1e-10, 1e-40])
-def test_the_front_does_not_feel_for_long_where_the_chain_is_cut(rest):
-    """Later it does: it is the growth of its leading edge that draws it."""
-    given = problem("fig4_small", end_time=50.0, solver=LOOSE)
-    near, far = (end_of(given, cut) for cut in (rest, 1e-150))
-    ends = [np.flatnonzero((np.abs(one) ** 2).sum(axis=0) > 1e-6).max() for one in (near, far)]
-    assert ends[0] == ends[1] and near.shape[1] < far.shape[1]
-
-
-def test_the_chain_begins_with_a_block_beside_the_data():
-    for reach in (1, 5):
-        initial = on_sites({-reach: (1.0, 0.0), reach: (1.0, 0.0)})
-        assert begin(initial).shape == (4, BLOCK + reach + 3)
-
-
 def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_its_end():
     """What is added is at rest, whatever the ghosts held: the one at the right becomes a site."""
     state = np.zeros((4, 2 * GUARD + 2))
@@ -115,22 +94,6 @@ def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_i
     assert widths == [state.shape[1] + more for more in (0, 1, BLOCK)]
 
 
-@pytest.mark.parametrize("site", [-(GUARD + 1), GUARD + 1])
-def test_a_chain_that_is_not_even_is_widened_on_both_sides_where_either_end_moves(site):
-    width = 2 * GUARD
-    state = np.zeros((4, 2 * width + 3))
-    state[0, 1 + width + site] = 1.0
-    wider = widen(state, None, 1e-6, even=False)
-    assert wider.shape == (4, 2 * (width + BLOCK) + 3)
-    assert wider[0, 1 + width + BLOCK + site] == 1.0 and np.count_nonzero(wider) == 1
-
-
-def test_a_front_is_found_between_two_sites():
-    power = site_powers(np.array([2.0 * np.exp(-np.arange(12.0))]))
-    assert find_front(power) == round(np.log(4.0 / 1e-2) / 2.0, 3)
-    assert find_front(1e-3 * power) == -1.0
-
-
 def test_a_front_next_to_nothing_stands_on_its_last_site():
     power = np.zeros(10)
     power[2:5] = 3.0  # and nothing before or behind them
@@ -139,3 +102,46 @@ def test_a_front_next_to_nothing_stands_on_its_last_site():
     assert 4.0 < find_front(power) < 5.0
     power[:] = 3.0
     assert find_front(power) == 9.0
+
+
+# --- The unknowns S and D ------------------------------------------------------------------------
+
+
+def test_the_rates_are_those_of_the_equations_for_a_and_b():
+    given = problem_of("fig4_small", half_width=6, omega=0.7, gamma=0.6, epsilon=1.3)
+    z = random_chain(6)
+    own = in_sums(given.changed(initial=z))
+    plain = own.changed(model=EQUATIONS, initial=z)
+
+    def rates(one):
+        a, b = one.initial
+        state = np.array([a.real, a.imag, b.real, b.imag]).ravel()
+        return linearise(one, state)[0].reshape(4, -1)
+
+    np.testing.assert_allclose(turned(rates(own)), rates(plain), atol=1e-12)
+    np.testing.assert_allclose(turned(own.initial), z, rtol=1e-14)
+
+
+def test_the_second_front_is_where_another_solver_has_it():
+    """SciPy, which integrates S and D as they stand in the literature of waves, on half a chain."""
+    count, omega, tight = 100, 3.0, {"name": "dop853", "rtol": 1e-12, "atol": 1e-14}
+    given = problem("fig4_small", omega=omega, end_time=12.0, solver=tight)
+    a, b = end_of(given)
+
+    def rate(_, y):
+        s, d = y[:count], y[count:]
+
+        def lap(u):
+            wide = np.concatenate([u[1:2], u, [0.0]])
+            return wide[2:] - 2.0 * u + wide[:-2]
+
+        both, product = np.abs(s) ** 2 + np.abs(d) ** 2, s * d.conj()
+        of_s = lap(s) + omega * s + 0.25 * both * s + 0.25 * (product + product.conj()) * d
+        of_d = lap(d) + omega * d + 0.25 * both * d + 0.25 * (product + product.conj()) * s
+        return -1j * np.concatenate([of_s, of_d - 2.0 * d.conj()])
+
+    start = np.zeros(2 * count, complex)
+    start[[0, count]] = in_sums(given).initial[:, 0]
+    end = solve_ivp(rate, (0.0, 12.0), start, "DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+    expected = find_front(np.abs(end[:count]) ** 2)
+    assert find_front(np.abs(a + b) ** 2 / 2.0) == pytest.approx(expected, abs=0.01)

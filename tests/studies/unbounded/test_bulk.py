@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from made_up_unbounded import ALONE, POWER, exact, spread, thermal, transverse
+from made_up_unbounded import exact, thermal, transverse
 from oracle import hamiltonian, random_chain
 from pendula.studies.unbounded import bulk
 from pendula.studies.unbounded.sums import turned
@@ -59,19 +59,6 @@ def test_cells_are_means_of_ten_sites_from_the_centre_on():
     found = bulk.cell_means(sites)
     assert found.shape == (2, 3)
     np.testing.assert_allclose(found[:, 1], [one[10:20].mean() for one in expected])
-
-
-def test_late_means_are_taken_of_the_late_half_where_there_is_something():
-    run = spread()
-    tau = run["piece_tau"].values
-    assert bulk.late_means(tau, run)[0] == pytest.approx(tau[tau > 100.0].mean())
-    np.testing.assert_allclose(bulk.late_means(tau, run, 2), [125.0, 175.0], atol=1.5)
-    known = np.where(tau < 150.0, tau, np.nan)
-    late = (tau > 100.0) & (tau < 150.0)
-    assert bulk.late_means(known, run)[0] == pytest.approx(tau[late].mean())
-    assert np.isnan(bulk.late_means(np.nan * tau, run)[0])
-    for region, power in zip(bulk.REGIONS, (POWER, ALONE), strict=True):
-        assert bulk.mean_powers(run, region) == pytest.approx(power, rel=0.01)
 
 
 @pytest.mark.parametrize(("delay", "ratio"), [(1.4, 1.0), (0.5, 1.0), (0.0, np.nan)])

@@ -7,11 +7,10 @@ import pytest
 import xarray as xr
 from metropolis import RINGS, SITES, sample
 from pendula.datasets.netcdf import as_xarray
-from pendula.studies.unbounded import extremes
 from pendula.studies.unbounded.extremes import law_of_maxima, mean_maximum
 from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy
 from problems import constants_of
-from scipy.special import erf, i0e
+from scipy.special import i0e
 
 BETA, BOUNDS = 0.0335, np.array([2.5, 3.5, 4.5, 5.5, 8.5])
 """About the temperature of the paper's Fig 4, and a last bound that stands for none."""
@@ -31,14 +30,6 @@ def dataset(bounds, rates, overlaps):
     """Return a law of maxima as a dataset."""
     values = {"bound": bounds, "bound_rate": rates, "bound_overlap": overlaps}
     return xr.Dataset({name: ("bound", one) for name, one in values.items()})
-
-
-def test_amplitudes_without_bonds_and_drive_follow_the_quartic_weight():
-    """|A|^2 has the weight exp(-beta |A|^4 / 4), so its distribution is an error function."""
-    rates, overlaps = law_of_maxima(constants_of((0.0, 0.0, 0.0)), BETA, BOUNDS)
-    below = erf(0.5 * np.sqrt(BETA) * BOUNDS**2) ** 2
-    np.testing.assert_allclose(rates[:-1], -np.log(below[:-1]), rtol=1e-6)
-    np.testing.assert_allclose(overlaps, below, rtol=1e-6)
 
 
 def radial(beta, omega, bound, count=60):
@@ -96,16 +87,6 @@ def test_the_mean_of_the_largest_is_the_integral_over_what_it_exceeds():
     law = dataset(bounds, -np.log(bounds), bounds)  # uniform moduli: N / (N + 1)
     assert mean_maximum(law, 1) == pytest.approx(0.5, abs=1e-4)
     np.testing.assert_allclose(mean_maximum(law, np.array([[3, 9]])), [[0.75, 0.9]], atol=1e-3)
-
-
-def test_more_nodes_change_nothing_that_is_quoted(fig4, monkeypatch):
-    state, law = fig4
-    monkeypatch.setattr(extremes, "RADII", 32)
-    monkeypatch.setattr(extremes, "ANGLES", 6)
-    bounds = law["bound"].values[[19, 29, 39, 49, 59]]
-    rates, overlaps = law_of_maxima(state.operator.constants, state.beta, bounds)
-    np.testing.assert_allclose(law["bound_rate"][[19, 29, 39, 49, 59]], rates, rtol=1e-5, atol=1e-9)
-    np.testing.assert_allclose(law["bound_overlap"][[19, 29, 39, 49, 59]], overlaps, rtol=1e-6)
 
 
 HASH = "6a2f8e8c7afb7bd3"

@@ -73,21 +73,6 @@ def test_without_a_front_that_is_pulled_the_fastest_wave_leads():
     assert here - below == pytest.approx(above - here, rel=1e-3)
 
 
-def test_a_linear_front_bounds_the_linear_chain():
-    """Beyond v tau, the solution of the linearised equation is as small as the bound says."""
-    sites, tau = 401, 10.0
-    front = linear_front(constants(0.0))
-    kappa = 2.0 * (1.0 - np.cos(2.0 * np.pi * np.arange(sites) / sites))
-    s = np.sqrt(4.0 - kappa**2 + 0j)
-    # D = x + i y: x' = -(kappa + 2) y and y' = (kappa - 2) x, from x = y = 1 on one site
-    x = np.fft.ifft(np.cosh(s * tau) - (kappa + 2.0) * np.sinh(s * tau) / s).real
-    size, n = np.abs(x[: sites // 2]), np.arange(sites // 2)
-    bound = np.exp(-front.decay * (n - front.speed * tau))
-    assert (size <= 3.0 * bound + 1e-14 * size.max()).all()
-    reached = np.flatnonzero(size > 1.0).max()
-    assert abs(reached - (front.speed * tau - front.delay * np.log(tau))) < 2.0
-
-
 @pytest.mark.parametrize(
     "numbers", [*((1.0, 1.0, omega) for omega in (-1.5, 0.0, 2.0, 5.5)), (0.7, 0.9, 0.4)]
 )

@@ -5,10 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from accepted import dataset
 from metropolis import energy_of, mean_and_error, sample
 from oracle import hamiltonian, random_chain
-from pendula.datasets.netcdf import as_xarray
 from pendula.studies.unbounded import thermal
 from pendula.studies.unbounded.transfer import (
     REACH,
@@ -30,15 +28,16 @@ def state_of(numbers, energy=0.0, nodes=NODES, antisymmetric=False):
     return thermal.state_of_energy(constants_of(numbers), energy, nodes, antisymmetric)
 
 
-@pytest.fixture(scope="module", params=[0.0, 2.0])
-def both(request):
-    """A state of no energy, and rings sampled at its temperature.
+@pytest.fixture(scope="module", params=[False, True], ids=["both fields", "opposite fields"])
+def sampled(request):
+    """A state of no energy, whether its fields are opposite, and rings sampled at its temperature.
 
     The rings must be much longer than the correlations, which reach over 90 sites at Omega = 5,
     and settle soon: those of Omega = 4 take three times as long.
     """
-    state = state_of((1.0, 1.0, request.param))
-    return state, sample(state.operator.constants, state.beta)
+    alone = request.param
+    state = state_of((1.0, 1.0, 2.0 if alone else 0.0), antisymmetric=alone)
+    return state, alone, sample(state.operator.constants, state.beta, antisymmetric=alone)
 
 
 def test_the_energy_of_the_sampled_rings_is_that_of_the_paper():
@@ -48,40 +47,14 @@ def test_the_energy_of_the_sampled_rings_is_that_of_the_paper():
     assert found == pytest.approx(hamiltonian(np.array([a, b]), numbers, "periodic"), rel=1e-12)
 
 
-def test_sampled_rings_have_the_power_and_no_energy(both):
-    state, (powers, energies, *_) = both
+def test_sampled_rings_have_the_power_and_no_energy(sampled):
+    state, alone, (powers, energies, *_) = sampled
     power, error = mean_and_error(powers)
     assert error < 0.006 * power
-    assert abs(power - state.power) < 3.0 * error
+    wrong = state_of(state.operator.constants.scaled(1.05), antisymmetric=alone).power
+    assert abs(power - state.power) < 3.0 * error < abs(power - wrong)
     energy, error = mean_and_error(energies)
     assert abs(energy - state.energy) < 3.0 * error
-    other = state_of(state.operator.constants.scaled(1.05)).power  # a wrong case
-    assert abs(power - other) > 3.0 * mean_and_error(powers)[1]
-
-
-def test_sampled_rings_with_opposite_fields_have_the_power_and_no_energy():
-    state = state_of((1.0, 1.0, 2.0), antisymmetric=True)
-    powers, energies, *_ = sample(state.operator.constants, state.beta, antisymmetric=True)
-    power, error = mean_and_error(powers)
-    assert error < 0.006 * power
-    assert abs(power - state.power) < 3.0 * error
-    energy, error = mean_and_error(energies)
-    assert abs(energy - state.energy) < 3.0 * error
-    both = state_of((1.0, 1.0, 2.0))  # a wrong case: at its temperature these rings have energy
-    *_, energies = sample(state.operator.constants, both.beta, antisymmetric=True)[:2]
-    assert abs(mean_and_error(energies)[0]) > 5.0 * mean_and_error(energies)[1]
-
-
-def test_a_pair_of_opposite_fields_alone_is_a_plain_integral():
-    state = state_of((0.0, 0.7, -1.5), 2.0, antisymmetric=True)
-    x = np.linspace(-7.0, 7.0, 201)
-    a, b = np.ix_(x, x)
-    square = a * a + b * b
-    energy = 0.5 * square * square - 3.0 * square - 2.8 * (a * a - b * b)
-    weight = np.exp(-state.beta * energy)
-    assert np.average(energy, weights=weight) == pytest.approx(2.0, rel=1e-5)
-    power = np.average(2.0 * square, weights=weight)
-    assert state.power == pytest.approx(power, abs=max(3.0 * state.power_error, 1e-6))
 
 
 def test_a_pair_alone_is_a_plain_integral():
@@ -107,13 +80,6 @@ def test_cold_states_of_a_stable_chain_are_those_of_its_waves():
     square = 0.5 * (2.0 / shift + 1.0 / (shift - 2.0 * gamma) + 1.0 / (shift + 2.0 * gamma))
     assert state.beta == pytest.approx(2.0 / 1e-4, rel=1e-4)
     assert state.power == pytest.approx(square.mean() / state.beta, rel=1e-4)
-
-
-@pytest.mark.parametrize("omega", [-1.5, 2.0, 4.0])
-def test_the_error_is_that_of_the_grid(omega):
-    coarse, fine = (state_of((1.0, 1.0, omega), nodes=nodes) for nodes in (10, NODES))
-    assert abs(coarse.power - fine.power) < 3.0 * coarse.power_error
-    assert fine.power_error < coarse.power_error < 1e-3 * coarse.power
 
 
 def test_the_energy_is_the_derivative_of_the_free_energy():
@@ -150,13 +116,6 @@ def test_the_bits_of_thermal_states_are_those_of_every_machine():
     # adding zero makes -0 and 0 the same number
     bits = (np.array(told) + 0.0).tobytes()
     assert hashlib.sha256(bits).hexdigest()[:16] == HASH
-
-
-def test_what_is_published_is_as_accepted():
-    found = as_xarray(thermal.solve_thermal(1.0, 1.0, [0.0, 2.0], 0.0, NODES)[0], {})
-    accepted = dataset("unbounded/thermal").sel(omega=[0.0, 2.0])
-    for name in found.variables:
-        np.testing.assert_allclose(found[name], accepted[name], rtol=1e-6, atol=1e-7, err_msg=name)
 
 
 @pytest.mark.parametrize("numbers", [(1.0, 1.0, -4.0), (0.7, 1.3, 2.0), (0.5, 0.2, 9.0)])

@@ -32,12 +32,6 @@ def test_the_crossing_is_where_exponents_change_their_sign():
     assert crossing_of(wavy, 0.1) == pytest.approx(0.5)
 
 
-def test_without_drive_a_small_wave_grows_nowhere():
-    """Then D disperses, and S with it: |S| falls as a power of tau."""
-    rest = problem(0.0, 80.0).changed(gamma=0.0, initial=1e-3 * problem(0.0, 80.0).initial)
-    assert np.abs(exponents_of(rest, 1.5, 1e-20)[: VELOCITIES // 2]).max() < 0.03
-
-
 def test_growth_is_fast_at_the_centre_and_falls_to_both_sides_of_the_band():
     """At Omega = 1 by a factor of e within 1 to 2 units of tau, at 5.5 not at all."""
     (fast, slow) = (
