@@ -230,8 +230,8 @@ def within_tolerance(check, *names: str) -> Finding:
 
 
 def tolerance(check, name: str) -> Cutoff:
-    """Return what the check itself allows a variable, which rounding and solvers decide."""
+    """Return what the check itself allows a variable."""
     return Cutoff(
         float(check[name].attrs["tolerance"]),
-        f"what rounding and the solver's tolerance leave of {in_words(name)}",
+        f"the tolerance that the check states with {in_words(name)}",
     )

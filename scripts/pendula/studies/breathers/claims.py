@@ -42,7 +42,7 @@ def at_omega(dataset, omega: float):
 
 @claim(
     PLACE,
-    "At the detuning of Fig 3 no steady state that is localised on one pair is stable.",
+    "At the detuning of Fig 3 no computed steady state that is localised on one pair is stable.",
     (STEADY,),
     (
         Control("the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names=RATES)),
@@ -109,8 +109,8 @@ def periodic_stable(periodic) -> Finding:
 
 @claim(
     PLACE,
-    "The large initial condition of Fig 3 has less P than any periodic breather at Omega = -4 "
-    "ever has.",
+    "The large initial condition of Fig 3 has less P than any computed periodic breather at "
+    "Omega = -4 ever has.",
     (PERIODIC,),
     (
         Control("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
