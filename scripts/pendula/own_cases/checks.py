@@ -29,11 +29,21 @@ from pendula.measures.growth import (
     predict,
 )
 from pendula.measures.norms import growth_margin, power_of
+from pendula.models.bounds import best_bound
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
 from pendula.numerics.elementary import log, modulus, product, square_modulus
 from pendula.numerics.quadrature import gauss_legendre
-from pendula.problem import AMPLITUDES, PENDULA, Problem, output_times
+from pendula.problem import (
+    AMPLITUDES,
+    PENDULA,
+    Constants,
+    Problem,
+    on_sites,
+    output_times,
+    place,
+    read_initial,
+)
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, find_reduction
 from pendula.simulation.models import model_of
@@ -41,6 +51,7 @@ from pendula.simulation.simulate import IntegrationError, simulate
 from pendula.simulation.tangents import STEP, TOLERANCE, Growth, grow, random_tangent
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.equations import run as run_on
+from pendula.studies.theory.equations import total_energy
 
 from .breathers import check_breather
 
@@ -295,6 +306,21 @@ def check_sweep(name: str, swept: xr.Dataset) -> xr.Dataset:
     coordinates = {"half_width": swept["half_width"].values}
     found = table(TITLE_OF_PENDULA, coordinates, swept_angle=angles, swept_over=over)
     return xr.Dataset.from_dict(found).assign_attrs(case=name)
+
+
+def check_bounds(name: str, swept: xr.Dataset) -> xr.Dataset:
+    """Return the largest P of each chain of a sweep over the smallest bound of Theorems 1 to 3."""
+    constants, boundary = Constants.of(swept.attrs), str(swept.attrs["boundary"])
+    initial, bounds = on_sites(read_initial(swept.attrs["initial"])), []
+    for half_width in map(int, swept["half_width"].values):
+        amplitudes = place(initial, half_width)
+        energy = total_energy(constants, boundary, amplitudes)
+        sites = 2 * half_width + 1
+        bounds.append(best_bound(energy, power_of(amplitudes), sites, constants, boundary))
+    peaks = swept["l2"].sel(quantity="pair", statistic="max").max("window").values ** 2
+    words = "largest P of all chains in the windows over its bound"
+    ratio = variable(np.max(peaks / bounds), (), words, tolerance=1.0)
+    return xr.Dataset.from_dict(table(TITLE, {}, swept_ratio=ratio)).assign_attrs(case=name)
 
 
 # --- All checks -----------------------------------------------------------------------------------

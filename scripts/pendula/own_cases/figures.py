@@ -17,9 +17,8 @@ from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, read_initial
-from pendula.studies.theory.bounds import check_sweeps
 
-from .checks import check_sweep
+from .checks import check_bounds, check_sweep
 
 FEW = 8
 """Ticks for so many half-widths fit below a panel."""
@@ -226,4 +225,4 @@ def draw_with_checks(
     elif "model_text" in swept.attrs:
         save(checks, xr.Dataset(attrs={"case": name}))
     else:
-        save(checks, xr.Dataset.from_dict(check_sweeps({name: swept})))
+        save(checks, check_bounds(name, swept))
