@@ -33,7 +33,7 @@ def draw_work_precision(data: xr.Dataset) -> Figure:
     Below, each peer has a row with its time over that of the fastest solver here, by case.
     """
     heights = [2.3, ROW * (data.sizes["peer"] + 1)] if "peer" in data.dims else [2.3]
-    figure = style.new_figure(style.DOUBLE, sum(heights) + 0.6 * len(heights))
+    figure = style.new_figure(style.WIDTH, sum(heights) + 0.6 * len(heights))
     grid = figure.add_gridspec(len(heights), 1, height_ratios=heights)
     above = grid[0].subgridspec(1, data.sizes["case"])
     panels = above.subplots(sharex=True, sharey=True, squeeze=False)[0]

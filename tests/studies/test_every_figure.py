@@ -1,21 +1,29 @@
 """What holds for every figure, whatever it shows, and that each shows what is accepted."""
 
 import json
+import re
 from pathlib import Path
 from typing import NamedTuple
 
 import matplotlib
+import numpy as np
 import pytest
 import xarray as xr
 from accepted import BASELINE, changed, check_words, dataset, datasets, differing, wrong_changes
 from accepted_figures import FIGURES
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.mathtext import MathTextParser
 from matplotlib.text import Text
+from pendula.article import write
 from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.drawing.description import describe
 from pendula.own_cases import figures as own
-from pendula.studies.unbounded.front_figure import WIDTH
+from pendula.studies.breathers.figures import LOOKS
+
+A4 = 21.0
+"""The width of a page in centimetres."""
 
 
 def gather_own_norms(run, other):
@@ -115,9 +123,40 @@ def margins(figure):
     return needed.x0 - page.x0, needed.y0 - page.y0, page.x1 - needed.x1, page.y1 - needed.y1
 
 
-def test_text_is_legible_and_everything_is_on_the_page(plot):
-    assert plot.figure.get_figwidth() in (WIDTH, style.DOUBLE)
-    texts = [text for text in plot.figure.findobj(Text) if text.get_text() and text.get_visible()]
-    assert texts
-    assert min(text.get_fontsize() for text in texts) >= 7
+def smallest(figure) -> tuple[float, float]:
+    """Return the points of the smallest letter and of the smallest index as they are printed.
+
+    The article prints a figure as large as it is drawn, unless it is wider than the text.
+    """
+    margin = re.search(r"margin: \(x: ([\d.]+)cm", (write.HERE / "article.typ").read_text())[1]
+    printed = min(1.0, (A4 - 2 * float(margin)) / 2.54 / figure.get_figwidth())
+    texts = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
+    letters = {text.get_fontsize() for text in texts}
+    formulas = [text for text in texts if text.get_text().count("$") > 1]
+    parse = MathTextParser("path").parse
+    glyphs = (parse(text.get_text(), 72, text.get_fontproperties()).glyphs for text in formulas)
+    indices = {glyph[1] for formula in glyphs for glyph in formula}
+    return printed * min(letters), printed * min(letters | indices)
+
+
+def test_letters_are_legible_in_print_and_everything_is_on_the_page(plot):
+    letters, indices = smallest(plot.figure)
+    assert letters >= 7 and indices >= 5
     assert min(margins(plot.figure)) >= 0
+
+
+def test_a_label_of_six_points_and_a_figure_wider_than_the_text_are_found():
+    figure = style.new_figure(style.WIDTH, 1)
+    figure.text(0, 0, "small", fontsize=6)
+    assert smallest(figure) == pytest.approx((6, 6))
+    wide = style.new_figure(2 * style.WIDTH, 1)
+    wide.text(0, 0, "$A_0$", fontsize=8)
+    assert smallest(wide) == pytest.approx((4, 2.8))
+
+
+def test_the_fates_stay_apart_in_grey():
+    """A quarter of the way from black to white lies between them, by the lightness of CIE 1976."""
+    shades = np.array([to_rgb(colour) for colour in LOOKS.values()])
+    linear = np.where(shades > 0.04045, ((shades + 0.055) / 1.055) ** 2.4, shades / 12.92)
+    light = np.sort(116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16)
+    assert np.diff(light).min() > 25

@@ -25,7 +25,7 @@ from pendula.report.words import FIRM, Quote
 from .values import KEPT, gather
 
 HERE = Path(__file__).parent
-MARKDOWN = "markdown-auto_identifiers-smart"
+MARKDOWN = "markdown-auto_identifiers"
 VECTORS = "/figures/{}.pdf"
 """Where the figures lie for the PDF."""
 TITLE = "[Re] Coupled pendula chains under parametric PT-symmetric driving force"
@@ -97,17 +97,18 @@ def source(
 ) -> str:
     """Return the article in Markdown, or a notice where it would not be true of this run.
 
-    `pictures` says where a figure lies; its caption is a paragraph of its own, or a part of it.
+    `pictures` says where a figure lies; it is printed as it is drawn. Its caption is a
+    paragraph of its own, or a part of it.
     `quoted` writes a number, which may link to its dataset.
     """
     if results.differs:
         return _notice([f"{in_short(list(results.differs.values()))}."])
 
-    def figure(name: str, width: int, caller: Callable[[], str]) -> str:
+    def figure(name: str, caller: Callable[[], str]) -> str:
         place = pictures.format(name)
         if captions_below:
             return f"![{name}]({place})\n\n{caller()}\n"
-        return f"![{' '.join(caller().split())}]({place}){{width={width}%}}\n\n"
+        return f"![{' '.join(caller().split())}]({place})\n\n"
 
     marked = {mark: set() for mark in MARKS}
     marks = {mark: lambda *claims, found=found: found.update(claims) or ""
@@ -147,5 +148,6 @@ def _folder(results: Results) -> Path:
 
 def _converted(text: str, kind: str, template: str, *options: str) -> str:
     """Return Markdown in another language, in the template of this folder."""
-    layout = ("--wrap=none", f"--template={HERE / template}", f"--variable=title:{TITLE}")
+    layout = ("--wrap=none", f"--template={HERE / template}", f"--variable=title:{TITLE}",
+              f"--metadata-file={HERE / 'metadata.yaml'}")  # fmt: skip
     return pypandoc.convert_text(text, kind, MARKDOWN, [*layout, *options])

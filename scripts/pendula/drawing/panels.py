@@ -7,7 +7,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import PowerNorm
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from . import style
@@ -15,7 +14,7 @@ from .strips import NORMS
 
 MARKERS = {"l2": "o", "linf": "s"}  # the shapes tell the norms apart in grey too
 SIZES = {"text": 3.6, "caption": 2.4}
-BAR = {"color": "black", "marker": "_", "markersize": 4, "mew": 0.7, "linestyle": "none"}
+BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.5}
 BESIDE = 1.06
 """Bars of ensembles stand so far beside the dots: a factor on the half-width."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
@@ -26,7 +25,7 @@ def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None],
 
     Each figure of the paper has a column, with small data above.
     """
-    figure, count = style.new_figure(style.DOUBLE, 4.0), data.sizes["case"]
+    figure, count = style.new_figure(style.WIDTH, 3.2), data.sizes["case"]
     grid = figure.subplots(min(count, 2), -(-count // 2), sharex=True, sharey=True, squeeze=False)
     for axes in grid.T.flat[count:]:
         axes.set_visible(False)
@@ -37,11 +36,10 @@ def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None],
         axes.set_yscale("log")
         draw_panel(axes, case)
         axes.set_xlim(0, float(data["tau"].max()))
-        if axes.get_subplotspec().is_first_col():
-            axes.set_ylabel(label)
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
-    style.name_legend(figure, *drawn)
+    figure.supylabel(label, fontsize="medium")
+    style.name_legend(figure, *drawn, columns=4)
     return figure
 
 
@@ -106,20 +104,23 @@ def _read(sweep: xr.Dataset, readings: dict[str, tuple[str, str]]) -> xr.Dataset
 
 
 def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
-    """Draw the norms that one panel holds against the half-width, and bars of their ensembles."""
+    """Draw the norms of one panel against the half-width, and bars of their ensembles.
+
+    Each norm and reading has a label for a legend, and the bars have one.
+    """
     norms = [name for name in reversed(NORMS) if name in panel]
+    label = f"mean ± standard deviation of {int(panel.get('members', 0))} runs"
     for name in norms:
         for reading in panel["reading"].values:
-            dots = panel[name].sel(reading=reading).dropna("half_width")
-            axes.plot(dots["half_width"], dots, **_sweep_look(name, reading))
-    for name in norms if "members" in panel else ():
-        for reading in panel["reading"].values:
-            bars = panel[[f"{name}_mean", f"{name}_deviation"]].sel(reading=reading)
-            bars = bars.dropna("half_width")
-            if bars.sizes["half_width"]:
+            one = panel.sel(reading=reading)
+            words = f"{one['statistic'].item()} on {one['window'].item()}"
+            dots = one[name].dropna("half_width")
+            look = {"label": f"{NORMS[name]}, {words}"} | _sweep_look(name, reading)
+            axes.plot(dots["half_width"], dots, **look)
+            if "members" in panel and one[f"{name}_mean"].notnull().any():
+                bars = one[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
                 middles, halves = bars.data_vars.values()
-                beside = BESIDE * bars["half_width"]
-                axes.errorbar(beside, middles, halves, elinewidth=0.8, **BAR)
+                axes.errorbar(BESIDE * bars["half_width"], middles, halves, label=label, **BAR)
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(FixedLocator(TICKS))
     axes.xaxis.set_minor_locator(NullLocator())
@@ -143,26 +144,3 @@ def _sweep_look(name: str, reading: str) -> dict:
         "markerfacecolor": colour if reading == "text" else "white",
         "markeredgewidth": 0.7,
     }
-
-
-def sweep_legend(data: xr.Dataset) -> list[Line2D]:
-    """Return one entry for each norm and reading, and one for the bars of ensembles."""
-    names = {
-        str(reading): "{} on {}".format(
-            *(str(data[key].sel(reading=reading).values) for key in ("statistic", "window"))
-        )
-        for reading in data["reading"].values
-    }
-    dots = [
-        Line2D([], [], label=f"{NORMS[name]}, {names[reading]}", **_sweep_look(name, reading))
-        for name in reversed(NORMS)
-        if name in data
-        for reading in names
-    ]
-    if "members" not in data:
-        return dots
-    label = f"bars: mean and standard deviation of {int(data['members'])} runs"
-    return [
-        *dots,
-        Line2D([], [], label=label, **{**BAR, "marker": "|", "markersize": 8, "mew": 0.8}),
-    ]

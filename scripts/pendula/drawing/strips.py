@@ -20,13 +20,12 @@ from . import style
 NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
 PALE = {"A": "#f0a79f", "B": "#9db2de", "x": "#f0a79f", "y": "#9db2de"}
 """Colours of bands, and of curves that lie under others."""
-TALL, LOW = 1.5, 0.8
+UNDER = {"lw": 2.0, "label": "wide, pale: multiprecision reference"}
+"""Curves under others are wider than these, so that they are seen."""
+TALL, LOW = 1.15, 0.66
 """Heights in inches: of a panel that stands alone, and of a strip."""
-HEADROOM = 1.3
-"""The axis ends so far above the largest value: the name of the strip stands there."""
-MARK = {"color": "black", "marker": "v", "markersize": 4, "linestyle": "none"}
-BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-LABEL = {"ha": "right", "va": "top", "fontsize": 7, "bbox": BEHIND, "zorder": 4}
+HEADROOM = 1.06
+"""The axis ends so far above the largest value."""
 DIVERGED = {"color": "black", "lw": 0.6, "dashes": (4, 2), "zorder": 3}
 
 
@@ -47,11 +46,11 @@ def draw_cases(cases: Sequence[xr.Dataset], strips: Sequence[Sequence[Strip]]) -
     `cases` hold norms over component and tau, and may hold the `divergence_time` that is marked.
     """
     heights = [TALL if len(of_case) == 1 else LOW * len(of_case) for of_case in strips]
-    figure = style.new_figure(style.DOUBLE, sum(heights) + 0.25 * len(heights) + 0.5)
-    figure.get_layout_engine().set(h_pad=0.03)
-    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights, hspace=0.06)
+    figure = style.new_figure(style.WIDTH, sum(heights) + 0.25 * len(heights) + 0.4)
+    figure.get_layout_engine().set(h_pad=0.02)
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights, hspace=0.02)
     drawn = [
-        _draw_case(grid[row, 0].subgridspec(len(of_case), 2, hspace=0.04), case, of_case)
+        _draw_case(grid[row, 0].subgridspec(len(of_case), 2, hspace=0.01), case, of_case)
         for row, (case, of_case) in enumerate(zip(cases, strips, strict=True))
     ]
     for axes in drawn[-1][-1]:
@@ -65,7 +64,7 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
     for row, strip in zip(grid, strips, strict=True):
         for axes, name in zip(row, NORMS, strict=True):
             _draw_strip(axes, case, name, strip)
-            axes.text(0.985, 0.93, strip.label, transform=axes.transAxes, **LABEL)
+            axes.set_title(strip.label, loc="right")
     named = grid if len(strips) < 3 else grid[1:2]
     for axes, name in zip(named.flat, len(named) * list(NORMS), strict=True):
         axes.set_ylabel(f"{NORMS[name]} norm{style.name_units(case[f'{strips[0].prefix}{name}'])}")
@@ -80,21 +79,18 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
 
 def _draw_strip(axes: Axes, case: xr.Dataset, name: str, strip: Strip) -> None:
     if strip.under:
-        _draw_curves(axes, case[f"{strip.under}{name}"], PALE)
+        _draw_curves(axes, case[f"{strip.under}{name}"], PALE, **UNDER)
     curves = case[f"{strip.prefix}{name}"]
     draw = _draw_bands if "quantile" in curves.dims else _draw_curves
     draw(axes, curves, style.COLOURS)
     if diverges(case):
-        time = float(case["divergence_time"])
-        axes.axvline(time, **DIVERGED)
-        if axes.get_subplotspec().is_first_row():
-            axes.plot(time, 1.0, transform=axes.get_xaxis_transform(), clip_on=False, **MARK)
+        axes.axvline(float(case["divergence_time"]), **DIVERGED)
 
 
-def _draw_curves(axes: Axes, curves: xr.DataArray, colours: dict) -> None:
+def _draw_curves(axes: Axes, curves: xr.DataArray, colours: dict, **under) -> None:
     for i, component in enumerate(curves["component"].values):
         curve, colour = curves.sel(component=component).dropna("tau"), colours.get(component)
-        look = {"color": colour or f"C{i}", "label": f"${component}$", "alpha": 0.9}
+        look = {"color": colour or f"C{i}", "label": f"${component}$", "alpha": 0.9} | under
         axes.plot(curve["tau"], curve, **look)
 
 
@@ -111,13 +107,16 @@ def diverges(case: xr.Dataset) -> bool:
     return "divergence_time" in case and bool(np.isfinite(case["divergence_time"]))
 
 
-def name_legend(figure: Figure, components: Sequence[str], mark: str = "") -> None:
-    """Put one legend above all: the components, and in words what the dashed line marks."""
+def name_legend(
+    figure: Figure, components: Sequence[str], mark: str = "", under: bool = False
+) -> None:
+    """Put one legend above all: the components, what lies under them, and the dashed line."""
     lines = [
         Line2D([], [], color=style.COLOURS.get(one, f"C{i}"), label=f"${one}$", lw=1.6)
         for i, one in enumerate(components)
     ]
+    if under:
+        lines.append(Line2D([], [], color=PALE[components[0]], **UNDER))
     if mark:
-        dashed = DIVERGED | {"lw": 1.0}
-        lines.append(Line2D([], [], **MARK | {"linestyle": "-"} | dashed, label=mark))
+        lines.append(Line2D([], [], **DIVERGED | {"lw": 1.0}, label=mark))
     figure.legend(handles=lines, loc="outside upper center", ncols=len(lines))

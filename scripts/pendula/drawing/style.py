@@ -14,6 +14,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from matplotlib.layout_engine import PlaceHolderLayoutEngine
+from matplotlib.patheffects import withStroke
 
 from pendula.configuration.paper import in_short
 from pendula.datasets import complete_or_absent
@@ -29,10 +30,16 @@ DPI = 300
 LINE_WIDTH = 0.7
 """The width of a line, in points."""
 
-DOUBLE = 7.0
-"""The width of two columns of a journal page, in inches."""
-NOTE = 130
+WIDTH = 16.4 / 2.54
+"""The width of a figure in inches: that of the article's text, so that it is printed as drawn."""
+NOTE = 110
 """The width of a note below the panels, in letters."""
+
+ON_COLOURS = {
+    "color": "white", "lw": 1.0, "ls": (0, (3, 1.5)),
+    "path_effects": [withStroke(linewidth=2.2, foreground="black")],
+}  # fmt: skip
+"""A dashed line that is seen on every colour of a map, and in a legend on white."""
 
 RED, BLUE = "#e8402f", "#123b8c"
 """The paper's two colours, of a lightness so different that they stay apart in grey."""
@@ -57,9 +64,9 @@ COLOURS = {name: colour for name, (colour, _) in SOLVERS.items()} | {
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
     "font.family": "DejaVu Sans",
     "font.size": 8,
-    "axes.titlesize": 8,
-    "axes.labelsize": 8,
-    "legend.fontsize": 8,
+    "axes.titlesize": "medium",
+    "axes.labelsize": "medium",
+    "legend.fontsize": "medium",
     "xtick.labelsize": 7.5,
     "ytick.labelsize": 7.5,
     "axes.linewidth": 0.6,
@@ -71,7 +78,7 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "legend.frameon": False,
     "legend.handlelength": 2,
     "axes.titley": 1.0,  # no ticks stand above a panel: else each title measures them many times
-    "pdf.fonttype": 3,  # to cut a font of type 42 down to its letters takes as long as the drawing
+    "pdf.fonttype": 42,  # TrueType, which journals accept: they reject Type 3
     "figure.dpi": DPI,
 }
 
@@ -103,17 +110,20 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def name_legend(figure: Figure, *panels: Axes) -> None:
+def name_legend(figure: Figure, *panels: Axes, columns: int = 7) -> None:
     """Put one legend for all panels above them; its lines are thick enough to show their colour.
 
-    What several panels show is named once.
+    What several panels show is named once. A row has at most so many columns.
     """
     named = {}
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
-    columns = -(-len(named) // (1 + len(named) // 7))  # seven are too many for one row
-    legend = figure.legend(named.values(), named.keys(), loc="outside upper center", ncols=columns)
+    if not named:
+        return
+    rows = -(-len(named) // columns)
+    look = {"loc": "outside upper center", "ncols": -(-len(named) // rows)}
+    legend = figure.legend(named.values(), named.keys(), columnspacing=1.2, **look)
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
 
@@ -179,7 +189,7 @@ def save(
         # without a layout engine, nothing makes room: half of the space below the panels is free
         whole = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
         note = fill(f"Not the paper's: {in_short(differs)}", NOTE if whole else NOTE * 2 // 5)
-        figure.supxlabel(note, x=0.5 if whole else 0.22, fontsize=6.5)
+        figure.supxlabel(note, x=0.5 if whole else 0.22, fontsize=7)
     with (
         complete_or_absent(png) as new_png,
         complete_or_absent(pdf) as new_pdf,

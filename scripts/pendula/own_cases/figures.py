@@ -24,7 +24,7 @@ FEW = 8
 """Ticks for so many half-widths fit below a panel."""
 
 COLOURS = ("red", "blue")
-RUNS = [Strip("", "the run"), Strip("second_", "second run, by another method")]
+RUNS = [Strip("", ""), Strip("second_", "second run, by another method")]
 DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
 LONGEST = 46
 """A formula with more characters leaves no room for the rest of a title."""
@@ -126,7 +126,7 @@ def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_spacetime(data: xr.Dataset) -> Figure:
     """Draw |A_n| left and |B_n| right, or all fields of a model, on one scale of colours."""
-    figure = style.new_figure(style.DOUBLE, 2.5)
+    figure = style.new_figure(style.WIDTH, 2.5)
     count = data.sizes["component"]
     row = figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
     names = [name_parameters(data.attrs), name_data(data.attrs), *[""] * count]
@@ -146,7 +146,7 @@ def gather_breather(checks: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_breather(data: xr.Dataset) -> Figure:
     """Draw moduli over sites left; right the multipliers, or the exponents of a steady state."""
-    figure = style.new_figure(style.DOUBLE, 2.7)
+    figure = style.new_figure(style.WIDTH, 2.7)
     if "breather" not in data:
         reason = data.attrs.get("breather_refusal", "this is looked for in models of one's own")
         figure.text(0.5, 0.5, f"no localised state: {reason}", ha="center")
@@ -189,16 +189,14 @@ def gather_sweep(
 @style.styled
 def draw_sweep(data: xr.Dataset) -> Figure:
     """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
-    figure = style.new_figure(style.DOUBLE, 2.7)
+    figure = style.new_figure(style.WIDTH, 2.7)
     row = figure.subplots(1, 2, sharex=True)
     for axes, name in zip(row, NORMS, strict=True):
         panels.draw_sweep(axes, data.isel(panel=0).drop_vars([n for n in NORMS if n != name]))
     _mark_widths(row[0], data["half_width"].values)
     row[0].set_title(name_parameters(data.attrs), loc="left")
     row[1].set_title(name_data_and_ends(data.attrs), loc="left")
-    entries = panels.sweep_legend(data)
-    by_panel = sorted(entries, key=lambda entry: entry.get_color() == style.COLOURS["l2"])
-    figure.legend(handles=by_panel, loc="outside upper center", ncols=4, columnspacing=1.2)
+    style.name_legend(figure, *row)
     return figure
 
 

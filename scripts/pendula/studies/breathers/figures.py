@@ -11,20 +11,20 @@ from matplotlib.patches import Patch
 from pendula.drawing import style
 
 LOOKS = {
-    "disperses": "#f2efe6",
-    "stays": style.BLUE,
-    "moves away": "#1b7f5f",
-    "spreads": "#f29d38",
+    "disperses": "#fdfcf8",
+    "stays": "#0b1d51",
+    "moves away": "#007a5a",
+    "spreads": "#f2a33c",
 }
-"""The fates in their order, in hues that people with any colour vision distinguish. In grey they
-are 94, 27, 47 and 72 % light."""
+"""The fates in their order, in hues that people with any colour vision distinguish, and at least
+25 % of the way from black to white apart in grey."""
 KINDS = tuple(LOOKS)
 COLOURS = ListedColormap([*LOOKS.values()], name="fates")
 
 MAPS = ("fate", "turned_fate")
 SAME_RUNS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "ratio", "solver_rtol")
 """What two maps must have in common to be of the same runs, beside their detunings."""
-PAPERS = "the paper's initial conditions"
+PAPERS = "initial conditions of the paper"
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate")
 FATES_CAPTION = (
     "What becomes of an excited central pair by τ = {end}: above by its amplitudes A₀ and B₀, "
@@ -56,7 +56,7 @@ def gather_fates(
 @style.styled
 def draw_fates(data: xr.Dataset) -> Figure:
     """Draw the fate of each (A_0, B_0), below it that of each phase of B_0; a column an Omega."""
-    figure = style.new_figure(style.DOUBLE, 5.2)
+    figure = style.new_figure(style.WIDTH, 3.7)
     grid = figure.subplots(2, data.sizes["omega"], sharey="row", squeeze=False)
     letters = np.array(list("abcdefghijklmnop")[: grid.size]).reshape(grid.shape)
     for column, omega in enumerate(data["omega"].values):
@@ -77,10 +77,11 @@ def draw_fates(data: xr.Dataset) -> Figure:
     grid[0, 0].set_ylabel("$B_0$")
     grid[1, 0].set_ylabel(rf"$A_0$, with $|B_0| = {data.attrs['ratio']:g}\,A_0$")
     kinds = np.unique(np.concatenate([data[name].values.ravel() for name in MAPS]))
-    shown = [Patch(color=COLOURS(kind), label=KINDS[kind]) for kind in kinds]
+    shown = [Patch(facecolor=COLOURS(kind), edgecolor="0.5", label=KINDS[kind]) for kind in kinds]
     paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
                    color="black", label=data.attrs.get("marked", PAPERS))  # fmt: skip
-    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=3)
+    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5,
+                  columnspacing=1.2)  # fmt: skip
     return figure
 
 

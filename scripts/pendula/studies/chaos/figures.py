@@ -10,6 +10,7 @@ from pendula.drawing import style
 
 PAPERS_END = 50.0
 """The paper runs Fig 4 up to this time."""
+STROKES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 CAPTION = (
     "When an excited central pair at Ω = {omega} loses its excess of power, by its initial "
     "amplitude A₀, of {members} runs each with B₀ = {ratio} A₀. (a): share of runs that are still "
@@ -29,7 +30,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
     """Draw the share that is still localised against tau, and the median life against A_0."""
-    figure = style.new_figure(style.DOUBLE, 2.6)
+    figure = style.new_figure(style.WIDTH, 2.2)
     shares, medians = figure.subplots(1, 2)
     _draw_shares(shares, data)
     _draw_medians(medians, data)
@@ -46,7 +47,8 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
         colour = colormaps["viridis"](0.85 * k / max(1, shown.sizes["start_amplitude"] - 1))
         band = one["surviving_low"], one["surviving_high"]
         axes.fill_between(tau, *band, step="post", color=colour, alpha=0.15, lw=0)
-        axes.step(tau, one["surviving"], where="post", color=colour, label=f"$A_0 = {a0:g}$")
+        axes.step(tau, one["surviving"], where="post", label=f"$A_0 = {a0:g}$",
+                  color=colour, lw=1.2, ls=STROKES[k % len(STROKES)])  # fmt: skip
     _mark_end(axes.axvline)
     axes.set(xscale="log", xlim=(1, end), xlabel=r"$\tau$", ylim=(0, 1.03), ylabel="share of runs")
     axes.set_title("(a) runs still localised", loc="left")
@@ -67,11 +69,11 @@ def _draw_medians(axes: Axes, data: xr.Dataset) -> None:
     if not known.all():
         later = np.where(np.isfinite(low), low, end)[~known]
         axes.plot(a0[~known], later, marker="^", label="lower bound", **look)
-        axes.legend(loc="upper left")
     _mark_end(axes.axhline)
+    axes.legend(loc="upper left")
     axes.set(yscale="log", xlabel="initial amplitude $A_0$", ylabel=r"median time $\tau$")
     axes.set_title("(b) time of the transition", loc="left")
 
 
 def _mark_end(line) -> None:
-    line(PAPERS_END, color="0.5", lw=0.8, ls="--")
+    line(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from pendula.drawing import style
 from pendula.numerics.elementary import cos, sin
 
-PAIRS, ANGLES = 5, (-0.5, 0.35)
+PAIRS, ANGLES = 3, (-0.5, 0.35)
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
 COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2
 COLOURS = {"x": style.COLOURS["A"], "y": style.COLOURS["B"]}  # A_n is the amplitude of x_n
@@ -73,7 +73,7 @@ def _coil() -> np.ndarray:
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
     """Draw the chain from the back to the front, with the names of the angles and couplings."""
-    figure = style.new_figure(style.DOUBLE, 2.1)
+    figure = style.new_figure(style.WIDTH * 0.62, 1.75)
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.set_axis_off()

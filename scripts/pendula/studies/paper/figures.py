@@ -23,8 +23,8 @@ MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
 NORMS_CAPTION = (
     "Norms of A (red) and of B (blue) against τ: ℓ∞ on the left and ℓ² on the right, small "
-    "initial amplitudes above and large ones below. Pale lines below a run are its multiprecision "
-    "reference, where both agree to the end."
+    "initial amplitudes above and large ones below. Wide pale lines below a run are its "
+    "multiprecision reference, where both agree to the end."
 )
 PARTS_CAPTION = (
     " A dashed line marks the time from which a run differs from its reference by "
@@ -34,7 +34,7 @@ PARTS_CAPTION = (
 )
 SPACETIME_CAPTION = (
     "Moduli |Aₙ| (left) and |Bₙ| (right) over time and sites, small initial amplitudes above and "
-    "large ones below. From a white dashed line on, the run differs from its multiprecision "
+    "large ones below. From the dashed line on, the run differs from its multiprecision "
     f"reference by {100 * VISIBLE:g} % of full scale."
 )
 SWEEPS_CAPTION = (
@@ -110,7 +110,8 @@ def draw_norms(data: xr.Dataset) -> Figure:
         for axes in grid[0]:
             axes.set_title(style.name_case(case), loc="left")
     parts = any(strips.diverges(case) for case in cases)
-    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "")
+    under = any(strip.under for case in cases for strip in _strips(case))
+    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "", under)
     return figure
 
 
@@ -118,15 +119,13 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
     known = bool(case["true_l2"].notnull().any())
     if known and not strips.diverges(case):
-        ends = [float(case[k].dropna("tau", how="all")["tau"].max()) for k in ("true_l2", "l2")]
-        until = rf" to $\tau = {ends[0]:g}$" if ends[0] < ends[1] else ""
-        return [Strip("", f"{run}; the reference lies under it{until}", under="true_")]
+        return [Strip("", run, under="true_")]
     found = [Strip("", run)]
     if known:
         found.append(Strip("true_", "reference, in multiprecision"))
     if "band_l2" in case and case["band_l2"].notnull().any():
-        runs = f"{int(case['members'])} runs of a perturbed ensemble"
-        found.append(Strip("band_", f"{runs}: median, and 5 to 95 %"))
+        runs = f"{int(case['members'])} perturbed runs"
+        found.append(Strip("band_", f"{runs}: median, 5 to 95 %"))
     return found
 
 
@@ -146,17 +145,18 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
 
     A dashed line shows when a run has left its reference.
     """
-    figure = style.new_figure(style.DOUBLE, 4.2)
+    figure = style.new_figure(style.WIDTH, 4.2)
     grid = figure.subplots(2, 2, sharex=True, sharey=True)
     for row, size in zip(grid, data["initial_size"].values, strict=True):
         case = data.sel(initial_size=size)
         panels.draw_moduli(figure, row, case, 2 * [style.name_case(case)])
         for axes in row if strips.diverges(case) else ():
-            axes.axvline(float(case["divergence_time"]), color="white", lw=1.0, dashes=(4, 2))
+            axes.axvline(float(case["divergence_time"]), label=DIVERGED, **style.ON_COLOURS)
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
     for axes in grid[:, 0]:
         axes.set_ylabel("site $n$")
+    style.name_legend(figure, *grid.flat)
     return figure
 
 
@@ -196,11 +196,11 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
 
     Each dot of a chaotic sweep is one draw, so the bars of its ensemble stand beside the dots.
     """
-    figure = style.new_figure(style.DOUBLE, 2.8)
-    for axes, name in zip(figure.subplots(1, 2), data["panel"].values, strict=True):
+    figure = style.new_figure(style.WIDTH, 2.4)
+    row = figure.subplots(1, 2)
+    for axes, name in zip(row, data["panel"].values, strict=True):
         panels.draw_sweep(axes, data.sel(panel=name))
-    handles = panels.sweep_legend(data)
-    figure.legend(handles=handles, loc="outside upper center", ncols=3, columnspacing=1.2)
+    style.name_legend(figure, *row, columns=3)
     return figure
 
 
@@ -308,7 +308,7 @@ def draw_trust(data: xr.Dataset) -> Figure:
 def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
     visible = float(case["visible"])
     if case["horizon"].isnull().all():
-        axes.text(0.5, 0.5, UNKNOWN, ha="center", transform=axes.transAxes, fontsize=7)
+        axes.text(0.5, 0.5, UNKNOWN, ha="center", transform=axes.transAxes)
     for solver in case["solver"].values:
         one = case.sel(solver=solver)
         time, error = float(one["horizon"]), one["largest_so_far"]

@@ -9,6 +9,7 @@ from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
 
+MARKS = "osD^vPX*"
 COLOURS = colormaps["viridis"]
 BESIDE = 0.025
 """Confidence limits at the end stand so far beside each other, as a part of the time."""
@@ -34,35 +35,35 @@ def gather_over_the_top(over_the_top: xr.Dataset):
 @style.styled
 def draw_over_the_top(data: xr.Dataset) -> Figure:
     """Draw the share that has passed, and the angles."""
-    figure = style.new_figure(style.DOUBLE, 2.7)
+    figure = style.new_figure(style.WIDTH, 2.5)
     passed, turns = figure.subplots(1, 2)
-    mus = data["mu"].values.tolist()
-    colours = {mu: COLOURS(0.95 * i / max(1, len(mus) - 1)) for i, mu in enumerate(mus)}
-    named = _draw_passed(passed, data, colours)
-    for mu in data["mu"].values:
-        turns.plot(data["tau"], data["turns"].sel(mu=mu), color=colours[mu], lw=1.3)
+    count = data.sizes["mu"]
+    colours = [COLOURS(0.95 * i / max(1, count - 1)) for i in range(count)]
+    looks = [{"color": colour, "marker": MARKS[i % len(MARKS)], "markersize": 3}
+             for i, colour in enumerate(colours)]  # fmt: skip
+    _draw_passed(passed, data, looks)
+    for mu, look in zip(data["mu"].values, looks, strict=True):
+        named = look | {"label": rf"$\mu = {mu:g}$", "markevery": 0.1, "lw": 1.3}
+        turns.plot(data["tau"], data["turns"].sel(mu=mu), **named)
     turns.axhline(0.5, color="0.6", dashes=(4, 2), zorder=1)
-    turns.set(xscale="log", yscale="log", xlabel=r"$\tau$", ylabel="largest angle so far (turns)")
+    turns.set(xscale="log", yscale="log", xlabel=r"$\tau$", ylabel="largest angle (turns)")
     turns.set_xlim(1.0, float(data["tau"].max()))
     turns.yaxis.set_minor_locator(NullLocator())
     turns.set_title("(b) how far they turn; dashed: the top", loc="left")
-    figure.legend(handles=named, loc="outside lower center", ncols=len(named), fontsize=7.5,
-                  handlelength=1.2, columnspacing=1.2)  # fmt: skip
+    style.name_legend(figure, turns)
     return figure
 
 
-def _draw_passed(axes: Axes, data: xr.Dataset, colours: dict) -> list:
-    """Draw the share that has gone over the top, with limits at the end; return the curves."""
-    tau, lines = data["tau"].values, []
-    for i, mu in enumerate(data["mu"].values):
-        one, colour = data.sel(mu=mu), colours[mu]
-        look = {"where": "post", "label": rf"$\mu = {mu:g}$", "color": colour, "lw": 1.3}
-        lines += axes.step(tau, one["passed"], **look)
+def _draw_passed(axes: Axes, data: xr.Dataset, looks: list[dict]) -> None:
+    """Draw the share that has gone over the top, with limits at the end."""
+    tau = data["tau"].values
+    for i, look in enumerate(looks):
+        one = data.isel(mu=i)
+        axes.step(tau, one["passed"], where="post", lw=1.3, color=look["color"])
         last, low, high = (float(one[name][-1]) for name in ("passed", "passed_low", "passed_high"))
-        axes.errorbar(tau[-1] * (1.03 + BESIDE * i), last, [[last - low], [high - last]], fmt="o",
-                      markersize=2, capsize=1.5, elinewidth=0.9, color=colour)  # fmt: skip
-    axes.set(xlabel=r"$\tau$", ylabel="share of members")
+        axes.errorbar(tau[-1] * (1.03 + BESIDE * i), last, [[last - low], [high - last]],
+                      capsize=1.5, elinewidth=0.9, **look)  # fmt: skip
+    axes.set(xlabel=r"$\tau$", ylabel="share of runs")
     axes.set_xlim(0, tau[-1] * (1.03 + BESIDE * data.sizes["mu"]))
     axes.set_ylim(-0.03, 1.05)
     axes.set_title("(a) gone over the top by then", loc="left")
-    return lines

@@ -48,7 +48,7 @@ def gather_bounds(cases, samples, sharpness, growth) -> xr.Dataset:
 @style.styled
 def draw_bounds(data: xr.Dataset) -> Figure:
     """Draw cases and what the bounds allow above, the growth with N below."""
-    figure = style.new_figure(style.DOUBLE, 5.6)
+    figure = style.new_figure(style.WIDTH, 5.2)
     panels = figure.subplot_mosaic("ab;cc", height_ratios=(3, 2))
     cases, forms, growth = panels.values()
     _draw_cases(cases, data)
@@ -100,7 +100,7 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     axes.set_yticks(rows, [words for _, words in FORMS.values()])
     axes.invert_yaxis()
     axes.set(xlim=(0, 1.06), xlabel="largest $P$ over its bound")
-    _legend_above(axes, 2)
+    _legend_above(axes, 1)
 
 
 def _draw_growth(axes: Axes, data: xr.Dataset) -> None:

@@ -57,11 +57,11 @@ def gather_chart(
 @style.styled
 def draw_chart(data: xr.Dataset) -> Figure:
     """Draw the chart of the long chain above; below the short chain's, and the windows' share."""
-    figure = style.new_figure(style.DOUBLE, 5.2)
+    figure = style.new_figure(style.WIDTH, 4.8)
     panels = figure.subplot_mosaic([["long", "long"], ["short", "share"]])
     _draw_rates_over(figure, panels["long"], data, "(a)")
     hollow = {"color": "white", "markeredgecolor": "black", "markersize": 6}
-    label = data.attrs.get("points", "the paper's figures")
+    label = data.attrs.get("points", "figures of the paper")
     panels["long"].plot(data["point_omega"], data["point_gamma"], "o", label=label, **hollow)
     short = data[[name for name in data.data_vars if name.startswith("short_")]]
     short = short.drop_vars(["omega", "gamma", "curve_omega"], errors="ignore")

@@ -18,7 +18,6 @@ LOOKS = {
 }
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
 OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
-NORMS = {name: panels.NORMS[name] for name in ("l2", "linf")}
 CAPTION = (
     "Infinite chains against τ. (a): the square of the ℓ² norm over τ. (b): its relative "
     "deviation from its law. (c): the exponent of τ in the ℓ² norm over each doubling of τ, with "
@@ -37,7 +36,7 @@ def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
     """Draw l2^2 / tau beside its law, what is left over, exponents over octaves, l-infinity."""
-    figure = style.new_figure(style.DOUBLE, 4.4)
+    figure = style.new_figure(style.WIDTH, 3.8)
     (rate, rest), (exponents, linf) = figure.subplots(2, 2, sharex=True)
     rest.axhline(0.0, **LAW)
     exponents.axhline(0.5, color="black", lw=0.8)
@@ -65,21 +64,21 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     rate.xaxis.set_minor_formatter(NullFormatter())
     linf.set_ylim(bottom=0)
     named = {
-        rate: r"$(\ell^2)^2 / \tau$",
-        rest: r"$(\ell^2)^2$ / law - 1 (%)",
-        exponents: r"exponent of $\tau$ in $\ell^2$",
-        linf: NORMS["linf"],
+        rate: r"squared $\ell^2$ norm / $\tau$",
+        rest: "deviation from law (%)",
+        exponents: r"exponent in $\ell^2$ norm",
+        linf: rf"{panels.NORMS['linf']} norm",
     }
     for (axes, label), letter in zip(named.items(), "abcd", strict=True):
         axes.set_ylabel(label)
-        axes.set_title(f"({letter})", loc="left", fontsize=8)
+        axes.set_title(f"({letter})", loc="left")
     for axes in (exponents, linf):
         axes.set_xlabel(r"$\tau$")
     handles, labels = rate.get_legend_handles_labels()
     bar = Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
     handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), bar]
-    labels += ["law: thermal states and predicted fronts", "law plus a fitted constant"]
-    labels += ["range of the ensemble", "95 % confidence interval of the mean"]
+    labels += ["law in the text", "law plus a fitted constant"]
+    labels += ["range of the ensemble", "95 % confidence of the mean"]
     figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
     return figure
 

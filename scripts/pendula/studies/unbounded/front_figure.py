@@ -5,12 +5,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from pendula.drawing import style
-
-WIDTH = 3.35
-"""The width of one column of a journal page, in inches."""
 
 LEAST = 1e-16
 """Powers below this one have its colour."""
@@ -19,7 +15,6 @@ DOTS = {"marker": "o", "ms": 3.0, "lw": 0, "elinewidth": 0.9, "capsize": 1.5}
 FIRST = {**DOTS, "color": style.RED}
 SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
 LINES = {"color": "black", "lw": 0.9}
-WAY = {"color": "white", "lw": 1.0, "path_effects": [withStroke(linewidth=2.2, foreground="black")]}
 CAPTION = (
     "The two fronts on the infinite chain. (a), (b): the powers of A − B and of A + B in space and "
     "time at one Ω, with the places of the fronts. (c): their speeds, measured (dots) and "
@@ -37,14 +32,15 @@ def gather_fronts(fronts: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_fronts(data: xr.Dataset) -> Figure:
     """Draw both fronts in space and time, their speeds over Omega, and the powers behind them."""
-    figure = style.new_figure(WIDTH, 3.9)
-    (alone, both), (speeds, powers) = figure.subplots(2, 2)
+    figure = style.new_figure(style.WIDTH, 2.2)
+    alone, both, speeds, powers = figure.subplots(1, 4)
     mesh = _draw_in_time(alone, data, "antisymmetric_power")
     _draw_in_time(both, data, "symmetric_power")
-    both.sharey(alone)
-    both.tick_params(labelleft=False)
+    both.set_yticklabels([])
     alone.set_ylabel(r"$\tau$")
-    bar = figure.colorbar(mesh, ax=[alone, both], location="top", aspect=30, pad=0.02)
+    bar = figure.colorbar(
+        mesh, ax=[alone, both], location="top", aspect=30, pad=0.02, ticks=[1e-15, 1e-10, 1e-5, 1e0]
+    )
     bar.set_label(rf"power at $\Omega = {float(data['shown_omega']):g}$")
     _draw_speeds(speeds, data)
     _draw_powers(powers, data)
@@ -61,8 +57,8 @@ def _draw_in_time(axes: Axes, data: xr.Dataset, name: str):
         sites, tau, values, norm=LogNorm(LEAST, 10.0), cmap="magma", shading="nearest",
         rasterized=True,
     )  # fmt: skip
-    for front, dashes in (("front_site", "-"), ("second_front_site", (0, (3, 1.5)))):
-        axes.plot(data[front], tau, ls=dashes, **WAY)
+    axes.plot(data["front_site"], tau, **style.ON_COLOURS | {"ls": "-"})
+    axes.plot(data["second_front_site"], tau, **style.ON_COLOURS)
     axes.set_xlim(0.0, 1.15 * max(10.0, float(data["front_site"].max())))
     axes.set_xlabel("site $n$")
     return mesh
@@ -96,6 +92,6 @@ def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
         axes.errorbar(
             omega, data[name] / thermal, limits.where(np.isfinite(limits)), label=label, **look
         )
-    axes.set_ylim(bottom=0.7)
+    axes.set_ylim(bottom=0.6)
     axes.set(xlabel=r"$\Omega$", ylabel="$P$ over thermal $P$")
     axes.legend(loc="lower left", handlelength=1.0)
