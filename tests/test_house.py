@@ -87,7 +87,7 @@ def lines_of(modules) -> int:
 def test_what_all_share_stays_small():
     """More than that nobody keeps in mind: merge what is read together before adding a part."""
     shared = [module for module in MODULES if module.parts[0] != "studies"]
-    assert len(shared) <= 130 and lines_of(shared) <= 16_800
+    assert len(shared) <= 130 and lines_of(shared) <= 16_900
 
 
 def test_a_study_can_be_read_in_a_day():

@@ -27,5 +27,5 @@ def test_no_quantity_of_a_run_differs_between_two_of_its_datasets(full_run):
             same = np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
             if len({ensemble, another} - {None}) < 2 and not same:
                 differing.append(f"{name}: {one} and {other}")
-    assert {"divergence_time", "horizon", "divergence_measured"} <= {name for name, *_ in held}
+    assert {"horizon", "relative_width"} <= {name for name, *_ in held}
     assert differing == []

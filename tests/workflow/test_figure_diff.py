@@ -84,6 +84,6 @@ def test_a_value_of_bits_that_means_nothing_is_told(full_run, clone):
 
 def test_it_compares_each_time_the_figures_of_the_list_alone(full_run, clone):
     assert planned(clone, full_run, "figure_diff") == {"figure_diff": 1}
-    edit(clone / "Snakefile", ' "bounds",', "")
+    edit(clone / "Snakefile", ', "bounds"),', "),")
     result = snakemake(clone, full_run, "--dry-run", "accept_figures", "--config", "accept=bounds")
     assert result.returncode != 0 and "bounds names no file of a full run" in said(result)
