@@ -25,8 +25,9 @@ LEFT_OUT = [
     r"`[^`\n]*(\n[^`\n]+)?`",  # names of files, cases and commands
     r"\]\([^)]*\)",  # where a link leads
     r"\{\{.*?\}\}",  # facts
-    # formulas; an inline one has no number of more digits but what the paper prints
-    r"\$\$.*?\$\$|\$(?:[^$\d]|\d(?![\d.])|0\.1\)|10\^\{-6\})+\$",
+    # formulas; an inline one has no number of more digits but what the paper prints, and the last
+    # detuning of a study
+    r"\$\$.*?\$\$|\$(?:[^$\d]|\d(?![\d.])|0\.1\)|10\^\{-6\}|5\.5)+\$",
     r"^## References.*",
     r"\{%.*?%\}",
     r"<!--.*?-->",
