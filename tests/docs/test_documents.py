@@ -35,7 +35,7 @@ LEFT_OUT = [
 NAMES = [
     r"Fig(s|ure)?\s\d+(( to|,| and)\s\d+)*",
     r"\[\d\]",  # a reference
-    r"Lemma \d",
+    r"Lemma \d|Table \d",
     r"Theorems?\s\d(\s(to|and)\s\d)?|Sections?\s\d( to \d)?",
     r"\bl2²?\b",  # a norm
     r"ode45|DOP853",
@@ -48,7 +48,7 @@ DEFINITIONS = [
     r"Ω = -?\d( and -?\d)?",  # the detuning of a case
     r"2γ|4ε",  # the bounds of the unstable band
     r"A = B = 0",
-    r"printed 0\.1",  # what the paper prints
+    r"printed 0\.1|order of\" 10⁻⁶",  # what the paper prints
 ]
 WORDS = (
     r"\b(three|four|five|six|seven|eight|nine|ten|eleven|twelve|twenty|hundred|thousand|million|"
