@@ -36,7 +36,7 @@ for folder in filter(os.path.exists, (".", ".snakemake")):
 # which fails where it is not installed; the variable is left alone if absent, so that no import is repeated.
 os.environ.update(PYTHONPATH=os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)]))
 if "MPLBACKEND" in os.environ:
-    os.environ["MPLBACKEND"] = "agg"
+    os.environ.update(MPLBACKEND="agg")
 
 from reasons import why_jobs_failed
 
