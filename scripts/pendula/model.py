@@ -318,9 +318,9 @@ def _of_json(text: str) -> Model:
 
 
 def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
-    """Return the names of fields or parameters, each of which can stand in Python as it is.
+    """Return the names of fields or parameters.
 
-    Raises ModelError with the first that cannot, and why.
+    Raises ModelError with the first that is no valid name, and why.
     """
     found = tuple(given)
     for place, name in enumerate(found):

@@ -23,6 +23,7 @@ CONSTANTS = {"epsilon": 1.0, "gamma": 0.5, "omega": -4.0}
         ({"pair": (1 + 2j, 0.5)}, {"pair": '["(1+2j)", 0.5]'}),
         ({"grid": np.arange(2.0)}, {"grid": "[0.0, 1.0]"}),
         ({"between": {"a": [1, 2]}}, {"between": '{"a": [1, 2]}'}),
+        ({"ends": {0.2: 1, 0.1: 2}}, {"ends": '{"0.2": 1, "0.1": 2}'}),
     ],
 )
 def test_arguments_become_numbers_and_text(given, says):

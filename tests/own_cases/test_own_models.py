@@ -149,6 +149,16 @@ def test_names_that_cannot_stand_in_equations_are_refused(fields, parameters, me
     assert message in str(error.value)
 
 
+def case_with(given, by):
+    """Return a case whose parameter `a` is given by the model or by the case."""
+    model = Model(
+        fields="u",
+        parameters={"a": given if by == "model" else 1.0},
+        i_dt=lambda p, u: lap(u) + p.a * u,
+    )
+    return case(model=model, parameters={} if by == "model" else {"a": given})
+
+
 VALUES = [
     (np.float32(0.5), 0.5),
     (np.int64(2), 2.0),
@@ -163,15 +173,10 @@ VALUES = [
 @pytest.mark.parametrize(("given", "value"), VALUES)
 @pytest.mark.parametrize("by", ["model", "case"])
 def test_values_of_parameters_are_taken_from_model_and_case_alike(given, value, by):
-    model = Model(
-        fields="u",
-        parameters={"a": given if by == "model" else 1.0},
-        i_dt=lambda p, u: lap(u) + p.a * u,
-    )
-    made = case(model=model, parameters={} if by == "model" else {"a": given})
+    made = case_with(given, by)
     problem = Problem.of(made.problem())
     assert problem.parameters == {"a": value}
-    run, plain = simulate(made), simulate(case(model=model, parameters={"a": value}))
+    run, plain = simulate(made), simulate(case_with(value, "case"))
     np.testing.assert_array_equal(run["final"], plain["final"])
     assert json.loads(run.attrs["parameters"]) == {"a": value}
 
@@ -199,13 +204,8 @@ WRONG = [
 @pytest.mark.parametrize(("given", "message"), WRONG)
 @pytest.mark.parametrize("by", ["model", "case"])
 def test_values_that_are_no_parameters_are_refused_before_any_run(given, message, by):
-    model = Model(
-        fields="u",
-        parameters={"a": given if by == "model" else 1.0},
-        i_dt=lambda p, u: lap(u) + p.a * u,
-    )
     with pytest.raises(ConfigurationError) as error:
-        case(model=model, parameters={} if by == "model" else {"a": given})
+        case_with(given, by)
     assert "parameters.a: " in str(error.value) and message in str(error.value)
     assert ("(the default in model)" in str(error.value)) == (by == "model")
     assert "has 1 error:" in str(error.value)

@@ -51,10 +51,10 @@ def stated(
 ) -> dict[str, Any]:
     """Return what the function of a job was given as attributes, which are numbers and text.
 
-    A list is written as JSON, and a table as an attribute for each entry, or as JSON if they are
-    no single values. Several problems have an attribute for what all of them share, and one for
-    the rest. `variables` are those of the dataset: what they hold is left out. `read` names the
-    datasets that the `function` has read.
+    A list is written as JSON. A table of single values with names becomes an attribute for each
+    entry, any other table JSON. Several problems have an attribute for each value that all of them
+    share, and one for the values in which they differ. What the `variables` of the dataset hold is
+    left out. `read` names the datasets that the `function` has read.
     """
     variables, found = set(variables), {}
     for name, value in given.items():
@@ -88,7 +88,7 @@ def _problems(value: Any) -> dict[str, Problem]:
 def _plain(name: str, value: Any) -> dict[str, Any]:
     if value is None:
         return {}
-    if isinstance(value, Mapping) and all(map(_is_single, value.values())):
+    if isinstance(value, Mapping) and all(map(_is_named, value, value.values())):
         start = "" if name == "constants" else f"{name}_"
         names = {key: name if key == "name" else f"{start}{key}" for key in value}
         return {names[key]: said for key, one in value.items() for said in _plain("", one).values()}
@@ -96,8 +96,10 @@ def _plain(name: str, value: Any) -> dict[str, Any]:
     return {name: value if as_it_is else _json(value)}
 
 
-def _is_single(value: Any) -> bool:
-    return value is None or isinstance(value, str | int | float | complex | np.generic)
+def _is_named(key: Any, value: Any) -> bool:
+    """Return whether an entry is a single value whose name can stand in that of an attribute."""
+    single = value is None or isinstance(value, str | int | float | complex | np.generic)
+    return single and f"_{key}".isidentifier()
 
 
 def _json(value: Any) -> str:

@@ -65,7 +65,7 @@ def is_kept(name: str) -> bool:
 
 
 def fault_of_kept(name: str, accepted: Mapping[str, Any], folder: Path) -> str:
-    """Return in words what is wrong with the copy of a file in the baseline, or nothing."""
+    """Return the fault of the copy of a file in the baseline, or an empty text."""
     if name not in accepted or not (folder / name).exists():
         return "is missing"
     told = accepted[name]

@@ -56,7 +56,7 @@ def compare(
 
 
 def fault_of_form(path: Path) -> str:
-    """Return in words what xarray does not show and no dataset of a run has, or nothing."""
+    """Return the fault of a dataset that xarray does not show: no checksum, groups, idle dimensions."""
     if not path.read_bytes()[-LENGTH:].startswith(MARK):
         return "has lost the checksum in its last line: it was written by another program"
     with netCDF4.Dataset(path) as file:
