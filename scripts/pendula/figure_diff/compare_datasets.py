@@ -56,7 +56,7 @@ def compare(
 
 
 def fault_of_form(path: Path) -> str:
-    """Return the fault of a dataset that xarray does not show: no checksum, groups, idle dimensions."""
+    """Return a fault that xarray does not show: no checksum, groups, idle dimensions."""
     if not path.read_bytes()[-LENGTH:].startswith(MARK):
         return "has lost the checksum in its last line: it was written by another program"
     with netCDF4.Dataset(path) as file:
