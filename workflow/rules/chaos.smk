@@ -64,7 +64,7 @@ use rule dataset as measure_members with:
 
 
 use rule dataset as measure_lifetimes with:
-    "Ensembles that show when the central pendulum stops being localised, by its initial amplitude"
+    "Ensembles that show how long the central pair stays excited, by its initial amplitude"
     input:
         kernels=kernels("taylor"),
     pathvars:
@@ -76,7 +76,7 @@ use rule dataset as measure_lifetimes with:
 
 
 use rule figure as lifetimes with:
-    "How long the central pendulum stays localised, against its initial amplitude"
+    "How long the central pair stays excited, against its initial amplitude"
     input:
         lifetimes="<results>/checks/lifetimes.nc",
     pathvars:

@@ -1,15 +1,18 @@
-"""What becomes of data on one pair: they disperse, stay at it, move away, or spread.
+"""What becomes of data on one pair: they stay localised, move away, disperse, or spread.
+
+A motion is *localised* while more than half of P is near the centre. Near are the central pair and
+the two to which it is coupled, since these are all that its motion drives directly.
 
 The end of a run on an even chain distinguishes the four fates, without a number to choose:
 
 - three neighbouring pairs, or three and their mirror image, hold more than half of P: the central
-  ones, then the motion *stays*, or others, then it *moves*;
+  ones, then the motion is localised and *stays*, or others, then it *moves*;
 - no three do, and P is no larger than linear waves could have made it: it *disperses*;
 - no three do, and P is larger: it *spreads*, and the drive feeds the chaotic state that fills the
   chain.
 
-Three and not one, since a breather of little P and whatever moves along the chain reach beyond one
-pair. On 61 pairs dispersed waves and chaotic states have less than a third of P on any three.
+One pair would not do, since a breather of little P and whatever moves along the chain reach beyond
+it. On 61 pairs dispersed waves and chaotic states have less than a third of P on any three.
 
 Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
@@ -67,14 +70,19 @@ def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
     return held / power.sum()
 
 
+def is_localised(power: np.ndarray) -> bool:
+    """Return whether P by distance is that of a localised motion."""
+    return bool(share_of_three_pairs(power)[0] > MAJORITY)
+
+
 def place_of(power: np.ndarray) -> int | None:
     """Return how far from the centre three pairs hold more than half of P; None if none do.
 
     Three pairs one site away from the centre include it, and are not counted.
     """
-    held = share_of_three_pairs(power)
-    if held[0] > MAJORITY:
+    if is_localised(power):
         return 0
+    held = share_of_three_pairs(power)
     if len(held) < 3:
         return None
     strongest = 2 + int(held[2:].argmax())

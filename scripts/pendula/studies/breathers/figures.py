@@ -12,7 +12,7 @@ from pendula.drawing import style
 
 LOOKS = {
     "disperses": "#fdfcf8",
-    "stays": "#0b1d51",
+    "stays localised": "#0b1d51",
     "moves away": "#007a5a",
     "spreads": "#f2a33c",
 }
@@ -28,10 +28,10 @@ PAPERS = "initial conditions of the paper"
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate")
 FATES_CAPTION = (
     "What becomes of an excited central pair by τ = {end}: above by its amplitudes A₀ and B₀, "
-    "below by A₀ and the phase of B₀, at each Ω. A motion stays if the three central pairs hold "
-    "most of P, and moves away if three others do; else it disperses if P is no larger than "
-    "linear waves make it, and spreads if P is larger. Circles mark the initial conditions of "
-    "Figs 2 to 4, in the colour of their own fate."
+    "below by A₀ and the phase of B₀, at each Ω. A motion stays localised if the central "
+    "pair and its neighbours hold more than half of P at the end, and moves away if three others "
+    "do. Else it disperses if P is no larger than linear waves make it, and spreads if P is "
+    "larger. Circles mark the initial conditions of Figs 2 to 4, in the colour of their own fate."
 )
 
 

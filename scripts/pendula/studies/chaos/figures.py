@@ -1,4 +1,4 @@
-"""How long the centre stays localised, as a picture."""
+"""How long the central pair stays excited, as a picture."""
 
 import numpy as np
 import xarray as xr
@@ -13,9 +13,10 @@ PAPERS_END = 50.0
 STROKES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 CAPTION = (
     "When an excited central pair at Ω = {omega} loses its excess of power, by its initial "
-    "amplitude A₀, of {members} runs each with B₀ = {ratio} A₀. (a): share of runs that are still "
-    "localised at τ, with confidence intervals (bands), for amplitudes at which this time differs "
-    "from run to run. (b): median time of the transition. Dashed: the end of the runs of Fig 4."
+    "amplitude A₀, of {members} runs each with B₀ = {ratio} A₀. (a): share of runs in which it is "
+    "still excited at τ, with confidence intervals (bands), for amplitudes at which this time "
+    "differs from run to run. (b): median time of the transition. Dashed: the end of the runs of "
+    "Fig 4."
 )
 
 
@@ -29,7 +30,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
-    """Draw the share that is still localised against tau, and the median life against A_0."""
+    """Draw the share that is still excited against tau, and the median life against A_0."""
     figure = style.new_figure(style.WIDTH, 2.2)
     shares, medians = figure.subplots(1, 2)
     _draw_shares(shares, data)
@@ -51,7 +52,7 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
                   color=colour, lw=1.2, ls=STROKES[k % len(STROKES)])  # fmt: skip
     _mark_end(axes.axvline)
     axes.set(xscale="log", xlim=(1, end), xlabel=r"$\tau$", ylim=(0, 1.03), ylabel="share of runs")
-    axes.set_title("(a) runs still localised", loc="left")
+    axes.set_title("(a) centre still excited", loc="left")
     axes.legend(loc="lower left")
 
 

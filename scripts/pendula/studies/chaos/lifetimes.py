@@ -1,9 +1,10 @@
-"""How long the central pendulum keeps to itself, against its initial amplitude.
+"""How long the central pair stays excited, against its initial amplitude.
 
 Zero is unstable, so that the chain around the centre is always set in motion; a large enough
-oscillation stays localised in it for some time, which differs from run to run. The transition is
-over when the central pair holds no more than an even share of P, which is P over the number of
-pairs: a definition without any number to choose. Lives that outlast the run are censored.
+oscillation lasts there for some time, which differs from run to run. The transition is over when
+the central pair holds no more than an even share of P, which is P over the number of pairs: a
+definition without any number to choose. An excited pair is not yet a localised motion, see the
+study of breathers: the chain around it may hold most of P. Lives that outlast the run are censored.
 """
 
 import numpy as np
@@ -51,7 +52,7 @@ def lives_from(
 
 
 def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
-    """Return the share of members still localised at each tau, with exact limits, all (time,).
+    """Return the share of members still excited at each tau, with exact limits, all (time,).
 
     No life is censored before the runs end, so that this is the estimate of Kaplan and Meier.
     """
@@ -74,7 +75,7 @@ def measure_lifetimes(
         ),
         **_limits(
             "surviving", (*over, "tau"), [surviving(one, tau) for one in lives],
-            "share of runs that are still localised",
+            "share of runs whose central pair is still excited",
         ),
         **_limits(
             "median", over, [median_limits(one) for one in lives],
@@ -84,7 +85,7 @@ def measure_lifetimes(
     _, shared = describe_cases({"centre": problem})
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "ratio": ratio}
     about |= {"perturbation": size, "members": members, "seed": seed}
-    title = "How long the central pendulum stays localised, against its initial amplitude"
+    title = "How long the central pair stays excited, against its initial amplitude"
     return variables, {**shared, "title": title, **about}
 
 

@@ -65,7 +65,7 @@ Members = model(
 
 
 class Lifetimes(Model):
-    """How long the central pendulum stays localised, against its initial amplitude."""
+    """How long the central pair stays excited, against its initial amplitude."""
 
     case: Name
     amplitudes: Annotated[list[Positive], Field(min_length=2), Distinct]
