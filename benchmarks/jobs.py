@@ -5,12 +5,12 @@ from collections.abc import Mapping
 from functools import partial
 
 import xarray as xr
+from latticode.kernels.sources import describe_machine
 from pendula.datasets.netcdf import read, write
 from pendula.datasets.trajectories import Contents
 from pendula.drawing.style import save
 from pendula.problem import Problem, by_name
 from pendula.report.words import number, write_markdown
-from pendula.sources import describe_machine
 
 from benchmarks import cost, figures, pendula
 from benchmarks.contestants import PEERS, Contestant, find_peers

@@ -5,7 +5,7 @@ from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 import numpy as np
-from pendula.compiled import kernel
+from latticode.kernels.compiled import kernel
 from pendula.models.amplitudes import rates
 from pendula.models.pendula import at_time
 from pendula.models.pendula import rates as pendula_rates

@@ -12,8 +12,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from latticode.kernels.sources import describe_machine
 from pendula.report.words import markdown, write_markdown
-from pendula.sources import describe_machine
 
 from .timing import timed
 
@@ -33,7 +33,7 @@ def run(project: Path) -> dict:
 
     Where it fails, what it said goes to the log of this measurement, since the copy is removed.
     """
-    environment = {**os.environ, "PENDULA_CACHE": str(project.with_name("kernels"))}
+    environment = {**os.environ, "LATTICODE_CACHE": str(project.with_name("kernels"))}
     command = [sys.executable, "-m", "snakemake"]
     before = _processor_time()
     done, seconds = timed(

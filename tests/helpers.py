@@ -36,6 +36,11 @@ def skip(reason: str, way: str) -> NoReturn:
     pytest.skip(f"{reason}{WAY}{way}", allow_module_level=True)
 
 
+def python_path(project: Path = ROOT) -> str:
+    """Return the folders in which Python finds the packages of a copy of the project."""
+    return os.pathsep.join(str(project / place) for place in ("packages/latticode", "scripts"))
+
+
 def another_numba(folder: Path) -> dict[str, str]:
     """Return the environment of a process in which numba says that it is of an unknown version."""
     said = folder / "numba-0.0.1.dist-info/METADATA"

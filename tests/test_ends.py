@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from latticode.equations.ends import ENDS, neighbours
 from oracle import BOUNDARIES, laplacian, random_chain
 from pendula.datasets.trajectories import describe_run
-from pendula.ends import ENDS, neighbours
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.own_cases.figures import name_data_and_ends

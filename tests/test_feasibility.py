@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from latticode.integrators.taylor import ORDER
 from oracle import SOLVERS, random_chain
 from pendula.feasibility import (
     SERIES_ORDER,
     find_fault,
     find_obstacle,
 )
-from pendula.integrators.taylor import ORDER
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import IntegrationError, simulate
 from problems import PAPER, constants_of, make_problem

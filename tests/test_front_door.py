@@ -18,7 +18,7 @@ HIDDEN = re.compile(
 
 
 def test_dependencies_are_used_by_their_front_door():
-    folders = ("scripts", "workflow", "plugins", "benchmarks", "docs", "tests")
+    folders = ("scripts", "workflow", "packages", "benchmarks", "docs", "tests")
     modules = {path for folder in folders for path in (ROOT / folder).rglob("*.py")}
     modules = {path for path in modules if path.name not in INSIDE and "build" not in path.parts}
     assert len(modules) > 300

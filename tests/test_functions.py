@@ -10,10 +10,11 @@ number by its name. Whole runs on played machines find what both miss (`.ci/else
 import ast
 from collections.abc import Iterator
 
+import pendula  # noqa: F401, which names its folder there
 import pytest
-from pendula.sources import SCRIPTS
+from latticode.kernels.sources import ROOTS
 
-LIBRARY = SCRIPTS / "pendula"
+LIBRARIES = [ROOTS[name] / name for name in ("latticode", "pendula")]
 
 MAY_DIFFER = ("report", "drawing", "figure_diff", "archive")
 """Rooms that write texts and pictures for people, of rounded numbers."""
@@ -77,12 +78,13 @@ def uses(source: str) -> Iterator[str]:
 def test_operators_have_the_same_bits_everywhere():
     """Each use stands in ALLOWED, and what is allowed is still used."""
     found = {
-        (path.relative_to(LIBRARY).as_posix(), use)
-        for path in LIBRARY.rglob("*.py")
-        if path.relative_to(LIBRARY).parts[0].removesuffix(".py") not in MAY_DIFFER
+        (path.relative_to(library).as_posix(), use)
+        for library in LIBRARIES
+        for path in library.rglob("*.py")
+        if path.relative_to(library).parts[0].removesuffix(".py") not in MAY_DIFFER
         for use in uses(path.read_text())
     }
-    assert found - ALLOWED.keys() == set(), "use pendula.numerics in place of these"
+    assert found - ALLOWED.keys() == set(), "use latticode.numerics in place of these"
     assert ALLOWED.keys() - found == set(), "nothing uses these any longer"
 
 

@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from pendula import sources
+from latticode.kernels import sources
+from pendula.sources import SCRIPTS
 from pendula.studies import STUDIES
 
-LIBRARY = sources.SCRIPTS / "pendula"
+LIBRARY = SCRIPTS / "pendula"
 MODULES = sorted(path.relative_to(LIBRARY) for path in LIBRARY.rglob("*.py"))
 
 STOREYS = (
@@ -20,15 +21,10 @@ STOREYS = (
     ("datasets",),
     ("simulation",),
     ("models",),
-    ("integrators",),
-    ("measures",),
     ("configuration",),
     ("feasibility",),
     ("problem",),
-    ("model", "model_file", "ends"),
-    ("symbols",),
-    ("graph",),
-    ("simd", "compiled", "inside_numba", "kernel_cache", "numerics", "sources"),
+    ("sources",),
 )
 """The rooms from the top down: an import points down, or stays in its room."""
 

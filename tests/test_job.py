@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import job
 import pytest
-from helpers import ROOT, skip, wait_for
+from helpers import python_path, skip, wait_for
 
 JOB = """
 import sys, threading
@@ -35,7 +35,7 @@ def start(folder: Path, body: str, log: str = "a.log") -> subprocess.Popen:
         cwd=folder,
         stderr=subprocess.PIPE,
         text=True,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "scripts")},
+        env={**os.environ, "PYTHONPATH": python_path()},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
 
@@ -111,7 +111,7 @@ def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple():
     interrupt, and does not look whether the call worked. In a thread of its own, as all runs are, a
     kernel returns in peace.
     """
-    env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
+    env = {**os.environ, "PYTHONPATH": python_path()}
     done = subprocess.run([sys.executable, "-c", CRASH], capture_output=True, text=True, env=env)
     assert done.returncode == -signal.SIGINT, done.stderr
 

@@ -9,18 +9,23 @@ from pathlib import Path
 
 import pytest
 import yaml
-from pendula import sources
+from latticode.kernels import sources
+from pendula.sources import SCRIPTS
 
 ROOT = Path(__file__).resolve().parents[1]
-STUDIES_FOLDER = sources.SCRIPTS / "pendula/studies"
+PACKAGES = [sources.ROOTS[name] / name for name in ("latticode", "pendula")]
+STUDIES_FOLDER = SCRIPTS / "pendula/studies"
 
 
 def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():
-    plugin, *pins = (ROOT / "environment.txt").read_text().split()
-    assert (ROOT / plugin / "pyproject.toml").exists()
+    lines = (ROOT / "environment.txt").read_text().splitlines()
+    own, pins = lines[:2], lines[2:]
+    assert all((ROOT / one.removeprefix("-e ") / "pyproject.toml").exists() for one in own)
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
     conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
-    library = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    homes = [ROOT, ROOT / "packages/latticode"]
+    each = [tomllib.loads((home / "pyproject.toml").read_text()) for home in homes]
+    library = [one for home in each for one in home["project"]["dependencies"]]
     library = [re.match(r"[\w-]+", package)[0] for package in library]
     imported = {*library, *sources.PACKAGES, "snakemake"}
     assert set(conda["dependencies"][-1]["pip"]) == {
@@ -68,13 +73,17 @@ def test_what_draws_does_not_depend_on_how_it_was_integrated():
 
 
 def test_importing_a_package_drags_in_no_other_room():
-    """What an `__init__.py` imports is in the record of every job that imports from the package."""
-    packages = list(sources.SCRIPTS.glob("pendula/**/__init__.py"))
+    """What an `__init__.py` imports is in the record of every job that imports from the package.
+
+    That of the replication names its folder to the library, which follows imports by such names.
+    """
+    named = set(sources.modules_of(SCRIPTS / "pendula/sources.py"))
+    packages = [init for home in PACKAGES for init in home.rglob("__init__.py")]
     assert len(packages) > 10
     for init in packages:
         above = {folder / "__init__.py" for folder in init.parent.parents}
         others = {path for path in sources.modules_of(init) if init.parent not in path.parents}
-        assert others <= above, init
+        assert others <= above | named, init
 
 
 def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
@@ -95,7 +104,7 @@ def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
     ],
 )
 def test_a_record_follows_every_kind_of_import(tmp_path, monkeypatch, statement):
-    monkeypatch.setattr(sources, "SCRIPTS", tmp_path)
+    monkeypatch.setitem(sources.ROOTS, "pendula", tmp_path)
     here, room = tmp_path / "pendula/studies/draw.py", tmp_path / "pendula/drawing"
     room.mkdir(parents=True)
     here.parent.mkdir()
@@ -113,7 +122,7 @@ def imports_in(tree) -> list[str]:
 def test_a_record_has_the_imports_that_python_finds():
     """Not everything is parsed, so that what is left out must hold no import."""
     sizes = []
-    for module in sources.SCRIPTS.rglob("*.py"):
+    for module in [module for home in (SCRIPTS, PACKAGES[0]) for module in home.rglob("*.py")]:
         text = module.read_text(encoding="utf-8")
         trees = sources._tree_of(text), ast.parse(text)
         assert imports_in(trees[0]) == imports_in(trees[1]), module
@@ -146,7 +155,9 @@ def tokens_of(text: str) -> list[str]:
 
 
 def test_what_is_left_out_of_the_hash_of_code_is_no_code():
-    for module in [*sources.SCRIPTS.rglob("*.py"), *(ROOT / "benchmarks").rglob("*.py")]:
+    for module in [
+        one for home in (SCRIPTS, *PACKAGES[:1], ROOT / "benchmarks") for one in home.rglob("*.py")
+    ]:
         text = module.read_text(encoding="utf-8")
         assert tokens_of(sources.bare(text)) == tokens_of(text), module
 
@@ -167,7 +178,7 @@ def test_comments_and_docstrings_do_not_count(text, same):
 
 
 def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monkeypatch):
-    monkeypatch.setattr(sources, "SCRIPTS", tmp_path)
+    monkeypatch.setitem(sources.ROOTS, "pendula", tmp_path)
     page = tmp_path / "pendula/page"
     page.mkdir(parents=True)
     (tmp_path / "pendula/other.py").write_text("X = 1\n")

@@ -29,19 +29,20 @@ HASHES = {
 """Bits that every machine must get. A change of the equations' or a solver's arithmetic changes
 them: if it was meant, put here what `python tests/bits.py` prints, and say why in the commit."""
 
-SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
+PROJECT = Path(__file__).resolve().parents[1]
+PLACES = [str(PROJECT / place) for place in ("packages/latticode", "scripts")]
 COMMITTED = {name: [value] for name, value in HASHES.items()}
 
 
 def run(python, environment, cache, threads, *solvers):
     """Run the cases in a process of its own."""
-    settings = {"PENDULA_CACHE": str(cache)}
+    settings = {"LATTICODE_CACHE": str(cache)}
     return json.loads(output_of([python, bits.__file__, threads, *solvers], environment | settings))
 
 
 def output_of(command, environment):
     """Return what a program prints that uses the library."""
-    path = os.pathsep.join([str(SCRIPTS), environment.get("PYTHONPATH", "")])
+    path = os.pathsep.join([*PLACES, environment.get("PYTHONPATH", "")])
     settings = environment | {"PYTHONPATH": path}
     done = subprocess.run([*map(str, command)], env=settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

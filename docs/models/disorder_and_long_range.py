@@ -1,7 +1,7 @@
 """A chain with a random potential and a coupling that falls with the cube of the distance."""
 
+from latticode.equations.model import abs2, shift
 from numpy.random import default_rng
-from pendula.model import abs2, shift
 
 fields = "u"
 parameters = {"coupling": 1.0, "disorder": lambda n: default_rng(1).uniform(-1, 1, n.size)}

@@ -6,6 +6,8 @@ names are listed in `pendula.__all__` and explained in `help(pendula.notebook)`.
 
 from importlib import import_module
 
+from . import sources  # noqa: F401, so that hashes of code follow the imports of this package
+
 __version__ = "1.0.0"
 
 _HOMES = {

@@ -9,15 +9,15 @@ from collections.abc import Mapping
 from math import frexp, isfinite
 
 import numpy as np
+from latticode.equations.model import Model
+from latticode.numerics.elementary import log
 
-from pendula.model import Model
-from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem
 
 MOST_STEPS = 1e9
 """More steps are refused: the run would take hours or never end."""
 SERIES_ORDER = 16
-"""The order of the power series of pendula.integrators.taylor."""
+"""The order of the power series of latticode.integrators.taylor."""
 ROUNDING = 1e-16
 """No solver resolves a smaller part of the data."""
 SMALLEST_ERROR = 1e-150

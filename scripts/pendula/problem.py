@@ -13,10 +13,9 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-
-from pendula.ends import ends_of
-from pendula.model import Model
-from pendula.model_file import at_middle
+from latticode.equations.ends import ends_of
+from latticode.equations.model import Model
+from latticode.equations.model_file import at_middle
 
 AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
 """The amplitude equations (4), and Newton's equations (1) of the pendula."""

@@ -10,11 +10,11 @@ import problems
 import pytest
 import yaml
 from helpers import ROOT, package, skip, snakemake, wait_for
+from latticode.measures.difference import first_above, norm_difference
 from oracle import CASES
 from pendula.datasets.netcdf import read, write
 from pendula.figure_diff import hashes
 from pendula.live.write import write_live
-from pendula.measures.difference import first_above, norm_difference
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 from pendula.studies.chaos.lifetimes import shares_alike

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import yaml
-from helpers import run_ready
+from helpers import python_path, run_ready
 from pendula.archive.contents import code_files
 from pendula.configuration.files import merge
 
@@ -141,7 +141,7 @@ class Reader:
         if block.kind == "pycon":
             (self.beside / "session.txt").write_text(block.text, encoding="utf-8")
             words = ["doctest", "-o", "NORMALIZE_WHITESPACE", str(self.beside / "session.txt")]
-            return self._ready(words, PYTHONPATH=str(self.clone / "scripts"))
+            return self._ready(words, PYTHONPATH=python_path(self.clone))
         said = ""
         for line in block.text.splitlines():
             if SNAKEMAKE.match(line):

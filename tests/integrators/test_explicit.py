@@ -4,10 +4,10 @@ import numpy as np
 import plain
 import pytest
 import systems
+from latticode.integrators import DONE, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL
+from latticode.integrators.taylor import ORDER
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, SOLVERS, power_series, random_chain, slope
-from pendula.integrators import DONE, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL
-from pendula.integrators.taylor import ORDER
 
 METHODS = ("ode45", "dop853", "taylor")
 each_method = pytest.mark.parametrize("name", METHODS)

@@ -5,9 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import systems
+from latticode.integrators import DONE, NO_CONTRACTION
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, SOLVERS, random_chain, slope
-from pendula.integrators import DONE, NO_CONTRACTION
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 

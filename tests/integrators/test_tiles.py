@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pendula.compiled import kernel
-from pendula.integrators import DONE, dop853, tiles
+from latticode.integrators import DONE, dop853, tiles
+from latticode.kernels.compiled import kernel
 from pendula.models.amplitudes import Chain, rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack
 from pendula.simulation.observables import blank_record, observe

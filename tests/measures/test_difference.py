@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.measures.difference import (
+from latticode.measures.difference import (
     PARAMETERS,
     VISIBLE,
     difference,

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.measures.norms import growth_margin
+from pendula.models.bounds import growth_margin
 
 
 def test_growth_at_the_bound_has_no_margin_and_beyond_it_less():

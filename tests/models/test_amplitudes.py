@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from hypothesis import given
+from latticode.kernels.simd import LANES
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
 from pendula.models.amplitudes import (
     Chain,
@@ -12,7 +13,6 @@ from pendula.models.amplitudes import (
     rates,
     rates_at_site,
 )
-from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)

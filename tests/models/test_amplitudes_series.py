@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from latticode.generation.series import CACHED_BLOCKS
+from latticode.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
+from latticode.kernels.compiled import kernel
+from latticode.kernels.simd import LANES
 from oracle import BOUNDARIES, boundaries, chains, constants, power_series
-from pendula.compiled import kernel
-from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.models.amplitudes import Chain, continue_series
-from pendula.models.series import CACHED_BLOCKS
-from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
 
 WHOLE = Reduction(even=False, synchronised=False)

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from flint import arb, ctx
+from latticode.equations.ends import DIRICHLET
+from latticode.kernels.compiled import kernel
+from latticode.kernels.simd import LANES, load, store
 from on_pendula import TIGHT, final, pendula, slope, start, undriven_energy
-from pendula.compiled import kernel
-from pendula.ends import DIRICHLET
 from pendula.models.pendula import (
     amplitudes_of,
     at_time,
@@ -13,7 +14,6 @@ from pendula.models.pendula import (
     make_pendula,
     sine_and_cosine,
 )
-from pendula.simd import LANES, load, store
 from pendula.simulation.lattice import Reduction
 from pendula.simulation.simulate import simulate
 from scipy.integrate import solve_ivp

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pendula.model import Model
+from latticode.equations.model import Model
 from pendula.own_cases.breathers import State, exponents, find_state
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.model import Model, ModelError, abs2, conj, exp, lap, log, sin, sqrt
+from latticode.equations.model import Model, ModelError, abs2, conj, exp, lap, log, sin, sqrt
 from pendula.simulation.own_models import solver_names
 from pendula.simulation.simulate import IntegrationError, simulate
 from scipy.integrate import solve_ivp

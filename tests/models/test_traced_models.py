@@ -4,7 +4,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from pendula.model import Model, abs2, conj, lap, shift
+from latticode.equations.model import Model, abs2, conj, lap, shift
 from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate

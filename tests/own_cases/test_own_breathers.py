@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.equations.model import abs2, lap
 from pendula import Case, Model, check, draw_breather
-from pendula.model import abs2, lap
 from pendula.models import amplitudes
 from pendula.models.pairs import FAMILIES
 from pendula.own_cases import answers

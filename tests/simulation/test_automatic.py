@@ -1,8 +1,8 @@
 """auto: the error that was asked for is kept, or the run is refused."""
 
 import pytest
+from latticode.measures.difference import norm_difference
 from oracle import CASES
-from pendula.measures.difference import norm_difference
 from pendula.problem import on_sites
 from pendula.simulation.simulate import IntegrationError, simulate
 from problems import make_problem

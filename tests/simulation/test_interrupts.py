@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from helpers import HANGS, wait_for
+from latticode.integrators import INTERRUPTED
 from oracle import SOLVERS as CONTROLS
-from pendula.integrators import INTERRUPTED
 from pendula.simulation import simulate as simulation
 from pendula.simulation import tangents
 from pendula.simulation.interrupts import interruptible

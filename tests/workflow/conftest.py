@@ -7,7 +7,8 @@ import pytest
 from helpers import ROOT, snakemake
 
 PARTS = (
-    *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
+    *("Snakefile", "workflow", "packages/latticode", "scripts", "benchmarks", "config"),
+    *("profiles", "environment.txt"),
     *(f"tests/baseline/{part}" for part in ("reference", "proofs", "speed", "quoted")),
 )
 """What of the project a run needs."""

@@ -8,7 +8,7 @@ import os
 import subprocess
 import sys
 
-from helpers import change, edit, planned
+from helpers import change, edit, planned, python_path
 from pendula.studies.theory.settings import GROUPS
 
 SIMULATIONS = {"trajectory", "measure_solvers", "sweep", "sweep_by_second_solver"}
@@ -74,7 +74,7 @@ def test_an_edit_of_the_equations_reaches_the_numbers(clone):
     """A stale cache of compiled kernels would give the old numbers."""
 
     def drift():
-        environment = {**os.environ, "PYTHONPATH": str(clone / "scripts")}
+        environment = {**os.environ, "PYTHONPATH": python_path(clone)}
         command = [sys.executable, "-c", DRIFT]
         done = subprocess.run(command, env=environment, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr

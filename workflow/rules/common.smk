@@ -16,7 +16,8 @@ gc.set_threshold(100_000)
 atexit.register(gc.freeze)
 
 PROJECT = Path(str(workflow.current_basedir)).parents[1]
-sys.path[:0] = [str(PROJECT / part) for part in ("workflow", "scripts", "")]
+LIBRARIES = [str(PROJECT / part) for part in ("packages/latticode", "scripts", "")]
+sys.path[:0] = [f"{PROJECT}/workflow", *LIBRARIES]
 
 
 def stop(reason):
@@ -34,7 +35,7 @@ for folder in filter(os.path.exists, (".", ".snakemake")):
 
 # Jobs find the library and the benchmarks. Jupyter sets its own backend of matplotlib for all that it starts,
 # which fails where it is not installed; the variable is left alone if absent, so that no import is repeated.
-os.environ.update(PYTHONPATH=os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)]))
+os.environ.update(PYTHONPATH=os.pathsep.join(LIBRARIES))
 if "MPLBACKEND" in os.environ:
     os.environ.update(MPLBACKEND="agg")
 
@@ -50,7 +51,8 @@ from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.configuration.values import Steps
 from pendula.problem import Constants, name_window
-from pendula.sources import SCRIPTS, digest_of, digest_of_code, files_of_module, modules_of
+from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
+from pendula.sources import SCRIPTS
 from pendula.studies import files_of_part
 from pendula.studies.certified.norm import NotDefiniteError, find_form
 from pendula.studies.theory.settings import GROUPS, PROVED

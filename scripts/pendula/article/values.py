@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from latticode.measures.confidence import CONFIDENCE
+from latticode.measures.levels import levelling
 
 from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.rows import Ledger, load, on_figure
 from pendula.ledger.tables import tally
-from pendula.measures.confidence import CONFIDENCE
-from pendula.measures.levels import levelling
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, percent, span, with_error
 

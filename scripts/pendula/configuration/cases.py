@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from math import inf, sqrt
 from typing import Annotated, Any, Literal
 
+from latticode.equations.ends import ENDS
 from pydantic import BeforeValidator, Field, model_validator
 
-from pendula.ends import ENDS
 from pendula.feasibility import MOST_STEPS, Obstacle, find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants
 

@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterable, Mapping
 from math import inf
 from typing import NamedTuple
 
+from latticode.equations.model import Model
+
 from pendula.feasibility import Obstacle
-from pendula.model import Model
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0

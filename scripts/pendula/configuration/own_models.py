@@ -5,6 +5,9 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Annotated, Any
 
+from latticode.equations.model import Model as Traced
+from latticode.equations.model import ModelError
+from latticode.equations.model_file import at_middle, values_at
 from pydantic import (
     BeforeValidator,
     Field,
@@ -16,9 +19,6 @@ from pydantic import (
 )
 
 from pendula.feasibility import Obstacle, find_fault_of_model
-from pendula.model import Model as Traced
-from pendula.model import ModelError
-from pendula.model_file import at_middle, values_at
 
 from .cases import Case, sites_of
 from .files import OF_MODELS

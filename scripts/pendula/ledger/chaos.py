@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-
-from pendula.measures.growth import ERRORS, MANY, is_chaotic
-from pendula.numerics.elementary import log
+from latticode.measures.growth import ERRORS, MANY, is_chaotic
+from latticode.numerics.elementary import log
 
 from .changes import exchange
 from .claim import Control

@@ -16,12 +16,12 @@ import re
 
 import numba
 import numpy as np
+from latticode.equations.ends import DIRICHLET
+from latticode.generation.chain import MIRROR
+from latticode.kernels.compiled import TESTED
 from llvmlite import binding
 
-from pendula.compiled import TESTED
-from pendula.ends import DIRICHLET
 from pendula.models.amplitudes import Chain
-from pendula.models.chain import MIRROR
 from pendula.simulation.observables import blank_record
 from pendula.simulation.solvers import SOLVERS
 

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 import yaml
+from latticode.integrators import FAULTS
+from latticode.measures.difference import VISIBLE
 from markupsafe import Markup
 
 from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import read
-from pendula.integrators import FAULTS
-from pendula.measures.difference import VISIBLE
 from pendula.problem import read_initial
 from pendula.report import page
 from pendula.report.words import case_of

@@ -14,14 +14,12 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-
-from pendula.compiled import inlined_by_llvm, kernel
-from pendula.ends import DIRICHLET, PERIODIC
-from pendula.graph import neg
-from pendula.model import Model, Value, abs2, conj, lap
-
-from .chain import MIRROR, at_every_site, close
-from .generated import load_function, load_rule, load_series
+from latticode.equations.ends import DIRICHLET, PERIODIC
+from latticode.equations.graph import neg
+from latticode.equations.model import Model, Value, abs2, conj, lap
+from latticode.generation.chain import MIRROR, at_every_site, close
+from latticode.generation.modules import load_function, load_rule, load_series
+from latticode.kernels.compiled import inlined_by_llvm, kernel
 
 
 class Chain(NamedTuple):

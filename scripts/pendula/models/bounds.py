@@ -20,9 +20,10 @@ Theorem 3 (N sites): H >= P^2 / (8 N) - c P, hence P <= C_N = 4 N (c + sqrt(c^2 
 from dataclasses import replace
 
 import numpy as np
+from latticode.equations.ends import DIRICHLET, kind_of
+from latticode.kernels.compiled import inlined_by_llvm, kernel
+from latticode.numerics.elementary import exp, log
 
-from pendula.compiled import inlined_by_llvm, kernel
-from pendula.ends import DIRICHLET, kind_of
 from pendula.problem import Constants
 
 
@@ -187,3 +188,25 @@ def best_bound(
     if kind_of(boundary) == DIRICHLET:
         bounds.append(widened_bound(energy, start, constants))
     return float(min(bounds))
+
+
+def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:
+    """Return how close a trajectory with norms `l2`, shape (2, time), comes to the bound (19).
+
+    `from_start`: largest P(tau) / (P(0) e^{4 |gamma| tau}) over tau > 0; `backwards`: the same
+    seen from the end; `steepest`: largest |change of log P| over 4 |gamma| times its duration,
+    one for any pair of times at the bound. All must be at most one.
+    """
+    rise = log(np.sum(np.asarray(l2) ** 2, axis=0))
+    allowed = 4.0 * abs(gamma) * np.asarray(tau, dtype=float)
+    forth = (rise - rise[0]) - (allowed - allowed[0])
+    back = (rise - rise[-1]) - (allowed[-1] - allowed)
+    steps = np.abs(np.diff(rise))
+    bound = np.diff(allowed)
+    unbounded = np.where(steps > 0, np.inf, 0.0)  # without a drive P may not move at all
+    steepest = np.where(bound > 0, steps / np.where(bound > 0, bound, 1.0), unbounded)
+    return {
+        "from_start": float(exp(forth[1:].max())),
+        "backwards": float(exp(back[:-1].max())),
+        "steepest": float(steepest.max()),
+    }

@@ -25,12 +25,11 @@ pendula need no data of their own to be followed to the next order.
 from typing import NamedTuple
 
 import numpy as np
-
-from pendula.compiled import inlined_by_llvm, kernel
+from latticode.generation.chain import at_every_site
+from latticode.kernels.compiled import inlined_by_llvm, kernel
 
 from . import amplitudes
 from .amplitudes import Chain, modulus2
-from .chain import at_every_site
 from .tangent import tangent_rates
 
 

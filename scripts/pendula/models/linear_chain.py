@@ -10,11 +10,10 @@ Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N site
 from functools import lru_cache
 
 import numpy as np
-
-from pendula.ends import ends_of
-from pendula.numerics import elementary
-from pendula.numerics.elementary import complex_of
-from pendula.numerics.matrices import times
+from latticode.equations.ends import ends_of
+from latticode.numerics import elementary
+from latticode.numerics.elementary import complex_of
+from latticode.numerics.matrices import times
 
 
 @lru_cache(maxsize=16)

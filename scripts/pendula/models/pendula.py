@@ -17,18 +17,16 @@ from decimal import Decimal, localcontext
 from typing import NamedTuple
 
 import numpy as np
-
-from pendula.compiled import inlined_by_llvm, kernel
-from pendula.ends import DIRICHLET
-from pendula.graph import node
-from pendula.integrators.taylor import ORDER, spare_start
-from pendula.model import Model, Value, lap, sin
-from pendula.numerics import elementary
-from pendula.numerics.elementary import SPLITTER, complex_of, modulus, product
-
-from .chain import at_every_site, close
-from .generated import load_rule, load_series
-from .toolbox import sine_and_cosine
+from latticode.equations.ends import DIRICHLET
+from latticode.equations.graph import node
+from latticode.equations.model import Model, Value, lap, sin
+from latticode.generation.chain import at_every_site, close
+from latticode.generation.modules import load_rule, load_series
+from latticode.generation.toolbox import sine_and_cosine
+from latticode.integrators.taylor import ORDER, spare_start
+from latticode.kernels.compiled import inlined_by_llvm, kernel
+from latticode.numerics import elementary
+from latticode.numerics.elementary import SPLITTER, complex_of, modulus, product
 
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"

@@ -5,11 +5,11 @@ array of states stacked by rows, four rows each: first a solution, then its tang
 with the ghost columns and the ends of one chain.
 """
 
-from pendula.compiled import kernel
+from latticode.generation.chain import at_every_site, close
+from latticode.generation.modules import load_rule
+from latticode.kernels.compiled import kernel
 
 from .amplitudes import EQUATIONS, rates
-from .chain import at_every_site, close
-from .generated import load_rule
 
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""

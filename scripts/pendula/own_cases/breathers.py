@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from latticode.numerics.elementary import square_modulus
 
 from pendula.datasets.checks import table, variable
-from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem
 from pendula.simulation.own_models import linearise
 

@@ -12,15 +12,9 @@ good.
 
 import numpy as np
 import xarray as xr
-
-from pendula.configuration.cost import TIGHTEST, other_than
-from pendula.datasets.checks import table, variable
-from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.trajectories import trajectory_contents
-from pendula.feasibility import SMALLEST_ERROR
-from pendula.integrators import DONE, FAULTS
-from pendula.measures.difference import NORMS, at_times, difference, divergence_time
-from pendula.measures.growth import (
+from latticode.integrators import DONE, FAULTS
+from latticode.measures.difference import NORMS, at_times, difference, divergence_time
+from latticode.measures.growth import (
     ROUNDING,
     amplification,
     is_chaotic,
@@ -28,12 +22,18 @@ from pendula.measures.growth import (
     mean_rate_error,
     predict,
 )
-from pendula.measures.norms import growth_margin, power_of
-from pendula.models.bounds import best_bound
+from latticode.measures.norms import power_of
+from latticode.numerics.elementary import log, modulus, product, square_modulus
+from latticode.numerics.quadrature import gauss_legendre
+
+from pendula.configuration.cost import TIGHTEST, other_than
+from pendula.datasets.checks import table, variable
+from pendula.datasets.netcdf import as_xarray
+from pendula.datasets.trajectories import trajectory_contents
+from pendula.feasibility import SMALLEST_ERROR
+from pendula.models.bounds import best_bound, growth_margin
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
-from pendula.numerics.elementary import log, modulus, product, square_modulus
-from pendula.numerics.quadrature import gauss_legendre
 from pendula.problem import (
     AMPLITUDES,
     PENDULA,

@@ -6,6 +6,8 @@ from textwrap import shorten
 
 import numpy as np
 import xarray as xr
+from latticode.equations.ends import ends_of
+from latticode.measures.difference import VISIBLE
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -13,8 +15,6 @@ from matplotlib.patches import Circle
 from pendula.datasets.netcdf import read, save
 from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
-from pendula.ends import ends_of
-from pendula.measures.difference import VISIBLE
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, read_initial
 

@@ -6,6 +6,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from latticode.kernels.sources import describe_machine
 from markupsafe import Markup
 
 from pendula.datasets import complete_or_absent
@@ -14,7 +15,7 @@ from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.rows import on_figure
 from pendula.ledger.tables import as_sentence, counted, tally
-from pendula.sources import TOOK, describe_machine
+from pendula.sources import TOOK
 
 from .described import Dataset, Figure, dataset, figure
 from .page import render

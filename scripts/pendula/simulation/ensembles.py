@@ -1,9 +1,9 @@
 """Members of an ensemble: copies of a problem whose data differ by a random relative change."""
 
 import numpy as np
+from latticode.numerics.draws import complex_normal
+from latticode.numerics.elementary import modulus, product
 
-from pendula.numerics.draws import complex_normal
-from pendula.numerics.elementary import modulus, product
 from pendula.problem import Problem
 
 

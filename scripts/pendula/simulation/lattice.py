@@ -7,9 +7,8 @@ are invariants of the equations, and the kernels keep them to the last bit.
 from typing import NamedTuple
 
 import numpy as np
-
-from pendula.ends import FREE, PERIODIC, kind_of
-from pendula.models.chain import MIRROR
+from latticode.equations.ends import FREE, PERIODIC, kind_of
+from latticode.generation.chain import MIRROR
 
 CACHE_LINE = 64
 """Bytes of a line of the cache."""

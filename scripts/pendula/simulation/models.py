@@ -8,10 +8,10 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
+from latticode.numerics.elementary import complex_of, modulus
 
 from pendula.models.amplitudes import Chain
 from pendula.models.pendula import angles_of, make_pendula, swings_of, times_of
-from pendula.numerics.elementary import complex_of, modulus
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 
 from . import pendula_solvers, solvers

@@ -4,11 +4,11 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
+from latticode.generation.chain import MIRROR
+from latticode.kernels.compiled import inlined_by_llvm, kernel, uncached
+from latticode.kernels.simd import largest_magnitude
 
-from pendula.compiled import inlined_by_llvm, kernel, uncached
 from pendula.models.amplitudes import energy_with_scratch, modulus2
-from pendula.models.chain import MIRROR
-from pendula.simd import largest_magnitude
 
 
 class Record(NamedTuple):

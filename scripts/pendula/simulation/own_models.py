@@ -3,17 +3,17 @@
 from functools import cache
 
 import numpy as np
+from latticode.equations.ends import PERIODIC, ends_of, kind_of
+from latticode.equations.graph import derivative, evaluate, leaves_in, number
+from latticode.equations.model import Model
+from latticode.equations.model_file import values_at
+from latticode.generation.modules import load_text, module_text, parts_of_rates
+from latticode.generation.toolbox import System
+from latticode.integrators import crank_nicolson, dop853, kahan_li, ode45
+from latticode.kernels.simd import LANES
+from latticode.numerics import elementary
 
-from pendula.ends import PERIODIC, ends_of, kind_of
-from pendula.graph import derivative, evaluate, leaves_in, number
-from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
-from pendula.model import Model
-from pendula.model_file import values_at
-from pendula.models.generated import load_text, module_text, parts_of_rates
-from pendula.models.toolbox import System
-from pendula.numerics import elementary
 from pendula.problem import Problem
-from pendula.simd import LANES
 
 from .lattice import Reduction, choose_ends, find_reduction
 from .solvers import ITERATED, Solver
@@ -30,7 +30,7 @@ SOLVERS = {
 }
 """Of each solver its rule of a generated module, its controls, and the number of work arrays."""
 USED = {
-    "pendula.integrators": "crank_nicolson, dop853, kahan_li, ode45",
+    "latticode.integrators": "crank_nicolson, dop853, kahan_li, ode45",
     "pendula.simulation.observables": "observe_angles, observe_fields",
 }
 """What the runs of a generated module take from the library."""

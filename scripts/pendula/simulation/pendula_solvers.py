@@ -1,8 +1,9 @@
 """The solvers of Newton's equations (1) by name, compiled and cached as those of (4)."""
 
-from pendula.compiled import kernel
-from pendula.integrators import dop853, kahan_li, ode45, taylor
-from pendula.models.chain import can_be_tiled
+from latticode.generation.chain import can_be_tiled
+from latticode.integrators import dop853, kahan_li, ode45, taylor
+from latticode.kernels.compiled import kernel
+
 from pendula.models.pendula import WORK, at_time, continue_series, pendula_of_tile, rates
 
 from .observables import observe_angles

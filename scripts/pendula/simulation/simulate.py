@@ -5,10 +5,10 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
+from latticode.integrators import DONE, FAULTS, Outcome
+from latticode.measures.difference import norm_difference
 
 from pendula.feasibility import find_obstacle
-from pendula.integrators import DONE, FAULTS, Outcome
-from pendula.measures.difference import norm_difference
 from pendula.problem import Problem
 
 from .interrupts import interruptible

@@ -4,11 +4,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from latticode.generation.chain import can_be_tiled
+from latticode.integrators import crank_nicolson, dop853, ode45, taylor
+from latticode.kernels.compiled import kernel
 
-from pendula.compiled import kernel
-from pendula.integrators import crank_nicolson, dop853, ode45, taylor
 from pendula.models.amplitudes import chain_of_tile, continue_series, midpoint_rates, rates
-from pendula.models.chain import can_be_tiled
 
 from .lattice import aligned
 from .observables import observe

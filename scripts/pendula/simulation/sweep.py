@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
+from latticode.numerics.elementary import square_modulus
 
-from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem
 
 from .simulate import Trajectory, simulate

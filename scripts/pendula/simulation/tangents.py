@@ -9,13 +9,13 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
+from latticode.generation.chain import MIRROR
+from latticode.integrators import DONE, FAULTS, dop853
+from latticode.kernels.compiled import kernel
+from latticode.numerics.draws import complex_normal
+from latticode.numerics.elementary import log
 
-from pendula.compiled import kernel
-from pendula.integrators import DONE, FAULTS, dop853
-from pendula.models.chain import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
-from pendula.numerics.draws import complex_normal
-from pendula.numerics.elementary import log
 from pendula.problem import Problem, output_times
 
 from .interrupts import interruptible

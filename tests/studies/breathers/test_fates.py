@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.measures.confidence import share_limits
 from pendula.datasets.netcdf import as_xarray
-from pendula.measures.confidence import share_limits
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import fates, figures, sensitivity

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.numerics.elementary import cos
 from on_breathers import ABOVE, BELOW, members, run_from, unfolded
-from pendula.numerics.elementary import cos
 from pendula.problem import Constants
 from pendula.studies.breathers import multipliers
 from pendula.studies.breathers.periodic import FAMILIES, Breather, on_half, shoot, single_site

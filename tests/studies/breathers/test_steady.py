@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from pendula.ends import DIRICHLET
+from latticode.equations.ends import DIRICHLET
+from latticode.generation.chain import MIRROR
 from pendula.models.amplitudes import Chain as Ends
 from pendula.models.amplitudes import rates
-from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.models.tangent import tangent_rates
 from pendula.studies.breathers import steady

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.measures.growth import mean_rate, mean_rate_error
 from pendula.datasets.netcdf import as_xarray
-from pendula.measures.growth import mean_rate, mean_rate_error
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.tangents import grow, random_tangent
 from pendula.studies.chaos import lyapunov

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.measures.difference import PARAMETERS
+from latticode.measures.difference import PARAMETERS
 from pendula.studies.paper import figures, solvers
 
 EDITED = {

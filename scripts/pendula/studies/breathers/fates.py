@@ -23,9 +23,9 @@ no wave has a bound, and all growth counts.
 from collections.abc import Iterable
 
 import numpy as np
+from latticode.measures.confidence import Limits, share_limits
+from latticode.numerics.elementary import complex_of, cos, sin
 
-from pendula.measures.confidence import Limits, share_limits
-from pendula.numerics.elementary import complex_of, cos, sin
 from pendula.problem import Constants, Problem
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import find_reduction, unpack

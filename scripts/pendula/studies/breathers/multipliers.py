@@ -24,8 +24,7 @@ length of the chain. So rates of growth are found on half of the chain too.
 """
 
 import numpy as np
-
-from pendula.numerics.elementary import log
+from latticode.numerics.elementary import log
 
 from .periodic import Breather, real_data
 from .quarter_period import STEPS, flow

@@ -24,10 +24,10 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from latticode.numerics.elementary import geometric, log
+from latticode.numerics.matrices import times
 from scipy.optimize import minimize_scalar
 
-from pendula.numerics.elementary import geometric, log
-from pendula.numerics.matrices import times
 from pendula.problem import Constants
 
 from .quarter_period import FINE_STEPS, STEPS, flow

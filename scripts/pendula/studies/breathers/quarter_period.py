@@ -6,12 +6,12 @@ would change with the data.
 """
 
 import numpy as np
+from latticode.equations.ends import DIRICHLET
+from latticode.generation.chain import MIRROR, close
+from latticode.integrators.dop853 import combine
+from latticode.kernels.compiled import copy, kernel
 
-from pendula.compiled import copy, kernel
-from pendula.ends import DIRICHLET
-from pendula.integrators.dop853 import combine
 from pendula.models.amplitudes import Chain, rates
-from pendula.models.chain import MIRROR, close
 from pendula.models.tangent import ROWS, write_tangent_rates
 from pendula.problem import Constants
 from pendula.simulation.lattice import aligned

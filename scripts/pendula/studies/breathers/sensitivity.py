@@ -8,11 +8,11 @@ confidence limits of the share are the exact ones of Clopper and Pearson.
 from collections.abc import Sequence
 
 import numpy as np
+from latticode.measures.confidence import Limits, share_limits
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.stated import describe_run
 from pendula.datasets.trajectories import Contents
-from pendula.measures.confidence import Limits, share_limits
 from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate

@@ -39,8 +39,8 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
+from latticode.equations.ends import FREE, PERIODIC, kind_of
 
-from pendula.ends import FREE, PERIODIC, kind_of
 from pendula.problem import Constants, Problem
 
 BAND = 5

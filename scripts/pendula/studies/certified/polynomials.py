@@ -11,8 +11,8 @@ step to an output are then exact in double precision.
 from typing import NamedTuple
 
 import numpy as np
+from latticode.equations.ends import neighbours
 
-from pendula.ends import neighbours
 from pendula.models.amplitudes import linear_field
 from pendula.problem import Problem
 

@@ -9,6 +9,14 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from latticode.measures.confidence import (
+    CONFIDENCE,
+    Limits,
+    difference_limits,
+    mean_limits,
+    share_limits,
+)
+from latticode.measures.difference import VISIBLE
 
 from pendula.ledger.changes import exchange, repeat
 from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
@@ -24,14 +32,6 @@ from pendula.ledger.criterion import (
 )
 from pendula.ledger.cutoff import Cutoff, once
 from pendula.ledger.missing import FEWEST
-from pendula.measures.confidence import (
-    CONFIDENCE,
-    Limits,
-    difference_limits,
-    mean_limits,
-    share_limits,
-)
-from pendula.measures.difference import VISIBLE
 
 SECTION = 5
 NEEDS = checks("members")

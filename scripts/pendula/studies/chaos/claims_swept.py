@@ -9,6 +9,8 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+from latticode.measures.confidence import Limits, ratio_limits, student
+from latticode.measures.levels import levelling_of_means
 
 from pendula.datasets.trajectories import constants_of
 from pendula.ledger.changes import keep, repeat, take
@@ -24,8 +26,6 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import once
-from pendula.measures.confidence import Limits, ratio_limits, student
-from pendula.measures.levels import levelling_of_means
 from pendula.models.bounds import theorem_2_constants
 
 from .claims import LEVEL

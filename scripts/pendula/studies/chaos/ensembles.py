@@ -7,11 +7,11 @@ draw as well is the distribution.
 from collections.abc import Mapping
 
 import numpy as np
+from latticode.measures.levels import bands, moments
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.levels import bands, moments
 from pendula.problem import Problem, by_name, name_window
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate

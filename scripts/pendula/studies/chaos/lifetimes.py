@@ -8,10 +8,10 @@ study of breathers: the chain around it may hold most of P. Lives that outlast t
 """
 
 import numpy as np
+from latticode.measures.confidence import Limits, median_limits, share_limits
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.confidence import Limits, median_limits, share_limits
 from pendula.problem import Problem, output_times
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate

@@ -9,11 +9,11 @@ sign, sum to zero, and two of them vanish: those along the flow and across the e
 """
 
 import numpy as np
+from latticode.measures.confidence import Limits, mean_limits, student
+from latticode.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.confidence import Limits, mean_limits, student
-from pendula.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
 from pendula.problem import Problem, name_window
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.tangents import Growth, grow, random_tangent

@@ -7,11 +7,11 @@ them.
 """
 
 import numpy as np
+from latticode.measures.levels import correlation
+from latticode.numerics.elementary import square_modulus
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases, side_by_side
-from pendula.measures.levels import correlation
-from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem, name_window
 from pendula.simulation.ensembles import PERTURBATIONS, draw_members
 from pendula.simulation.simulate import Trajectory, simulate

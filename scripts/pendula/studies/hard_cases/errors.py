@@ -6,11 +6,11 @@ relative to the largest.
 """
 
 import numpy as np
+from latticode.measures.difference import state_error
+from latticode.numerics.draws import complex_normal
+from latticode.numerics.elementary import modulus, product, square_modulus, turn
 
-from pendula.measures.difference import state_error
 from pendula.models.linear_chain import flow, gamma_0
-from pendula.numerics.draws import complex_normal
-from pendula.numerics.elementary import modulus, product, square_modulus, turn
 from pendula.problem import Constants, Problem, on_sites, place
 from pendula.simulation.simulate import Trajectory, simulate
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import xarray as xr
+from latticode.numerics.elementary import cos, sin
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
-from pendula.numerics.elementary import cos, sin
 
 PAIRS, ANGLES = 3, (-0.5, 0.35)
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5

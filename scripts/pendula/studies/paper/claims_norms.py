@@ -3,6 +3,9 @@
 from functools import partial
 
 import numpy as np
+from latticode.measures.levels import correlation
+from latticode.measures.norms import largest, total_power
+from latticode.numerics.elementary import log
 
 from pendula.ledger.changes import repeat, take_from
 from pendula.ledger.claim import (
@@ -28,10 +31,8 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures.levels import correlation
-from pendula.measures.norms import constants, largest, total_power
 from pendula.models.bounds import proven_region, theorem_1_bound
-from pendula.numerics.elementary import log
+from pendula.problem import Constants
 
 SECTION = 5
 
@@ -64,7 +65,9 @@ UNSTABLE = 3.0
 )
 def fig2_bounded(small, large, sweep) -> Finding:
     """Compare P with the bound by the energy of the same data, the sweep with that of its case."""
-    bounds = [theorem_1_bound(float(ds["energy"][0]), constants(ds)) for ds in (small, large)]
+    bounds = [
+        theorem_1_bound(float(ds["energy"][0]), Constants.of(ds.attrs)) for ds in (small, large)
+    ]
     if not np.all(np.isfinite(bounds)):
         raise UndecidableError("Theorem 1 does not apply to these constants")
     measured = {
@@ -259,7 +262,7 @@ def fig3_only_small(small, large) -> Finding:
 def region_of(run) -> str:
     """Return which theorem covers the data of a run."""
     start, energy = float(total_power(run)[0]), float(run["energy"][0])
-    return proven_region(energy, start, constants(run), str(run.attrs["boundary"]))
+    return proven_region(energy, start, Constants.of(run.attrs), str(run.attrs["boundary"]))
 
 
 @claim(
@@ -274,7 +277,7 @@ def region_of(run) -> str:
 )
 def fig4_unstable(small) -> Finding:
     """Ask for the growth of small data: where cubic terms rule, growth tells nothing of zero."""
-    if not largest(small)[0] ** 2 <= constants(small).gamma:
+    if not largest(small)[0] ** 2 <= Constants.of(small.attrs).gamma:
         raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]
     measured = {"mean_rate": 0.5 * log(growth) / UNSTABLE}

@@ -7,6 +7,8 @@ second solver is compared with the ensemble, as one more draw from it.
 import json
 
 import numpy as np
+from latticode.measures.confidence import chance_of_draw
+from latticode.measures.difference import VISIBLE
 
 from pendula.ledger import missing
 from pendula.ledger.changes import repeat
@@ -22,8 +24,6 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff, once
-from pendula.measures.confidence import chance_of_draw
-from pendula.measures.difference import VISIBLE
 
 SECTION = 5
 

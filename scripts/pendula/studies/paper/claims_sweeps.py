@@ -5,6 +5,10 @@ and once the front does not reach the ends, a longer chain changes nothing.
 """
 
 import numpy as np
+from latticode.measures import levels
+from latticode.measures.confidence import Limits, ratio_limits
+from latticode.measures.levels import levelling, relative_range
+from latticode.measures.norms import total_power
 
 from pendula.ledger.changes import exchange, repeat, scale, take_from
 from pendula.ledger.claim import (
@@ -32,11 +36,8 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures import levels
-from pendula.measures.confidence import Limits, ratio_limits
-from pendula.measures.levels import levelling, relative_range
-from pendula.measures.norms import constants, total_power
 from pendula.models.bounds import proven_region, theorem_2_constants, widened_bound
+from pendula.problem import Constants
 
 SECTION = 5
 
@@ -97,7 +98,7 @@ def fig5_decreases(sweep) -> Finding:
 )
 def fig5_theorem_2(case, sweep) -> Finding:
     start, energy = float(total_power(case)[0]), float(case["energy"][0])
-    parameters, boundary = constants(case), str(case.attrs["boundary"])
+    parameters, boundary = Constants.of(case.attrs), str(case.attrs["boundary"])
     region = proven_region(energy, start, parameters, boundary)
     if region == "theorem 1":
         raise UndecidableError("Theorem 2 does not apply at this Omega")

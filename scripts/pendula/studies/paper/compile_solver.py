@@ -2,11 +2,12 @@
 
 from pathlib import Path
 
+from latticode.kernels.sources import digest_of_code
+
 from pendula.datasets import complete_or_absent
 from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation import solvers
 from pendula.simulation.simulate import simulate
-from pendula.sources import digest_of_code
 
 CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
 """A value for every control. Compiled code depends on none, so that a tolerance that the user

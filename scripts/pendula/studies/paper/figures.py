@@ -2,19 +2,19 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
-from pendula.datasets.registry import SOLVER_NAMES
-from pendula.drawing import panels, strips, style
-from pendula.drawing.strips import NORMS, Strip
-from pendula.measures.difference import (
+from latticode.measures.difference import (
     VISIBLE,
     at_times,
     difference,
     divergence_time,
     is_of_same_case,
 )
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pendula.datasets.registry import SOLVER_NAMES
+from pendula.drawing import panels, strips, style
+from pendula.drawing.strips import NORMS, Strip
 
 SIZES = ["small", "large"]
 BAND = [0.05, 0.5, 0.95]

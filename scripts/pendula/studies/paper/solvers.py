@@ -9,12 +9,7 @@ from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 import xarray as xr
-
-from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.stated import shared_by
-from pendula.datasets.trajectories import trajectory_contents
-from pendula.ledger.cutoff import Cutoff
-from pendula.measures.difference import (
+from latticode.measures.difference import (
     ABSENT,
     NORMS,
     VISIBLE,
@@ -24,7 +19,12 @@ from pendula.measures.difference import (
     is_of_same_case,
     known_until,
 )
-from pendula.measures.norms import drift, largest, total_power
+from latticode.measures.norms import drift, largest, total_power
+
+from pendula.datasets.netcdf import as_xarray
+from pendula.datasets.stated import shared_by
+from pendula.datasets.trajectories import trajectory_contents
+from pendula.ledger.cutoff import Cutoff
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 

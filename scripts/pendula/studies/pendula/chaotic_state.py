@@ -18,12 +18,12 @@ from math import ceil
 from typing import NamedTuple
 
 import numpy as np
+from latticode.measures.confidence import Limits, event_rate, share_limits
+from latticode.numerics.elementary import square_modulus
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
-from pendula.measures.confidence import Limits, event_rate, share_limits
 from pendula.models.bounds import theorem_3_bound
-from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem, name_window
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate

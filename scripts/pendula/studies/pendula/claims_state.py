@@ -1,6 +1,7 @@
 """The chaotic state of the pendula, and when they go over the top."""
 
 import numpy as np
+from latticode.measures.confidence import difference_limits, mean_limits
 
 from pendula.ledger.changes import exchange, keep, roll, scale
 from pendula.ledger.claim import FACTOR, Control, claim
@@ -15,7 +16,6 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures.confidence import difference_limits, mean_limits
 
 SECTION = 7
 SEA, TOP = "pendula/sea", "pendula/over_the_top"

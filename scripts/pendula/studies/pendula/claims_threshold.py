@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+from latticode.numerics.elementary import log
 
 from pendula.ledger.changes import scale
 from pendula.ledger.claim import Control, claim
@@ -18,7 +19,6 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.numerics.elementary import log
 
 SECTION = 7
 PLACE = "Section 3, Lemma 1, for the pendula (1)"

@@ -17,16 +17,16 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from latticode.integrators import DONE, FAULTS, dop853
+from latticode.kernels.compiled import kernel
+from latticode.kernels.simd import largest_magnitude
+from latticode.numerics.elementary import exp, log, product, turn
 
-from pendula.compiled import kernel
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
-from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.expansion import Expansion, angle, corrected_start, rates
 from pendula.models.pendula import frequency
-from pendula.numerics.elementary import exp, log, product, turn
 from pendula.problem import PENDULA, Problem
-from pendula.simd import largest_magnitude
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, aligned, find_reduction, pack
 from pendula.simulation.models import make_chain

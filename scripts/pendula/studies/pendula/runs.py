@@ -8,8 +8,8 @@ amplitude: its envelope then only shows how far it has turned, from a size of pi
 """
 
 import numpy as np
+from latticode.integrators import DONE, FAULTS
 
-from pendula.integrators import DONE, FAULTS
 from pendula.models.pendula import amplitudes_of, frequency
 from pendula.problem import PENDULA, Problem
 from pendula.simulation.interrupts import interruptible

@@ -1,6 +1,8 @@
 """Section 2: the equations, their symmetries, and their derivation from Newton's equations."""
 
 import numpy as np
+from latticode.measures.confidence import student
+from latticode.measures.growth import PARTS
 
 from pendula.ledger import changes
 from pendula.ledger.claim import Control, Kind, checks, claim
@@ -15,8 +17,6 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures.confidence import student
-from pendula.measures.growth import PARTS
 
 SECTION = 2
 

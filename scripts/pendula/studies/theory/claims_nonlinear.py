@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+from latticode.numerics.elementary import log
 
 from pendula.ledger.changes import exchange, scale, take
 from pendula.ledger.claim import LARGE, SMALL, Control, Kind, checks, claim, number
@@ -18,8 +19,7 @@ from pendula.ledger.criterion import (
     within_tolerance,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures.norms import growth_margin
-from pendula.numerics.elementary import log
+from pendula.models.bounds import growth_margin
 
 from .claims_model import IDENTITIES, NEAR, proved, twin
 

@@ -6,13 +6,13 @@ Their solver is dop853 at tolerances so tight that no check measures it instead 
 from collections.abc import Sequence
 
 import numpy as np
+from latticode.integrators import DONE
+from latticode.measures.norms import power_of
+from latticode.numerics import elementary
+from latticode.numerics.draws import complex_normal
 
 from pendula.feasibility import find_fault
-from pendula.integrators import DONE
-from pendula.measures.norms import power_of
 from pendula.models.amplitudes import energies, rates
-from pendula.numerics import elementary
-from pendula.numerics.draws import complex_normal
 from pendula.problem import Constants, Problem, output_times
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
+from latticode.measures.norms import power_of
+from latticode.numerics.elementary import square_modulus
 
 from pendula.datasets.checks import table, variable
-from pendula.measures.norms import power_of
 from pendula.models import bounds
-from pendula.numerics.elementary import square_modulus
 from pendula.problem import Constants, write_initial
 
 from .equations import (

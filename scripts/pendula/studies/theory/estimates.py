@@ -4,13 +4,13 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from latticode.measures.norms import power_of
+from latticode.numerics import elementary
+from latticode.numerics.elementary import modulus, square_modulus
+from latticode.numerics.quadrature import integration_matrix
 
 from pendula.datasets.checks import table, tabulate, variable
-from pendula.measures.norms import power_of
 from pendula.models.bounds import lipschitz
-from pendula.numerics import elementary
-from pendula.numerics.elementary import modulus, square_modulus
-from pendula.numerics.quadrature import integration_matrix
 from pendula.problem import Constants
 
 from .equations import BOUNDARIES, random_amplitudes, right_hand_side, run

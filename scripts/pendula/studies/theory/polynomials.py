@@ -11,10 +11,10 @@ from fractions import Fraction
 
 import numpy as np
 from flint import fmpq, fmpq_mpoly_ctx
+from latticode.equations.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbours
+from latticode.equations.graph import evaluate
+from latticode.equations.model import Model
 
-from pendula.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbours
-from pendula.graph import evaluate
-from pendula.model import Model
 from pendula.models.amplitudes import EQUATIONS
 
 SITES = 3

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
+from latticode.numerics.draws import exponential, uniform
 
 from pendula.datasets.checks import table, variable
 from pendula.models import bounds
-from pendula.numerics.draws import exponential, uniform
 from pendula.problem import Constants
 
 from .equations import BOUNDARIES, draw_shape, run_powers, total_energy

@@ -6,6 +6,7 @@ there, and config/theory.yaml why it has its value.
 
 from typing import Annotated, Literal
 
+from latticode.equations.ends import ENDS
 from pydantic import Field, create_model
 
 from pendula.configuration.solvers import Solver
@@ -20,7 +21,6 @@ from pendula.configuration.values import (
     Window,
     model,
 )
-from pendula.ends import ENDS
 
 Size = Annotated[Count, Field(le=100_000)]
 """A number of sites, samples or members: more of them take hours in every check."""

@@ -5,15 +5,15 @@ pair, and the largest norm that data of one energy have.
 """
 
 import numpy as np
+from latticode.measures.confidence import mean_limits
+from latticode.measures.growth import lay_line
+from latticode.measures.norms import power_of
+from latticode.numerics.draws import uniform
+from latticode.numerics.elementary import complex_of, log
 
 from pendula.datasets.checks import table, variable
-from pendula.measures.confidence import mean_limits
-from pendula.measures.growth import lay_line
-from pendula.measures.norms import power_of
 from pendula.models.bounds import extent, theorem_2_gap, theorem_3_bound
 from pendula.models.linear_chain import curvatures, flow, modes
-from pendula.numerics.draws import uniform
-from pendula.numerics.elementary import complex_of, log
 from pendula.problem import Constants
 
 from .equations import (

@@ -7,6 +7,7 @@ infinite chain lambda covers [0, 4], on N sites it takes N values of its own.
 from itertools import product
 
 import numpy as np
+from latticode.numerics.elementary import log
 
 from pendula.datasets.checks import columns, table, tabulate, variable
 from pendula.models.linear_chain import (
@@ -17,7 +18,6 @@ from pendula.models.linear_chain import (
     stable_windows,
     widest_gamma,
 )
-from pendula.numerics.elementary import log
 from pendula.problem import Constants
 
 from .equations import random_amplitudes, run_powers

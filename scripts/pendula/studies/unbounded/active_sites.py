@@ -14,9 +14,9 @@ alone; the new first step costs half a per cent. A state holds S and D (see `sum
 from typing import NamedTuple
 
 import numpy as np
+from latticode.integrators import DONE, FAULTS
+from latticode.numerics.elementary import log
 
-from pendula.integrators import DONE, FAULTS
-from pendula.numerics.elementary import log
 from pendula.problem import Problem, place
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, pack

@@ -13,10 +13,10 @@ which fixes beta. Nothing is fitted. The module `thermal` solves these states.
 from itertools import pairwise
 
 import numpy as np
+from latticode.measures.confidence import CONFIDENCE, Limits
+from latticode.measures.spreading import fit_line
+from latticode.numerics.elementary import log
 
-from pendula.measures.confidence import CONFIDENCE, Limits
-from pendula.measures.spreading import fit_line
-from pendula.numerics.elementary import log
 from pendula.problem import Constants
 
 from .sums import turned

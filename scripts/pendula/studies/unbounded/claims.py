@@ -11,6 +11,9 @@ than those of data without that symmetry.
 from collections.abc import Callable
 
 import numpy as np
+from latticode.measures.confidence import Limits, mean_limits
+from latticode.measures.spreading import exponent_with_offset, fit_line
+from latticode.numerics.elementary import log
 
 from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
 from pendula.ledger.claim import CONSTANT, FACTOR, SETTLED, Control, claim, unbounded
@@ -24,9 +27,6 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff, once
-from pendula.measures.confidence import Limits, mean_limits
-from pendula.measures.spreading import exponent_with_offset, fit_line
-from pendula.numerics.elementary import log
 
 SECTION = 5
 

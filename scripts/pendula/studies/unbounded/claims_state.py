@@ -6,6 +6,7 @@ Only the errors of what is measured count: limits of means over members, by Stud
 """
 
 import numpy as np
+from latticode.measures.confidence import Limits, mean_limits
 
 from pendula.ledger.changes import repeat, roll, scale, take
 from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
@@ -20,7 +21,6 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures.confidence import Limits, mean_limits
 
 from .bulk import (
     BEHIND,

@@ -20,9 +20,9 @@ quadrant, and only B takes all signs.
 """
 
 import numpy as np
+from latticode.numerics.elementary import exp, log, sine_and_cosine
+from latticode.numerics.quadrature import gauss_legendre
 
-from pendula.numerics.elementary import exp, log, sine_and_cosine
-from pendula.numerics.quadrature import gauss_legendre
 from pendula.problem import Constants
 
 from .transfer import normalised, pass_through

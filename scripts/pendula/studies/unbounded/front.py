@@ -16,8 +16,7 @@ offset, with delay = 3 / (2 decay), rest = 3 pi^(1/2) Re(D^(-1/2)) / decay^2 and
 from typing import NamedTuple
 
 import numpy as np
-
-from pendula.numerics.elementary import (
+from latticode.numerics.elementary import (
     complex_of,
     cos,
     cosh,
@@ -31,6 +30,7 @@ from pendula.numerics.elementary import (
     sinh,
     square_root,
 )
+
 from pendula.problem import Constants
 
 WAVES, DECAYS = np.linspace(0.0, np.pi, 801), exp(np.linspace(log(1e-3), log(6.0), 60))

@@ -8,8 +8,8 @@ fill the chain earlier than it does. As an unknown of its own S keeps all of its
 from dataclasses import asdict
 
 import numpy as np
+from latticode.equations.model import Model, Value, abs2, conj, lap
 
-from pendula.model import Model, Value, abs2, conj, lap
 from pendula.problem import Problem
 
 ROOT = np.sqrt(0.5)

@@ -14,11 +14,11 @@ gives no more.
 from typing import NamedTuple
 
 import numpy as np
+from latticode.numerics.elementary import exp, log
 
 from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
-from pendula.numerics.elementary import exp, log
 from pendula.problem import Constants
 
 from . import transfer

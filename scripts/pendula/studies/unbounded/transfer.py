@@ -18,9 +18,9 @@ nodes with s, t, p, q > 0 suffice, with two values at each: that of (s, t, p, q)
 from typing import NamedTuple
 
 import numpy as np
+from latticode.kernels.compiled import kernel
+from latticode.numerics.elementary import exp
 
-from pendula.compiled import kernel
-from pendula.numerics.elementary import exp
 from pendula.problem import Constants
 
 TAIL = 1e-9

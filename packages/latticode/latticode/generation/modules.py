@@ -1,0 +1,125 @@
+"""Kernels of a traced model, written as a module in the style of `amplitudes`: rates and series.
+
+The text of the module depends on the model alone, and on which of its parameters have a value for
+each site. It is kept beside the kernels, which are named by it (see latticode.kernels.cache).
+"""
+
+import sys
+from collections.abc import Callable
+from functools import cache
+from types import ModuleType
+
+from latticode.equations.graph import Node
+from latticode.equations.model import Model
+from latticode.kernels.cache import keep_source
+
+from . import toolbox
+from .rate_rules import Rule, rates_text, rule_text
+from .series_graph import with_carried
+from .series_rules import Series
+from .statements import Names, Parts, affine, parts_of
+
+HEAD = f"from {toolbox.__name__} import *\n"
+CLOCKS = """
+@kernel
+def at_time(system, t):
+{now}
+    clocks = ({values})
+    others = system.at, system.wide, system.left, system.right
+    return System(system.constants, clocks, *others)
+@inlined_by_llvm
+def write_clocks(system, m, d):
+{series}
+@kernel
+def continue_series(system, series):
+    write_clocks(system, series.memory, spare_start(series))
+    continue_in_waves(system, series)
+"""
+CLOCK_SERIES = """\
+    value, slope = system.clocks[{value}], system.clocks[{slope}]
+    square = {speed} * {speed}
+    for k in range(ORDER + 1):
+        m[d + {value} * (ORDER + 1) + k] = value
+        share = 1.0 / (k + 1)
+        value, slope = share * slope, -(share * square * value)"""
+
+
+def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
+    """Return the parts of rates, and of what their series carry along."""
+    *_, found = with_carried(list(rates), site_dependent)
+    return parts_of([*rates, *(one for pair in found for one in pair)], site_dependent)
+
+
+def clocks_text(parts: Parts, names: Names) -> str:
+    """Return the functions that know the time: `at_time`, and the series of its functions."""
+    now, series, count = [], [], len(parts.clocks)
+    for i, clock in enumerate(parts.clocks):
+        speed, value = "0.0", "t, 1.0"
+        if clock.operation != "time":
+            speed, phase = map(names.constant, affine(clock.operands[0]))
+            now.append(f"    sine, cosine = sine_and_cosine({speed} * t + {phase})")
+            pairs = {"sin": f"sine, {speed} * cosine", "cos": f"cosine, -({speed} * sine)"}
+            value = pairs[clock.operation]
+        now.append(f"    k{i}, l{i} = {value}")
+        series.append(CLOCK_SERIES.format(value=i, slope=count + i, speed=speed))
+    values = "".join(f"{x}{i}, " for x in "kl" for i in range(count))
+    steps = "\n".join(series) or "    pass"
+    return CLOCKS.format(now="\n".join(now), values=values, series=steps)
+
+
+def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
+    """Return the text of the module of a model with these rates."""
+    parts = parts_of_rates(rates, site_dependent)
+    names = Names(parts)
+    return "".join([
+        HEAD,
+        rates_text(rates, names, reach),
+        Series(rates, names, site_dependent).text(reach),
+        clocks_text(parts, names),
+    ])  # fmt: skip
+
+
+def load_series(model: Model) -> ModuleType:
+    """Return the module with the series of two fields that move alike: continue_in_waves, WORK.
+
+    The system has the parameters and the clocks of the model by their names. The coefficients of
+    the clocks are expected one after the other from `spare_start` on.
+    """
+    names = Names(parts_of_rates(model.rates, frozenset()), by_name=True)
+    return load_text(HEAD + Series(model.rates, names, frozenset(), alike=True).text(model.reach))
+
+
+def load_rule(rates: tuple[Node, ...], *states: str):
+    """Return the function (system, states, re, j, dy) that writes the rates at one site.
+
+    See `rate_rules.rule_text`.
+    """
+    return load_text(HEAD + rule_text(rates, states)).rates_at_site
+
+
+def load_function(nodes: tuple[Node, ...]) -> Callable:
+    """Return the function (system, seen) of the values of nodes, in numbers of any kind.
+
+    They may be arrays or expressions. seen(field, part, by) gives those of a field at the site
+    n + `by`, and the system has the parameters by their names.
+    """
+    rule = Rule(Names(parts_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
+    values = ", ".join(map(rule.value, nodes))
+    made: dict[str, Callable] = {}
+    lines = ["def function(system, seen):", *rule.code.lines, f"    return {values}"]
+    exec("\n".join(lines), made)
+    return made["function"]
+
+
+@cache
+def load_text(text: str) -> ModuleType:
+    """Return the module of a text, kept in a file so that its kernels can be.
+
+    numba restores a kept kernel only where it can import the modules of its parts, so the module
+    has a name that follows from its text in every process.
+    """
+    file = keep_source("model.py", text)
+    module = ModuleType(f"latticode_model_{file.parent.name}")
+    sys.modules[module.__name__] = module
+    exec(compile(text, str(file), "exec"), module.__dict__)
+    return module

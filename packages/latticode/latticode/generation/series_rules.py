@@ -1,0 +1,307 @@
+"""The text of rules that continue the power series of a traced model.
+
+The coefficient of order k of a sum is the sum of those of its terms, that of a product is a sum
+over orders (see `series_sums`), and a row u with the rate F has u_{k+1} = F_k / (k + 1). All orders
+are kept of what stands in a product and of nothing else. Partial sums of an odd order are kept of a
+sum of products as a whole. The factor 1 / (k + 1) goes into the constants of the terms of a rate
+where that costs no multiplication more.
+"""
+
+from latticode.equations.graph import CONSTANT, Node, in_order, node
+from latticode.equations.symbols import ModelError
+from latticode.integrators.taylor import ORDER
+from latticode.kernels.simd import LANES
+
+from .series_graph import carried, is_product, is_sum_of_products, with_carried, with_half_squares
+from .series_sums import Sums
+from .statements import Code, Names, require_alike
+
+SIGNS = {"add": "+", "sub": "-", "mul": "*"}
+NEGATED = {"+": "-", "-": "+"}
+SHIFTS = {1: "right_neighbours", -1: "left_neighbours"}
+STARTS = {
+    "turn": (("sine", "cosine"), "sine_and_cosine({})"),
+    "exp": (("grown",), "exponential({})"),
+    "inverse": (("inverse",), "1.0 / ({})"),
+    "log": (("logarithm", "inverse"), "logarithm_and_inverse({})"),
+    "sqrt": (("root", "inverse"), "root_and_inverse({})"),
+}
+"""What is carried along at order 0: the names of the rows, and what computes them."""
+RULE = """
+SPARE = {spare} * LANES
+WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
+{shifts}
+@inlined_by_llvm
+def write_next_order(system, series, k, first, last):
+    m, d, share = series.memory, spare_start(series), 1.0 / (k + 1)
+    at_start = 1.0 if k == 0 else 0.0
+{work}
+continue_in_waves = in_waves(write_next_order, {reach})
+"""
+
+
+class Series:
+    """The text of the rule that continues the series of a model.
+
+    One that is for fields that are `alike` is written once, and goes through both of them.
+    """
+
+    def __init__(
+        self,
+        model_rates: tuple[Node, ...],
+        names: Names,
+        site_dependent: frozenset[str],
+        alike: bool = False,
+    ):
+        self.alike, self.names = alike, names
+        rows = list(model_rates[:2] if alike else model_rates)
+        rates, self.groups, self.found = with_carried(rows, site_dependent)
+        nodes = with_half_squares([*rates, *(part for pair in self.found for part in pair)])
+        self.components = len(rates) // 2
+        self.clocks = {one: i for i, one in enumerate(names.clocks)}
+        self.rates = nodes[: len(rates)]
+        self.angles = nodes[len(rates) :: 2]
+        self.flows = nodes[len(rates) + 1 :: 2]
+        self.products = [one for one in in_order([*self.rates, *self.flows]) if is_product(one)]
+        self.kept = self._kept()  # what is kept of each block beside the fields, and its place
+        self.sums = Sums(self.products, self.load, self.clocks)
+        if alike:
+            require_alike(model_rates, self.kept)
+        self.partial: dict[Node, int] = {}  # sums of products that are not kept
+        more = max(0, len(self.kept) - self.components)
+        self.spare = more * (ORDER + 1)  # vectors of a block beside its own
+
+    def _kept(self) -> dict[Node, int]:
+        operands = [operand for product in self.products for operand in product.operands]
+        absent = [one for one in operands if not self._is_stored(one)]
+        wanted = dict.fromkeys([*map(carried, range(len(self.found))), *absent])
+        return {one: i for i, one in enumerate(wanted)}
+
+    def _is_stored(self, one: Node) -> bool:
+        """Return whether all orders are known anyway: of clocks, of fields at the site, and of the
+        difference of two of these."""
+        if one.operation == "sub":
+            return all(a.operation == "field" and self._is_stored(a) for a in one.operands)
+        return one in self.clocks or (one.operation == "field" and one.operands[2] == 0)
+
+    # --- Places in memory
+
+    def place(self, one: Node, order: str) -> str:
+        """Return where the coefficient of an order of a kept node or a field lies."""
+        if one not in self.kept:
+            component, part, _ = one.operands
+            return f"i{component} + ({order}) * ORDER_STRIDE + {'XY'[part]}"
+        i = self.kept[one]
+        if i < self.components:
+            return f"i{i} + ({order}) * ORDER_STRIDE + EXTRA"
+        return f"s + ({(i - self.components) * (ORDER + 1)} + {order}) * LANES"
+
+    def partial_place(self, one: Node, even: bool) -> str:
+        """Return where a sum of products of an odd order waits for its last terms.
+
+        The places of the order after it are free until then.
+        """
+        if one in self.kept:
+            return self.place(one, "k + 1" if even else "k")
+        i = self.partial.setdefault(one, len(self.partial))
+        if i < len(self.rates):
+            return f"i{i // 2} + (k + {1 + even}) * ORDER_STRIDE + {'XY'[i % 2]}"
+        return f"s + {self.spare + i - len(self.rates)} * LANES"
+
+    def load(self, one: Node, order: str) -> str:
+        """Return the coefficient of an order of what is kept or stored, from memory."""
+        if one in self.clocks:
+            return f"fill(m[d + {self.clocks[one] * (ORDER + 1)} + {order}])"
+        if one.operation == "sub" and one not in self.kept:
+            a, b = one.operands
+            return f"(load(m, {self.place(a, order)}) - load(m, {self.place(b, order)}))"
+        return f"load(m, {self.place(one, order)})"
+
+    # --- The order of the work
+
+    def body(self, even: bool) -> tuple[list[str], list[str]]:
+        """Return the factors of an order, and the statements that write order k + 1 of a block."""
+        code, depth = Code(3), self._depths()
+        if even:
+            self._start_carried(code)
+        for now in range(1, max(depth.values(), default=0) + 2):
+            for one in self.kept:
+                if one.operation != "carried" and depth[one] == now - 1:
+                    code(f"store(m, {self.place(one, 'k')}, {self._value(code, one, even)})")
+            self.sums.write(code, [one for one in self.products if depth[one] == now], even)
+        factors: dict[str, str] = {}
+        rows = [self._next(code, rate, even, factors) for rate in [*self.rates, *self.flows]]
+        for i, found in enumerate(rows):
+            if i < len(self.rates):
+                to = f"i{i // 2} + (k + 1) * ORDER_STRIDE + {'XY'[i % 2]}"
+            else:
+                to = self.place(carried(i - len(self.rates)), "k + 1")
+            code(f"store(m, {to}, {found})")
+        return [f"        {name} = {text}" for text, name in factors.items()], code.lines
+
+    def _depths(self) -> dict[Node, int]:
+        """Return how many products stand inside one another in each node: so many passes."""
+        depth: dict[Node, int] = {}
+        for one in in_order([*self.rates, *self.flows, *self.kept]):
+            depth[one] = max((depth[a] for a in one.inputs), default=0) + is_product(one)
+        return depth
+
+    def _start_carried(self, code: Code) -> None:
+        """Write the functions that are carried along at order 0, from their arguments."""
+        for group in self.groups:
+            argument = self._start(self.angles[group.first], code)
+            code("if k == 0:")
+            names, text = STARTS[group.kind]
+            code(f"{', '.join(names)} = {text.format(argument)}", 1)
+            for row, name in enumerate(names):
+                code(f"store(m, {self.place(carried(group.first + row), '0')}, {name})", 1)
+
+    def _start(self, one: Node, code: Code) -> str:
+        """Return the expression of the coefficient of order 0."""
+        if one.level == CONSTANT:
+            return self._constant(one)
+        operands = [self._start(a, code) for a in one.inputs]
+        match one.operation:
+            case "half_square":
+                return f"0.5 * ({operands[0]}) * ({operands[0]})"
+            case "neg":
+                return f"-({operands[0]})"
+            case "add" | "sub" | "mul" as how:
+                return f"({operands[0]}) {SIGNS[how]} ({operands[1]})"
+        return self._text(code, one, True)
+
+    def _combined(self, code: Code, one: Node, which: str) -> str:
+        """Return a sum of products, each by its sum `which`: now, next or last."""
+        if is_product(one):
+            return code.known((which, one))
+        if one.level == CONSTANT:
+            return self._constant(one)
+        operands = [self._combined(code, part, which) for part in one.operands]
+        if one.operation == "neg":
+            return f"(-{operands[0]})"
+        return f"({operands[0]} {SIGNS[one.operation]} {operands[1]})"
+
+    # --- The coefficient of order k
+
+    def _value(self, code: Code, one: Node, even: bool) -> str:
+        """Return the name of the coefficient of order k of a node."""
+        return code.name(("value", one), lambda: self._text(code, one, even))
+
+    def _text(self, code: Code, one: Node, even: bool) -> str:
+        """Return the expression of the coefficient of order k."""
+        if is_sum_of_products(one):
+            return self._sum_text(code, one, even)
+        if one.level == CONSTANT:
+            numbers = f"at_start * {self._constant(one)}"
+            return numbers if one in self.names.at_sites else f"fill({numbers})"
+        if one in self.clocks:
+            return self.load(one, "k")
+        match one.operation, *one.operands:
+            case ("field", _, _, 0) | ("carried", _):
+                return self.load(one, "k")
+            case "field", *_:
+                return self._neighbour(code, one, even)
+            case "neg", a:
+                return f"-{self._value(code, a, even)}"
+            case "mul", a, b:
+                return f"{self._constant(a)} * {self._value(code, b, even)}"
+            case "add" | "sub" as how, a, b:
+                return f"{self._value(code, a, even)} {SIGNS[how]} {self._value(code, b, even)}"
+        raise ModelError(f"{one.operation} of a field or of the time has no rule")
+
+    def _constant(self, one: Node) -> str:
+        if one in self.names.at_sites:
+            row = self.names.at_sites[one]
+            return f"load(system.at, {row} * system.at.shape[1] + 1 + block * LANES)"
+        return self.names.constant(one)
+
+    def _sum_text(self, code: Code, one: Node, even: bool) -> str:
+        waiting = self.partial_place(one, even)
+        if even:
+            code(f"store(m, {waiting}, {self._combined(code, one, 'next')})")
+            return self._combined(code, one, "now")
+        return f"load(m, {waiting}) + {self._combined(code, one, 'last')}"
+
+    def _neighbour(self, code: Code, one: Node, even: bool) -> str:
+        component, part, by = one.operands
+        place = f"{'left' if by < 0 else 'right'}{component} + {'XY'[part]}"
+        side = code.name(("side", place), f"load(m, {place})")
+        here = self._value(code, node("field", component, part, 0), even)
+        both = f"{side}, {here}" if by < 0 else f"{here}, {side}"
+        return f"{SHIFTS.get(by, f'shift_{by % 8}')}({both})"
+
+    # --- The coefficient of order k + 1 of a row
+
+    def _next(self, code: Code, rate: Node, even: bool, factors: dict[str, str]) -> str:
+        """Return the coefficient of order k of a rate, over k + 1."""
+        plain = [term for term in self._terms(rate) if not self._has_factor(term)]
+        if len(plain) > 1 or rate.operation == "field":
+            return f"share * {self._value(code, rate, even)}"
+
+        def write(one: Node, sign: str) -> tuple[str, str]:
+            """Return the sign of a term and the rest; `sign` goes into its factor if it has one."""
+            if self._has_factor(one):
+                factor = f"{sign.replace('+', '')}(share * {self._constant(one.operands[0])})"
+                name = factors.setdefault(factor, f"f{len(factors)}")
+                return "+", f"{name} * {self._value(code, one.operands[1], even)}"
+            if self._terms(one) == [one]:
+                return sign, f"share * {self._value(code, one, even)}"
+            if one.operation == "neg":
+                return write(one.operands[0], NEGATED[sign])
+            a_sign, a = write(one.operands[0], sign)
+            b_sign, b = write(one.operands[1], sign if one.operation == "add" else NEGATED[sign])
+            if (a_sign, b_sign) == ("-", "+"):
+                return "+", f"({b} - {a})"
+            return a_sign, f"({a} {'+' if a_sign == b_sign else '-'} {b})"
+
+        sign, text = write(rate, "+")
+        return sign.replace("+", "") + text
+
+    def _has_factor(self, one: Node) -> bool:
+        """Return whether 1 / (k + 1) can go into a constant that multiplies a term."""
+        if one.operation != "mul" or is_sum_of_products(one):
+            return False
+        return one.operands[0].level == CONSTANT and one.operands[0] not in self.names.at_sites
+
+    def _terms(self, one: Node) -> list[Node]:
+        """Return the terms of a sum; a sum of products is one term."""
+        if one.operation not in ("add", "sub", "neg") or is_sum_of_products(one):
+            return [one]
+        return [term for operand in one.operands for term in self._terms(operand)]
+
+    # --- The whole
+
+    def text(self, reach: int) -> str:
+        """Return the functions that continue the series."""
+        (factors, even), (_, odd) = self.body(True), self.body(False)
+        clocks = -(-len(self.clocks) * (ORDER + 1) // LANES) * LANES  # in whole vectors
+        begin = self._begin(clocks)
+        work = ["    if k % 2 == 0:", *factors, *begin, *even, "    else:", *factors, *begin, *odd]
+        if self.alike:
+            loop = "    for component in range(series.components):"
+            work = [loop, *("    " + line for line in work)]
+        return RULE.format(
+            spare=self.spare + max(0, len(self.partial) - len(self.rates)),
+            clocks=clocks,
+            components=self.components,
+            shifts="\n".join(f"shift_{by} = define_shift({by})" for by in range(2, 7)),
+            work="\n".join(work),
+            reach=reach,
+        )
+
+    def _begin(self, clocks: int) -> list[str]:
+        """Return the loop over blocks, and where each of them and its neighbours begin."""
+        here = {c: str(c) for c in range(self.components)}
+        block = "block"
+        if self.alike:
+            here = {0: "component", 1: "series.components - 1 - component"}
+            block = "(component * series.blocks + block)"
+        return [
+            "        for block in range(first, last):",
+            f"            s = d + {clocks} + {block} * SPARE",
+            *(f"            i{c} = block_start(series, {at}, block)" for c, at in here.items()),
+            *(
+                f"            left{c}, _, right{c} = sides_of(series, k, {at}, block)"
+                for c, at in here.items()
+            ),
+        ]

@@ -1,0 +1,93 @@
+"""Sums over orders, as text: the coefficients of products and of halves of squares.
+
+    (a b)_k = sum_{j=0}^k a_j b_{k-j},
+    (a^2 / 2)_k = sum_{0 <= j < k/2} a_j a_{k-j}, and a_{k/2}^2 / 2 where k is even.
+
+Orders go in pairs. The pass over an even order k also sums the products of order k + 1, but for the
+terms that hold its unknown coefficients; the pass over order k + 1 adds these. Of a function of the
+time all orders are known.
+"""
+
+from collections.abc import Callable, Collection
+
+from latticode.equations.graph import Node
+
+from .statements import Code
+
+
+class Sums:
+    """Writes the sums of some products, and names each by ("now", product) for an even order k.
+
+    What is known of order k + 1 then has the name ("next", product), and in the pass over that
+    order ("last", product) is the rest of it. load(node, order) is the text of a coefficient.
+    """
+
+    def __init__(
+        self, products: list[Node], load: Callable[[Node, str], str], clocks: Collection[Node]
+    ):
+        self.load, self.clocks = load, clocks
+        self.names = {one: f"q{i}" for i, one in enumerate(products)}
+
+    def write(self, code: Code, products: list[Node], even: bool) -> None:
+        """Write the sums of products whose operands are known up to order k."""
+        if not even:
+            for one in products:
+                code.alias(("last", one), self._last(code, one))
+            return
+        squares = [one for one in products if one.operation == "half_square"]
+        others = [one for one in products if one.operation != "half_square"]
+        if squares:
+            self._write_squares(code, [(self.names[one], one.operands[0]) for one in squares])
+        if others:
+            self._write_others(code, [(self.names[one], *one.operands) for one in others])
+        for one in products:
+            code.alias(("now", one), self.names[one])
+            code.alias(("next", one), f"{self.names[one]}n")
+
+    def _ends(self, code: Code, one: Node) -> list[str]:
+        """Return the names of the coefficients of orders 0 and k."""
+        return [code.name((one, order), self.load(one, order)) for order in ("0", "k")]
+
+    def _last(self, code: Code, one: Node) -> str:
+        """Return the terms that hold a coefficient of the odd order k."""
+        (a0, ak), *others = (self._ends(code, operand) for operand in one.operands)
+        if not others:
+            return f"{a0} * {ak}"
+        ((b0, bk),) = others
+        return f"{a0} * {bk}" if one.operands[0] in self.clocks else f"({ak} * {b0} + {a0} * {bk})"
+
+    def _write_squares(self, code: Code, squares: list[tuple[str, Node]]) -> None:
+        """Write the sums q of order k, and those qn of order k + 1 but for a_0 a_{k+1}."""
+        for q, a in squares:
+            middle = code.name((a, "k // 2"), self.load(a, "k // 2"))
+            code(f"{q}, {q}n = 0.5 * {middle} * {middle}, fill(0.0)")
+            code(f"{q}l = {self.load(a, '0')}")
+        code("for j in range(1, k // 2 + 1):")
+        for q, a in squares:
+            code(f"{q}h = {self.load(a, 'k + 1 - j')}", 1)
+            code(f"{q} = {q} + {q}l * {q}h", 1)
+            code(f"{q}l = {self.load(a, 'j')}", 1)
+            code(f"{q}n = {q}n + {q}l * {q}h", 1)
+
+    def _write_others(self, code: Code, products: list[tuple[str, Node, Node]]) -> None:
+        """Write the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} for order k + 1: one loop."""
+        firsts = {a: f"a{i}" for i, (_, a, _) in enumerate(products)}
+        seconds = {b: f"b{i}" for i, (_, _, b) in enumerate(products)}
+        for a, name in firsts.items():
+            code(f"{name} = {self.load(a, '0')}")
+        for q, _, _ in products:
+            code(f"{q}, {q}n = fill(0.0), fill(0.0)")
+        code("for j in range(k):")
+        for b, name in seconds.items():
+            code(f"{name} = {self.load(b, 'k - j')}", 1)
+        for q, a, b in products:
+            code(f"{q} = {q} + {firsts[a]} * {seconds[b]}", 1)
+        for a, name in firsts.items():
+            code(f"{name} = {self.load(a, 'j + 1')}", 1)
+        for q, a, b in products:
+            code(f"{q}n = {q}n + {firsts[a]} * {seconds[b]}", 1)
+        for q, a, b in products:
+            (_, last), (first, _) = self._ends(code, a), self._ends(code, b)
+            code(f"{q} = {q} + {last} * {first}")
+            if a in self.clocks:
+                code(f"{q}n = {q}n + {self.load(a, 'k + 1')} * {first}")

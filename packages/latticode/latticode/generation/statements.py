@@ -1,0 +1,140 @@
+"""Statements of generated kernels, and the names of the numbers that these take from outside."""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from latticode.equations.graph import (
+    CLOCK,
+    CONSTANT,
+    ZERO,
+    Node,
+    derivative,
+    is_number,
+    leaves_in,
+    node,
+    number,
+    rebuilt,
+)
+from latticode.equations.symbols import ModelError
+
+
+class Code:
+    """Statements of a function, with a name for each value, so that none is computed twice."""
+
+    def __init__(self, indent: int):
+        self.lines: list[str] = []
+        self.indent, self._names = indent, {}
+
+    def __call__(self, text: str, deeper: int = 0) -> None:
+        """Write a line."""
+        self.lines.append("    " * (self.indent + deeper) + text)
+
+    def name(self, key, text: Callable[[], str] | str) -> str:
+        """Return the name of a value, whose statement is written where it is first asked for."""
+        if key not in self._names:
+            text = text if isinstance(text, str) else text()
+            self._names[key] = f"v{len(self._names)}"
+            self(f"{self._names[key]} = {text}")
+        return self._names[key]
+
+    def alias(self, key, name: str) -> None:
+        """Let a value have a name, or an expression, that exists."""
+        self._names[key] = name
+
+    def known(self, key) -> str:
+        """Return the name of a value that has one."""
+        return self._names[key]
+
+
+class Parts(NamedTuple):
+    """What the kernels of a model take from outside: constants and functions of the time."""
+
+    constants: tuple[Node, ...]  # one number each
+    at_sites: tuple[Node, ...]  # one number a site each
+    clocks: tuple[Node, ...]  # sines and cosines of the time, and the time itself
+
+
+def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
+    """Return the largest expressions of parameters alone, and the functions of time."""
+    constants, at_sites, clocks = {}, {}, {}
+
+    def visit(one: Node) -> None:
+        if one.level == CONSTANT:
+            if not is_number(one):
+                (at_sites if depends_on_site(one, site_dependent) else constants)[one] = None
+        elif one.operation in ("time", "clock"):
+            clocks[one] = None
+        elif is_clock(one, site_dependent):
+            clocks[one] = None
+            for found in affine(one.operands[0]):
+                visit(found)
+        else:
+            for operand in one.inputs:
+                visit(operand)
+
+    for one in nodes:
+        visit(one)
+    return Parts(tuple(constants), tuple(at_sites), tuple(clocks))
+
+
+def depends_on_site(one: Node, site_dependent: frozenset[str]) -> bool:
+    """Return whether an expression has a parameter with a value for each site."""
+    return any(part.operands[0] in site_dependent for part in leaves_in([one], "parameter"))
+
+
+def is_clock(one: Node, site_dependent: frozenset[str]) -> bool:
+    """Return whether a node is a sine or cosine of the time that is the same at all sites, and
+    whose angle grows steadily."""
+    if one.level != CLOCK or one.operation not in ("sin", "cos"):
+        return False
+    angle = one.operands[0]
+    return affine(angle)[0].level == CONSTANT and not depends_on_site(angle, site_dependent)
+
+
+def affine(angle: Node) -> tuple[Node, Node]:
+    """Return frequency and phase of an angle that grows steadily with the time."""
+    time = node("time")
+    frequency = derivative([angle], lambda one: number(one is time))[0]
+    phase = rebuilt([angle], lambda one, _: ZERO if one is time else None)[0]
+    return frequency, phase
+
+
+class Names:
+    """How numbers that do not depend on the fields are called in the text of a module.
+
+    Where `by_name`, all are parameters or clocks that the system has by their names.
+    """
+
+    def __init__(self, parts: Parts, by_name: bool = False):
+        def named(group: str, nodes: tuple[Node, ...]) -> dict[Node, str]:
+            return {
+                one: f"system.{one.operands[0] if by_name else f'{group}[{i}]'}"
+                for i, one in enumerate(nodes)
+            }
+
+        self.constants = named("constants", parts.constants)
+        self.clocks = named("clocks", parts.clocks)
+        self.at_sites = {one: i for i, one in enumerate(parts.at_sites)}
+
+    def constant(self, one: Node) -> str:
+        """Return the text of a number, or of an expression of parameters alone."""
+        return self.constants.get(one) or repr(one.operands[0])
+
+
+def require_alike(rates: Iterable[Node], kept: Iterable[Node] = ()) -> None:
+    """Raise ModelError unless two fields move alike, and each of what is kept is of one field.
+
+    One rule then serves both fields, and one of them alone where the two are the same. There may
+    be several states of the two.
+    """
+
+    def exchanged(one: Node, _) -> Node | None:
+        if one.operation != "field":
+            return None
+        component, *place = one.operands
+        return node("field", component ^ 1, *place)
+
+    first, second = list(rates)[:2], list(rates)[2:]
+    mixed = any(one.operands[0] for one in leaves_in(kept, "field"))
+    if mixed or rebuilt(first, exchanged) != second:
+        raise ModelError("the two fields do not obey the same equation with their names exchanged")

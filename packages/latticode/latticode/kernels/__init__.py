@@ -1,0 +1,5 @@
+"""Compiled functions: how they are made and kept.
+
+`compiled` makes them, `cache` keeps them on disk, and `sources` names them by their text. `simd`
+has vectors of eight doubles; `inside_numba` is all that uses private parts of numba.
+"""

@@ -1,0 +1,203 @@
+"""All that this project does inside numba: kernels compiled as a whole, and kept by their content.
+
+`compiled` uses this module for the versions of numba that it was tested with. With any other it
+uses what numba offers to all: the same bits, but twice the time to compile, and runs on short
+chains take up to twice as long too.
+
+Why a kernel is compiled as a whole. numba compiles each function for itself: LLVM optimises its
+code together with that of all that it calls, and turns the result into machine code. So a function
+at the bottom is optimised again in each of its callers, and nobody runs the machine code of any but
+the outermost. Here a function that a kernel calls is a part. It is compiled to code that can be
+linked and no further, and the kernel is optimised once, together with all its parts. That takes
+half of the time.
+
+Why no references are counted. No kernel allocates memory. numba would all the same count up and
+down for every row of an array that a kernel looks at, which took half of a run on a short chain. A
+kernel that asks for memory is refused when it is compiled ("Only accept returning of array ...").
+
+Why numba's own cache is not used. It names what it keeps after the path and the time stamp of a
+source file: a copied project compiles everything again, and two processes that compile one function
+for two types of arguments at once may write both to the same file. `kernel_cache` keeps it instead.
+
+What this rests upon, all of it private to numba:
+- a dispatcher tells callers its types in `get_call_template` and the key of its code in
+  `get_overload`, keeps a result in `add_overload`, and asks its `_cache` for
+  `load_overload`, `save_overload` and `cache_path`;
+- a `CodeLibrary` optimises in `_optimize_final_module`, makes machine code in
+  `_finalize_final_module`, and `_reduce` and `_rebuild` turn a result into bytes and back;
+- the flag `no_compile` asks for no machine code, and `_nrt` switches the counting of references;
+
+When numba is upgraded, tests/test_inside_numba.py fails until its version stands in
+`compiled.TESTED`. Put it there, run that module and tests/test_same_bits.py, and mend what breaks.
+"""
+
+import pickle
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+
+from llvmlite import binding
+from numba import types
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler, CompileResult
+from numba.core.registry import CPUDispatcher
+from numba.core.serialize import dumps
+
+from .cache import KernelFiles
+
+OPTIONS = {
+    "nopython": True,
+    "error_model": "numpy",
+    "nogil": True,
+    "no_cfunc_wrapper": True,  # no C code calls a kernel
+    "_nrt": False,
+}
+"""What all compiled functions share. No function of another kind may call one that returns an
+array: it would count a reference down that was never counted up."""
+UNCALLED = {"no_cpython_wrapper": True}
+"""Leaves out the code by which Python would call a function."""
+
+
+class PartLibrary(JITCodeLibrary):
+    """Code that is linked into kernels, and is optimised there and not here."""
+
+    def _optimize_final_module(self) -> None:
+        pass
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._verify_declare_only_symbols()
+        self._finalized = True
+
+    def serialize_using_object_code(self) -> bytes:
+        """Return the code itself, as there is no machine code."""
+        return self._get_module_for_linking().as_bitcode()
+
+    @classmethod
+    def of(cls, codegen, code: bytes) -> "PartLibrary":
+        """Return the library that was kept as `code`."""
+        library = cls(codegen, "part")
+        library._final_module = binding.parse_bitcode(code)
+        library._finalize_final_module()
+        return library
+
+
+class PartCompiler(Compiler):
+    """The stages of numba up to code that can be linked."""
+
+    def __init__(self, typing_context, target_context, library, *others):
+        library = library or PartLibrary(target_context.codegen(), "part")
+        super().__init__(typing_context, target_context, library, *others)
+        self.state.flags.no_compile = True
+
+
+class KernelCache:
+    """The machine code of one function, in the form that a dispatcher asks for."""
+
+    ENDING = ".kernel"
+
+    def __init__(self, function: Callable, root: Path):
+        self._files = KernelFiles(function, root, self.ENDING)
+
+    @property
+    def cache_path(self) -> str:
+        """The folder of the machine code of this module."""
+        return str(self._files.folder)
+
+    def load_overload(self, signature, target_context) -> CompileResult | None:
+        """Return the machine code for these types of arguments, or None where there is none."""
+        target_context.refresh()
+        kept = self._files.load(signature, target_context.codegen().magic_tuple())
+        try:
+            return None if kept is None else self.restore(target_context, kept)
+        except Exception:  # whatever unpickling raises: this is nothing that this numba kept
+            return None
+
+    @staticmethod
+    def restore(target_context, kept: bytes) -> CompileResult:
+        """Return what `save_overload` kept."""
+        return CompileResult._rebuild(target_context, *pickle.loads(kept))
+
+    def save_overload(self, signature, data: CompileResult) -> None:
+        """Keep machine code, unless it holds addresses of this process, as of a large array."""
+        if not data.library.has_dynamic_globals:
+            self._files.save(dumps(data._reduce()), signature, data.codegen.magic_tuple())
+
+
+class PartCache(KernelCache):
+    """The code of a part, kept as that of a kernel is."""
+
+    ENDING = ".part"
+
+    @staticmethod
+    def restore(target_context, kept: bytes) -> CompileResult:
+        code, descriptor, environment, signature, *_ = pickle.loads(kept)
+        return CompileResult(
+            typing_context=target_context.typing_context,
+            target_context=target_context,
+            entry_point=None,
+            typing_error=None,
+            type_annotation=None,
+            signature=signature,
+            objectmode=False,
+            lifted=(),
+            fndesc=descriptor,
+            library=PartLibrary.of(target_context.codegen(), code),
+            call_helper=None,
+            environment=environment,
+            metadata=None,
+            reload_init=[],
+            referenced_envs=(),
+        )
+
+
+class Kept(CPUDispatcher):
+    """A compiled function whose code may be kept in a folder, in the way of `CACHE`."""
+
+    CACHE = KernelCache
+    root = None
+
+    def keep_in(self, root: Path) -> None:
+        """Keep code below the folder `root`, and take from it what is there."""
+        self.root, self._cache = root, self.CACHE(self.py_func, root)
+
+
+class Part(Kept):
+    """A function as kernels call it."""
+
+    CACHE = PartCache
+
+    def __init__(self, function: Callable, locals=None, options=None):
+        super().__init__(function, locals, {**options, **UNCALLED}, PartCompiler)
+
+    def add_overload(self, cres: CompileResult) -> None:
+        """Let callers find the code by a key of its own: it has no address."""
+        cres = cres._replace(entry_point=object())
+        self.targetctx.insert_user_function(cres.entry_point, cres.fndesc, [cres.library])
+        self.overloads[tuple(cres.signature.args)] = cres
+
+
+class Kernel(Kept):
+    """A function as Python calls it; kernels that call it compile it as a part of theirs."""
+
+    @cached_property
+    def part(self) -> Part:
+        part = Part(self.py_func, {}, self.targetoptions)
+        if self.root:
+            part.keep_in(self.root)
+        return part
+
+    def get_call_template(self, args, kws):
+        """Let one part serve all values of its arguments: numba compiles one for each constant."""
+        return self.part.get_call_template([*map(types.unliteral, args)], kws)
+
+    def get_overload(self, sig):
+        return self.part.get_overload(sig)
+
+
+def make_kernel(function: Callable, root: Path | None = None, **options) -> Kernel:
+    """Return the compiled function, whose code is kept below the folder `root` if there is one."""
+    made = Kernel(function, {}, {**OPTIONS, **options})
+    if root:
+        made.keep_in(root)
+    return made

@@ -1,0 +1,187 @@
+"""What a result comes from: the modules that a file imports, the processor and the versions.
+
+This module needs the standard library only.
+"""
+
+import ast
+import hashlib
+import os
+import platform
+import re
+from collections.abc import Iterator
+from functools import cache
+from importlib.metadata import version
+from operator import attrgetter
+from pathlib import Path
+
+ROOTS: dict[str, Path] = {"latticode": Path(__file__).resolve().parents[2]}
+"""The folder of each package whose code is followed. A program that calls the library adds its own:
+imports of other packages are not followed, wherever they lie."""
+
+_LIST = r"(?:\([\w\s,]*\)|[\w.]+(?:[ ]as[ ]\w+)?(?:,[ ][\w.]+(?:[ ]as[ ]\w+)?)*)"
+_IMPORT = re.compile(rf"\n[ ]*((?:from[ ][\w.]+[ ])?import[ ]{_LIST})[ ]*(?:[#][^\n]*)?$", re.M)
+_WORD = re.compile(r"import\b")
+_PARTS = attrgetter("parts")  # tuples compare five times as fast as paths, and in the same order
+
+
+def modules_of(*files: Path) -> list[Path]:
+    """Return the files and every module below ROOTS that they import, at any depth."""
+    found, waiting = set(), list(files)
+    while waiting:
+        module = waiting.pop()
+        if module not in found:
+            found.add(module)
+            waiting.extend(_imports_of(module))
+    return sorted(found, key=_PARTS)
+
+
+def attached_to(modules: list[Path]) -> list[Path]:
+    """Return the files beside `modules` that are read by them and are no modules, as templates are.
+
+    A file that is named after a module beside it (section.html.j2, section.py) belongs to this
+    module alone, so that a job that computes does not depend on how a page looks. Any other file
+    belongs to its package. A package inside a package counts only if it is among `modules` itself.
+    """
+    packages = [module.parent for module in modules if module.name == "__init__.py"]
+    owners = {None, *modules}
+    beside = (pair for package in packages for pair in _beside(package))
+    return sorted((path for path, owner in beside if owner in owners), key=_PARTS)
+
+
+@cache
+def _beside(folder: Path) -> list[tuple[Path, Path | None]]:
+    """Return the files of a package that are no modules, each with the module it is named after."""
+    found = []
+    for path in folder.iterdir():
+        if path.is_dir():
+            if path.name != "__pycache__" and not (path / "__init__.py").exists():
+                found += _beside(path)
+        elif path.suffix != ".py" and not path.name.startswith("."):
+            module = path.with_name(path.name.split(".")[0] + ".py")
+            found.append((path, module if module.exists() else None))
+    return found
+
+
+@cache
+def digest_of(file: Path) -> str:
+    """Return the SHA-256 of a file's content."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+@cache
+def digest_of_modules(file: Path) -> str:
+    """Return one hash of a module and of all that it imports."""
+    text = "".join(f"{digest_of(module)} {module.name}\n" for module in modules_of(file))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+PACKAGES = (
+    *("numpy", "numba", "llvmlite", "scipy", "python-flint", "xarray", "netCDF4"),
+    *("matplotlib", "pillow", "fonttools"),
+)
+"""Packages whose versions decide numbers and pictures."""
+
+_LONG = '"' * 3 + r'(?:[^"\\]|\\.|"(?!""))*' + '"' * 3
+_SHORT = r'"(?:[^"\\\n]|\\.)*"|' + r"'(?:[^'\\\n]|\\.)*'"
+_DOCSTRING, _COMMENT = rf"^[ ]*(?P<docstring>{_LONG})[ ]*\n", r"(?P<comment>[ ]*[#][^\n]*)"
+_NO_CODE = re.compile("|".join([_DOCSTRING, _LONG, _SHORT, _COMMENT]), re.MULTILINE)
+_EMPTY = re.compile(r"\n\s*\n")
+
+
+@cache
+def digest_of_code(*files: Path) -> str:
+    """Return one hash of what runs where these files run, without comments and docstrings.
+
+    It is of the files, of all modules that they import, of the templates and styles beside these,
+    and of the versions of PACKAGES.
+    """
+    modules = modules_of(*files)
+    bare = [f"{_digest_of_bare(path)} {path.name}" for path in modules]
+    beside = [f"{digest_of(path)} {path.name}" for path in attached_to(modules)]
+    return hashlib.sha256("\n".join([*_versions(), *bare, *beside]).encode()).hexdigest()
+
+
+@cache
+def _versions() -> list[str]:
+    return [f"{name} {version(name)}" for name in PACKAGES]
+
+
+@cache
+def _digest_of_bare(module: Path) -> str:
+    return hashlib.sha256(bare(module.read_text(encoding="utf-8")).encode()).hexdigest()
+
+
+def bare(text: str) -> str:
+    """Return a module's text without comments, docstrings and empty lines.
+
+    Python's own parser would take half a second for all modules, in every call of Snakemake.
+    """
+    without = _NO_CODE.sub(lambda found: "" if found.lastgroup else found[0], text)
+    return _EMPTY.sub("\n", f"\n{without}\n")
+
+
+@cache
+def _imports_of(file: Path) -> frozenset[Path]:
+    names = set()
+    for node in _statements(_tree_of(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            package = _packages_of(file)[: -node.level] if node.level else ()
+            base = ".".join([*package, *([node.module] if node.module else [])])
+            names.update([base, *(f"{base}.{alias.name}" for alias in node.names)])
+    return frozenset(path for name in names for path in files_of_module(name))
+
+
+def _packages_of(file: Path) -> tuple[str, ...]:
+    """Return the parts of the name of a module of ROOTS."""
+    home = max((one for one in ROOTS.values() if file.is_relative_to(one)), key=_PARTS)
+    return file.relative_to(home).parts
+
+
+def _tree_of(text: str) -> ast.AST:
+    """Return a tree with all imports of a module.
+
+    To parse nothing but the lines of imports is ten times faster, and every call of Snakemake does
+    it for all modules. Where the word stands elsewhere too, everything is parsed.
+    """
+    imports = _IMPORT.findall(f"\n{text}")
+    same = len(imports) == len(_WORD.findall(text))
+    return ast.parse("\n".join(imports) if same else text)
+
+
+def _statements(tree: ast.AST) -> Iterator[ast.AST]:
+    """Yield a tree and all statements in it: no import hides in an expression."""
+    waiting = [tree]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+            waiting.extend(getattr(node, part, ()))
+
+
+def files_of_module(name: str) -> tuple[Path, ...]:
+    """Return the files that importing `name` executes: the module and its packages."""
+    parts = tuple(name.split("."))
+    home = ROOTS.get(parts[0])
+    return _files_in(home, parts) if home else ()
+
+
+@cache
+def _files_in(folder: Path, parts: tuple[str, ...]) -> tuple[Path, ...]:
+    packages = _files_in(folder, parts[:-1]) if parts[1:] else ()
+    place = os.path.join(folder, *parts)  # pathlib is slower
+    own = (f"{place}/__init__.py", f"{place}.py")
+    return (*packages, *(Path(path) for path in own if os.path.isfile(path)))
+
+
+def describe_machine() -> dict[str, str]:
+    """Return the processor's name and the versions that decide how long a run takes."""
+    linux = Path("/proc/cpuinfo")
+    told = linux.read_text(encoding="utf-8") if linux.exists() else ""
+    named = re.search(r"^model name\s*:\s*(.*\S)", told, re.MULTILINE)
+    return {
+        "processor": named[1] if named else platform.processor() or platform.machine(),
+        "python": platform.python_version(),
+        **{name: version(name) for name in ("numpy", "numba", "scipy")},
+    }

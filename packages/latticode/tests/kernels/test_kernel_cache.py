@@ -1,0 +1,152 @@
+"""Where kernels are kept: found wherever the project lies, never stale, torn, or of other types."""
+
+import os
+import pickle
+import shutil
+import sys
+import time
+from importlib.util import module_from_spec, spec_from_file_location
+
+import pytest
+from latticode.kernels import cache as kernel_cache
+from latticode.kernels import sources
+from latticode.kernels.cache import UNUSED, VARIABLE, KernelFiles, kept_in
+from latticode.kernels.inside_numba import make_kernel
+
+MADE = "def double(x):\n    return 2 * x\n"
+
+
+@pytest.fixture
+def module(tmp_path):
+    path = tmp_path / "project" / "made.py"
+    path.parent.mkdir()
+    path.write_text(MADE)
+    return path
+
+
+@pytest.fixture
+def kept(tmp_path):
+    return tmp_path / "kept"
+
+
+def compile_anew(path, kept):
+    """Return what a new process makes of `double`: a compiled function that has run nothing yet."""
+    for remembered in (sources.digest_of, sources.digest_of_modules, sources._imports_of):
+        remembered.cache_clear()
+    spec = spec_from_file_location("made", path)
+    made = sys.modules["made"] = module_from_spec(spec)  # kept code names its module
+    spec.loader.exec_module(made)
+    return make_kernel(made.double, kept)
+
+
+def found(compiled) -> int:
+    return sum(compiled.stats.cache_hits.values())
+
+
+def test_each_type_of_argument_has_a_file_of_its_own(module, kept):
+    first, second = compile_anew(module, kept), compile_anew(module, kept)
+    assert (first(3), second(2.5)) == (6, 5.0)  # neither knew of the other when it was compiled
+    third = compile_anew(module, kept)
+    assert (third(3), third(2.5), found(third)) == (6, 5.0, 2)
+    assert len(list(kept.rglob("*.kernel"))) == len(list(kept.rglob("*.*"))) == 2
+
+
+def test_a_copied_project_with_new_time_stamps_finds_its_kernels(module, kept):
+    compile_anew(module, kept)(3)
+    moved = shutil.copytree(module.parent, module.parent.with_name("copy")) / module.name
+    os.utime(moved, (0, 0))
+    compiled = compile_anew(moved, kept)
+    assert compiled(3) == 6 and found(compiled) == 1
+
+
+def test_an_edited_module_or_another_setting_of_the_compiler_finds_none(module, kept, monkeypatch):
+    compile_anew(module, kept)(3)
+    with monkeypatch.context() as changed:
+        changed.setenv("NUMBA_OPT", "1")
+        assert found(compile_anew(module, kept)) == 0 and compile_anew(module, kept)(3) == 6
+    # of another length, since Python compares the size of a module and the second of its last edit
+    module.write_text(MADE.replace("2 * x", "21 * x"))
+    edited = compile_anew(module, kept)
+    assert edited(3) == 63 and found(edited) == 0
+
+
+OTHER = pickle.dumps(("of another numba",))
+DAMAGE = {
+    "cut": lambda file, whole: whole[:-9],
+    "changed": lambda file, whole: whole[:-1] + b"?",
+    "of another numba": lambda file, whole: KernelFiles._seal(file, OTHER) + OTHER,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_file_is_compiled_and_written_again(module, kept, damage):
+    compile_anew(module, kept)(3)
+    (file,) = kept.rglob("*.kernel")
+    file.write_bytes(DAMAGE[damage](file, file.read_bytes()))
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0
+    again = compile_anew(module, kept)  # the lengths differ: numba numbers what it compiles
+    assert again(3) == 6 and found(again) == 1
+
+
+def test_a_file_that_others_can_write_is_not_loaded(module, kept):
+    """Its hash is right, so only its owner or mode can show that it is foreign code."""
+    compile_anew(module, kept)(3)
+    (file,) = kept.rglob("*.kernel")
+    file.chmod(0o666)
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0
+    assert file.stat().st_mode & 0o777 == 0o600  # it was compiled and kept again
+
+
+def test_a_folder_that_others_can_write_is_not_used(monkeypatch, kept):
+    kept.mkdir()
+    kept.chmod(0o777)
+    monkeypatch.setenv(VARIABLE, str(kept))
+    with pytest.warns(UserWarning, match="other users own or can write that folder.*chmod go-w"):
+        assert kept_in() is None
+
+
+def test_what_nobody_used_for_long_is_removed_when_a_module_is_compiled_anew(module, kept):
+    compile_anew(module, kept)(3)
+    (old,) = kept.iterdir()
+    module.write_text(MADE + "# edited\n")
+    compile_anew(module, kept)(3)
+    assert old.exists()  # a run of another branch may need it tomorrow
+    long_ago = time.time() - 2 * UNUSED
+    os.utime(old, (long_ago, long_ago))
+    module.write_text(MADE + "# edited twice\n")
+    compile_anew(module, kept)(3)
+    assert not old.exists() and len(list(kept.iterdir())) == 2
+
+
+def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
+    assert kept_in() == tmp_path
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv(VARIABLE, "~/kernels")
+    assert kept_in() == tmp_path / "kernels"
+    for word in (kernel_cache.OFF, "OFF", "off "):
+        monkeypatch.setenv(VARIABLE, word)
+        assert kept_in() is None
+    monkeypatch.delenv(VARIABLE)
+    assert kept_in() == kernel_cache.platformdirs.user_cache_path("latticode")
+
+
+def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
+    large = "import numpy as np\nTABLE = np.ones(200_000)\n"  # numba compiles in where it lies
+    module.write_text(large + MADE.replace("2 * x", "2 * x * TABLE[x]"))
+    assert compile_anew(module, kept)(3) == 6.0
+    assert not list(kept.rglob("*.kernel"))
+
+
+@pytest.mark.parametrize("mask", [0o000, 0o002, 0o027, 0o077])
+def test_folders_are_private_whatever_the_umask(tmp_path, mask):
+    root, before = tmp_path / "cache" / "kept", os.umask(mask)
+    try:
+        kernel_cache._write(root / "module" / "name.kernel", b"code")
+    finally:
+        os.umask(before)
+    made = [root.parent, root, root / "module"]
+    assert [path.stat().st_mode & 0o777 for path in made] == [0o700] * 3
+    assert kernel_cache._trusted(root) == root

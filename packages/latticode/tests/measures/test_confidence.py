@@ -1,0 +1,99 @@
+"""Confidence limits: against SciPy's own, and how often they enclose what is known."""
+
+import numpy as np
+import pytest
+from latticode.measures import confidence
+
+RNG = np.random.default_rng(3)
+
+
+@pytest.fixture(scope="module")
+def stats():
+    """Return SciPy's own statistics, which take a third of a second to import."""
+    from scipy import stats
+
+    return stats
+
+
+def test_limits_of_a_mean_are_student_s(stats):
+    values = RNG.normal(3.0, 2.0, size=(8, 3))
+    mean, low, high = confidence.mean_limits(values)
+    known = stats.ttest_1samp(values, 0.0).confidence_interval(0.95)
+    np.testing.assert_allclose([low, high], [known.low, known.high], rtol=1e-5)
+    np.testing.assert_allclose(mean, values.mean(axis=0))
+    assert confidence.mean_limits([4.0]) == (4.0, -np.inf, np.inf)
+    assert confidence.Limits(3.0, 1.0, 6.0).half == 2.5
+
+
+def test_limits_of_a_difference_are_welch_s(stats):
+    one, other = RNG.normal(1.0, 1.0, 6), RNG.normal(0.0, 5.0, 20)
+    known = stats.ttest_ind(one, other, equal_var=False).confidence_interval(0.95)
+    found = confidence.difference_limits(one, other)
+    np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-4)
+    assert confidence.difference_limits([2.0, 2.0], [1.0, 1.0]) == (1.0, 1.0, 1.0)
+
+
+@pytest.mark.parametrize(("count", "members"), [(0, 10), (3, 10), (10, 10)])
+def test_limits_of_a_share_are_exact(stats, count, members):
+    known = stats.binomtest(count, members).proportion_ci(0.95, "exact")
+    found = confidence.share_limits(count, members)
+    assert found.value == count / members
+    np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-5)
+    known = stats.binomtest(count, members).proportion_ci(0.8, "exact")
+    assert confidence.share_limits(count, members, 0.8)[1:] == pytest.approx(tuple(known), rel=1e-5)
+
+
+def test_one_more_draw_has_every_chance_alike(stats):
+    draws = RNG.normal(2.0, 3.0, size=(9, 4000))
+    members, new = draws[:8], draws[8]
+    moments = members.mean(axis=0), members.std(axis=0, ddof=1)
+    chances = confidence.chance_of_draw(new, *moments, 8)
+    for level in (0.05, 0.5, 0.9):
+        assert np.mean(chances < level) == pytest.approx(level, abs=0.025)
+    assert confidence.chance_of_draw(2.0, 2.0, 3.0, 8) == 1.0
+    known = 2.0 * stats.t.sf(3.0 / np.sqrt(1.125), 7)
+    assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == round(known, 6)
+
+
+def test_limits_of_a_rate_are_those_of_chi_squared(stats):
+    """Two of four lives end, after 1 and 2; with two of 3 and more that makes 9 lived in all."""
+    found = confidence.event_rate([1.0, np.inf, 2.0, np.inf], 0.0, 3.0)
+    low, high = stats.chi2.ppf(0.025, 4) / 18.0, stats.chi2.ppf(0.975, 6) / 18.0
+    assert tuple(found) == pytest.approx((2.0 / 9.0, low, high), rel=1e-5)
+    none = confidence.event_rate([np.inf] * 64, 10.0, 50.0)
+    assert tuple(none) == pytest.approx((0.0, 0.0, -np.log(0.025) / 2560.0), rel=1e-5)
+    assert np.isnan(confidence.event_rate([3.0, 4.0], 10.0, 50.0)).all()
+
+
+@pytest.mark.parametrize(
+    ("count", "found"), [(15, (7.0, 3.0, 11.0)), (10, (4.5, 1.0, 8.0)), (6, (2.5, 0.0, 5.0))]
+)
+def test_limits_of_a_median_are_the_order_statistics_of_the_sign_test(count, found):
+    """Among 15 the fourth and the twelfth, as tables of the sign test have it."""
+    assert confidence.median_limits(np.arange(count)[::-1]) == found
+
+
+@pytest.mark.parametrize(
+    ("lives", "found"),
+    [
+        ([0.0, 1.0, 2.0, 3.0, 4.0], (2.0, -np.inf, np.inf)),  # too few for limits
+        ([1.0] * 10 + [np.inf] * 12, (np.inf, 1.0, np.inf)),
+        ([1.0, 1.0, np.inf, np.inf], (np.inf, -np.inf, np.inf)),
+    ],
+)
+def test_a_median_that_was_not_lived_to_see_is_infinite(lives, found):
+    assert confidence.median_limits(lives) == found
+
+
+def test_the_limits_of_a_ratio_are_just_what_student_s_t_allows():
+    """At either limit r the mean of above - r below is t = 2.365 of its standard errors off."""
+    means, errors = (10.0, 20.0), (1.0, 2.0)
+    found = confidence.ratio_limits(means, errors, 8)
+    for ratio in found[1:]:
+        error = np.hypot(errors[1], ratio * errors[0])
+        assert abs(means[1] - ratio * means[0]) / error == pytest.approx(2.36462, rel=1e-5)
+    assert found.value == 2.0 and found.low < 2.0 < found.high
+    assert np.isinf(confidence.ratio_limits((2.36462, 1.0), (1.0, 1.0), 8).high)
+    assert confidence.ratio_limits((2.0, 3.0), (0.0, 0.0), 6) == (1.5, 1.5, 1.5)
+    small = confidence.ratio_limits((0.1, 0.2), (0.01, 0.02), 8)  # of another unit
+    assert tuple(small) == pytest.approx(tuple(found))
