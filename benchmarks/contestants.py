@@ -10,8 +10,8 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 
 from . import peers_as_programs, peers_in_python
 from .peer import Peer, Solve

@@ -1,9 +1,9 @@
 """How the cost of a run grows with the chain: time a site and unit of slow time."""
 
 import numpy as np
-from pendula.datasets.netcdf import Variable
+from latticode.datasets.netcdf import Variable
+from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
-from pendula.simulation.simulate import simulate
 
 from .contestants import controls
 from .timing import clocked, repeat
@@ -35,7 +35,7 @@ def noisy_chain(sites: int, name: str) -> Problem:
     half = rng.normal(size=(2, sites // 2 + 1)) + 1j * rng.normal(size=(2, sites // 2 + 1))
     end = min(50.0, max(1.0, WORK / sites))
     return Problem(
-        constants=CONSTANTS,
+        parameters=vars(CONSTANTS),
         half_width=sites // 2,
         boundary="dirichlet",
         initial=np.concatenate([half[:, :0:-1], half], axis=1),

@@ -2,9 +2,9 @@
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.registry import SOLVER_NAMES
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from pendula.datasets.registry import SOLVER_NAMES
 from pendula.drawing import style
 
 ACCURACY = ["accuracy", "seconds", "error", "title", "horizon", "target", "omega", "initial"]

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from functools import partial
 
 import xarray as xr
+from latticode.datasets.netcdf import read, write
+from latticode.datasets.trajectories import Contents
 from latticode.kernels.sources import describe_machine
-from pendula.datasets.netcdf import read, write
-from pendula.datasets.trajectories import Contents
 from pendula.drawing.style import save
 from pendula.problem import Problem, by_name
 from pendula.report.words import number, write_markdown

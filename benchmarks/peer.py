@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from latticode.kernels.compiled import kernel
+from latticode.simulation.lattice import WHOLE, Reduction, find_reduction, unfold, unpack
+from latticode.simulation.systems import integration_of
 from pendula.models.amplitudes import rates
 from pendula.models.pendula import at_time
 from pendula.models.pendula import rates as pendula_rates
 from pendula.problem import AMPLITUDES, PENDULA, Problem
-from pendula.simulation.lattice import WHOLE, Reduction, find_reduction, unfold, unpack
-from pendula.simulation.models import MODELS
 
 HALF = Reduction(even=True, synchronised=False)
 
@@ -42,7 +42,7 @@ def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarr
         raise ValueError(f"peers know only the boundary dirichlet, not {problem.boundary}")
     if reduction == HALF and not find_reduction(problem.amplitudes).even:
         raise ValueError("half a chain needs data that are even in n")
-    model = MODELS[problem.model]
+    model = integration_of(problem)
     end = float(model.times(problem)[-1])
     return model.system(problem, reduction), model.start(problem, reduction), end
 
@@ -50,7 +50,7 @@ def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarr
 def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = WHOLE) -> np.ndarray:
     """Return the amplitudes (2, N) of a state, or angles and velocities (part, component, site)."""
     y = state.reshape(4, -1)
-    if problem.model == AMPLITUDES:
+    if problem.model.name == AMPLITUDES:
         return unpack(y, reduction)
     return np.array([unfold(y[part::2, 1:-1], reduction) for part in (0, 1)])
 

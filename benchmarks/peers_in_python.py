@@ -12,10 +12,10 @@ from functools import partial
 
 import numba
 import numpy as np
+from latticode.simulation.lattice import WHOLE, Reduction
 from numba import types
 from pendula.models.pendula import frequency
 from pendula.problem import AMPLITUDES, PENDULA, Problem
-from pendula.simulation.lattice import WHOLE, Reduction
 from scipy.integrate import solve_ivp
 
 from .peer import FLAT_RATES, HALF, Peer, Solve, begin, final_of, flat_rates, needs, with_ghosts
@@ -68,7 +68,7 @@ def prepare_scipy(problem: Problem, method: str, compiled: bool) -> Solve:
     system, start, end = begin(problem)
     absolute = 0.01 if method == "RK45" else 1.0
     if compiled:
-        kernel = FLAT_RATES[problem.model]
+        kernel = FLAT_RATES[problem.model.name]
 
         def rates(t, u):
             slope = np.empty_like(u)
@@ -76,7 +76,7 @@ def prepare_scipy(problem: Problem, method: str, compiled: bool) -> Solve:
             return slope
 
         rates(0.0, start.ravel())
-    elif problem.model == AMPLITUDES:
+    elif problem.model.name == AMPLITUDES:
         start = problem.amplitudes
         rates = partial(plain_rates, **asdict(problem.constants))
     else:
@@ -165,7 +165,7 @@ def prepare_heyoka(problem: Problem, reduction: Reduction) -> Solve:
     import heyoka
 
     start, compiled = start[:, 1:-1], {}
-    written = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model]
+    written = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model.name]
     system = written(problem, start.shape[1], reduction)
 
     def solve(rtol):

@@ -6,9 +6,9 @@ All follow the paper's regular cases to one t, and are compared at equal error.
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from pendula.datasets.netcdf import Variable
+from latticode.datasets.netcdf import Variable
+from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 
 from .contestants import OWN, Contestant, compete, error_of
 from .problems import until

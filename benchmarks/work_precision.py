@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Mapping
 from itertools import product
 
 import numpy as np
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import describe_cases
+from latticode.datasets.netcdf import Variable
+from pendula.many_cases import describe_cases
 from pendula.problem import Problem
 
 from .contestants import OURS, Comparison, Contestant, cheapest, compete

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.json_files import load_json
+from latticode.datasets.netcdf import read
+from latticode.datasets.registry import SOLVER_NAMES
 from pendula.article.values import UPWARD, counts, upward
-from pendula.datasets.json_files import load_json
-from pendula.datasets.netcdf import read
-from pendula.datasets.registry import SOLVER_NAMES
 from pendula.report.words import case_of, number, percent, with_error
 
 from benchmarks import reproduction

@@ -18,12 +18,12 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts")]
 
+from latticode.datasets.netcdf import Variable, read, write  # noqa: E402
 from latticode.measures.confidence import mean_limits  # noqa: E402
 from latticode.measures.spreading import fit_exponent  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
-from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.studies.breathers.figures import MAPS, SAME_RUNS  # noqa: E402
 from pendula.studies.unbounded.bulk import (  # noqa: E402
     BEHIND,

@@ -5,9 +5,10 @@ from inspect import isgenerator, signature
 from pathlib import Path
 from typing import Any
 
+import pendula.names  # noqa: F401, so that datasets have the paper's words
 from job import arguments, called, datasets_in, name_of, run, step
-from pendula.datasets.netcdf import read, save, write
-from pendula.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
+from latticode.datasets.netcdf import read, save, write
+from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
 from pendula.problem import Problem, by_name
 
 

@@ -3,9 +3,10 @@
 import sys
 from inspect import signature
 
+import pendula.names  # noqa: F401, so that datasets have the paper's words
 from job import arguments, called, datasets_in, name_of, run
-from pendula.datasets.netcdf import read
-from pendula.datasets.stated import stated
+from latticode.datasets.netcdf import read
+from latticode.datasets.stated import stated
 from pendula.drawing.style import save
 
 KINDS = 4

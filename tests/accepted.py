@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 import yaml
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 from pendula.ledger.changes import exchange, keep, put, scale, shift
 
 ROOT = Path(__file__).parents[1]

@@ -1,8 +1,8 @@
 """The breathers that tests start from."""
 
 import numpy as np
+from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
-from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.periodic import Breather, family_of, shoot, single_site
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
@@ -28,7 +28,7 @@ def unfolded(data: np.ndarray) -> np.ndarray:
 def run_from(constants: Constants, initial: np.ndarray, end_time: float, output_step: float):
     """Run data (component, site -M..M) on their own chain by the Taylor method."""
     return simulate(Problem(
-        constants=constants, half_width=initial.shape[1] // 2, boundary="dirichlet",
+        parameters=vars(constants), half_width=initial.shape[1] // 2, boundary="dirichlet",
         initial=initial.astype(complex), end_time=end_time, output_step=output_step,
         solver={"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
     ))  # fmt: skip

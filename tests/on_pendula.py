@@ -1,8 +1,8 @@
 """Runs of the pendula, and their equations (1) in plain NumPy."""
 
 import numpy as np
+from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 
 TIGHT = {
     "taylor": {"name": "taylor", "rtol": 1e-15, "atol": 1e-15},

@@ -38,10 +38,10 @@ def problem_from(amplitudes, values, boundary="dirichlet", **changes) -> Problem
 def make_problem(initial, numbers=PAPER, boundary="dirichlet", solver="dop853", **changes):
     """Return the problem of data (2, 2r + 1) up to tau = 1, on the chain that they fill."""
     values = {
+        "parameters": vars(constants_of(numbers)),
         "half_width": initial.shape[1] // 2,
         "end_time": 1.0,
         "output_step": 0.25,
         "solver": SOLVERS[solver] if isinstance(solver, str) else solver,
-        **changes,
     }
-    return Problem(constants=constants_of(numbers), boundary=boundary, initial=initial, **values)
+    return Problem(boundary=boundary, initial=initial, **values).changed(**changes)

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import netCDF4
 from code_words import Words, words_of_function, words_of_text
 from helpers import ROOT
-from pendula.datasets.stated import COMPUTED_BY, COMPUTED_FROM
+from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM
 from pendula.ledger.claim import Claim, Origin
 from pendula.ledger.verdicts import all_claims
 

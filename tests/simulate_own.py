@@ -1,6 +1,6 @@
 """What a job of the workflow writes of a case."""
 
-from pendula.datasets.netcdf import read, write
+from latticode.datasets.netcdf import read, write
 from pendula.problem import Problem
 from pendula.studies.paper.runs import run_case
 

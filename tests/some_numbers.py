@@ -12,7 +12,7 @@ from pathlib import Path
 
 import xarray
 from helpers import chosen
-from pendula.datasets.netcdf import read, save, write
+from latticode.datasets.netcdf import read, save, write
 from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check

@@ -15,7 +15,7 @@ from accepted import (
     differing,
     wrong_changes,
 )
-from pendula.datasets.json_files import load_json
+from latticode.datasets.json_files import load_json
 from pendula.ledger.verdicts import all_claims, decide, evaluate, needed
 
 CLAIM = {claim.name: claim for claim in all_claims()}

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from latticode.datasets.stated import describe_run
 from latticode.equations.ends import ENDS, neighbours
+from latticode.simulation.lattice import WHOLE
+from latticode.simulation.simulate import simulate
 from oracle import BOUNDARIES, laplacian, random_chain
-from pendula.datasets.trajectories import describe_run
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.own_cases.figures import name_data_and_ends
 from pendula.problem import PENDULA
-from pendula.simulation.lattice import WHOLE
-from pendula.simulation.simulate import simulate
 from pendula.studies.certified import norm, polynomials
 from pendula.studies.theory.equations import right_hand_side, total_energy
 from pendula.studies.theory.polynomials import energy as exact_energy

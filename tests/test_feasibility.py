@@ -3,15 +3,18 @@
 import numpy as np
 import pytest
 from latticode.integrators.taylor import ORDER
+from latticode.simulation import simulate as simulation
+from latticode.simulation.feasibility import SERIES_ORDER
+from latticode.simulation.lattice import WHOLE
+from latticode.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.systems import integration_of
 from oracle import SOLVERS, random_chain
-from pendula.feasibility import (
-    SERIES_ORDER,
-    find_fault,
-    find_obstacle,
-)
-from pendula.simulation.lattice import WHOLE
-from pendula.simulation.simulate import IntegrationError, simulate
+from pendula.feasibility import find_fault
 from problems import PAPER, constants_of, make_problem
+
+
+def find_obstacle(problem):
+    return simulation.find_obstacle(problem, integration_of(problem))
 
 
 def obstacle(name="dop853", size=1.0, span=50.0, numbers=PAPER, **controls):

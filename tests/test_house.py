@@ -18,12 +18,9 @@ STOREYS = (
     ("studies",),
     ("report", "figure_diff", "archive", "ledger"),
     ("drawing",),
-    ("datasets",),
-    ("simulation",),
-    ("models",),
+    ("many_cases",),
     ("configuration",),
-    ("feasibility",),
-    ("problem",),
+    ("models", "feasibility", "problem", "names"),
     ("sources",),
 )
 """The rooms from the top down: an import points down, or stays in its room."""

@@ -16,7 +16,7 @@ from helpers import python_path, skip, wait_for
 JOB = """
 import sys, threading
 from types import SimpleNamespace
-from pendula.datasets import DatasetError, complete_or_absent
+from latticode.datasets import DatasetError, complete_or_absent
 from job import run
 
 def fail(result):
@@ -92,7 +92,7 @@ def run(flag, total):
     return Outcome(total[0])
 
 import numpy as np
-from pendula.simulation.interrupts import interruptible
+from latticode.simulation.interrupts import interruptible
 flag, total = np.zeros(1), np.zeros(1)
 run(np.ones(1), total)
 signal.signal(signal.SIGINT, signal.default_int_handler)

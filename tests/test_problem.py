@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from oracle import chains
-from pendula.problem import (
-    Problem,
+from latticode.simulation.problem import (
     by_site,
     on_sites,
     output_times,
@@ -16,6 +14,8 @@ from pendula.problem import (
     read_initial,
     write_initial,
 )
+from oracle import chains
+from pendula.problem import Problem
 from problems import make_problem
 
 PAIR = on_sites({0: (1.0, 0.1)})

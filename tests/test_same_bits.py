@@ -12,7 +12,7 @@ import pytest
 import some_numbers
 from accepted import BASELINE
 from helpers import another_numba, skip
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 from pendula.figure_diff import hashes
 
 HASHES = {

@@ -11,14 +11,14 @@ from . import sources  # noqa: F401, so that hashes of code follow the imports o
 __version__ = "1.0.0"
 
 _HOMES = {
-    "notebook": (
+    "pendula.notebook": (
         *("Case", "simulate", "sweep", "check"),
         *("draw_breather", "draw_norms", "draw_spacetime", "draw_sweep"),
     ),
-    "datasets.netcdf": ("read", "DatasetError"),
-    "model": ("Model", "ModelError"),
-    "configuration.files": ("ConfigurationError",),
-    "simulation.simulate": ("IntegrationError",),
+    "latticode.datasets.netcdf": ("read", "DatasetError"),
+    "latticode.equations.model": ("Model", "ModelError"),
+    "pendula.configuration.files": ("ConfigurationError",),
+    "latticode.simulation.simulate": ("IntegrationError",),
 }
 """The public names by their module. A module is loaded when a name of it is first asked for, so
 that no job waits for modules that it does not use."""
@@ -29,7 +29,7 @@ __all__ = sorted(name for names in _HOMES.values() for name in names)
 def __getattr__(name: str):
     for home, names in _HOMES.items():
         if name in names:
-            return getattr(import_module(f".{home}", __name__), name)
+            return getattr(import_module(home), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -1,44 +1,12 @@
-"""Refuses a run before it starts if it could not end, or if its digits would be noise.
-
-The configuration asks before any job starts, and the simulation asks again, since problems reach it
-from elsewhere too. The solvers themselves report what shows only during a run: a state that
-overflows, or a step that shrinks to nothing.
-"""
+"""Which problems of the paper's equations no solver can follow."""
 
 from collections.abc import Mapping
-from math import frexp, isfinite
 
 import numpy as np
-from latticode.equations.model import Model
-from latticode.numerics.elementary import log
+from latticode.simulation import feasibility
+from latticode.simulation.feasibility import Obstacle
 
-from pendula.problem import Constants, Problem
-
-MOST_STEPS = 1e9
-"""More steps are refused: the run would take hours or never end."""
-SERIES_ORDER = 16
-"""The order of the power series of latticode.integrators.taylor."""
-ROUNDING = 1e-16
-"""No solver resolves a smaller part of the data."""
-SMALLEST_ERROR = 1e-150
-"""The square of a smaller error vanishes, and with it the step control of dop853 and ode45."""
-SMALLEST_DATA = 1e-153
-"""The squares of smaller amplitudes, and with them norms and energy, lose digits or vanish."""
-
-Obstacle = tuple[str, str]
-"""The key of a case that stands in the way of its run, and why, in words."""
-
-
-def find_obstacle(problem: Problem) -> str | None:
-    """Return why a problem cannot be integrated, or None if it can."""
-    parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
-    peak = float(parts.max(initial=0.0))  # NaN where there is one
-    span = float(problem.end_time)
-    if problem.is_own:
-        found = find_fault_of_model(problem.model, problem.parameters, peak, span, problem.solver)
-    else:
-        found = find_fault(problem.constants, peak, span, problem.solver, problem.mu)
-    return found and found[1]
+from pendula.problem import Constants
 
 
 def find_fault(
@@ -48,37 +16,17 @@ def find_fault(
 
     Both are of the amplitudes; `mu` is that of pendula.
     """
-    rates, fast = _rates(constants, peak, mu), 1.0 if mu is None else _fast(mu)
-    return _find(vars(constants), rates, peak, span, solver, fast)
+    clock = 1.0 if mu is None else clock_of(mu)
+    rates = rates_of(constants, peak, mu)
+    return feasibility.find_fault(vars(constants), rates, peak, span, solver, clock)
 
 
-def find_fault_of_model(
-    model: Model, parameters: Mapping, peak: float, span: float, solver: Mapping
-) -> Obstacle | None:
-    """Return what `find_fault` does, for a user's own model, whose equations bound the rates."""
-    linear = model.rate(parameters, 0.0)
-    rates = {"parameters": linear, "initial": model.rate(parameters, peak) - linear}
-    return _find({}, rates, peak, span, solver, 1.0)
-
-
-def _find(
-    constants: Mapping, rates: Mapping, peak: float, span: float, solver: Mapping, fast: float
-) -> Obstacle | None:
-    """Return the obstacle to a run; its solver counts the time in `fast` units in one of tau."""
-    return (
-        _find_in_data(constants, peak, span, rates)
-        or _find_in_steps(solver, fast * span)
-        or _find_in_tolerances(solver, peak)
-        or _find_in_series(peak, span, solver, rates, fast)
-    )
-
-
-def _fast(mu: float) -> float:
+def clock_of(mu: float) -> float:
     """Return the units of t, in which pendula swing, in one of tau."""
     return 2.0 / (mu * mu) if mu * mu > 0.0 else np.inf
 
 
-def _rates(constants: Constants, peak: float, mu: float | None) -> dict[str, float]:
+def rates_of(constants: Constants, peak: float, mu: float | None = None) -> dict[str, float]:
     """Return bounds of the relative rates at which data of the size `peak` turn or grow, by key.
 
     They are per unit of tau. Pendula of (1) swing at the rate 1 per unit of t, and those that go
@@ -86,8 +34,8 @@ def _rates(constants: Constants, peak: float, mu: float | None) -> dict[str, flo
     """
     if mu is not None:
         own = {"epsilon": 8.0 * abs(constants.epsilon), "gamma": 8.0 * abs(constants.gamma)}
-        swing = {"omega": abs(float(constants.omega)), "mu": _fast(mu)}
-        return own | swing | {"initial": 2.0 * mu * peak * _fast(mu)}
+        swing = {"omega": abs(float(constants.omega)), "mu": clock_of(mu)}
+        return own | swing | {"initial": 2.0 * mu * peak * clock_of(mu)}
     return {
         "epsilon": 4.0 * abs(constants.epsilon),
         "omega": abs(float(constants.omega)),
@@ -98,78 +46,4 @@ def _rates(constants: Constants, peak: float, mu: float | None) -> dict[str, flo
 
 def rate(constants: Constants, peak: float, mu: float | None = None) -> float:
     """Return a bound of the relative rate at which data of the size `peak` turn or grow."""
-    return sum(_rates(constants, peak, mu).values())
-
-
-def _find_in_data(
-    constants: Mapping, peak: float, span: float, rates: Mapping[str, float]
-) -> Obstacle | None:
-    values = {**constants, "initial": peak, "end_time": span}
-    endless = [key for key, value in values.items() if not isfinite(value)]
-    if endless:
-        return endless[0], "the data or the constants are not finite"
-    if 0.0 < peak < SMALLEST_DATA:
-        return "initial", f"the data are so small ({peak:.0e}) that their squares vanish"
-    fastest = max(rates, key=rates.get)
-    angle = sum(rates.values()) * span
-    if angle == np.inf:
-        return fastest, "the squares of the data or the constants overflow"
-    if angle > MOST_STEPS:
-        return (
-            fastest if rates[fastest] > span else "end_time",
-            f"the run turns the data by {angle:.0e} radians, more than {MOST_STEPS:.0e}",
-        )
-    return None
-
-
-def _find_in_steps(solver: Mapping, span: float) -> Obstacle | None:
-    if "step" not in solver:
-        return None
-    key, step = "solver.step", solver["step"]
-    if not step > 0.0:
-        return key, f"the step must be positive, not {step}"
-    if not span <= MOST_STEPS * step:
-        text = f"the run takes {span / step:.0e} steps, more than {MOST_STEPS:.0e}"
-        return key, f"{text}: the step is too short"
-    return None
-
-
-def _find_in_tolerances(solver: Mapping, peak: float) -> Obstacle | None:
-    if "rtol" not in solver:
-        return None
-    rtol, atol = float(solver["rtol"]), float(solver["atol"])
-    if not (rtol >= 0.0 and atol >= 0.0):
-        text = f"the tolerances {rtol:g} and {atol:g} are not both numbers of at least zero"
-        return "solver.rtol", text
-    if not rtol * peak + atol >= ROUNDING * peak:
-        text = f"the tolerances {rtol:g} and {atol:g} lie below the rounding of the data"
-        return "solver.rtol", text
-    if 0.0 < peak < atol:
-        text = f"the data ({peak:.0e}) are smaller than the absolute tolerance {atol:g}"
-        return "solver.atol", text
-    if solver["name"] == "ode45" and rtol == 0.0:
-        return "solver.rtol", "the relative tolerance of ode45 must be positive"
-    if solver["name"] in ("dop853", "ode45") and atol < SMALLEST_ERROR:
-        text = f"the square of the absolute tolerance {atol:g} vanishes: give {SMALLEST_ERROR:g}"
-        return "solver.atol", text
-    return None
-
-
-def _find_in_series(
-    peak: float, span: float, solver: Mapping, rates: Mapping[str, float], fast: float
-) -> Obstacle | None:
-    """Refuse chains so slow or fast that the last coefficients of a power series leave the doubles.
-
-    Where nothing moves they may vanish.
-    """
-    total = sum(rates.values()) / fast  # in the time of the series
-    if solver["name"] != "taylor" or peak == 0.0 or total * span * fast < 1e-6:
-        return None
-    octaves = abs(frexp(peak)[1]) + SERIES_ORDER * (abs(frexp(total)[1]) + 1)
-    if octaves < 270.0:  # as always, and then the logarithms need not be asked: 2^270 < 1e270
-        return None
-    power = (log(peak) + SERIES_ORDER * log(total)) / log(10.0)
-    if abs(power) > 270.0:
-        text = f"the power series needs numbers of 1e{power:.0f}: choose another unit of time"
-        return "end_time", text
-    return None
+    return sum(rates_of(constants, peak, mu).values())

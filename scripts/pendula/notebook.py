@@ -10,26 +10,22 @@ Figures are matplotlib's: a notebook shows the one that a cell ends with, and sa
 from collections.abc import Iterable
 
 import xarray as xr
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.stated import describe_run
+from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
+from latticode.simulation import simulate as simulation
+from latticode.simulation import sweep as sweeps
 from pydantic import ValidationError
 
 from pendula.configuration.files import ConfigurationError, list_faults
 from pendula.configuration.messages import in_words, load
-from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.trajectories import (
-    describe_run,
-    final_state,
-    sweep_contents,
-    trajectory_contents,
-)
 from pendula.own_cases.checks import check_run
+from pendula.problem import AMPLITUDES, Problem
 
 from .configuration import cases, cost, own_models, values
 from .configuration.own_models import is_own
 from .configuration.schema import Limits
 from .configuration.solvers import with_controls
-from .problem import AMPLITUDES, Problem
-from .simulation import simulate as simulation
-from .simulation import sweep as sweeps
 
 __all__ = [
     "Case",
@@ -188,7 +184,7 @@ def simulate(case: Case, name: str = "case", hours: float | None = None):
     problem = Problem.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
     variables, attributes = trajectory_contents(name, problem, trajectory)
-    return as_xarray(variables | final_state(trajectory), attributes)
+    return as_xarray(variables | final_state(problem, trajectory), attributes)
 
 
 def sweep(

@@ -9,10 +9,10 @@ import tarfile
 import pytest
 import yaml
 from helpers import ROOT
+from latticode.datasets import netcdf
 from pendula import __version__
 from pendula.archive import pack
 from pendula.archive.contents import METADATA, ArchiveError, code_files
-from pendula.datasets import netcdf
 from rocrate.rocrate import ROCrate
 
 CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text())

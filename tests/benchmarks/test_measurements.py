@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from helpers import HANGS, ROOT
-from pendula.datasets.netcdf import as_xarray, read
-from pendula.simulation.simulate import simulate
+from latticode.datasets.netcdf import as_xarray, read
+from latticode.simulation.simulate import simulate
 from problems import problem_of
 
 from benchmarks import contestants, cost, pendula, work_precision

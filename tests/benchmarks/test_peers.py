@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from helpers import skip
+from latticode.simulation.lattice import WHOLE
+from latticode.simulation.simulate import simulate
 from oracle import SOLVERS, random_chain
-from pendula.simulation.lattice import WHOLE
-from pendula.simulation.simulate import simulate
 from problems import problem_from, problem_of
 
 from benchmarks import pendula

@@ -10,13 +10,13 @@ import problems
 import pytest
 import yaml
 from helpers import ROOT, package, skip, snakemake, wait_for
+from latticode.datasets.netcdf import read, write
 from latticode.measures.difference import first_above, norm_difference
+from latticode.simulation.simulate import simulate
 from oracle import CASES
-from pendula.datasets.netcdf import read, write
 from pendula.figure_diff import hashes
 from pendula.live.write import write_live
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 from pendula.studies.chaos.lifetimes import shares_alike
 from pendula.studies.paper.runs import run_case
 from test_report_in_browser import run

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from helpers import ROOT
+from latticode.datasets.netcdf import read
 from pendula.configuration.cost import (
     EXPLICIT,
     Cost,
@@ -16,7 +17,6 @@ from pendula.configuration.cost import (
 )
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.messages import load
-from pendula.datasets.netcdf import read
 
 SPEED = ROOT / "tests/baseline/speed"
 FACTOR = 3.0

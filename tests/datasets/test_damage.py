@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from helpers import ROOT
-from pendula.datasets import netcdf
-from pendula.datasets.json_files import load_json, write_json
-from pendula.datasets.netcdf import DatasetError, read, readable, save
+from latticode.datasets import netcdf
+from latticode.datasets.json_files import load_json, write_json
+from latticode.datasets.netcdf import DatasetError, read, readable, save
 
 FLIPS = 200
 

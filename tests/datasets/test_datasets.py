@@ -5,10 +5,10 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.datasets.checks import rounded, variable
-from pendula.datasets.digest import digest, digest_values
-from pendula.datasets.netcdf import DatasetError, Variable, read, save, write
-from pendula.datasets.registry import NamingError
+from latticode.datasets.checks import rounded, variable
+from latticode.datasets.digest import digest, digest_values
+from latticode.datasets.netcdf import DatasetError, Variable, read, save, write
+from latticode.datasets.registry import NamingError
 
 SERIES = {
     "tau": Variable(("tau",), np.arange(3.0)),

@@ -4,9 +4,9 @@ from collections import defaultdict
 
 import netCDF4
 from helpers import ROOT
-from pendula.datasets.netcdf import read
-from pendula.datasets.registry import NAMES, UNITS
-from pendula.datasets.stated import COMPUTED_FROM
+from latticode.datasets.netcdf import read
+from latticode.datasets.registry import NAMES, UNITS
+from latticode.datasets.stated import COMPUTED_FROM
 
 NOT_COMPUTED = {"figures/fig1", "checks/identities"}
 """A drawing of the chain, and algebra for all constants."""

@@ -10,8 +10,8 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.datasets import DatasetError, complete_or_absent
-from pendula.datasets.netcdf import Variable, write
+from latticode.datasets import DatasetError, complete_or_absent
+from latticode.datasets.netcdf import Variable, write
 from pendula.drawing.style import new_figure, save
 
 

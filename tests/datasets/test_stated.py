@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import dataset
 import numpy as np
 import pytest
-from pendula.datasets.netcdf import Variable, read, write
-from pendula.datasets.stated import stated
+from latticode.datasets.netcdf import Variable, read, write
+from latticode.datasets.stated import stated
 from pendula.problem import by_name
 from problems import problem_of
 

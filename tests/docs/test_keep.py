@@ -5,7 +5,7 @@ import made_up_unbounded as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 from pendula.studies.breathers.fates import FATES
 from pendula.studies.unbounded.measured import measure_fronts
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import made_up_results as made_up
 import netCDF4
 import pytest
-from pendula.datasets.json_files import load_json, write_json
-from pendula.datasets.netcdf import LENGTH, MARK, read
+from latticode.datasets.json_files import load_json, write_json
+from latticode.datasets.netcdf import LENGTH, MARK, read
 from pendula.figure_diff import Finding, Verdict, acceptance, baseline
 
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.json_files import write_json
+from latticode.datasets.netcdf import save
 from matplotlib.figure import Figure
-from pendula.datasets.json_files import write_json
-from pendula.datasets.netcdf import save
 from pendula.drawing import style
 
 TAU, HORIZON, M = np.linspace(0, 50, 401), 9.0, np.arange(5.0, 45.0, 5.0)

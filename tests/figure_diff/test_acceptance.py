@@ -3,9 +3,9 @@
 import netCDF4
 import numpy as np
 import pytest
+from latticode.datasets.json_files import load_json, write_json
+from latticode.datasets.netcdf import read
 from made_up_results import CHAOTIC, CONFIGURATION, LEDGER, NAMES, PICTURE, REGULAR, REPORT, TABLE
-from pendula.datasets.json_files import load_json, write_json
-from pendula.datasets.netcdf import read
 from pendula.figure_diff import Status, acceptance, baseline, hashes
 from pendula.figure_diff.acceptance import AcceptanceError, check, choose
 

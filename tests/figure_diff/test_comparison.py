@@ -4,9 +4,9 @@ import made_up_results as made_up
 import numpy as np
 import pytest
 from helpers import ROOT
+from latticode.datasets.json_files import load_json
+from latticode.datasets.netcdf import read
 from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICTURE, REGULAR, REPORT
-from pendula.datasets.json_files import load_json
-from pendula.datasets.netcdf import read
 from pendula.figure_diff import Status, baseline
 from pendula.figure_diff.chaos import Chaos, horizons
 from pendula.figure_diff.compare_shown import comparable, damage

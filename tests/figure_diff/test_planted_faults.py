@@ -6,8 +6,8 @@ from typing import NamedTuple
 import made_up_results as made_up
 import numpy as np
 import pytest
+from latticode.datasets.netcdf import LENGTH, save
 from made_up_results import HORIZON, PICTURE, TAU
-from pendula.datasets.netcdf import LENGTH, save
 from pendula.figure_diff import Status
 from pendula.ledger.changes import exchange, put, scale, shift
 

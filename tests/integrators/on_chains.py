@@ -1,9 +1,9 @@
 """Runs of the chain by one integrator, from numbers and data."""
 
 import numpy as np
+from latticode.simulation.lattice import Reduction
+from latticode.simulation.simulate import Trajectory, simulate
 from oracle import CASES
-from pendula.simulation.lattice import Reduction
-from pendula.simulation.simulate import Trajectory, simulate
 from problems import make_problem
 
 WHOLE = Reduction(even=False, synchronised=False)

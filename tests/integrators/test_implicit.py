@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import systems
 from latticode.integrators import DONE, NO_CONTRACTION
+from latticode.simulation.lattice import find_reduction
+from latticode.simulation.simulate import IntegrationError
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, SOLVERS, random_chain, slope
-from pendula.simulation.lattice import find_reduction
-from pendula.simulation.simulate import IntegrationError
 
 NUMBERS = (1.0, 1.0, -4.0)
 SCHEMES = ("crank_nicolson", "delfour_fortin_payre")

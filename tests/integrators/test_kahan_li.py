@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.simulation.simulate import simulate
 from on_pendula import final, pendula, undriven_energy
-from pendula.simulation.simulate import simulate
 
 
 def by_steps_of(step, problem):

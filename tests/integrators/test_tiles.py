@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from latticode.integrators import DONE, dop853, tiles
 from latticode.kernels.compiled import kernel
+from latticode.simulation.lattice import Reduction, choose_ends, pack
+from latticode.simulation.observables import blank_record
 from pendula.models.amplitudes import Chain, rates
-from pendula.simulation.lattice import Reduction, choose_ends, pack
-from pendula.simulation.observables import blank_record, observe
-from pendula.simulation.solvers import run_dop853
+from pendula.models.solvers import observe, run_dop853
 
 solve_in_one = dop853.build(rates, observe)
 TIMES = np.linspace(0.0, 4.0, 81)  # enough steps that some pass narrowly

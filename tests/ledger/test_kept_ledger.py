@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from accepted import BASELINE, datasets
-from pendula.datasets.json_files import load_json
+from latticode.datasets.json_files import load_json
 from pendula.ledger.claim import Origin
 from pendula.ledger.decide import join_claims
 from pendula.ledger.tables import tally

@@ -4,7 +4,7 @@ from itertools import combinations
 
 import numpy as np
 import xarray as xr
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 
 FOLDERS = ("checks", "figures", "unbounded")
 KEYS = {"case", "sweep"}

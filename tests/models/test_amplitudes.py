@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from latticode.kernels.simd import LANES
+from latticode.simulation.lattice import Reduction, choose_ends, pack, unpack
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
 from pendula.models.amplitudes import (
     Chain,
@@ -13,7 +14,6 @@ from pendula.models.amplitudes import (
     rates,
     rates_at_site,
 )
-from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)
 WHOLE = Reduction(even=False, synchronised=False)

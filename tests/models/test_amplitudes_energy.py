@@ -3,9 +3,9 @@
 import itertools
 
 import pytest
+from latticode.simulation.lattice import Reduction, choose_ends, pack
 from oracle import BOUNDARIES, hamiltonian, random_chain
 from pendula.models.amplitudes import Chain, energy
-from pendula.simulation.lattice import Reduction, choose_ends, pack
 
 CONSTANTS = (0.7, 1.3, -2.1)
 WHOLE = Reduction(even=False, synchronised=False)

@@ -7,9 +7,9 @@ from latticode.generation.series import CACHED_BLOCKS
 from latticode.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from latticode.kernels.compiled import kernel
 from latticode.kernels.simd import LANES
+from latticode.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
 from oracle import BOUNDARIES, boundaries, chains, constants, power_series
 from pendula.models.amplitudes import Chain, continue_series
-from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
 
 WHOLE = Reduction(even=False, synchronised=False)
 

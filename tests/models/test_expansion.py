@@ -5,10 +5,10 @@ The formulas themselves are derived from Newton's equations in tests/derivation.
 
 import numpy as np
 import pytest
+from latticode.simulation.lattice import Reduction, choose_ends, pack, unpack
 from oracle import random_chain
 from pendula.models import amplitudes, expansion
 from pendula.models.amplitudes import Chain
-from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)
 SQUARED_MU = 0.04

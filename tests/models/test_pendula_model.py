@@ -6,6 +6,8 @@ from flint import arb, ctx
 from latticode.equations.ends import DIRICHLET
 from latticode.kernels.compiled import kernel
 from latticode.kernels.simd import LANES, load, store
+from latticode.simulation.lattice import Reduction
+from latticode.simulation.simulate import simulate
 from on_pendula import TIGHT, final, pendula, slope, start, undriven_energy
 from pendula.models.pendula import (
     amplitudes_of,
@@ -14,8 +16,6 @@ from pendula.models.pendula import (
     make_pendula,
     sine_and_cosine,
 )
-from pendula.simulation.lattice import Reduction
-from pendula.simulation.simulate import simulate
 from scipy.integrate import solve_ivp
 
 BOUNDARIES = ("dirichlet", "free", "periodic")

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from latticode.equations.model import Model
+from latticode.simulation.simulate import simulate
 from pendula.own_cases.breathers import State, exponents, find_state
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 from problems import constants_of
 
 FOLDER = Path(__file__).parents[2] / "docs/models"

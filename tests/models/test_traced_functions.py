@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from latticode.equations.model import Model, ModelError, abs2, conj, exp, lap, log, sin, sqrt
-from pendula.simulation.own_models import solver_names
-from pendula.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.systems import solver_names
 from scipy.integrate import solve_ivp
 from test_traced_models import TIGHT, beside, problem
 

@@ -5,9 +5,9 @@ from functools import reduce
 import numpy as np
 import pytest
 from latticode.equations.model import Model, abs2, conj, lap, shift
+from latticode.simulation.lattice import WHOLE
+from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
-from pendula.simulation.lattice import WHOLE
-from pendula.simulation.simulate import simulate
 from scipy.integrate import solve_ivp
 
 TIGHT = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
@@ -16,7 +16,7 @@ TIGHT = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
 def problem(model, initial, boundary, solver="taylor", end_time=1.0, **parameters):
     """Return the problem of a traced model on as many sites as `initial` (field, site) has."""
     return Problem(
-        constants=None, half_width=initial.shape[1] // 2, boundary=boundary, initial=initial,
+        half_width=initial.shape[1] // 2, boundary=boundary, initial=initial,
         end_time=end_time, output_step=0.25, model=model, parameters=parameters,
         solver={"name": solver, "rtol": 1e-13, "atol": 1e-13, "step": 0.01}, snapshot_every=1,
     )  # fmt: skip

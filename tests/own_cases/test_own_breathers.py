@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from latticode.equations.model import abs2, lap
+from latticode.simulation.simulate import simulate
 from pendula import Case, Model, check, draw_breather
 from pendula.models import amplitudes
 from pendula.models.pairs import FAMILIES
 from pendula.own_cases import answers
 from pendula.own_cases.breathers import check_breather, exponents, find_state
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import steady
 
 CUBIC = Model(fields="u", parameters={}, i_dt=lambda p, u: 0.3 * lap(u) + abs2(u) * u)

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from latticode.simulation import simulate as simulation
 from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
 from pendula.configuration import cost
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.solvers import OF_AMPLITUDES, OF_PENDULA
+from pendula.models.integrations import NAMED
 from pendula.own_cases import answers
 from pendula.own_cases.checks import check_sweep
 from pendula.problem import Problem
-from pendula.simulation import simulate as simulation
-from pendula.simulation.models import MODELS
 from simulate_own import as_the_workflow_writes
 
 SWING = Case(omega=-4, model="pendula", mu=0.1, half_width=8, end_time=2)
@@ -105,13 +105,13 @@ def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
 
 def test_the_configuration_knows_the_solvers_of_each_model():
     for model, known in (("pendula", OF_PENDULA), ("amplitudes", OF_AMPLITUDES)):
-        own = {*MODELS[model].solvers} - {"ode45_real"}  # never configured
+        own = {*NAMED[model].integration.solvers} - {"ode45_real"}  # never configured
         assert own == {*known} - {"auto"}
 
 
 def test_a_solver_of_the_other_model_is_refused_in_words():
     problem = Problem.of(SWING.problem() | {"solver": {"name": "crank_nicolson"}})
-    with pytest.raises(simulation.IntegrationError, match="does not take the pendula"):
+    with pytest.raises(simulation.IntegrationError, match="does not take pendula"):
         simulation.simulate(problem)
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
+from latticode.datasets import DatasetError
+from latticode.datasets.netcdf import save
 from matplotlib.image import imsave
-from pendula.datasets import DatasetError
-from pendula.datasets.netcdf import save
 from pendula.report.described import dataset, figure
 
 ABOUT = {"long_name": "height of <b>waves</b>", "units": "rad"}

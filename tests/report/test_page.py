@@ -9,7 +9,7 @@ import pytest
 from accepted import BASELINE
 from html_tags import Tags
 from jinja2 import UndefinedError
-from pendula.datasets.json_files import load_json, sealed
+from latticode.datasets.json_files import load_json, sealed
 from pendula.report import document, page
 from pendula.report.described import Figure
 

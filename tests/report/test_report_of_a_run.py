@@ -5,7 +5,7 @@ import re
 import pytest
 from helpers import ROOT
 from html_tags import Tags
-from pendula.datasets.json_files import load_json
+from latticode.datasets.json_files import load_json
 
 
 @pytest.fixture(scope="module")

@@ -2,9 +2,9 @@
 
 import pytest
 from latticode.measures.difference import norm_difference
+from latticode.simulation.problem import on_sites
+from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import CASES
-from pendula.problem import on_sites
-from pendula.simulation.simulate import IntegrationError, simulate
 from problems import make_problem
 
 

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from helpers import HANGS, wait_for
 from latticode.integrators import INTERRUPTED
+from latticode.simulation import simulate as simulation
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import WHOLE, aligned, pack
+from latticode.simulation.observables import blank_record
+from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import SOLVERS as CONTROLS
-from pendula.simulation import simulate as simulation
-from pendula.simulation import tangents
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import WHOLE, aligned, pack
-from pendula.simulation.models import make_chain
-from pendula.simulation.observables import blank_record
-from pendula.simulation.simulate import IntegrationError, simulate
-from pendula.simulation.solvers import SOLVERS
+from pendula.models import tangents
+from pendula.models.integrations import make_chain
+from pendula.models.solvers import SOLVERS
 from pendula.studies.unbounded import active_sites
 from pendula.studies.unbounded.sums import in_sums
 from problems import constants_of, problem_of

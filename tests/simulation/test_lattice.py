@@ -4,17 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unpack
+from latticode.simulation.observables import blank_record
 from oracle import chains, random_chain
 from pendula.models.amplitudes import Chain, energy
-from pendula.simulation.lattice import (
-    WHOLE,
-    Reduction,
-    choose_ends,
-    find_reduction,
-    pack,
-    unpack,
-)
-from pendula.simulation.observables import blank_record, observe
+from pendula.models.solvers import observe
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
 each_reduction = pytest.mark.parametrize("reduction", REDUCTIONS)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from latticode.simulation.lattice import WHOLE, Reduction
+from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import BOUNDARIES, SOLVERS, boundaries, chains, constants, random_chain
 from pendula.problem import Problem
-from pendula.simulation.lattice import WHOLE, Reduction
-from pendula.simulation.simulate import IntegrationError, simulate
 from problems import PAPER, make_problem
 
 CLOSE = {  # over a unit of time, worst case

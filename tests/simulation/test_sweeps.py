@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from pendula.problem import on_sites
-from pendula.simulation.simulate import simulate
-from pendula.simulation.sweep import sweep
+from latticode.simulation.problem import on_sites
+from latticode.simulation.simulate import simulate
+from latticode.simulation.sweep import sweep
 from problems import make_problem
 
 PROBLEM = make_problem(
@@ -52,7 +52,7 @@ def test_a_chain_that_nothing_crosses_stands_for_longer_ones(monkeypatch):
         followed.append(problem.half_width)
         return simulate(problem, **others)
 
-    monkeypatch.setattr("pendula.simulation.sweep.simulate", follow)
+    monkeypatch.setattr("latticode.simulation.sweep.simulate", follow)
     swept = sweep(PROBLEM, [8, 25, 40, 12, 30], WINDOWS)
     assert followed == [8, 25, 12]  # by tau = 3 the data have come to M = 12, and to M = 25 not
     for part in (swept.l2, swept.linf):

@@ -4,16 +4,13 @@ import hashlib
 
 import numpy as np
 import pytest
+from latticode.simulation.lattice import Reduction, choose_ends, pack, unpack
+from latticode.simulation.simulate import simulate
 from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
 from pendula.models.linear_chain import finite_rate
 from pendula.models.tangent import ROWS, tangent_rates
-from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
-from pendula.simulation.simulate import simulate
-from pendula.simulation.tangents import (
-    grow,
-    orthonormalise,
-)
+from pendula.models.tangents import grow, orthonormalise
 from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)

@@ -11,12 +11,12 @@ import pytest
 import xarray as xr
 from accepted import BASELINE, changed, check_words, dataset, datasets, differing, wrong_changes
 from accepted_figures import FIGURES
+from latticode.datasets.netcdf import read, save
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from matplotlib.text import Text
 from pendula.article import write
-from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.drawing.description import describe
 from pendula.own_cases import figures as own

@@ -3,7 +3,7 @@
 import os
 
 from helpers import MY_BASELINE, edit, planned, snakemake
-from pendula.datasets.json_files import load_json
+from latticode.datasets.json_files import load_json
 
 MINE = "--config", f"baseline={MY_BASELINE}"
 

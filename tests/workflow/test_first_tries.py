@@ -11,8 +11,8 @@ import pytest
 import yaml
 from edits import EDITS
 from helpers import ROOT, command_of, edit, planned, run_ready, snakemake
+from latticode.datasets.netcdf import read
 from pendula.configuration.cases import Case
-from pendula.datasets.netcdf import read
 
 
 def bytes_of(folder):

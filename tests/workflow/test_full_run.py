@@ -1,6 +1,6 @@
 """One full run of the quick configuration, by the real snakemake."""
 
-from pendula.datasets.digest import fingerprint
+from latticode.datasets.digest import fingerprint
 
 
 def test_every_picture_shows_what_is_described_beside_it(full_run):

@@ -1,7 +1,7 @@
 """The rule `reference`: asked for by name only, and what it writes."""
 
 from helpers import ROOT, jobs_in, package, planned, snakemake
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 
 
 def test_the_reference_has_six_cases_and_one_from_doubles(tmp_path, looked):

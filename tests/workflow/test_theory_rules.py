@@ -2,9 +2,9 @@
 
 import pytest
 import xarray as xr
-from pendula.datasets.checks import broken, table, variable
-from pendula.datasets.json_files import load_json
-from pendula.datasets.netcdf import DatasetError
+from latticode.datasets.checks import broken, table, variable
+from latticode.datasets.json_files import load_json
+from latticode.datasets.netcdf import DatasetError
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.decide import decide_claims, join_claims, tabulate_claims
 from pendula.ledger.verdicts import all_claims, needed

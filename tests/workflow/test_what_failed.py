@@ -9,7 +9,7 @@ TARGETS = "results/pendula/threshold.nc", "fig1"
 
 @pytest.mark.parametrize("executor", ["forked", "local"])
 def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_path, executor):
-    edit(clone / "scripts/dataset.py", "from pendula.datasets.netcdf", "import absent\nfrom p")
+    edit(clone / "scripts/dataset.py", "from latticode.datasets.netcdf", "import absent\nfrom p")
     edit(
         clone / "scripts/figure.py",
         "    files = {",

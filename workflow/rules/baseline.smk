@@ -45,7 +45,7 @@ def accepted_files(wildcards):
 
 def tell_faults():
     """Say in one line each what is not as in the baseline, and fail if any of it is a fault."""
-    from pendula.datasets.json_files import load_json  # here, since few runs compare
+    from latticode.datasets.json_files import load_json  # here, since few runs compare
 
     verdict = load_json(VERDICT)
     print(*verdict["lines"], sep="\n", end=f"; see {from_outside(PAGE)}\n", file=sys.stderr)

@@ -50,7 +50,8 @@ from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.configuration.values import Steps
-from pendula.problem import Constants, name_window
+from latticode.simulation.problem import name_window
+from pendula.problem import Constants
 from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
 from pendula.sources import SCRIPTS
 from pendula.studies import files_of_part

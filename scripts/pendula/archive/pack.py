@@ -14,13 +14,13 @@ from pathlib import Path
 from urllib.parse import quote
 
 import yaml
+from latticode.datasets import complete_or_absent
+from latticode.datasets.netcdf import read
 from latticode.kernels.sources import digest_of
 from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from pendula import __version__
-from pendula.datasets import complete_or_absent
-from pendula.datasets.netcdf import read
 from pendula.sources import SCRIPTS
 
 from .contents import MANIFEST, ArchiveError, code_files

@@ -13,9 +13,9 @@ import pypandoc
 import typst
 import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from latticode.datasets import complete_or_absent
 
 from pendula.configuration.paper import in_short
-from pendula.datasets import complete_or_absent
 from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.rows import load

@@ -8,9 +8,10 @@ from math import inf, sqrt
 from typing import Annotated, Any, Literal
 
 from latticode.equations.ends import ENDS
+from latticode.simulation.feasibility import MOST_STEPS, Obstacle
 from pydantic import BeforeValidator, Field, model_validator
 
-from pendula.feasibility import MOST_STEPS, Obstacle, find_fault, rate
+from pendula.feasibility import find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants
 
 from . import cost

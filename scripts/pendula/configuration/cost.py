@@ -12,8 +12,7 @@ from math import inf
 from typing import NamedTuple
 
 from latticode.equations.model import Model
-
-from pendula.feasibility import Obstacle
+from latticode.simulation.feasibility import Obstacle
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0

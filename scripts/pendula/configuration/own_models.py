@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
 from latticode.equations.model_file import at_middle, values_at
+from latticode.simulation.feasibility import Obstacle, find_fault, rates_of
 from pydantic import (
     BeforeValidator,
     Field,
@@ -17,8 +18,6 @@ from pydantic import (
     WrapValidator,
     model_validator,
 )
-
-from pendula.feasibility import Obstacle, find_fault_of_model
 
 from .cases import Case, sites_of
 from .files import OF_MODELS
@@ -134,7 +133,7 @@ class OwnCase(Case):
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
         values = self._values(self.half_width)
-        found = find_fault_of_model(self.model, values, peak, span, solver)
+        found = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
         return found, self.model.rate(values, peak)
 
     def problem(self, **changes) -> dict:

@@ -8,9 +8,10 @@ import difflib
 from collections.abc import Callable, Iterator
 from typing import Annotated, Any
 
+from latticode.simulation.problem import name_window
 from pydantic import Field, model_validator
 
-from pendula.problem import AMPLITUDES, PENDULA, name_window
+from pendula.problem import AMPLITUDES, PENDULA
 
 from . import cost
 from .cases import is_multiple

@@ -8,6 +8,10 @@ from textwrap import fill
 
 import matplotlib
 import xarray as xr
+from latticode.datasets import complete_or_absent
+from latticode.datasets.digest import fingerprint
+from latticode.datasets.netcdf import save as save_dataset
+from latticode.simulation.problem import read_initial
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
@@ -17,10 +21,6 @@ from matplotlib.layout_engine import PlaceHolderLayoutEngine
 from matplotlib.patheffects import withStroke
 
 from pendula.configuration.paper import in_short
-from pendula.datasets import complete_or_absent
-from pendula.datasets.digest import fingerprint
-from pendula.datasets.netcdf import save as save_dataset
-from pendula.problem import read_initial
 
 from .description import as_text, describe
 

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
-
-from pendula.datasets import complete_or_absent
-from pendula.datasets.json_files import load_json, write_json
-from pendula.datasets.netcdf import DatasetError, read
+from latticode.datasets import complete_or_absent
+from latticode.datasets.json_files import load_json, write_json
+from latticode.datasets.netcdf import DatasetError, read
 
 from . import hashes
 from .baseline import (

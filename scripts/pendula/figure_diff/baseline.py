@@ -14,11 +14,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from latticode.datasets.json_files import load_json
+from latticode.datasets.netcdf import DatasetError
 from matplotlib import ft2font
 from PIL import features
-
-from pendula.datasets.json_files import load_json
-from pendula.datasets.netcdf import DatasetError
 
 from . import Finding, Status, Verdict, compare_datasets, compare_shown, hashes
 from .chaos import TRUST, Chaos, horizons

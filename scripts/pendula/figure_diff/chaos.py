@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 
 from .hashes import are_words
 

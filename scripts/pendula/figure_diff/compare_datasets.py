@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 import netCDF4
 import numpy as np
 import xarray as xr
-
-from pendula.datasets.netcdf import LENGTH, MARK, DatasetError, read
+from latticode.datasets.netcdf import LENGTH, MARK, DatasetError, read
 
 from . import Status, hashes
 from .chaos import ROUNDING, TOLERANCE, Chaos, are_coordinates

@@ -16,11 +16,10 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from latticode.datasets.digest import digest, fingerprint
+from latticode.datasets.json_files import ENTRY, load_json
+from latticode.datasets.netcdf import DatasetError, read
 from PIL import Image
-
-from pendula.datasets.digest import digest, fingerprint
-from pendula.datasets.json_files import ENTRY, load_json
-from pendula.datasets.netcdf import DatasetError, read
 
 from . import Status
 from .chaos import ROUNDING, TOLERANCE

@@ -3,8 +3,9 @@
 from base64 import b64encode
 from pathlib import Path
 
-from pendula.datasets import complete_or_absent
-from pendula.datasets.json_files import write_json
+from latticode.datasets import complete_or_absent
+from latticode.datasets.json_files import write_json
+
 from pendula.report import page
 
 from . import Status, Verdict

@@ -9,9 +9,8 @@ from typing import Any
 import netCDF4
 import numpy as np
 import xarray as xr
-
-from pendula.datasets import complete_or_absent
-from pendula.datasets.digest import digest_values
+from latticode.datasets import complete_or_absent
+from latticode.datasets.digest import digest_values
 
 DIGITS = 16
 """Hexadecimal digits of a hash: by chance one of 1e19 other contents has the same."""

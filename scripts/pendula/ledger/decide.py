@@ -1,7 +1,8 @@
 """Decide the claims of a part of the ledger by datasets, and join the parts."""
 
-from pendula.datasets.json_files import load_json, write_json
-from pendula.datasets.netcdf import read
+from latticode.datasets.json_files import load_json, write_json
+from latticode.datasets.netcdf import read
+
 from pendula.report.words import write_markdown
 
 from .tables import by_sentence, in_short, tables

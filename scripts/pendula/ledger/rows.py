@@ -3,7 +3,7 @@
 import re
 from typing import TYPE_CHECKING
 
-from pendula.datasets.json_files import load_json
+from latticode.datasets.json_files import load_json
 
 from .claim import Origin
 

@@ -19,11 +19,11 @@ import numpy as np
 from latticode.equations.ends import DIRICHLET
 from latticode.generation.chain import MIRROR
 from latticode.kernels.compiled import TESTED
+from latticode.simulation.observables import blank_record
 from llvmlite import binding
 
 from pendula.models.amplitudes import Chain
-from pendula.simulation.observables import blank_record
-from pendula.simulation.solvers import SOLVERS
+from pendula.models.solvers import SOLVERS
 
 TRIPLE, FEATURES = "wasm32-unknown-unknown", "+simd128,+bulk-memory,+sign-ext"
 OPTIMISED = 3

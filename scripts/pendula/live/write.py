@@ -13,16 +13,16 @@ from typing import Any
 import numpy as np
 import xarray as xr
 import yaml
+from latticode.datasets import complete_or_absent
+from latticode.datasets.netcdf import read
 from latticode.integrators import FAULTS
 from latticode.measures.difference import VISIBLE
+from latticode.simulation.problem import read_initial
 from markupsafe import Markup
 
-from pendula.datasets import complete_or_absent
-from pendula.datasets.netcdf import read
-from pendula.problem import read_initial
+from pendula.models.solvers import SOLVERS
 from pendula.report import page
 from pendula.report.words import case_of
-from pendula.simulation.solvers import SOLVERS
 
 from .webassembly import webassembly
 

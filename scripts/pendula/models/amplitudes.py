@@ -17,9 +17,9 @@ import numpy as np
 from latticode.equations.ends import DIRICHLET, PERIODIC
 from latticode.equations.graph import neg
 from latticode.equations.model import Model, Value, abs2, conj, lap
-from latticode.generation.chain import MIRROR, at_every_site, close
+from latticode.generation.chain import MIRROR, at_every_site, close, modulus2
 from latticode.generation.modules import load_function, load_rule, load_series
-from latticode.kernels.compiled import inlined_by_llvm, kernel
+from latticode.kernels.compiled import kernel
 
 
 class Chain(NamedTuple):
@@ -84,6 +84,8 @@ def field_of(model: Model) -> Callable:
 
 
 EQUATIONS = traced(i_dt)
+AMPLITUDES = Model(fields=("A", "B"), parameters=EQUATIONS.parameters, i_dt=i_dt, name="amplitudes")
+"""(4) as problems have it; `integrations` says how it is integrated."""
 field = field_of(EQUATIONS)
 linear_field = field_of(traced(lambda p, a, b: [linear(p, a, b), linear(p, b, a)]))
 """F of (4), and its linear terms; for B with A and B exchanged."""
@@ -91,12 +93,6 @@ continue_series = load_series(EQUATIONS).continue_in_waves
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
 rates_at_site = load_rule(EQUATIONS.rates, "y")
 write_rates = at_every_site(rates_at_site)
-
-
-@inlined_by_llvm
-def modulus2(y, re, j):
-    """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
-    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
 
 
 @kernel

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from latticode.equations.ends import DIRICHLET
 from latticode.equations.graph import node
-from latticode.equations.model import Model, Value, lap, sin
+from latticode.equations.model import Model, Value, cos, lap, sin, sqrt
 from latticode.generation.chain import at_every_site, close
 from latticode.generation.modules import load_rule, load_series
 from latticode.generation.toolbox import sine_and_cosine
@@ -154,13 +154,28 @@ def pendula_of_tile(pendula, at_left_end, at_right_end):
 # --- The equations as a traced model, and what is generated from it -----------------------------
 
 
+def accelerations(coupling: Value, drive: Value, x: Value, y: Value) -> list[Value]:
+    """Return the second derivatives of x and y, under C and D at one time."""
+    return [coupling * lap(u) + drive * (v - u) - sin(u) for u, v in ((x, y), (y, x))]
+
+
 def d2_dt2(p, x: Value, y: Value) -> list[Value]:
-    """Return the second derivatives of x and y."""
-    drive = Value(node("clock", "drive"))
-    return [p.coupling * lap(u) + drive * (v - u) - sin(u) for u, v in ((x, y), (y, x))]
+    """Return the second derivatives of x and y by t, from the constants of (4) and mu."""
+    square = p.mu * p.mu
+    drive = cos(2.0 * sqrt(1.0 + square * p.omega) * p.t)
+    return accelerations(p.epsilon * square, 2.0 * p.gamma * square * drive, x, y)
 
 
-EQUATIONS = Model(fields=("x", "y"), parameters={"coupling": 1.0}, d2_dt2=d2_dt2)
+def driven(p, x: Value, y: Value) -> list[Value]:
+    """Return the same from C, with D a function of the time that `at_time` knows."""
+    return accelerations(p.coupling, Value(node("clock", "drive")), x, y)
+
+
+PARAMETERS = {"epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "mu": 0.1}
+NEWTON = Model(fields=("x", "y"), parameters=PARAMETERS, d2_dt2=d2_dt2, name="pendula")
+"""(1) as problems have it; `integrations` says how it is integrated."""
+EQUATIONS = Model(fields=("x", "y"), parameters={"coupling": 1.0}, d2_dt2=driven)
+"""(1) as kernels have it."""
 SERIES = load_series(EQUATIONS)
 WORK, continue_in_waves = SERIES.WORK, SERIES.continue_in_waves
 write_rates = at_every_site(load_rule(EQUATIONS.rates, "y"))

@@ -2,9 +2,9 @@
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.difference import VISIBLE
 
-from pendula.datasets.registry import SOLVER_NAMES
 from pendula.problem import PENDULA
 from pendula.report.words import number, percent
 

@@ -18,11 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.checks import table, variable
+from latticode.localised.linearised import linearise
 from latticode.numerics.elementary import square_modulus
 
-from pendula.datasets.checks import table, variable
 from pendula.problem import Problem
-from pendula.simulation.own_models import linearise
 
 TITLE = "A localised state of a model of one's own"
 MOST_UNKNOWNS = 1000

@@ -12,6 +12,9 @@ good.
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.checks import table, variable
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.trajectories import trajectory_contents
 from latticode.integrators import DONE, FAULTS
 from latticode.measures.difference import NORMS, at_times, difference, divergence_time
 from latticode.measures.growth import (
@@ -25,30 +28,19 @@ from latticode.measures.growth import (
 from latticode.measures.norms import power_of
 from latticode.numerics.elementary import log, modulus, product, square_modulus
 from latticode.numerics.quadrature import gauss_legendre
+from latticode.simulation.feasibility import SMALLEST_ERROR
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import WHOLE, find_reduction
+from latticode.simulation.problem import on_sites, output_times, place, read_initial
+from latticode.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.systems import integration_of
 
 from pendula.configuration.cost import TIGHTEST, other_than
-from pendula.datasets.checks import table, variable
-from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.trajectories import trajectory_contents
-from pendula.feasibility import SMALLEST_ERROR
 from pendula.models.bounds import best_bound, growth_margin
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
-from pendula.problem import (
-    AMPLITUDES,
-    PENDULA,
-    Constants,
-    Problem,
-    on_sites,
-    output_times,
-    place,
-    read_initial,
-)
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import WHOLE, find_reduction
-from pendula.simulation.models import model_of
-from pendula.simulation.simulate import IntegrationError, simulate
-from pendula.simulation.tangents import STEP, TOLERANCE, Growth, grow, random_tangent
+from pendula.models.tangents import STEP, TOLERANCE, Growth, grow, random_tangent
+from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.equations import run as run_on
 from pendula.studies.theory.equations import total_energy
@@ -129,7 +121,7 @@ def follow_own(problem: Problem) -> Growth:
     solver = {"name": "dop853", "rtol": TOLERANCE, "atol": TOLERANCE}
     tangent = problem.model.tangent()
     twin = problem.changed(model=tangent, initial=both, snapshot_every=0, solver=solver)
-    model = model_of(twin)
+    model = integration_of(twin)
     system, y, method = model.system(twin, WHOLE), model.start(twin, WHOLE), model.solvers["dop853"]
     tau = output_times(problem.end_time, min(STEP, problem.end_time / FEWEST_STEPS))
     work, record = method.room_for(system, y), model.record(len(both), shape[1], 2, 0)
@@ -152,7 +144,7 @@ def follow_own(problem: Problem) -> Growth:
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
     """Return the rate at which tangent vectors grow, whether that is chaos, and when digits end."""
     try:
-        growth = (follow_own if problem.is_own else follow)(problem)
+        growth = (follow if problem.model.name == AMPLITUDES else follow_own)(problem)
     except IntegrationError as error:
         return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
     tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size
@@ -279,7 +271,7 @@ def beside_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return the largest angle, and how far the angles at the end are from those of (3)."""
     angles = run["final"].sel(part="angle").values
     solver = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
-    changed = problem.changed(model=AMPLITUDES, mu=None, solver=solver, snapshot_every=0)
+    changed = problem.changed(model=AMPLITUDES, solver=solver, snapshot_every=0)
     try:
         amplitudes = simulate(changed).final
         expected = leading_angles(amplitudes, problem.constants.omega, problem.mu, problem.end_time)
@@ -346,9 +338,9 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     `run` is the trajectory that `simulate` made of `problem`.
     """
     again = run_again(problem, run)
-    if problem.model == PENDULA:
+    if problem.model.name == PENDULA:
         others = [beside_expansion(problem, run)]
-    elif problem.is_own:
+    elif problem.model.name != AMPLITUDES:
         others = [measure_sensitivity(problem), check_conserved(run), check_breather(problem)]
     else:
         solver = {key: again.attrs[f"second_{key}"] for key in ("name", "rtol", "atol")}

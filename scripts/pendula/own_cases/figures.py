@@ -6,17 +6,18 @@ from textwrap import shorten
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.netcdf import read, save
 from latticode.equations.ends import ends_of
 from latticode.measures.difference import VISIBLE
+from latticode.simulation.problem import read_initial
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from pendula.datasets.netcdf import read, save
 from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
 from pendula.models.pendula import frequency
-from pendula.problem import PENDULA, read_initial
+from pendula.problem import PENDULA
 
 from .checks import check_bounds, check_sweep
 

@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
+
 from pendula.report.described import dataset, figure
 from pendula.report.document import Section, Table, write_page
 

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
-
-from pendula.datasets.netcdf import readable
+from latticode.datasets.netcdf import readable
 
 from .words import number
 

@@ -6,11 +6,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from latticode.datasets import complete_or_absent
+from latticode.datasets.json_files import load_json
 from latticode.kernels.sources import describe_machine
 from markupsafe import Markup
 
-from pendula.datasets import complete_or_absent
-from pendula.datasets.json_files import load_json
 from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.rows import on_figure

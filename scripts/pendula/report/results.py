@@ -3,8 +3,9 @@
 from collections.abc import Iterable
 from pathlib import Path
 
+from latticode.datasets.netcdf import read
+
 from pendula.configuration.paper import Differences
-from pendula.datasets.netcdf import read
 from pendula.sources import SCRIPTS
 
 from .words import Quote, number

@@ -6,11 +6,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from latticode.datasets import complete_or_absent
+from latticode.simulation.problem import read_initial
 from markupsafe import Markup
 from tabulate import tabulate
-
-from pendula.datasets import complete_or_absent
-from pendula.problem import read_initial
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, TIMES = "−", "×"

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from latticode.datasets.netcdf import as_xarray
 from latticode.measures.confidence import share_limits
-from pendula.datasets.netcdf import as_xarray
+from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
-from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import fates, figures, sensitivity
 from pendula.studies.breathers.fate_contents import map_fates
 from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS
@@ -13,7 +13,7 @@ from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS
 
 def pair_problem(omega, a, b, end_time=30.0, **changes):
     return Problem(
-        constants=Constants(epsilon=1.0, gamma=1.0, omega=omega), half_width=30,
+        parameters={"epsilon": 1.0, "gamma": 1.0, "omega": omega}, half_width=30,
         boundary="dirichlet", initial=np.array([[a], [b]], complex), end_time=end_time,
         output_step=end_time, solver={"name": "taylor", "rtol": 1e-8, "atol": 1e-8},
     ).changed(**changes)  # fmt: skip

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from helpers import ROOT
+from latticode.datasets.netcdf import read
 from oracle import laplacian
-from pendula.datasets.netcdf import read
 from pendula.models.linear_chain import flow
 from pendula.problem import Constants
 from pendula.studies.certified import norm, regular

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 from helpers import ROOT
-from pendula.datasets.netcdf import read
+from latticode.datasets.netcdf import read
 from pendula.studies.certified import fixed_point, frames
 from pendula.studies.certified.polynomials import linear
 from problems import make_problem, problem_of

@@ -2,7 +2,7 @@
 
 import numpy as np
 from accepted import dataset
-from pendula.datasets.netcdf import as_xarray
+from latticode.datasets.netcdf import as_xarray
 from pendula.studies.certified.proved_breathers import breathers_contents
 
 PROOFS = [

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from pendula.problem import on_sites
-from pendula.simulation.ensembles import perturb, perturb_unevenly
-from pendula.simulation.simulate import simulate
-from pendula.simulation.sweep import pair_l2, pair_linf
+from latticode.simulation.ensembles import perturb, perturb_unevenly
+from latticode.simulation.problem import on_sites
+from latticode.simulation.simulate import simulate
+from latticode.simulation.sweep import pair_l2, pair_linf
 from pendula.studies.chaos.ensembles import run_members, sweep_members
 from problems import problem_of
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.simulation.simulate import simulate
+from latticode.simulation.simulate import simulate
 from pendula.studies.chaos import lifetimes
 from problems import problem_of
 

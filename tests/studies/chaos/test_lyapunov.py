@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from latticode.datasets.netcdf import as_xarray
 from latticode.measures.growth import mean_rate, mean_rate_error
-from pendula.datasets.netcdf import as_xarray
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.tangents import grow, random_tangent
+from latticode.simulation.ensembles import draw_members
+from pendula.models.tangents import grow, random_tangent
 from pendula.studies.chaos import lyapunov
 from problems import problem_of
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from pendula.datasets.netcdf import as_xarray
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.simulate import simulate
-from pendula.simulation.sweep import pair_l2
+from latticode.datasets.netcdf import as_xarray
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.simulate import simulate
+from latticode.simulation.sweep import pair_l2
 from pendula.studies.chaos import members
 from problems import problem_of
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.datasets.netcdf import as_xarray
 from on_pendula import pendula
-from pendula.datasets.netcdf import as_xarray
 from pendula.models.pendula import angles_of
 from pendula.studies.pendula import chaotic_state, runs
 from problems import problem_of

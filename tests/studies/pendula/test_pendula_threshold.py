@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from latticode.simulation.simulate import simulate
 from pendula.configuration.paper import paper
 from pendula.models.linear_chain import gamma_0
 from pendula.problem import Constants, Problem
-from pendula.simulation.simulate import simulate
 from pendula.studies.pendula import mathieu, threshold
 from scipy.integrate import solve_ivp
 from scipy.special import mathieu_a, mathieu_b

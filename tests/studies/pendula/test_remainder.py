@@ -4,8 +4,8 @@ from math import pi
 
 import numpy as np
 import pytest
+from latticode.simulation.simulate import simulate
 from pendula.problem import PENDULA, Constants, Problem
-from pendula.simulation.simulate import simulate
 from pendula.studies.pendula import remainder
 
 

@@ -8,9 +8,9 @@ import fixed_point
 import numpy as np
 import pytest
 from helpers import chosen
+from latticode.datasets.netcdf import read
+from latticode.simulation.simulate import simulate
 from oracle import CASES, hamiltonian
-from pendula.datasets.netcdf import read
-from pendula.simulation.simulate import simulate
 from pendula.studies.reference.verified_run import LIMIT
 from problems import problem_of
 

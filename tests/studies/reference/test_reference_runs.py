@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from helpers import chosen, package
+from latticode.datasets.netcdf import as_xarray, read
+from latticode.simulation.lattice import Reduction, pack
 from oracle import hamiltonian, random_chain, slope
-from pendula.datasets.netcdf import as_xarray, read
-from pendula.simulation.lattice import Reduction, pack
 from pendula.studies.reference import multiprecision
 from pendula.studies.reference.multiprecision import HEYOKA, HeyokaMissingError, Numbers
 from pendula.studies.reference.verified_run import (

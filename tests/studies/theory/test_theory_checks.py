@@ -5,8 +5,8 @@ from functools import cache, partial
 import numpy as np
 import pytest
 from helpers import chosen
+from latticode.datasets.checks import broken, variable
 from oracle import BOUNDARIES, hamiltonian
-from pendula.datasets.checks import broken, variable
 from pendula.studies.theory.checks import CHECKS, run_check
 from pendula.studies.theory.equations import right_hand_side, run, run_powers, squared_norm
 from pendula.studies.theory.estimates import picard

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from latticode.simulation.lattice import WHOLE
+from latticode.simulation.simulate import simulate
+from latticode.simulation.systems import linearise
 from oracle import random_chain
 from pendula.models.amplitudes import EQUATIONS
-from pendula.simulation.lattice import WHOLE
-from pendula.simulation.own_models import linearise
-from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
     GUARD,

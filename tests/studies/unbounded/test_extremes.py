@@ -5,8 +5,8 @@ import hashlib
 import numpy as np
 import pytest
 import xarray as xr
+from latticode.datasets.netcdf import as_xarray
 from metropolis import RINGS, SITES, sample
-from pendula.datasets.netcdf import as_xarray
 from pendula.studies.unbounded.extremes import law_of_maxima, mean_maximum
 from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy
 from problems import constants_of

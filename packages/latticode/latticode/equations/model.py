@@ -66,8 +66,13 @@ class Model:
     sites n that returns a number for each (as for disorder). conserved(p, *fields) returns
     densities by name, whose sums over the chain are kept. `text` is the source, for datasets.
 
+    `integration` says how runs of the model differ from what follows from its trace (see
+    `latticode.simulation.integration`); nearly no model has one.
+
     Raises ModelError where the functions cannot be traced.
     """
+
+    integration: Any = None
 
     def __init__(
         self,

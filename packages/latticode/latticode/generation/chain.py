@@ -69,6 +69,12 @@ def widen(chain, y, wide):
             wide[row, j] = y[row, 1 + site] if site >= 0 else 0.0
 
 
+@inlined_by_llvm
+def modulus2(y, re, j):
+    """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
+    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+
+
 @kernel
 def can_be_tiled(chain):
     """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""

@@ -9,7 +9,7 @@ output i. `work` holds as many arrays of the size of `y` as the module's WORK sa
 of rows (real and imaginary parts) with one ghost column at each side; it starts as the initial
 state and ends as the final one. `times` are those of the outputs, from the start on. Nothing is
 allocated in the step loop. Another thread may raise the flag `stop`, an array of one boolean: the
-loop reads it at every step and ends (see pendula.simulation.interrupts).
+loop reads it at every step and ends (see latticode.simulation.interrupts).
 
 A system may depend on time. `build` of the methods that can follow one takes `at_time(system, t)`,
 which returns the system as it is at the time t and is asked before every call of `rates`, or once a

@@ -3,10 +3,11 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from latticode.datasets.checks import rounded
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 
-from pendula.datasets.checks import rounded
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, Contents
+from pendula.many_cases import COMPONENTS
 from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import Constants
 

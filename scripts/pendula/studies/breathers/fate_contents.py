@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.stated import describe_run
+from latticode.datasets.trajectories import Contents
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.stated import describe_run
-from pendula.datasets.trajectories import Contents
 from pendula.problem import Problem
 
 from .fates import FATES, fates_of, map_of_amplitudes, map_of_phases, shares_of_area

@@ -25,11 +25,11 @@ from collections.abc import Iterable
 import numpy as np
 from latticode.measures.confidence import Limits, share_limits
 from latticode.numerics.elementary import complex_of, cos, sin
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import find_reduction, unpack
+from latticode.simulation.simulate import integrate
 
 from pendula.problem import Constants, Problem
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import find_reduction, unpack
-from pendula.simulation.simulate import integrate
 
 FATES = ("disperses", "stays", "moves", "spreads")
 DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))

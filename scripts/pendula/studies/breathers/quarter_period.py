@@ -10,11 +10,11 @@ from latticode.equations.ends import DIRICHLET
 from latticode.generation.chain import MIRROR, close
 from latticode.integrators.dop853 import combine
 from latticode.kernels.compiled import copy, kernel
+from latticode.simulation.lattice import aligned
 
 from pendula.models.amplitudes import Chain, rates
 from pendula.models.tangent import ROWS, write_tangent_rates
 from pendula.problem import Constants
-from pendula.simulation.lattice import aligned
 
 STEPS, FINE_STEPS = 16, 40
 """Steps of a quarter of a period. With the fewer ones, perturbations have multipliers that stay the

@@ -8,14 +8,14 @@ confidence limits of the share are the exact ones of Clopper and Pearson.
 from collections.abc import Sequence
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.stated import describe_run
+from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, share_limits
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.simulate import Trajectory, simulate
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.stated import describe_run
-from pendula.datasets.trajectories import Contents
 from pendula.problem import Problem
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.simulate import Trajectory, simulate
 
 from .fates import SPREADS, fate_of
 

@@ -2,8 +2,11 @@
 
 from collections.abc import Mapping
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.stated import describe_run
+from latticode.datasets.trajectories import Contents
+
+from pendula.many_cases import COMPONENTS
 from pendula.problem import Problem
 
 from . import frames, regular

@@ -4,10 +4,11 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.registry import NAMES
+from latticode.datasets.trajectories import Contents
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.registry import NAMES
-from pendula.datasets.trajectories import COMPONENTS, Contents
+from pendula.many_cases import COMPONENTS
 from pendula.models.pairs import FAMILIES, Family
 
 from . import balls, existence, spectra

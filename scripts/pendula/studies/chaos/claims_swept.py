@@ -12,7 +12,6 @@ import numpy as np
 from latticode.measures.confidence import Limits, ratio_limits, student
 from latticode.measures.levels import levelling_of_means
 
-from pendula.datasets.trajectories import constants_of
 from pendula.ledger.changes import keep, repeat, take
 from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, AlmostEqual, almost_equal
 from pendula.ledger.claim import CHANGE, FACTOR, FEWEST, NEARLY_ALL, Control, checks, claim
@@ -26,6 +25,7 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import once
+from pendula.many_cases import constants_of
 from pendula.models.bounds import theorem_2_constants
 
 from .claims import LEVEL

@@ -7,15 +7,17 @@ draw as well is the distribution.
 from collections.abc import Mapping
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.registry import NAMES
+from latticode.datasets.trajectories import Contents
 from latticode.measures.levels import bands, moments
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.problem import name_window
+from latticode.simulation.simulate import simulate
+from latticode.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.registry import NAMES
-from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.problem import Problem, by_name, name_window
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.simulate import simulate
-from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
+from pendula.many_cases import describe_cases
+from pendula.problem import Problem, by_name
 
 NORMS = {"l2": pair_l2, "linf": pair_linf}
 QUANTILES = (0.05, 0.5, 0.95)

@@ -8,13 +8,15 @@ study of breathers: the chain around it may hold most of P. Lives that outlast t
 """
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, median_limits, share_limits
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.problem import output_times
+from latticode.simulation.simulate import simulate
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.problem import Problem, output_times
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.simulate import simulate
+from pendula.many_cases import describe_cases
+from pendula.problem import Problem
 
 SPAN = 10.0
 """Units of tau from one look at the centre to the next: a run ends with the life that it follows.

@@ -9,14 +9,16 @@ sign, sum to zero, and two of them vanish: those along the flow and across the e
 """
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, mean_limits, student
 from latticode.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.problem import name_window
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.problem import Problem, name_window
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.tangents import Growth, grow, random_tangent
+from pendula.many_cases import describe_cases
+from pendula.models.tangents import Growth, grow, random_tangent
+from pendula.problem import Problem
 
 Span = tuple[float, float]
 STEP = 1.0

@@ -7,15 +7,17 @@ them.
 """
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents, side_by_side
 from latticode.measures.levels import correlation
 from latticode.numerics.elementary import square_modulus
+from latticode.simulation.ensembles import PERTURBATIONS, draw_members
+from latticode.simulation.problem import name_window
+from latticode.simulation.simulate import Trajectory, simulate
+from latticode.simulation.sweep import QUANTITIES, pair_l2, pair_linf
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases, side_by_side
-from pendula.problem import Problem, name_window
-from pendula.simulation.ensembles import PERTURBATIONS, draw_members
-from pendula.simulation.simulate import Trajectory, simulate
-from pendula.simulation.sweep import QUANTITIES, pair_l2, pair_linf
+from pendula.many_cases import COMPONENTS, describe_cases
+from pendula.problem import Problem
 
 PAIR = QUANTITIES.index("pair")
 REDUCED = {

@@ -9,10 +9,11 @@ import numpy as np
 from latticode.measures.difference import state_error
 from latticode.numerics.draws import complex_normal
 from latticode.numerics.elementary import modulus, product, square_modulus, turn
+from latticode.simulation.problem import on_sites, place
+from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.linear_chain import flow, gamma_0
-from pendula.problem import Constants, Problem, on_sites, place
-from pendula.simulation.simulate import Trajectory, simulate
+from pendula.problem import Problem
 
 FINE = {
     "taylor": {"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
@@ -31,7 +32,7 @@ def run(
 ) -> Trajectory:
     """Integrate `data` (2, N) to `tau`, ends at rest, with the constants of Fig 4 unless given."""
     problem = Problem(
-        constants=Constants(epsilon=epsilon, gamma=gamma, omega=omega),
+        parameters={"epsilon": epsilon, "gamma": gamma, "omega": omega},
         half_width=data.shape[1] // 2,
         boundary="dirichlet",
         initial=data,

@@ -7,10 +7,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents
-from pendula.simulation.simulate import IntegrationError
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
+from latticode.simulation.simulate import IntegrationError
 
 from . import errors
 

@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
+from latticode.datasets import complete_or_absent
 from latticode.kernels.sources import digest_of_code
+from latticode.simulation.problem import on_sites
+from latticode.simulation.simulate import simulate
 
-from pendula.datasets import complete_or_absent
-from pendula.problem import Constants, Problem, on_sites
-from pendula.simulation import solvers
-from pendula.simulation.simulate import simulate
+from pendula.models import solvers
+from pendula.problem import Problem
 
 CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
 """A value for every control. Compiled code depends on none, so that a tolerance that the user
@@ -18,7 +19,7 @@ def compile_solver(kernels: str, solver: str) -> None:
     """Run the solver over a short time, then record what it was compiled from."""
     controls = {name: CONTROLS[name] for name in solvers.SOLVERS[solver].controls}
     problem = Problem(
-        constants=Constants(epsilon=1.0, gamma=1.0, omega=0.0),
+        parameters={"epsilon": 1.0, "gamma": 1.0, "omega": 0.0},
         half_width=1,
         boundary="dirichlet",
         initial=on_sites({0: (1.0, 0.1)}),

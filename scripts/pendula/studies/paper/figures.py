@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.difference import (
     VISIBLE,
     at_times,
@@ -12,7 +13,6 @@ from latticode.measures.difference import (
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pendula.datasets.registry import SOLVER_NAMES
 from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
 

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Sequence
 
-from pendula.datasets.trajectories import Contents, sweep_contents, trajectory_contents
+from latticode.datasets.trajectories import Contents, sweep_contents, trajectory_contents
+from latticode.simulation.simulate import simulate
+from latticode.simulation.sweep import sweep
+
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
-from pendula.simulation.sweep import sweep
 
 
 def run_case(name: str, problem: Problem) -> Contents:

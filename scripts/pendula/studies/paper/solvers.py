@@ -9,6 +9,9 @@ from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.stated import shared_by
+from latticode.datasets.trajectories import trajectory_contents
 from latticode.measures.difference import (
     ABSENT,
     NORMS,
@@ -20,13 +23,10 @@ from latticode.measures.difference import (
     known_until,
 )
 from latticode.measures.norms import drift, largest, total_power
+from latticode.simulation.simulate import simulate
 
-from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.stated import shared_by
-from pendula.datasets.trajectories import trajectory_contents
 from pendula.ledger.cutoff import Cutoff
 from pendula.problem import Problem
-from pendula.simulation.simulate import simulate
 
 FIRST, SECOND, HALVED = "ode45", "crank_nicolson", "crank_nicolson_halved"
 UNKNOWNS = {"complex": FIRST, "real": "ode45_real"}

@@ -18,15 +18,16 @@ from math import ceil
 from typing import NamedTuple
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, event_rate, share_limits
 from latticode.numerics.elementary import square_modulus
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.problem import name_window
+from latticode.simulation.simulate import simulate
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents
 from pendula.models.bounds import theorem_3_bound
-from pendula.problem import Problem, name_window
-from pendula.simulation.ensembles import draw_members
-from pendula.simulation.simulate import simulate
+from pendula.problem import Problem
 
 from .runs import LIMIT, NOT_KNOWN, at_mu, period_of, states, until_lost
 

@@ -17,20 +17,20 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 from latticode.integrators import DONE, FAULTS, dop853
 from latticode.kernels.compiled import kernel
 from latticode.kernels.simd import largest_magnitude
 from latticode.numerics.elementary import exp, log, product, turn
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import Reduction, aligned, find_reduction, pack
+from latticode.simulation.simulate import IntegrationError
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents
 from pendula.models.expansion import Expansion, angle, corrected_start, rates
+from pendula.models.integrations import make_chain
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, Problem
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import Reduction, aligned, find_reduction, pack
-from pendula.simulation.models import make_chain
-from pendula.simulation.simulate import IntegrationError
 
 from .runs import angles_at
 

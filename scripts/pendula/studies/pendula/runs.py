@@ -9,13 +9,13 @@ amplitude: its envelope then only shows how far it has turned, from a size of pi
 
 import numpy as np
 from latticode.integrators import DONE, FAULTS
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import Reduction, find_reduction
+from latticode.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.systems import integration_of
 
 from pendula.models.pendula import amplitudes_of, frequency
 from pendula.problem import PENDULA, Problem
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import Reduction, find_reduction
-from pendula.simulation.models import MODELS
-from pendula.simulation.simulate import IntegrationError, simulate
 
 from .mathieu import strings_grow
 
@@ -48,7 +48,7 @@ def angles_at(
     may be driven faster and faster, which takes ever more steps. So the run ends where an angle is
     beyond LOST at one of every `piece` times, and all angles are infinite from then on.
     """
-    model = MODELS[problem.model]
+    model = integration_of(problem)
     method, y = model.solvers[problem.solver["name"]], model.start(problem, reduction)
     system = model.system(problem, reduction)
     rtol, atol = (float(problem.solver[name]) for name in method.controls)
@@ -79,7 +79,7 @@ def until_lost(problem: Problem) -> Problem:
     """
     if not strings_grow(problem.constants, problem.mu):
         return problem
-    times = MODELS[problem.model].times(problem)
+    times = integration_of(problem).times(problem)
     angles = angles_at(problem, times, find_reduction(problem.amplitudes), piece=1)
     known = np.isfinite(angles[:, 0, 0]).sum() - 1
     return problem.changed(end_time=float(problem.times[known]))
@@ -90,7 +90,7 @@ def states(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 
     Those of pendula turn with omega t, all alike: no modulus depends on it.
     """
-    if problem.model == PENDULA:
+    if problem.model.name == PENDULA:
         run = simulate(problem.changed(snapshot_every=1))
         return run.tau, amplitudes_of(*run.snapshots, problem.constants.omega, problem.mu)
     # a run of (4) keeps moduli alone, so it is made in pieces: each starts from the state before

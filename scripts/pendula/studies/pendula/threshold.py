@@ -10,9 +10,9 @@ a - 1 = mu^2 kappa / omega^2 and q = 2 |gamma| mu^2 / omega^2, where kappa = eps
 from collections.abc import Sequence
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents
 from pendula.models.linear_chain import gamma_0
 
 from .mathieu import band_threshold, squared_frequency

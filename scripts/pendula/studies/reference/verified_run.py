@@ -7,12 +7,15 @@ rounded once to double, make the dataset of a reference.
 from typing import NamedTuple
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.stated import describe_run, shared_by
+from latticode.datasets.trajectories import Contents
+from latticode.simulation.lattice import Reduction, unfold
+from latticode.simulation.problem import by_site
+from latticode.simulation.simulate import IntegrationError
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run, shared_by
-from pendula.problem import Problem, by_site
-from pendula.simulation.lattice import Reduction, unfold
-from pendula.simulation.simulate import IntegrationError
+from pendula.many_cases import COMPONENTS
+from pendula.problem import Problem
 
 from .multiprecision import Numbers, RealConstants, energy, norms, right_hand_side
 

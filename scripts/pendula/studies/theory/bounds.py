@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.checks import describe, tabulate, variable
 from latticode.equations.ends import DIRICHLET, kind_of
 from latticode.measures.norms import total_power
 
-from pendula.datasets.checks import describe, tabulate, variable
 from pendula.models.bounds import (
     best_bound,
     proven_region,

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.checks import describe
 from latticode.numerics import elementary
 
-from pendula.datasets.checks import describe
 from pendula.problem import Constants
 
 from . import errata, estimates, samples, sharpness, stability_chart, threshold

@@ -10,16 +10,17 @@ from latticode.integrators import DONE
 from latticode.measures.norms import power_of
 from latticode.numerics import elementary
 from latticode.numerics.draws import complex_normal
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import WHOLE
+from latticode.simulation.observables import blank_record
+from latticode.simulation.problem import output_times
+from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.feasibility import find_fault
 from pendula.models.amplitudes import energies, rates
-from pendula.problem import Constants, Problem, output_times
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import WHOLE
-from pendula.simulation.models import make_chain
-from pendula.simulation.observables import blank_record
-from pendula.simulation.simulate import Trajectory, simulate
-from pendula.simulation.solvers import SOLVERS
+from pendula.models.integrations import make_chain
+from pendula.models.solvers import SOLVERS
+from pendula.problem import Constants, Problem
 
 BOUNDARIES = ("dirichlet", "free", "periodic")
 """The ends that are checked, and drawn from: written out, since other ones would move all draws."""
@@ -35,7 +36,7 @@ def run(
     The trajectory has its start and as many `outputs`, in equal steps up to `end_time`.
     """
     problem = Problem(
-        constants=constants,
+        parameters=vars(constants),
         half_width=amplitudes.shape[1] // 2,
         boundary=boundary,
         initial=amplitudes,

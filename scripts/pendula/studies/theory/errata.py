@@ -3,12 +3,13 @@
 from collections.abc import Mapping
 
 import numpy as np
+from latticode.datasets.checks import table, variable
 from latticode.measures.norms import power_of
 from latticode.numerics.elementary import square_modulus
+from latticode.simulation.problem import write_initial
 
-from pendula.datasets.checks import table, variable
 from pendula.models import bounds
-from pendula.problem import Constants, write_initial
+from pendula.problem import Constants
 
 from .equations import (
     alternating,

@@ -4,12 +4,12 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from latticode.datasets.checks import table, tabulate, variable
 from latticode.measures.norms import power_of
 from latticode.numerics import elementary
 from latticode.numerics.elementary import modulus, square_modulus
 from latticode.numerics.quadrature import integration_matrix
 
-from pendula.datasets.checks import table, tabulate, variable
 from pendula.models.bounds import lipschitz
 from pendula.problem import Constants
 

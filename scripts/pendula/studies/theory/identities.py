@@ -12,10 +12,9 @@ from math import prod
 import numpy as np
 import xarray as xr
 from flint import fmpq
+from latticode.datasets.checks import describe, table, variable
 from latticode.equations.ends import ENDS, neighbours
 from latticode.equations.model import Model, Value, abs2, conj, lap
-
-from pendula.datasets.checks import describe, table, variable
 
 from . import derivation, inequalities
 from .polynomials import (

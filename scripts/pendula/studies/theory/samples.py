@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
+from latticode.datasets.checks import table, variable
 from latticode.numerics.draws import exponential, uniform
 
-from pendula.datasets.checks import table, variable
 from pendula.models import bounds
 from pendula.problem import Constants
 

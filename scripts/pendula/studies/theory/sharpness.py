@@ -5,13 +5,13 @@ pair, and the largest norm that data of one energy have.
 """
 
 import numpy as np
+from latticode.datasets.checks import table, variable
 from latticode.measures.confidence import mean_limits
 from latticode.measures.growth import lay_line
 from latticode.measures.norms import power_of
 from latticode.numerics.draws import uniform
 from latticode.numerics.elementary import complex_of, log
 
-from pendula.datasets.checks import table, variable
 from pendula.models.bounds import extent, theorem_2_gap, theorem_3_bound
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.problem import Constants

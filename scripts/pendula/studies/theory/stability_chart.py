@@ -7,9 +7,9 @@ infinite chain lambda covers [0, 4], on N sites it takes N values of its own.
 from itertools import product
 
 import numpy as np
+from latticode.datasets.checks import columns, table, tabulate, variable
 from latticode.numerics.elementary import log
 
-from pendula.datasets.checks import columns, table, tabulate, variable
 from pendula.models.linear_chain import (
     finite_rate,
     finite_threshold,

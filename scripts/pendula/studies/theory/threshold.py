@@ -9,10 +9,10 @@ l2 and stay bounded in l-infinity.
 """
 
 import numpy as np
+from latticode.datasets.checks import columns, rounded, table, variable
 from latticode.numerics.elementary import log, modulus, power, sin
 from latticode.numerics.matrices import times as multiplied
 
-from pendula.datasets.checks import columns, rounded, table, variable
 from pendula.models.linear_chain import driven, finite_threshold, gamma_0, modes
 from pendula.problem import Constants
 

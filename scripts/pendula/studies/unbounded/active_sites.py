@@ -16,13 +16,14 @@ from typing import NamedTuple
 import numpy as np
 from latticode.integrators import DONE, FAULTS
 from latticode.numerics.elementary import log
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import Reduction, pack
+from latticode.simulation.observables import Record, blank_state_record
+from latticode.simulation.problem import place
+from latticode.simulation.simulate import IntegrationError
+from latticode.simulation.systems import make_system, solvers_of
 
-from pendula.problem import Problem, place
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import Reduction, pack
-from pendula.simulation.observables import Record, blank_state_record
-from pendula.simulation.own_models import make_system, solvers_of
-from pendula.simulation.simulate import IntegrationError
+from pendula.problem import Problem
 
 from .bulk import bulk_maxima, cell_means, region_means, site_powers
 from .sums import in_sums, turned

@@ -3,11 +3,12 @@
 from collections.abc import Callable
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.registry import NAMES
+from latticode.datasets.stated import describe_run, shared_by
+from latticode.datasets.trajectories import Contents
 from latticode.numerics.draws import normal
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.registry import NAMES
-from pendula.datasets.trajectories import Contents, describe_run, shared_by
 from pendula.problem import Problem
 
 from .active_sites import LongRun, run_long

@@ -10,14 +10,13 @@ from itertools import pairwise
 
 import numpy as np
 import xarray as xr
+from latticode.datasets.netcdf import Variable, as_xarray
+from latticode.datasets.registry import NAMES
+from latticode.datasets.stated import shared_by
 from latticode.measures.confidence import mean_limits
 from latticode.measures.growth import local_exponents
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import geometric, interpolated, log
-
-from pendula.datasets.netcdf import Variable, as_xarray
-from pendula.datasets.registry import NAMES
-from pendula.datasets.trajectories import shared_by
 
 from .active_sites import LEVEL
 from .bulk import (

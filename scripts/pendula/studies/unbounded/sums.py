@@ -42,6 +42,4 @@ def turned(values: np.ndarray) -> np.ndarray:
 def in_sums(problem: Problem) -> Problem:
     """Return a problem of (4) in the unknowns S and D."""
     parameters = asdict(problem.constants)
-    return problem.changed(
-        constants=None, model=EQUATIONS, parameters=parameters, initial=turned(problem.initial)
-    )
+    return problem.changed(model=EQUATIONS, parameters=parameters, initial=turned(problem.initial))

@@ -14,11 +14,11 @@ gives no more.
 from typing import NamedTuple
 
 import numpy as np
+from latticode.datasets.checks import rounded
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 from latticode.numerics.elementary import exp, log
 
-from pendula.datasets.checks import rounded
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents
 from pendula.problem import Constants
 
 from . import transfer

@@ -12,12 +12,12 @@ The equations are those of `sums`, with S so small that its squares are lost in 
 from collections.abc import Callable
 
 import numpy as np
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import mean_limits
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
 
-from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import Contents
 from pendula.problem import Problem
 
 from .active_sites import PIECE, advance, begin, is_even, piece_times, right_half, widen

@@ -7,6 +7,7 @@ are invariants of the equations, and the kernels keep them to the last bit.
 from typing import NamedTuple
 
 import numpy as np
+
 from latticode.equations.ends import FREE, PERIODIC, kind_of
 from latticode.generation.chain import MIRROR
 

@@ -10,24 +10,24 @@ from typing import Any
 
 import numpy as np
 
-from pendula.problem import Problem, write_initial
-from pendula.simulation.own_models import parameters_of
+from latticode.simulation.problem import Problem, by_site, write_initial
+from latticode.simulation.systems import integration_of
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
 """The attributes that name the function of a job, and the datasets that it has read."""
 
 
+OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_every")
+
+
 def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
     """Return the attributes that say what was solved, and by which controls."""
-    values = problem.plain()
-    plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
-    if problem.is_own:
-        plain["parameters"] = json.dumps(parameters_of(problem), default=np.ndarray.tolist)
-        plain |= {"model": problem.model.name, "model_text": problem.model.text}
+    about = {key: getattr(problem, key) for key in OF_A_PROBLEM}
+    about |= integration_of(problem).describe(problem)
     return {
         "case": name,
-        **plain,
-        "initial": write_initial(values["initial"]),
+        **{key: about[key] for key in sorted(about)},
+        "initial": write_initial(by_site(problem.initial)),
         "solver": solver["name"],
         **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
     }

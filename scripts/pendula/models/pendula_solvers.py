@@ -3,11 +3,10 @@
 from latticode.generation.chain import can_be_tiled
 from latticode.integrators import dop853, kahan_li, ode45, taylor
 from latticode.kernels.compiled import kernel
+from latticode.simulation.integration import Solver
+from latticode.simulation.observables import observe_angles
 
-from pendula.models.pendula import WORK, at_time, continue_series, pendula_of_tile, rates
-
-from .observables import observe_angles
-from .solvers import Solver
+from .pendula import WORK, at_time, continue_series, pendula_of_tile, rates
 
 solve_ode45 = ode45.build(rates, observe_angles, at_time)
 solve_dop853 = dop853.build(rates, observe_angles, can_be_tiled, pendula_of_tile, at_time)

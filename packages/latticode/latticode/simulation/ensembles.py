@@ -1,10 +1,10 @@
 """Members of an ensemble: copies of a problem whose data differ by a random relative change."""
 
 import numpy as np
+
 from latticode.numerics.draws import complex_normal
 from latticode.numerics.elementary import modulus, product
-
-from pendula.problem import Problem
+from latticode.simulation.problem import Problem
 
 
 def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:

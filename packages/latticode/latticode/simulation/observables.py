@@ -4,11 +4,10 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
-from latticode.generation.chain import MIRROR
-from latticode.kernels.compiled import inlined_by_llvm, kernel, uncached
-from latticode.kernels.simd import largest_magnitude
 
-from pendula.models.amplitudes import energy_with_scratch, modulus2
+from latticode.generation.chain import MIRROR, modulus2
+from latticode.kernels.compiled import inlined_by_llvm, uncached
+from latticode.kernels.simd import largest_magnitude
 
 
 class Record(NamedTuple):
@@ -124,11 +123,3 @@ def square_of_angle(y, row, j):
 observe_moduli = observer(modulus2, keep_modulus)
 observe_angles = observer(square_of_angle, keep_parts)
 observe_fields = observer(modulus2, keep_parts)
-
-
-@kernel
-def observe(chain, y, i, record):
-    """Reduce the state `y` of (4) to the observables of output `i`, its energy among them."""
-    observe_moduli(chain, y, i, record)
-    if record.energy.size > 0:
-        record.energy[i] = energy_with_scratch(chain, y, record.scratch)

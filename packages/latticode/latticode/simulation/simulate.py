@@ -5,15 +5,16 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
+
 from latticode.integrators import DONE, FAULTS, Outcome
 from latticode.measures.difference import norm_difference
 
-from pendula.feasibility import find_obstacle
-from pendula.problem import Problem
-
+from .feasibility import find_fault
+from .integration import Integration
 from .interrupts import interruptible
 from .lattice import Reduction, unfold
-from .models import model_of
+from .problem import Problem
+from .systems import integration_of
 
 FINEST, REFINEMENT = 1e-15, 1e-2
 """The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
@@ -26,8 +27,7 @@ class IntegrationError(RuntimeError):
 class Trajectory(NamedTuple):
     """The solution of a problem, whatever part of it was integrated; the sites are -M..M.
 
-    Components are A and B. Of the pendula they are x and y, the norms are those of angles in rad,
-    and the modulus is the angle to which a pendulum swings (pendula.models.pendula.swings_of).
+    Components are the fields of the model. The norms of real fields are those of their values.
     """
 
     tau: np.ndarray  # (time,)
@@ -35,13 +35,13 @@ class Trajectory(NamedTuple):
     l2: np.ndarray  # (component, time)
     energy: np.ndarray  # (time,), empty where the equations conserve none, or if not asked for
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
-    final: np.ndarray  # at the end time: complex (component, site); of the pendula as snapshots are
+    final: np.ndarray  # at the end time: complex (component, site); real fields as snapshots are
     outcome: Outcome
     solver: dict[str, Any]  # {"name": ..., **controls} of the run
     snapshots: np.ndarray | None = None
-    """Of the pendula: angles and velocities, (part, component, site, snapshot)."""
+    """Both parts of each field, (part, component, site, snapshot)."""
     conserved: Mapping[str, np.ndarray] = MappingProxyType({})
-    """Of a model of a user's own: its conserved quantities, each (snapshot,)."""
+    """What the model conserves, each (snapshot,)."""
 
 
 def simulate(
@@ -51,13 +51,13 @@ def simulate(
 
     `reduction` says how much of the chain is integrated; by default it is the least that the exact
     symmetries of the data allow. Without `energy` the trajectory has none. The solver is one of
-    pendula.simulation.solvers, or {"name": "auto", "error": ...}. Raises IntegrationError where the
+    those that take the model, or {"name": "auto", "error": ...}. Raises IntegrationError where the
     run would not end, the solver gives up, or the result is not finite.
     """
     if problem.solver["name"] == "auto":
         return _simulate_to_error(problem, reduction)
     if reduction is None:
-        reduction = model_of(problem).find_reduction(problem)
+        reduction = integration_of(problem).find_reduction(problem)
     times, record, y, outcome = integrate(problem, reduction, interruptible, energy)
     both = Reduction(even=False, synchronised=reduction.synchronised)
     return Trajectory(
@@ -66,7 +66,7 @@ def simulate(
         l2=unfold(record.l2, both),
         outcome=outcome,
         solver=dict(problem.solver),
-        **model_of(problem).collect(problem, record, y, reduction),
+        **integration_of(problem).collect(problem, record, y, reduction),
     )
 
 
@@ -79,15 +79,14 @@ def integrate(
     thread costs as much as such a run, and hands on here a function that calls a kernel at once.
     Raises IntegrationError as `simulate` does.
     """
-    obstacle = find_obstacle(problem)
+    model = integration_of(problem)
+    obstacle = find_obstacle(problem, model)
     if obstacle:
         raise _stopped(problem, 0.0, obstacle)
-    model = model_of(problem)
     name = problem.solver["name"]
     if name not in model.solvers:
         known = ", ".join(model.solvers)
-        whose = problem.model.name if problem.is_own else f"the {problem.model}"
-        raise IntegrationError(f"{name} does not take {whose}: these do: {known}")
+        raise IntegrationError(f"{name} does not take {problem.model.name}: these do: {known}")
     method = model.solvers[name]
     y = model.start(problem, reduction)
     times = model.times(problem)
@@ -106,6 +105,16 @@ def integrate(
         if not np.isfinite(values).all():
             raise _stopped(problem, problem.end_time, "the state, its norms or its energy overflow")
     return problem.times, record, y, outcome
+
+
+def find_obstacle(problem: Problem, model: Integration) -> str | None:
+    """Return why a problem cannot be integrated, or None if it can."""
+    parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
+    peak = float(parts.max(initial=0.0))  # NaN where there is one
+    numbers = {k: one for k, one in problem.parameters.items() if isinstance(one, int | float)}
+    rates, span = model.rates(problem, peak), float(problem.end_time)
+    found = find_fault(numbers, rates, peak, span, problem.solver, model.clock(problem))
+    return found and found[1]
 
 
 def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:

@@ -4,9 +4,9 @@ from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
-from latticode.numerics.elementary import square_modulus
 
-from pendula.problem import Problem
+from latticode.numerics.elementary import square_modulus
+from latticode.simulation.problem import Problem
 
 from .simulate import Trajectory, simulate
 
@@ -43,7 +43,7 @@ def sweep(
         if half_width < enough:
             own = problem.changed(half_width=half_width, snapshot_every=0)
             trajectory = simulate(own, energy=False)
-            if not problem.is_own and _is_inside(trajectory):
+            if _is_inside(trajectory):
                 enough, inside = half_width, trajectory
         l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
         linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))

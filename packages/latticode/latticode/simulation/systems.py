@@ -1,10 +1,13 @@
-"""Runs of models of a user's own: kernels generated from the trace, and what they are given."""
+"""Runs of a traced model: its kernels, what they are given, and what is kept of a run."""
 
+import json
 from functools import cache
+from typing import Any
 
 import numpy as np
+
 from latticode.equations.ends import PERIODIC, ends_of, kind_of
-from latticode.equations.graph import derivative, evaluate, leaves_in, number
+from latticode.equations.graph import evaluate
 from latticode.equations.model import Model
 from latticode.equations.model_file import values_at
 from latticode.generation.modules import load_text, module_text, parts_of_rates
@@ -12,11 +15,12 @@ from latticode.generation.toolbox import System
 from latticode.integrators import crank_nicolson, dop853, kahan_li, ode45
 from latticode.kernels.simd import LANES
 from latticode.numerics import elementary
+from latticode.numerics.elementary import complex_of, modulus
 
-from pendula.problem import Problem
-
-from .lattice import Reduction, choose_ends, find_reduction
-from .solvers import ITERATED, Solver
+from .feasibility import rates_of
+from .integration import ITERATED, Integration, Solver, Words
+from .lattice import Reduction, choose_ends, find_reduction, unfold
+from .problem import Problem
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
@@ -31,7 +35,7 @@ SOLVERS = {
 """Of each solver its rule of a generated module, its controls, and the number of work arrays."""
 USED = {
     "latticode.integrators": "crank_nicolson, dop853, kahan_li, ode45",
-    "pendula.simulation.observables": "observe_angles, observe_fields",
+    "latticode.simulation.observables": "observe_angles, observe_fields",
 }
 """What the runs of a generated module take from the library."""
 RUN = """
@@ -93,7 +97,7 @@ def site_dependent(problem: Problem) -> frozenset[str]:
     return frozenset(name for name, value in parameters_of(problem).items() if np.ndim(value))
 
 
-def find_reduction_of_own(problem: Problem) -> Reduction:
+def find_reduction_of(problem: Problem) -> Reduction:
     """Return whether half of the chain has the bits of the whole.
 
     It has where data, equations and parameters are the same with left and right exchanged.
@@ -158,59 +162,54 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
     return dict(zip(densities, totals, strict=True))
 
 
-def linearise(
-    problem: Problem, state: np.ndarray, coupling: float = 1.0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rates of a state at time 0, and the matrix of their derivatives.
-
-    `state` and rates are flat: by row, which are the real and imaginary parts of each field or its
-    value and its rate, and then by site. A `coupling` below 1 replaces a neighbour's value by its
-    mean with the site's own, where it has this weight: at 0 sites are independent.
-    """
-    model, values = problem.model, parameters_of(problem)
-    parts = state.reshape(-1, problem.sites)
-    sites = problem.sites
-    own, mode = np.arange(sites), PADDING[ends_of(problem.boundary).sees]
-    seen = np.pad(own + 1, model.reach, mode) - 1  # a site at rest is -1
-
-    def places(by):
-        return seen[model.reach + by : model.reach + by + sites]
-
-    def value(one):
-        if one.operation in ("number", "time"):
-            return one.operands[0] if one.operands else 0.0
-        by = one.operands[-1]
-        if one.operation == "parameter":
-            found = values[one.operands[0]]
-            return found if np.ndim(found) == 0 else moved(found, by, problem.boundary)
-        row, at = parts[2 * one.operands[0] + one.operands[1]], places(by)
-        return coupling * np.where(at >= 0, row[at], 0.0) + (1.0 - coupling) * row
-
-    rates = [np.broadcast_to(rate, sites) for rate in evaluate(model.rates, value)]
-    matrix = np.zeros((len(parts), sites, len(parts), sites))
-    for leaf, slopes in _slopes(model):
-        component, part, by = leaf.operands
-        at = places(by)
-        inside = np.flatnonzero(at >= 0)
-        for row, slope in enumerate(evaluate(slopes, value)):
-            slope, column = np.broadcast_to(slope, sites), 2 * component + part
-            matrix[row, inside, column, at[inside]] += coupling * slope[inside]
-            matrix[row, own, column, own] += (1.0 - coupling) * slope
-    return np.concatenate(rates), matrix.reshape(len(parts) * sites, -1)
-
-
-@cache
-def _slopes(model: Model) -> list[tuple]:
-    """Return each field of the equations, at each shift, with the derivatives by it."""
-    return [
-        (leaf, derivative(model.rates, lambda one, leaf=leaf: number(one is leaf)))
-        for leaf in leaves_in(model.rates, "field")
-    ]
-
-
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
     """Return the values at the sites n + by; beyond an end that of the last site, or of a ring."""
     places = np.arange(values.size) + by
     if kind_of(boundary) == PERIODIC:
         return values[places % values.size]
     return values[np.clip(places, 0, values.size - 1)]
+
+
+WORDS_OF_REAL = Words(
+    part="value of a field, and its rate", final="value of a field, and its rate, at the end time"
+)
+
+
+def integration_of(problem: Problem) -> Integration:
+    """Return how a problem is integrated: as its model declares it, or as follows from its trace.
+
+    Kernels are compiled when they are first run.
+    """
+    model = problem.model
+    return model.integration or Integration(
+        components=model.fields,
+        parts=("value", "rate") if model.second_order else ("re", "im"),
+        solvers=solvers_of(problem),
+        system=make_system,
+        collect=_collect,
+        rates=lambda problem, peak: rates_of(model, problem.parameters, peak),
+        describe=_describe,
+        find_reduction=find_reduction_of,
+        words=WORDS_OF_REAL if model.second_order else Words(),
+    )
+
+
+def _collect(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    parts = np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)])
+    snapshots = np.array([unfold(part, cut) for part in record.kept])
+    real = problem.model.second_order
+    return {
+        "energy": record.energy,
+        "modulus": np.abs(snapshots[0]) if real else modulus(complex_of(*snapshots)),
+        "final": parts if real else complex_of(*parts),
+        "snapshots": snapshots,
+        "conserved": conserved_in(problem, snapshots),
+    }
+
+
+def _describe(problem: Problem) -> dict[str, Any]:
+    return {
+        "parameters": json.dumps(parameters_of(problem), default=np.ndarray.tolist),
+        "model": problem.model.name,
+        "model_text": problem.model.text,
+    }

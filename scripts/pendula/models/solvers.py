@@ -1,17 +1,27 @@
-"""The solvers by name: each integrator with the equations of the chain, compiled and cached."""
+"""The solvers of (4) by name: each integrator with the equations, compiled and cached."""
 
-from collections.abc import Callable
-from typing import NamedTuple
-
-import numpy as np
 from latticode.generation.chain import can_be_tiled
 from latticode.integrators import crank_nicolson, dop853, ode45, taylor
 from latticode.kernels.compiled import kernel
+from latticode.simulation.integration import ITERATED, Solver
+from latticode.simulation.observables import observe_moduli
 
-from pendula.models.amplitudes import chain_of_tile, continue_series, midpoint_rates, rates
+from .amplitudes import (
+    chain_of_tile,
+    continue_series,
+    energy_with_scratch,
+    midpoint_rates,
+    rates,
+)
 
-from .lattice import aligned
-from .observables import observe
+
+@kernel
+def observe(chain, y, i, record):
+    """Reduce the state `y` of (4) to the observables of output `i`, its energy among them."""
+    observe_moduli(chain, y, i, record)
+    if record.energy.size > 0:
+        record.energy[i] = energy_with_scratch(chain, y, record.scratch)
+
 
 solve_ode45 = ode45.build(rates, observe)
 solve_ode45_real = ode45.build(rates, observe, of_reals=True)
@@ -50,27 +60,6 @@ def run_delfour_fortin_payre(chain, y, times, controls, work, record, stop):
 def run_taylor(chain, y, times, controls, work, record, stop):
     return solve_taylor(chain, y, times, controls, work, record, stop)
 
-
-class Solver(NamedTuple):
-    """A compiled run, the names of its controls in their order, and the number of work arrays.
-
-    `tiled` gives the smaller number of a chain of so many sites that may go in tiles.
-    """
-
-    run: Callable
-    controls: tuple[str, ...]
-    work: int
-    tiled: Callable[[int], int] | None = None
-
-    def room_for(self, chain, y: np.ndarray) -> np.ndarray:
-        """Return the work arrays for a state (row, 1 + site) of `chain`."""
-        tiled = self.tiled and can_be_tiled.py_func(chain)
-        count = self.tiled(y.shape[1] - 2) if tiled else self.work
-        return aligned((count, *y.shape))
-
-
-ITERATED = "step", "tolerance", "iterations"
-"""The controls of the schemes that are solved by fixed-point iteration."""
 
 SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),

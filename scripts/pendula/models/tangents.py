@@ -14,14 +14,15 @@ from latticode.integrators import DONE, FAULTS, dop853
 from latticode.kernels.compiled import kernel
 from latticode.numerics.draws import complex_normal
 from latticode.numerics.elementary import log
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import Reduction, aligned, pack
+from latticode.simulation.problem import output_times
+from latticode.simulation.simulate import IntegrationError
 
 from pendula.models.tangent import ROWS, bundle_rates
-from pendula.problem import Problem, output_times
+from pendula.problem import Problem
 
-from .interrupts import interruptible
-from .lattice import Reduction, aligned, pack
-from .models import make_chain
-from .simulate import IntegrationError
+from .integrations import make_chain
 
 
 @kernel

@@ -1,0 +1,132 @@
+"""Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from latticode.simulation.integration import Words
+from latticode.simulation.problem import Problem, name_window
+from latticode.simulation.simulate import Trajectory
+from latticode.simulation.sweep import STATISTICS, Sweep
+from latticode.simulation.systems import integration_of
+
+from .netcdf import Variable
+from .registry import NAMES
+from .stated import describe_run
+
+Contents = tuple[dict[str, Variable], dict[str, Any]]
+"""The variables and the attributes of a dataset."""
+
+
+def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
+    """Return the contents of the dataset on a run of `problem`."""
+    words = integration_of(problem).words
+    variables = trajectory_variables(problem, trajectory)
+    if words.keeps_final:
+        variables |= final_state(problem, trajectory)
+    if trajectory.conserved and problem.snapshot_every:
+        variables |= _conserved(trajectory)
+    attributes = describe_run(name, problem, trajectory.solver)
+    title = f"{words.measured} of {name} against time, by {trajectory.solver['name']}"
+    return variables, {"title": title, **attributes, **count_work([trajectory.outcome])}
+
+
+def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
+    """Return the norms, the energy if there is one, and the moduli where the run kept them."""
+    model, every = integration_of(problem), problem.snapshot_every
+    words = model.words
+    variables = {
+        "tau": Variable(("tau",), trajectory.tau),
+        "component": Variable(("component",), list(model.components), words.component),
+        "linf": _norm("linf", ("component", "tau"), trajectory.linf, words),
+        "l2": _norm("l2", ("component", "tau"), trajectory.l2, words),
+    }
+    if trajectory.energy.size:
+        variables["energy"] = Variable(("tau",), trajectory.energy)
+    if every:
+        grid, moduli = ("component", "site", "snapshot"), trajectory.modulus.astype(np.float32)
+        variables |= {
+            "site": _sites(trajectory.modulus.shape[1]),
+            "snapshot_tau": Variable(("snapshot",), trajectory.tau[::every]),
+            "modulus": Variable(grid, moduli, words.modulus, words.units),
+        }
+    return variables
+
+
+def _norm(name: str, axes: tuple[str, ...], values: np.ndarray, words: Words) -> Variable:
+    return Variable(axes, values, words.norms and f"{NAMES[name]}{words.norms}", words.units)
+
+
+def _sites(count: int) -> Variable:
+    return Variable(("site",), np.arange(-(count // 2), count // 2 + 1))
+
+
+def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
+    kept, values = list(trajectory.conserved), np.array([*trajectory.conserved.values()])
+    grid = ("conserved_quantity", "snapshot")
+    return {
+        "conserved_quantity": Variable(grid[:1], kept, "conserved quantity"),
+        "conserved": Variable(grid, values, "sum of its density over the chain"),
+    }
+
+
+def final_state(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
+    """Return the state at the end time: both parts of each field, (part, component, site)."""
+    model, final = integration_of(problem), trajectory.final
+    words = model.words
+    if final.ndim == 2:
+        final = np.stack([final.real, final.imag])
+    grid = ("part", "component", "site")
+    return {
+        "site": _sites(final.shape[-1]),
+        "part": Variable(("part",), list(model.parts), words.part),
+        "final": Variable(grid, final, words.final, words.units),
+    }
+
+
+def sweep_contents(
+    name: str,
+    problem: Problem,
+    half_widths: Iterable[int],
+    windows: Iterable[tuple[float, float]],
+    sweep: Sweep,
+) -> Contents:
+    """Return the contents of the dataset on a sweep of `problem` over half-widths."""
+    axes, model = ("half_width", "quantity", "statistic", "window"), integration_of(problem)
+    variables = {
+        "half_width": Variable(("half_width",), np.asarray(half_widths)),
+        "quantity": Variable(("quantity",), [*model.components, "pair"]),
+        "statistic": Variable(("statistic",), list(STATISTICS)),
+        "window": Variable(("window",), [name_window(window) for window in windows]),
+        "l2": _norm("l2", axes, sweep.l2, model.words),
+        "linf": _norm("linf", axes, sweep.linf, model.words),
+    }
+    attributes = describe_run(name, problem, problem.solver)
+    del attributes["half_width"]
+    title = f"Norms of {name} against the half-width, by {problem.solver['name']}"
+    return variables, {"title": title, **attributes, **count_work(sweep.outcomes)}
+
+
+def side_by_side(arrays: Sequence[np.ndarray], axis: int) -> np.ndarray:
+    """Return arrays on chains of any lengths as one array, with NaN beyond the ends of the shorter.
+
+    `axis` is that of the sites, whose middle is site 0; the first axis of the result is new.
+    """
+    longest = max(one.shape[axis] for one in arrays)
+
+    def padded(one: np.ndarray) -> np.ndarray:
+        beyond = [(0, 0)] * one.ndim
+        beyond[axis] = ((longest - one.shape[axis]) // 2,) * 2
+        return np.pad(one, beyond, constant_values=np.nan)
+
+    return np.stack([padded(one) for one in arrays])
+
+
+def count_work(outcomes: list) -> dict[str, int]:
+    """Return the work of one run, or of many, as attributes."""
+    return {
+        "steps": sum(outcome.steps for outcome in outcomes),
+        "rejected_steps": sum(outcome.rejected for outcome in outcomes),
+        "right_hand_sides": sum(outcome.evaluations for outcome in outcomes),
+    }

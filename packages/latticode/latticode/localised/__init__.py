@@ -1,0 +1,1 @@
+"""States that stay at their place, and what becomes of small perturbations of them."""

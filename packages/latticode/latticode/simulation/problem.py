@@ -1,0 +1,176 @@
+"""One initial-value problem: model, parameters, chain, data, times and solver.
+
+The configuration makes a `Problem` of a case, the simulation integrates it, datasets describe it by
+their attributes: there is no second form of it. A workflow passes it on as a mapping of plain
+values: `Problem.plain` writes one, `Problem.of` reads it.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Self
+
+import numpy as np
+
+from latticode.equations.ends import ends_of
+from latticode.equations.model import Model
+from latticode.equations.model_file import at_middle
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """One initial-value problem and how it is integrated.
+
+    `parameters` are those of the model, where they differ from its own values. `initial` is
+    complex, of shape (component, 2r + 1): the fields on the sites -r..r at the start; all sites
+    beyond are at rest. `half_width` is M, the chain has the sites -M..M; None stands for an
+    infinite chain. `snapshot_every` keeps each component at every site at each so many outputs; 0
+    keeps none.
+
+    Raises ValueError where data lie outside the chain, or there are no such ends.
+    """
+
+    model: Model
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    half_width: int | None
+    boundary: str
+    initial: np.ndarray = field(repr=False)
+    end_time: float
+    output_step: float
+    solver: Mapping[str, Any]  # {"name": ..., **controls}
+    snapshot_every: int = 0
+
+    def __post_init__(self):
+        ends_of(self.boundary)
+        initial, fields = np.array(self.initial, complex), self.model.fields
+        if initial.ndim != 2 or len(initial) != len(fields) or initial.shape[1] % 2 == 0:
+            what = " and ".join(fields)
+            raise ValueError(f"data of {what} on an odd number of sites, not {initial.shape}")
+        if self.half_width is not None:
+            require_inside(initial.shape[1] // 2, self.half_width)
+        initial.flags.writeable = False
+        object.__setattr__(self, "initial", initial)
+        object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
+        object.__setattr__(self, "solver", MappingProxyType(dict(self.solver)))
+
+    @classmethod
+    def of(cls, values: Mapping) -> Self:
+        """Return the problem that a mapping of plain values describes (see `plain`)."""
+        model = values["model"]
+        model = model if isinstance(model, Model) else Model.of_plain(model)
+        initial = on_sites(values["initial"], len(model.fields))
+        return cls(**{**values, "initial": initial, "model": model})
+
+    def plain(self) -> dict[str, Any]:
+        """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond.
+
+        The model is its graph, so that no job runs its code again.
+        """
+        return {
+            "half_width": self.half_width,
+            "boundary": self.boundary,
+            "initial": by_site(self.initial),
+            "end_time": self.end_time,
+            "output_step": self.output_step,
+            "solver": dict(self.solver),
+            "snapshot_every": self.snapshot_every,
+            "model": self.model.plain,
+            "parameters": dict(self.parameters),
+        }
+
+    def changed(self, **changes) -> Self:
+        """Return the problem with other values; parameters of its model are given by name.
+
+        On a shorter chain, parameters have the values of the sites in its middle.
+        """
+        values = {**self.parameters, **changes.pop("parameters", {})}
+        known = changes.get("model", self.model).parameters or values  # one from its graph has none
+        values |= {name: changes.pop(name) for name in known if name in changes}
+        values = {name: value for name, value in values.items() if name in known}
+        half_width = changes.get("half_width")
+        if half_width is not None:
+            values = {name: at_middle(one, half_width) for name, one in values.items()}
+        return replace(self, **changes, parameters=values)
+
+    @property
+    def sites(self) -> int:
+        """The number N = 2M + 1 of sites in the chain."""
+        return 2 * self.half_width + 1
+
+    @property
+    def amplitudes(self) -> np.ndarray:
+        """The fields on the whole chain at the start, complex of shape (component, N)."""
+        return place(self.initial, self.half_width)
+
+    @property
+    def times(self) -> np.ndarray:
+        """The output times 0, ..., end_time in equal steps; integers among them are exact."""
+        return output_times(self.end_time, self.output_step)
+
+
+def output_times(end_time: float, output_step: float) -> np.ndarray:
+    """Return 0, ..., end_time in equal steps; integers among them are exact."""
+    count = round(end_time / output_step)
+    return end_time * np.arange(count + 1) / count
+
+
+def place(initial: np.ndarray, half_width: int) -> np.ndarray:
+    """Return amplitudes (., 2M + 1): `initial` (., 2r + 1) on the sites -r..r, zero elsewhere."""
+    reach = initial.shape[1] // 2
+    require_inside(reach, half_width)
+    amplitudes = np.zeros((len(initial), 2 * half_width + 1), complex)
+    amplitudes[:, half_width - reach : half_width + reach + 1] = initial
+    return amplitudes
+
+
+def require_inside(site: int, half_width: int) -> None:
+    """Raise ValueError if the chain has no such site."""
+    if site > half_width:
+        raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
+
+
+def on_sites(initial: Mapping[int, tuple[complex, ...]], fields: int = 2) -> np.ndarray:
+    """Return data {site: (A, B)} as an array of (field, 2r + 1) amplitudes on the sites -r..r."""
+    reach = max(map(abs, initial), default=0)
+    amplitudes = np.zeros((fields, 2 * reach + 1), complex)
+    for site, pair in initial.items():
+        amplitudes[:, reach + site] = pair
+    return amplitudes
+
+
+def by_site(amplitudes: np.ndarray) -> dict[int, tuple[complex, complex]]:
+    """Return amplitudes (2, 2r + 1) as {site: (A, B)}, the sites at rest left out.
+
+    Where all are at rest the central site stands for them.
+    """
+    reach = amplitudes.shape[1] // 2
+    moving = np.flatnonzero((amplitudes != 0).any(axis=0))
+    columns = moving if moving.size else [reach]
+    return {int(j) - reach: tuple(map(complex, amplitudes[:, j])) for j in columns}
+
+
+def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:
+    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
+    return json.dumps({str(site): [_as_written(z) for z in pair] for site, pair in initial.items()})
+
+
+def is_even(text: str) -> bool:
+    """Return whether data, as datasets keep them, are the same on sites n and -n."""
+    sites = read_initial(text)
+    rest = (0.0, 0.0)
+    return all(tuple(sites.get(-site, rest)) == tuple(pair) for site, pair in sites.items())
+
+
+def read_initial(text: str) -> dict[int, tuple[complex, complex]]:
+    """Return the initial data that `write_initial` has written."""
+    return {int(site): tuple(complex(z) for z in pair) for site, pair in json.loads(text).items()}
+
+
+def _as_written(z: complex) -> float | str:
+    return z.real if z.imag == 0 else str(complex(z)).strip("()")
+
+
+def name_window(window: tuple[float, float]) -> str:
+    """Return a time window as the datasets name it: "[10, 50]"."""
+    return f"[{window[0]:g}, {window[1]:g}]"

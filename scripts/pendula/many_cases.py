@@ -1,0 +1,37 @@
+"""Datasets of many cases of the paper: what each of them solved."""
+
+from collections.abc import Mapping
+
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.stated import describe_run, shared_by
+from latticode.datasets.trajectories import Contents
+
+from pendula import names  # noqa: F401, so that datasets have the paper's words
+from pendula.problem import Constants, Problem
+
+COMPONENTS = Variable(("component",), ["A", "B"])
+
+
+def describe_cases(problems: Mapping[str, Problem]) -> Contents:
+    """Return names, detunings and initial data of several cases as variables, and attributes.
+
+    The attributes hold each value that is the same in all cases, so that a dataset of many cases
+    says what was solved, as a dataset of one case does. Other constants are variables too.
+    """
+    each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
+    variables = {
+        "case": Variable(("case",), list(problems)),
+        "omega": Variable(("case",), [float(one["omega"]) for one in each]),
+        "initial": Variable(("case",), [one["initial"] for one in each]),
+    }
+    shared = shared_by(each, *variables)
+    for name in [name for name in ("epsilon", "gamma") if name not in shared]:
+        variables[name] = Variable(("case",), [float(one[name]) for one in each])
+    return variables, shared
+
+
+def constants_of(dataset, case: str) -> Constants:
+    """Return the constants of one of the cases that `describe_cases` has described."""
+    one = dataset.sel(case=case)
+    own = {name: one[name] for name in ("epsilon", "gamma", "omega") if name in one}
+    return Constants.of({**dataset.attrs, **own})

@@ -1,0 +1,67 @@
+"""What datasets of the replication call their variables, and who made them.
+
+Everything in the paper is dimensionless. Time is the slow time tau, so that a rate is "per unit of
+tau".
+"""
+
+from latticode.datasets.registry import MADE_BY, NAMES
+
+from pendula import __version__
+
+NAMES.update(
+    {
+        # coordinates
+        "tau": "slow time",
+        "snapshot_tau": "slow time of the snapshots",
+        "growth_tau": "slow time",
+        "component": "pendulum of each pair",
+        "site": "site of the chain",
+        "part": "part of a complex number",
+        "half_width": "half-width M of the chain of 2M + 1 pairs",
+        "quantity": "pendulum of each pair, or both",
+        "statistic": "statistic over the time window",
+        "window": "time window, both ends included",
+        "case": "case",
+        "sweep": "sweep",
+        "solver": "solver",
+        "boundary": "ends of the chain",
+        "member": "member of the ensemble",
+        "sample": "number of the sample",
+        "reading": "reading of the paper",
+        "curve_omega": "detuning Omega, on a finer grid",
+        "panel": "panel of the figure",
+        "initial_size": "size of the initial data, small or large",
+        # the problem
+        "omega": "detuning Omega",
+        "gamma": "strength of the drive, gamma",
+        "epsilon": "coupling of neighbours, epsilon",
+        "mu": "small parameter mu",
+        "initial": "initial {site: [A, B]}",
+        "sites": "number of sites N",
+        # the solution
+        "linf": "l-infinity norm over the chain",
+        "l2": "l2 norm over the chain",
+        "energy": "conserved energy H of equation (8)",
+        "modulus": "modulus of the amplitude on a site",
+        "amplitude": "amplitude on a site",
+        # what several studies have of their own
+        "family": "family",
+        "frequency": "frequency lambda",
+        "power": "power P",
+        "share": "share of",
+        "size": "size of",
+        "final": "amplitude at the end time",
+        "bound": "bound",
+        "end": "end of the time window",
+        "error": "error",
+        "order": "order in mu of the error",
+        "span": "span of",
+        "region": "region",
+        "kind": "kind of",
+        "distance": "distance",
+        "contraction": "contraction",
+        "exponent": "exponent of",
+        "antisymmetric_power": "power",
+    }
+)
+MADE_BY.update(version=__version__, history=f"computed by pendula {__version__}")
