@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from latticode.equations.model import Model, abs2, conj, lap, shift
 from latticode.simulation.lattice import WHOLE
+from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
-from pendula.problem import Problem
 from scipy.integrate import solve_ivp
 
 TIGHT = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
