@@ -5,6 +5,7 @@ import os
 from contextlib import chdir
 from pathlib import Path
 
+import pendula.names  # noqa: F401, so that datasets have the paper's words
 import pytest
 from helpers import MY_BASELINE, ROOT, snakemake
 from hypothesis import settings

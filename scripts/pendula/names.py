@@ -4,7 +4,7 @@ Everything in the paper is dimensionless. Time is the slow time tau, so that a r
 tau".
 """
 
-from latticode.datasets.registry import MADE_BY, NAMES
+from latticode.datasets.registry import MADE_BY, NAMES, WAYS
 
 from pendula import __version__
 
@@ -15,18 +15,8 @@ NAMES.update(
         "snapshot_tau": "slow time of the snapshots",
         "growth_tau": "slow time",
         "component": "pendulum of each pair",
-        "site": "site of the chain",
-        "part": "part of a complex number",
         "half_width": "half-width M of the chain of 2M + 1 pairs",
         "quantity": "pendulum of each pair, or both",
-        "statistic": "statistic over the time window",
-        "window": "time window, both ends included",
-        "case": "case",
-        "sweep": "sweep",
-        "solver": "solver",
-        "boundary": "ends of the chain",
-        "member": "member of the ensemble",
-        "sample": "number of the sample",
         "reading": "reading of the paper",
         "curve_omega": "detuning Omega, on a finer grid",
         "panel": "panel of the figure",
@@ -39,8 +29,6 @@ NAMES.update(
         "initial": "initial {site: [A, B]}",
         "sites": "number of sites N",
         # the solution
-        "linf": "l-infinity norm over the chain",
-        "l2": "l2 norm over the chain",
         "energy": "conserved energy H of equation (8)",
         "modulus": "modulus of the amplitude on a site",
         "amplitude": "amplitude on a site",
@@ -64,4 +52,5 @@ NAMES.update(
         "antisymmetric_power": "power",
     }
 )
+WAYS["make"] = "run snakemake"
 MADE_BY.update(version=__version__, history=f"computed by pendula {__version__}")

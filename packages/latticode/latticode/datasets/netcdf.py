@@ -19,7 +19,7 @@ import netCDF4
 import numpy as np
 
 from . import DatasetError, complete_or_absent, not_written
-from .registry import complete, describe
+from .registry import WAYS, complete, describe
 
 MARK = b"\nSHA-256 of all bytes before this line: "
 LENGTH = len(MARK) + 64 + 1
@@ -153,9 +153,9 @@ def readable(path: str | Path) -> Iterator[None]:
             raise DatasetError("its content is not the one that was written")
         yield
     except FileNotFoundError:
-        raise DatasetError(f"{path} is missing: run snakemake to make it") from None
+        raise DatasetError(f"{path} is missing: {WAYS['make']} to make it") from None
     except Exception as error:
         raise DatasetError(
             f"{Path(path).absolute()} is damaged and cannot be read "
-            f"({str(error) or type(error).__name__}): delete it and run snakemake to make it again"
+            f"({str(error) or type(error).__name__}): delete it and {WAYS['make']} to make it again"
         ) from error

@@ -16,6 +16,8 @@ from latticode import __version__
 CONVENTIONS = "CF-1.11"
 MADE_BY = {"version": __version__, "history": f"computed by latticode {__version__}"}
 """What made a dataset; a program that calls the library names itself here."""
+WAYS = {"make": "run the program"}
+"""What a message tells a user to do; a program that calls the library names its own commands."""
 UNITS = ("1", "rad", "s", "s-1", "byte", "byte s-1")
 """All units in use; each is one that UDUNITS parses."""
 
@@ -30,6 +32,12 @@ NAMES = {
     "quantity": "field, or all of them",
     "statistic": "statistic over the time window",
     "window": "time window, both ends included",
+    "case": "case",
+    "sweep": "sweep",
+    "solver": "solver",
+    "boundary": "ends of the chain",
+    "member": "member of the ensemble",
+    "sample": "number of the sample",
     # the solution
     "linf": "l-infinity norm over the chain",
     "l2": "l2 norm over the chain",

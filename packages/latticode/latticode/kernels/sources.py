@@ -114,7 +114,7 @@ def _digest_of_bare(module: Path) -> str:
 def bare(text: str) -> str:
     """Return a module's text without comments, docstrings and empty lines.
 
-    Python's own parser would take half a second for all modules, in every call of Snakemake.
+    Python's own parser would take half a second for all modules, in every call of a workflow.
     """
     without = _NO_CODE.sub(lambda found: "" if found.lastgroup else found[0], text)
     return _EMPTY.sub("\n", f"\n{without}\n")
@@ -142,8 +142,8 @@ def _packages_of(file: Path) -> tuple[str, ...]:
 def _tree_of(text: str) -> ast.AST:
     """Return a tree with all imports of a module.
 
-    To parse nothing but the lines of imports is ten times faster, and every call of Snakemake does
-    it for all modules. Where the word stands elsewhere too, everything is parsed.
+    To parse nothing but the lines of imports is ten times faster, and every call of a workflow
+    does it for all modules. Where the word stands elsewhere too, everything is parsed.
     """
     imports = _IMPORT.findall(f"\n{text}")
     same = len(imports) == len(_WORD.findall(text))
