@@ -9,6 +9,7 @@ from latticode.numerics.elementary import square_modulus
 from latticode.simulation.problem import Problem
 
 from .simulate import Trajectory, simulate
+from .systems import site_dependent
 
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")
@@ -34,8 +35,9 @@ def sweep(
     """Integrate `problem` on chains of each half-width.
 
     Where a run ends before anything has come to the ends of its chain, longer chains do the same,
-    and those that follow are not run.
+    and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
+    alike = not site_dependent(problem)
     l2, linf, outcomes = [], [], []
     half_widths, enough, inside = list(half_widths), np.inf, None
     for done, half_width in enumerate(half_widths, 1):
@@ -43,7 +45,7 @@ def sweep(
         if half_width < enough:
             own = problem.changed(half_width=half_width, snapshot_every=0)
             trajectory = simulate(own, energy=False)
-            if _is_inside(trajectory):
+            if alike and _is_inside(trajectory):
                 enough, inside = half_width, trajectory
         l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
         linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))
@@ -69,16 +71,19 @@ def pair_linf(trajectory: Trajectory) -> np.ndarray:
 
 
 def _over_windows(tau: np.ndarray, series: np.ndarray, windows) -> np.ndarray:
-    """Return (quantity, statistic, window); windows include both their ends."""
-    result = np.empty((len(series), len(STATISTICS), len(windows)))
-    for w, (start, end) in enumerate(windows):
-        inside = series[:, (tau >= start - 1e-9) & (tau <= end + 1e-9)]
-        result[:, 0, w] = inside.max(axis=1)
-        result[:, 1, w] = _mean(inside)
-    return result
+    """Return (quantity, statistic, window)."""
+    inside = [series[:, within(tau, window)] for window in windows]
+    statistics = [[one.max(axis=1) for one in inside], [mean_of(one) for one in inside]]
+    return np.array(statistics).transpose(2, 0, 1)
 
 
-def _mean(series: np.ndarray) -> np.ndarray:
-    """Return the mean over time by the trapezoidal rule on equal steps."""
+def within(tau: np.ndarray, window: tuple[float, float]) -> np.ndarray:
+    """Return which of the times lie in a window, which includes both its ends."""
+    start, end = window
+    return (tau >= start - 1e-9) & (tau <= end + 1e-9)
+
+
+def mean_of(series: np.ndarray) -> np.ndarray:
+    """Return the means (quantity,) over time by the trapezoidal rule on equal steps."""
     ends = 0.5 * (series[:, 0] + series[:, -1])
     return (series[:, 1:-1].sum(axis=1) + ends) / (series.shape[1] - 1)

@@ -1,0 +1,77 @@
+"""Surveys as datasets: an axis of the survey is a dimension, and what is kept a variable."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from latticode.simulation.problem import Problem
+from latticode.simulation.survey import CHAINS, NORMS, STATISTICS, Survey
+from latticode.simulation.systems import integration_of
+
+from .netcdf import Variable
+from .registry import NAMES
+from .stated import describe_run
+from .trajectories import Contents
+
+ABOUT = {
+    "max": "largest {norm} in the window",
+    "mean": "mean of the {norm} over the window",
+    "final": "{norm} at the end time",
+    "exponent": "exponent of time with which the power of all fields grows in the window",
+    "divergence": "first time at which a run by another method differs visibly; infinite: at none",
+}
+"""What is kept, in words."""
+
+
+def survey_contents(
+    name: str, problem: Problem, survey: Survey, values: Mapping[str, np.ndarray]
+) -> Contents:
+    """Return the contents of the dataset on a survey of `problem`."""
+    dimensions = [_plain(axis) for axis in survey.axes]
+    variables = {
+        dimension: _axis(axis, dimension, given)
+        for (axis, given), dimension in zip(survey.axes.items(), dimensions, strict=True)
+    }
+    if survey.members:
+        dimensions.append("member")
+        variables["member"] = Variable(("member",), np.arange(survey.members.count))
+    model = integration_of(problem)
+    variables["component"] = Variable(("component",), list(model.components), model.words.component)
+    for kept, found in values.items():
+        fields = ("component",) if found.ndim > len(dimensions) else ()
+        units = model.words.units if fields else "1"
+        variables[kept] = Variable((*dimensions, *fields), found, _long_name(kept), units)
+    about = describe_run(name, problem, problem.solver)
+    for axis in survey.axes:
+        about.pop(axis, None)
+    drawn = survey.members._asdict() if survey.members else {}
+    said = {f"members_{key}": value for key, value in drawn.items()}
+    window = {} if survey.window is None else {"window": list(survey.window)}
+    return variables, {"title": f"The survey {name}", **about, **said, **window}
+
+
+def _plain(axis: str) -> str:
+    """Return the name of an axis as that of a variable: without points and signs."""
+    return axis.replace(".-", "_minus_").replace(".", "_")
+
+
+def _axis(axis: str, dimension: str, given: Sequence) -> Variable:
+    """Return the values of an axis; complex ones are written as Python writes them."""
+    values = np.asarray(given)
+    if np.iscomplexobj(values):
+        values = values.real if not values.imag.any() else np.array([str(z) for z in values])
+    if axis.startswith("initial."):
+        site, field = axis.split(".")[1:]
+        words = f"initial value at site {site} of field {field}, counted from 0"
+    else:
+        words = NAMES.get(axis, axis.replace("_", " "))
+    return Variable((dimension,), values, words)
+
+
+def _long_name(kept: str) -> str:
+    statistic, _, norm = kept.partition("_")
+    if kept in CHAINS:
+        return ABOUT[kept]
+    if statistic in STATISTICS and norm in NORMS:
+        return ABOUT[statistic].format(norm=NAMES[norm])
+    return f"what the function {kept} returns"

@@ -1,0 +1,93 @@
+"""Surveys: each run is the one that is made alone, in any number of parts, and says what it is."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from dimers import dimers
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.surveys import survey_contents
+from latticode.simulation.problem import on_sites
+from latticode.simulation.simulate import simulate
+from latticode.simulation.survey import Members, Survey, joined, problem_at, run_part, run_survey
+
+AXES = {"omega": [-4.0, 0.0, 3.0], "initial.0.0": [1.0, 2.0 + 0.5j]}
+
+
+def test_a_run_of_a_survey_is_the_one_that_is_made_alone():
+    problem = dimers()
+    kept = ("max_l2", "mean_linf", "final_l2")
+    found = run_survey(problem, Survey(AXES, kept, (1.0, 3.0)))
+    alone = simulate(problem.changed(omega=0.0, initial=on_sites({0: (2.0 + 0.5j, 0.1)})))
+    inside = (alone.tau >= 1.0) & (alone.tau <= 3.0)
+    np.testing.assert_array_equal(found["max_l2"][1, 1], alone.l2[:, inside].max(axis=1))
+    trapezoids = np.trapezoid(alone.linf[:, inside], alone.tau[inside]) / 2.0
+    np.testing.assert_allclose(found["mean_linf"][1, 1], trapezoids, rtol=1e-14)
+    np.testing.assert_array_equal(found["final_l2"][1, 1], alone.l2[:, -1])
+
+
+@pytest.mark.parametrize("parts", [2, 5, 24])
+def test_the_bits_do_not_depend_on_the_number_of_parts(parts):
+    problem = dimers()
+    survey = Survey(AXES, ("max_l2",), members=Members(count=4, size=0.1, seed=3))
+    whole = run_survey(problem, survey)["max_l2"]
+    made = joined(survey, [run_part(problem, survey, part, parts) for part in range(parts)])
+    np.testing.assert_array_equal(made["max_l2"], whole)
+    assert whole.shape == (3, 2, 4, 2) and np.unique(whole[0, 0, :, 0]).size == 4
+
+
+def test_members_are_small_changes_of_the_data():
+    problem, survey = dimers(), Survey({}, members=Members(count=50, size=1e-3, seed=1))
+    drawn = np.array([problem_at(problem, survey, n).initial for n in range(50)])
+    relative = np.abs(drawn / problem.initial - 1.0)
+    assert 0.5e-3 < relative.mean() < 2e-3
+
+
+def test_half_widths_and_end_times_are_axes():
+    survey = Survey({"half_width": [2, 8], "end_time": [1.0, 2.0]}, ("final_l2",))
+    found = run_survey(dimers(), survey)["final_l2"]
+    alone = simulate(dimers(half_width=2, end_time=2.0)).l2[:, -1]
+    np.testing.assert_array_equal(found[0, 1], alone)
+
+
+def test_an_exponent_is_that_of_the_power():
+    """At gamma = 0 and without coupling the power is conserved: its exponent is zero."""
+    found = run_survey(dimers(epsilon=0.0), Survey({"gamma": [0.0, 1.0]}, ("exponent",)))
+    assert abs(found["exponent"][0]) < 1e-13 < 1e-4 < abs(found["exponent"][1])
+
+
+def test_a_function_of_the_users_is_kept_by_its_name():
+    def last(run):
+        return run.l2[0, -1]
+
+    found = run_survey(dimers(), Survey({"omega": [1.0]}, (last, "final_l2")))
+    assert found["last"][0] == found["final_l2"][0, 0]
+
+
+def test_a_run_that_cannot_end_is_nan_and_the_others_are_numbers():
+    found = run_survey(dimers(), Survey({"omega": [1.0, 1e300]}, ("max_l2", "exponent")))
+    assert np.isnan(found["max_l2"][1]).all() and np.isfinite(found["max_l2"][0]).all()
+    assert np.isnan(found["exponent"][1])
+
+
+@pytest.mark.parametrize(
+    ("axes", "keep", "told"),
+    [
+        ({"omgea": [1.0]}, ("max_l2",), "axes: 'omgea' names nothing to change; give one of eps"),
+        ({"initial.1.0": [1.0]}, ("max_l2",), "outside the initial data, which have the sites -0"),
+        ({"initial.0.2": [1.0]}, ("max_l2",), r"the fields 0\.\.1"),
+        ({"omega": [1.0]}, ("max_l3",), "keep: there is no 'max_l3'; there are max_l2"),
+    ],
+)
+def test_what_cannot_be_done_is_said_before_any_run(axes, keep, told):
+    with pytest.raises(ValueError, match=told):
+        run_part(dimers(), Survey(axes, keep))
+
+
+def test_a_survey_as_a_dataset_has_its_axes_as_dimensions():
+    problem, survey = dimers(), Survey(AXES, ("max_l2", "exponent"), (1.0, 3.0))
+    data = as_xarray(*survey_contents("map", problem, survey, run_survey(problem, survey)))
+    assert isinstance(data, xr.Dataset)
+    assert data["max_l2"].dims == ("omega", "initial_0_0", "component")
+    assert data["exponent"].dims == ("omega", "initial_0_0")
+    assert data["initial_0_0"].values.tolist() == ["(1+0j)", "(2+0.5j)"]
+    assert data["max_l2"].attrs["long_name"].startswith("largest l2 norm")
