@@ -33,7 +33,6 @@ def tell_uncaught(kind: type[BaseException], error: BaseException, trace) -> Non
 
 sys.excepthook = tell_uncaught
 
-import psutil  # noqa: E402, its absence is said too
 from pendula.sources import SCRIPTS, TOOK  # noqa: E402
 
 # When Python ends, it looks for cycles among a million objects that are about to go anyway. This
@@ -205,4 +204,6 @@ def _age() -> float:
             fields = file.read().rpartition(")")[2].split()  # the name in () may hold spaces
         started = int(fields[19]) / os.sysconf("SC_CLK_TCK")  # proc(5): starttime
         return time.clock_gettime(time.CLOCK_BOOTTIME) - started
+    import psutil  # here, since it takes longer than some jobs
+
     return time.time() - psutil.Process().create_time()

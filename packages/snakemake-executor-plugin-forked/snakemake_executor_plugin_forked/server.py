@@ -1,6 +1,7 @@
 """The process that imports modules and forks a child for each job: `server.py SOCKET MODULE...`.
 
-It imports while nobody asks; a job that comes earlier imports for itself what is not there yet.
+It imports while nobody asks; a job that comes earlier imports for itself what is not there yet. Only
+the first job waits for one module, which it and those beside it would else import each.
 """
 
 import atexit
@@ -73,6 +74,8 @@ class Server:
             sys.path[:0] = folders
         self.begun = True
         self.control.recv(LETTER)
+        if self.modules:
+            self.prepare(self.modules.pop(0))  # else all of the first jobs would import it
 
     def prepare(self, name: str) -> None:
         """Import a module, and put those of a package before all that are still to come."""

@@ -79,6 +79,7 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "legend.handlelength": 2,
     "axes.titley": 1.0,  # no ticks stand above a panel: else each title measures them many times
     "pdf.fonttype": 42,  # TrueType, which journals accept: they reject Type 3
+    "ps.fonttype": 42,  # else a PDF has each font in parts of 256 letters, each cut out anew
     "figure.dpi": DPI,
 }
 

@@ -31,6 +31,8 @@ WORD = 8
 """Bytes of a pointer here, and of every other number in what numba puts on the stack."""
 CUSTOM, IMPORT, EXPORT = 0, 2, 7
 """Kinds of sections, by their numbers."""
+RESTS_ON_SIZE = re.compile(r"(load|store|getelementptr|extractvalue).*\{[^}]*\bptr\b")
+"""What a line of code must not do: count the bytes of a structure with pointers in it."""
 NOT_CALLED = b"__linear_memory", b"__stack_pointer", b"__indirect_function_table"
 
 
@@ -91,8 +93,8 @@ def _for_small_pointers(code: str, layout: str) -> str:
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{layout}"', code)
     code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
     code = re.sub(r"alloca (\{.*\}|ptr)(?=[,\n])", _bytes_instead, code)
-    if left := re.search(r".*(load|store|getelementptr|extractvalue).*\{[^}]*\bptr\b.*", code):
-        raise WebAssemblyError(f"this rests on the size of a pointer: {left[0].strip()}")
+    for line in filter(RESTS_ON_SIZE.search, code.splitlines()):
+        raise WebAssemblyError(f"this rests on the size of a pointer: {line.strip()}")
     return code
 
 
