@@ -55,7 +55,7 @@ def draw_cases(cases: Sequence[xr.Dataset], strips: Sequence[Sequence[Strip]]) -
     ]
     for axes in drawn[-1][-1]:
         axes.set_xlabel(r"$\tau$")
-    figure.align_ylabels()
+    figure.align_ylabels([axes for axes in figure.axes if axes.get_ylabel()])
     return figure, drawn
 
 

@@ -44,6 +44,7 @@ CLOCK_SERIES = """\
         value, slope = share * slope, -(share * square * value)"""
 
 
+@cache
 def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
     """Return the parts of rates, and of what their series carry along."""
     *_, found = with_carried(list(rates), site_dependent)

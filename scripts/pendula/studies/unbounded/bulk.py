@@ -19,7 +19,7 @@ from latticode.numerics.elementary import log
 
 from pendula.problem import Constants
 
-from .sums import turned
+from .sums import halves, turned
 
 BEHIND, BETWEEN = REGIONS = ("behind the second front", "between the fronts")
 KINDS = ("P", "|S|^2", "H")
@@ -47,7 +47,7 @@ def energies(sites: np.ndarray, constants: Constants) -> np.ndarray:
     A bond belongs to its left site; beyond the last site is rest.
     """
     ab = turned(sites)
-    a, b = (site_powers(part) for part in np.split(ab, 2))
+    a, b = (site_powers(part) for part in halves(ab))
     drive = 2.0 * (sites[2] * sites[2] - sites[3] * sites[3])  # Re (A_n - B_n)^2
     bonds = site_powers(np.diff(sites, append=0.0))
     own = 0.25 * (a * a + b * b) + constants.omega * (a + b) - constants.gamma * drive
@@ -80,7 +80,7 @@ def bulk_maxima(sites: np.ndarray, front: float) -> np.ndarray:
     the way to the front, the centre left out: what the front has just passed is not yet in
     equilibrium. The mean is NaN where no block fits in.
     """
-    squares = np.maximum(*(site_powers(part) for part in np.split(sites, 2)))
+    squares = np.maximum(*(site_powers(part) for part in halves(sites)))
     moduli = np.sqrt(squares)[1 : max(1, int(OLD * front))]
     found = np.full(len(NEIGHBOURS), np.nan)
     for i, size in enumerate(NEIGHBOURS[: np.searchsorted(NEIGHBOURS, moduli.size, "right")]):
@@ -92,7 +92,7 @@ def bulk_maxima(sites: np.ndarray, front: float) -> np.ndarray:
 def cell_means(sites: np.ndarray) -> np.ndarray:
     """Return means of |S|^2 and |D|^2 over cells of CELL sites from the centre on, (2, cell)."""
     count = sites.shape[1] // CELL
-    parts = np.array([site_powers(part) for part in np.split(sites, 2)])
+    parts = np.array([site_powers(part) for part in halves(sites)])
     cells = parts[:, : count * CELL].reshape(2, count, CELL)
     return np.add.reduce(cells, axis=2) / CELL
 

@@ -30,12 +30,17 @@ EQUATIONS = Model(
 )
 
 
+def halves(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the first half of the rows and the second."""
+    return rows[: len(rows) // 2], rows[len(rows) // 2 :]
+
+
 def turned(values: np.ndarray) -> np.ndarray:
     """Return S and D of A and B, or A and B of S and D: the first half of the rows and the second.
 
     `values` are complex (component, ...), or rows of real and imaginary parts (row, ...).
     """
-    first, second = np.split(values, 2)
+    first, second = halves(values)
     return ROOT * np.concatenate([first + second, first - second])
 
 
