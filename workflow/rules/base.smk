@@ -47,6 +47,7 @@ rule figure:
         "<logs>/<made>.log",
     pathvars:
         made="{made,(?!)}",
+    priority: -1  # after datasets, of which the last are followed by claims, one after the other
     conda:
         "../envs/pinned.yaml"
     params:

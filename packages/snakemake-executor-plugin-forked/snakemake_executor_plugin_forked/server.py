@@ -1,7 +1,7 @@
 """The process that imports modules and forks a child for each job: `server.py SOCKET MODULE...`.
 
-It imports while nobody asks; a job that comes earlier imports for itself what is not there yet. Only
-the first job waits for one module, which it and those beside it would else import each.
+It imports while nobody asks; a job that comes earlier imports for itself what is not there yet.
+Only the first job waits for one module, which it and those beside it would else import each.
 """
 
 import atexit
