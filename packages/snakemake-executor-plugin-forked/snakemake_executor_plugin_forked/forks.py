@@ -19,6 +19,8 @@ INTERRUPTED = 128 + signal.SIGINT
 LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM", "NUMEXPR_NUM")
 THREADS = {f"{library}_THREADS": "1" for library in LIBRARIES}
 """The environment variables that Snakemake sets for a job of one thread."""
+LOOKS = {"-n", "--dry-run", "--dryrun"}
+"""What a command line has that runs no job."""
 PLACES = ("TMPDIR", "TMP", "TEMPDIR", "TEMP")
 """Those that it sets to the folder for temporary files. No module reads them at its import."""
 
@@ -33,11 +35,14 @@ class Forks:
     process, begun, interrupted = None, False, False
 
     def __init__(self, modules: list[str]):
-        """Start the process, which imports modules; from now on Ctrl-C shows no traceback."""
+        """Start the process, which imports modules; from now on Ctrl-C shows no traceback.
+
+        A dry run, where Snakemake shall be quick and needs no module, starts none.
+        """
         self.modules = modules
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, self._interrupt)
-        if sys.platform == "linux":
+        if sys.platform == "linux" and not LOOKS.intersection(sys.argv):
             self.start()
             atexit.register(self.end)
 
