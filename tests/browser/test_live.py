@@ -17,7 +17,14 @@ from oracle import CASES
 from pendula.figure_diff import hashes
 from pendula.live.write import write_live
 from pendula.problem import Problem
-from pendula.studies.chaos.lifetimes import shares_alike
+from pendula.studies.breathers.fates import (
+    DISPERSES,
+    SPREADS,
+    STAYS,
+    fate_of,
+    is_localised,
+    power_by_distance,
+)
 from pendula.studies.paper.runs import run_case
 from test_report_in_browser import run
 
@@ -46,14 +53,21 @@ def made(tmp_path_factory):
     return page
 
 
+def open_page(browser, address: str, motion: str = "reduce") -> None:
+    """Open the page anew for a reader who asks for little motion, or for one who does not."""
+    asked = {"features": [{"name": "prefers-reduced-motion", "value": motion}]}
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", asked)
+    browser.get("about:blank")
+    browser.get_log("browser"), browser.get_log("performance")
+    browser.get(address)
+    settle(browser)
+
+
 @pytest.fixture
 def live(browser, made):
     """Return the browser with the page just opened; afterwards nothing may be wrong with it."""
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-    browser.get("about:blank")
-    browser.get_log("browser"), browser.get_log("performance")
-    browser.get(made.as_uri())
-    settle(browser)
+    open_page(browser, made.as_uri())
     yield browser
     assert browser.get_log("browser") == [] and text(browser, "fault") == ""
     told = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
@@ -95,17 +109,18 @@ def test_a_wrong_number_is_reported_with_its_time(live, wrong):
 
 def test_every_slider_changes_numbers_in_time_and_the_link(live):
     frames = []
-    for name in run(live, "[...document.querySelectorAll('.settings input')].map(({ id }) => id)"):
+    timed = "const start = performance.now(); answer(); return performance.now() - start"
+    for name in set(run(live, "Object.keys(settings)")) - {"boundary"}:
         before = text(live, "numbers")
         least, value = (run(live, what) for what in (f"{name}.min", f"settings.{name}"))
         left = "\ue012" * 25 if name == "half_width" else "\ue012"  # the arrow key
         live.find_element("id", name).send_keys(left)
         settle(live)
-        frames.append(float(run(live, "document.body.dataset.frame")))
+        frames += [live.execute_script(timed) for _ in range(3)]
         moved = run(live, f"settings.{name}")
         assert float(least) <= moved < value and text(live, f"{name}_said") == f"{moved:g}"
         assert text(live, "numbers") != before, name
-    assert len(frames) == 9 and min(frames) <= 50  # milliseconds; a busy machine only adds to them
+    assert len(frames) == 27 and min(frames) <= 50  # milliseconds; a busy machine only adds to them
     link, moved = live.find_element("id", "link").get_attribute("href"), text(live, "numbers")
     live.find_element("id", "reset").click()
     settle(live)
@@ -127,7 +142,7 @@ SETTINGS = {
 @pytest.mark.parametrize("changes", SETTINGS.values(), ids=SETTINGS)
 def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     """In its bits, how long the motion stays localised, and when a perturbed run diverges."""
-    live.find_element("id", "perturb").click()
+    live.execute_script("byId('perturbation').value = '1e-7'")
     change(live, **changes)
     given = run(live, "settings")
     pair = [complex(given.pop(f"{name}_re"), given.pop(f"{name}_im")) for name in "ab"]
@@ -135,12 +150,24 @@ def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     perturbed = problem.changed(initial=problem.initial * (1 + 1e-7))
     one, two = simulate(problem), simulate(perturbed)
     assert np.array_equal(run(live, "Array.from(run.energy)"), one.energy)
-    spread = one.tau[::4][shares_alike(one.modulus)]
-    until = f"until τ = {spread[0]:.4g}" if spread.size else "to the end"
-    assert text(live, "localised") == until
+    states = np.moveaxis(one.modulus, -1, 0)
+    left = [i for i, state in enumerate(states) if not is_localised(power_by_distance(state))]
+    until = f"stays localised until τ = {one.tau[4 * left[0]]:.4g}." if left else "to the end."
+    short = problem.half_width < 3
+    assert text(live, "localised").endswith("no motion counts as localised." if short else until)
     parted = first_above(one.tau, norm_difference(one.linf, one.l2, two.linf, two.l2), 0.01)
     when = f"at τ = {parted:.4g} " if np.isfinite(parted) else "at no time"
     assert f"1 % of full scale {when}" in text(live, "parted")
+
+
+def test_the_motion_stays_localised_where_it_does_in_the_figure_of_fates(live):
+    """The word is that of the map of fates: not for the large case of Fig 3, which spreads."""
+    for case in CASES:
+        live.execute_script(f"show('case={case}')")
+        settle(live)
+        problem = problem_of(case)
+        stays = fate_of(problem, simulate(problem).final) == STAYS
+        assert text(live, "localised").endswith("to the end.") == stays == (case == "fig2_large")
 
 
 def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
@@ -151,6 +178,8 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
         live.find_element("id", kind).click()
         wait_for((tmp_path / f"mine.{kind}").exists)
     case = yaml.safe_load((tmp_path / "mine.yaml").read_text())
+    command = (tmp_path / "mine.yaml").read_text().splitlines()[0].removeprefix("# ")
+    assert f"\n{command}\n" in (ROOT / "docs/own_cases.md").read_text()
     ran = snakemake(ROOT, tmp_path, "results/trajectories/mine.nc", settings=case)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     found = read(tmp_path / "results/trajectories/mine.nc")
@@ -158,6 +187,102 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
     assert names == ["tau", "l2_A", "l2_B", "linf_A", "linf_B", "energy"]
     of_pipeline = [found["tau"], *found["l2"], *found["linf"], found["energy"]]
     assert np.array_equal(np.array(rows, float).T, np.array(of_pipeline))
+
+
+def test_a_link_keeps_all_that_the_page_shows(live):
+    live.execute_script("show('case=fig4_large&tau=12.25&mu=0.2&perturbation=1e-5')")
+    settle(live)
+    shown = [text(live, name) for name in ("numbers", "parted", "mu_said", "localised")]
+    assert "At τ = 12.25:" in shown[0] and "factor 1 + 1e-5 " in shown[1]
+    assert "Horizon of Fig 4: " in shown[1] and "(the dashed line)" in shown[1]
+    open_page(live, live.find_element("id", "link").get_attribute("href"))
+    assert [text(live, name) for name in ("numbers", "parted", "mu_said", "localised")] == shown
+
+
+@pytest.mark.parametrize(
+    ("link", "said"),
+    [
+        ("omega=abc", "omega = abc; this page can show -12 to 12 (step 0.1), and shows 8."),
+        ("omega=99", "omega = 99; this page can show -12 to 12 (step 0.1), and shows 8."),
+        ("omega=1.23", "omega = 1.23; "), ("omega=", "omega = ; "), ("mu=9", "mu = 9; "),
+        ("case=fig4_small&omega=99", ", and shows 0."), ("tau=51", "can show 0 to 50 "),
+        ("case=fig7", "fig4_large, and shows fig2_small."), ("boundary=", "boundary = ; "),
+        ("detuning=1", "detuning, which is no setting."),
+    ],
+)  # fmt: skip
+def test_a_link_that_the_page_cannot_show_is_told(live, link, said):
+    live.execute_script(f"location.hash = '{link}'")
+    wait_for(lambda: said in text(live, "fault"))
+    live.find_element("id", "reset").click()
+    settle(live)
+    assert text(live, "fault") == ""
+
+
+WINDOWS = [(1400, 900), (1024, 768), (940, 700), (800, 600), (844, 390), (390, 844)]
+
+
+def resize(page, width: int, height: int) -> None:
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+
+
+@pytest.mark.parametrize(("width", "height"), WINDOWS)
+def test_the_first_minute_of_a_teacher(live, made, width, height):
+    """Without scrolling: the equation, three cases to try, and a chain that moves by itself."""
+    resize(live, width, height)
+    open_page(live, made.as_uri(), "no-preference")
+    wait_for(lambda: 0.2 < float(run(live, "byId('tau').value")) < 40)
+    below = "const bottom = (one) => one.getBoundingClientRect().bottom;"
+    shown = ".equation, [data-link], #pendula, #play"
+    asked = f"{below} return [...document.querySelectorAll('{shown}')].map(bottom)"
+    bottoms = live.execute_script(asked)
+    assert len(bottoms) == 6 and max(bottoms) <= height
+    names = "[...document.querySelectorAll('#pendula text')].map((one) => one.textContent)"
+    assert text(live, "play") == "Pause" and run(live, names) == ["A", "B"]
+
+
+def test_each_case_to_try_is_what_its_button_says(live):
+    for button in live.find_elements("css selector", "[data-link]"):
+        button.click()
+        settle(live)
+        problem = problem_of(run(live, "chosen().name"))
+        found = {STAYS: "Localised", DISPERSES: "Stable", SPREADS: "Unstable"}
+        assert button.text == found[fate_of(problem, simulate(problem).final)]
+        assert run(live, "isOfPaper()") and text(live, "fault") == ""
+
+
+def test_play_stops_out_of_sight_and_waits_where_motion_is_reduced(live, made):
+    assert text(live, "play") == "Play" and run(live, "now() === settings.end_time")
+    resize(live, 500, 400)
+    open_page(live, made.as_uri(), "no-preference")
+    assert text(live, "play") == "Pause"
+    live.execute_script("scrollTo(0, 1e6)")
+    wait_for(lambda: text(live, "play") == "Play")
+    live.execute_script("byId('play').click()")
+    wait_for(lambda: text(live, "play") == "Pause")
+    assert run(live, "isInSight('pendula')")
+
+
+def test_no_window_scrolls_sideways(live):
+    wide = "[document.documentElement, document.querySelector('.settings')]"
+    for width in (*range(320, 1920, 80), 577, 1920):
+        resize(live, width, 700)
+        assert run(live, f"{wide}.every((one) => one.scrollWidth <= one.clientWidth)"), width
+
+
+@pytest.mark.parametrize(("width", "height"), [*WINDOWS, (575, 640), (320, 480)])
+def test_no_picture_hides_a_control(live, width, height):
+    """A control that gets the focus, from above or from below, is what a click there reaches."""
+    resize(live, width, height)
+    hidden = """
+    const controls = [...document.querySelectorAll("button, input, select, a")];
+    return [...controls, ...controls.reverse()].filter((one) => {
+      one.focus();
+      const { left, right, top, bottom } = one.getClientRects()[0];
+      return !one.contains(document.elementFromPoint((left + right) / 2, (top + bottom) / 2));
+    }).map((one) => one.id || one.textContent);
+    """
+    assert live.execute_script(hidden) == []
 
 
 def test_firefox_gets_the_same_bits(made, tmp_path):

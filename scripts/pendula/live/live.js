@@ -105,6 +105,8 @@ const compareAll = () => {
 // --- Settings -----------------------------------------------------------------------------------
 
 let solve, settings;
+let refused = []; // what the page cannot do of a link
+const KEPT = ["mu", "perturbation", "tau"]; // what a link holds beside the case and its settings
 const chosen = () => data.cases[byId("case").selectedIndex];
 const steps = () => ({ ...chosen(), every: chosen().every || 1 }); // a picture needs the moduli
 const isOfPaper = () => Object.entries(chosen().settings).every(([key, value]) => settings[key] === value);
@@ -116,16 +118,43 @@ const apply = (given) => {
     byId(key).value = value;
     if (key !== "boundary") byId(`${key}_said`).textContent = value;
   }
-  byId("link").href = `#${new URLSearchParams(settings)}`;
   byId("tau").max = settings.end_time;
   update();
 };
-// Return one setting as its control has it, since a control rejects what it cannot show.
-const taken = (key) => (key === "boundary" ? byId(key).value || "dirichlet" : Number(byId(key).value));
-const fromLink = () => {
-  const given = [...new URLSearchParams(location.hash.slice(1))].filter(([key]) => key in settings);
-  for (const [key, text] of given) byId(key).value = text;
-  apply({ ...settings, ...Object.fromEntries(given.map(([key]) => [key, taken(key)])) });
+const taken = (key) => (key === "boundary" ? byId(key).value : Number(byId(key).value));
+
+// Set a control; if it would silently show something else, let the page say so, and return false.
+const set = (key, text) => {
+  const { options, value, min, max, step } = byId(key);
+  byId(key).value = text;
+  const possible = options ? Array.from(options, (one) => one.value) : [`${min} to ${max} (step ${step})`];
+  if (options ? possible.includes(text) : text.trim() && Number(text) === Number(byId(key).value)) return true;
+  byId(key).value = value;
+  refused.push(`The link says ${key} = ${text}; this page can show ${possible.join(", ")}, and shows ${value}.`);
+  return false;
+};
+// Show what a link names of a case, or of the first one; without a time, play it from the start.
+const show = (link) => {
+  const given = new URLSearchParams(link);
+  const takenOf = (keys) => keys.filter((key) => given.has(key) && set(key, given.get(key)));
+  refused = [];
+  byId("case").selectedIndex = 0;
+  takenOf(["case"]);
+  const keys = Object.keys(chosen().settings);
+  apply({ ...chosen().settings });
+  apply({ ...settings, ...Object.fromEntries(takenOf(keys).map((key) => [key, taken(key)])) });
+  const isPlaying = !given.has("tau") && !isStill.matches;
+  byId("mu").value = 0.5 / largestOf(PARTS.map((part) => Math.abs(settings[part]))); // it begins with a radian
+  byId("perturbation").value = 0;
+  byId("tau").value = isPlaying ? 0 : settings.end_time;
+  takenOf(KEPT);
+  const unknown = [...given.keys()].filter((key) => !["case", ...keys, ...KEPT].includes(key));
+  refused.push(...unknown.map((key) => `The link says ${key}, which is no setting.`));
+  setPlaying(isPlaying ? performance.now() : null);
+};
+const linkOf = () => {
+  const own = Object.entries(settings).filter(([key, value]) => value !== chosen().settings[key]);
+  return new URLSearchParams([["case", chosen().name], ...own, ...KEPT.map((key) => [key, byId(key).value])]);
 };
 
 // --- Pictures -----------------------------------------------------------------------------------
@@ -158,7 +187,7 @@ const drawPanel = (id, least, most, curves) => {
       ...Array.from(values, (value, k) => [x(run.tau[k]), y(value)]))),
     horizon() && horizon() < settings.end_time ? upright("dashed", horizon(), 10, 170) : "",
     parted ? upright("dotted", parted, 10, 170) : "",
-    upright("now", now(), 10, 170),
+    upright("now", 0, 10, 170), // live.css moves it
   ].join("");
 };
 const drawNorm = (norm) => {
@@ -178,7 +207,7 @@ const drawModulus = (half, name, largest) => {
   }
   const image = new ImageData(new Uint8ClampedArray(pixels.buffer), canvas.width);
   canvas.getContext("2d").putImageData(image, 0, 0);
-  byId(`scale${name}`).textContent = `|${name}ₙ| at site n against τ; full colour is ${say(largest)}`;
+  byId(`scale${name}`).textContent = `|${name}ₙ| at site n, up to ${say(largest)}`;
   drawPanel(`axes${name}`, 0.5 - run.sites, run.sites - 0.5, []);
 };
 
@@ -187,7 +216,7 @@ let state;
 let phase = 0;
 const drawPendula = () => {
   const [mu, pairs] = [Number(byId("mu").value), 2 * settings.half_width + 1];
-  const drawn = [];
+  const drawn = ["A", "B"].map((name, row) => `<text class="${"ab"[row]}" x="4" y="${75 + 100 * row}">${name}</text>`);
   state.forEach((rows, component) => {
     for (let place = 0; place < pairs; place += 1) {
       const at = Math.abs(place - settings.half_width) + 1;
@@ -202,20 +231,21 @@ const drawPendula = () => {
   });
   byId("pendula").innerHTML = drawn.join("");
   const over = drawn.filter((one) => one.includes("rect")).length;
-  byId("swings").textContent = `μ = ${mu}. Over the top at this τ: ${over} of ${2 * pairs}.`;
+  byId("mu_said").textContent = mu;
+  byId("swings").textContent = `Over the top at this τ: ${over} of ${2 * pairs}.`;
 };
 
 // --- Words --------------------------------------------------------------------------------------
 
-// Return the first time at which the central pair holds at most an even share of the power.
-const lifeOf = ({ modulus, sites, snapshots, tau, every }) => {
-  const power = (n, s) => modulus[0][n * snapshots + s] ** 2 + modulus[1][n * snapshots + s] ** 2;
-  const hasSpread = (s) => {
+// Return the first time at which the central pair and its neighbours hold at most half of the power.
+const endOfLocalised = ({ modulus, sites, snapshots, tau, every }) => {
+  const isLeft = (s) => {
+    const power = (n) => modulus[0][n * snapshots + s] ** 2 + modulus[1][n * snapshots + s] ** 2;
     let others = 0;
-    for (let n = 1; n < sites; n += 1) others += power(n, s); // each stands for n and -n
-    return power(0, s) * (sites - 1) <= others;
+    for (let n = 2; n < sites; n += 1) others += 2 * power(n);
+    return power(0) + 2 * power(1) <= others;
   };
-  return tau.find((_, i) => i % every === 0 && hasSpread(i / every)) ?? Infinity;
+  return tau.find((_, i) => i % every === 0 && isLeft(i / every)) ?? Infinity;
 };
 const until = (time) => (time < settings.end_time ? `until τ = ${say(time)}` : "to the end");
 const tell = () => {
@@ -223,9 +253,11 @@ const tell = () => {
   const norms = ["l2", "linf"].map((norm) => `${say(run[norm][0][i])} of A and ${say(run[norm][1][i])} of B`);
   byId("numbers").textContent = `At τ = ${say(now())}: ℓ² norms ${norms[0]}, largest amplitudes ${norms[1]}. `
     + `The energy has changed by ${say(run.energy[i] - run.energy[0])} since τ = 0.`;
-  byId("localised").textContent = until(lifeOf(run));
   byId("tau_said").textContent = `τ = ${say(now())}`;
+  byId("link").href = `#${linkOf()}`;
 };
+const tellLocalised = () => (settings.half_width > 2 ? `The motion stays localised ${until(endOfLocalised(run))}.`
+  : "On so short a chain no motion counts as localised.");
 const tellHorizon = () => {
   if (!isOfPaper()) return "These settings are your own, and nothing is proved of their curves.";
   const known = horizon() === null ? "at no known time" : until(horizon());
@@ -240,10 +272,9 @@ const partingOf = (one, two) => {
   return one.tau.find((_, i) => pairs.some(([p, q], k) => Math.abs(p[i] - q[i]) > limits[k]));
 };
 const perturb = () => {
-  const [changed, size] = [{ ...settings }, Number(`1e${byId("size").value}`)];
-  byId("size_said").textContent = size.toExponential(0);
+  const [changed, size] = [{ ...settings }, Number(byId("perturbation").value)];
   [other, parted] = [null, null];
-  if (byId("perturb").ariaPressed === "false") return "";
+  if (!size) return "";
   for (const part of PARTS) changed[part] *= 1 + size;
   other = solve(changed, steps());
   parted = partingOf(run, other);
@@ -256,30 +287,35 @@ const perturb = () => {
 
 const updateTime = () => {
   tell();
-  drawNorm("l2");
-  drawNorm("linf");
-  const largest = Math.max(...run.modulus.map(largestOf), 1e-300);
-  run.modulus.forEach((half, component) => drawModulus(half, "AB"[component], largest));
+  byId("plots").style.setProperty("--now", now() / settings.end_time);
   const tau = Math.max(now(), 1e-6); // a run has a length
   const toTau = () => solve({ ...settings, end_time: tau }, { output_step: tau, every: 0 });
   ({ state } = tau < settings.end_time ? toTau() : run);
   drawPendula();
 };
+const draw = () => {
+  drawNorm("l2");
+  drawNorm("linf");
+  const largest = Math.max(...run.modulus.map(largestOf), 1e-300);
+  run.modulus.forEach((half, component) => drawModulus(half, "AB"[component], largest));
+  updateTime();
+};
 let asked = false;
+const answer = () => {
+  asked = false;
+  try {
+    run = solve(settings, steps());
+    byId("parted").textContent = `${perturb()} ${tellHorizon()}`;
+    byId("localised").textContent = tellLocalised();
+    draw();
+    byId("fault").textContent = refused.join(" ");
+  } catch (fault) {
+    byId("fault").textContent = fault.message;
+    setPlaying(null);
+  }
+};
 const update = () => {
-  if (!asked) requestAnimationFrame(() => {
-    const start = performance.now();
-    try {
-      run = solve(settings, steps());
-      byId("parted").textContent = `${perturb()} ${tellHorizon()}`;
-      updateTime();
-      byId("fault").textContent = "";
-    } catch (fault) {
-      byId("fault").textContent = fault.message;
-    }
-    asked = false;
-    document.body.dataset.frame = performance.now() - start;
-  });
+  if (!asked) requestAnimationFrame(answer);
   asked = true;
 };
 const moveTo = (tau) => {
@@ -289,19 +325,25 @@ const moveTo = (tau) => {
 
 // --- Play, export, and the start ----------------------------------------------------------------
 
+const isStill = matchMedia("(prefers-reduced-motion: reduce)");
 let last = null; // the time of the picture before, while it plays
+let next; // the picture after
 const setPlaying = (since) => {
   last = since;
+  cancelAnimationFrame(next);
   byId("play").textContent = since === null ? "Play" : "Pause";
   byId("numbers").ariaLive = since === null ? "polite" : "off";
-  if (since !== null) requestAnimationFrame(play);
+  if (since !== null) next = requestAnimationFrame(play);
+};
+const isInSight = (id) => {
+  const { top, bottom } = byId(id).getBoundingClientRect();
+  return bottom > 0 && top < innerHeight;
 };
 const play = (time) => {
-  if (last === null) return;
   const passed = Math.max(0, Math.min((time - last) / 1000, 0.2));
-  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) phase += 2 * Math.PI * passed;
+  if (!isStill.matches) phase += 2 * Math.PI * passed;
   moveTo(now() + passed);
-  setPlaying(now() < settings.end_time ? time : null);
+  setPlaying(now() < settings.end_time && ["pendula", "plots"].some(isInSight) ? time : null);
 };
 const save = (download, text) => {
   made("a", { href: `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`, download }).click();
@@ -318,38 +360,37 @@ const yaml = () => {
   const { output_step, every } = steps();
   Object.assign(keys, { output_step, snapshot_step: output_step * every, solver: data.solver.named });
   const lines = Object.entries(keys).map(([key, value]) => `    ${key}: ${value}`);
-  return ["# .venv/bin/snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
-};
-const reset = () => {
-  setPlaying(null);
-  apply({ ...chosen().settings });
-  byId("tau").value = settings.end_time;
+  return ["# snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
 };
 const begin = async () => {
   solve = await load(data.solver);
-  data.cases.forEach(({ title }) => byId("case").add(new Option(title)));
+  data.cases.forEach(({ title, name }) => byId("case").add(new Option(title, name)));
   const listen = (id, event, act) => byId(id).addEventListener(event, act);
-  for (const key of Object.keys(chosen().settings)) listen(key, "input", () => apply({ ...settings, [key]: taken(key) }));
+  for (const key of Object.keys(chosen().settings)) {
+    listen(key, "input", () => {
+      refused = [];
+      apply({ ...settings, [key]: taken(key) });
+    });
+  }
+  const reset = () => show(`case=${byId("case").value}&perturbation=${byId("perturbation").value}`);
   listen("case", "change", reset);
   listen("reset", "click", reset);
-  listen("tau", "input", () => moveTo(byId("tau").value));
+  document.querySelectorAll("[data-link]").forEach((one) => one.addEventListener("click", () => show(one.dataset.link)));
+  listen("tau", "input", updateTime);
   listen("play", "click", () => {
+    byId("stage").scrollIntoView({ block: "nearest" });
     if (last === null && now() === settings.end_time) moveTo(0);
     setPlaying(last === null ? performance.now() : null);
   });
-  listen("mu", "input", drawPendula);
-  listen("perturb", "click", ({ target }) => {
-    target.ariaPressed = String(target.ariaPressed === "false");
-    update();
-  });
-  listen("size", "input", update);
+  listen("mu", "input", updateTime);
+  listen("perturbation", "input", update);
   listen("compare", "click", compareAll);
   listen("csv", "click", () => save("mine.csv", csv()));
   listen("yaml", "click", () => save("mine.yaml", yaml()));
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", update);
-  const byLink = () => (location.hash === "#same-bits" ? compareAll() : fromLink());
+  const byLink = () => (location.hash === "#same-bits" ? compareAll() : show(location.hash.slice(1)));
   window.addEventListener("hashchange", byLink);
-  reset();
+  show("");
   if (location.hash) byLink();
 };
 begin().catch((fault) => {

@@ -101,6 +101,7 @@ def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
     settings |= {"a_re": a.real, "a_im": a.imag, "b_re": b.real, "b_im": b.imag}
     known = float(np.minimum(trust["horizon"], trust["known_until"]).fillna(0.0))
     return {
+        "name": name,
         "title": f"Fig {name.removeprefix('fig')[0]}: {case_of(trust)}",
         "settings": settings,
         "output_step": float(about["output_step"]),
