@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
+from latticode.equations.ends import ANTIPERIODIC, kind_of
 from latticode.equations.model import Model
 from latticode.simulation import problem
 
@@ -61,6 +62,9 @@ class Problem(problem.Problem):
         super().__post_init__()
         if self.model.name in MODELS:
             require_model(self.model.name, self.mu, self.constants.omega)
+            if kind_of(self.boundary) == ANTIPERIODIC:
+                text = "the paper's equations have no energy and no bounds on this ring"
+                raise ValueError(f"{self.boundary}: {text}; give a model of your own")
 
     @classmethod
     def of(cls, values: Mapping) -> Self:

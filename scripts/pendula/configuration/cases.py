@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from math import inf, sqrt
 from typing import Annotated, Any, Literal
 
-from latticode.equations.ends import ENDS
 from latticode.simulation.feasibility import MOST_STEPS, Obstacle
 from pydantic import BeforeValidator, Field, model_validator
 
@@ -104,7 +103,7 @@ class Case(Model):
     epsilon: Number = 1.0
     gamma: Number = 1.0
     half_width: Natural = 30
-    boundary: Literal[tuple(ENDS)] = "dirichlet"
+    boundary: Literal["dirichlet", "free", "periodic"] = "dirichlet"
     initial: Initial = {0: (1, 0.1)}
     end_time: Positive = 50.0
     output_step: Positive = 0.025

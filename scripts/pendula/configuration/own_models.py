@@ -3,8 +3,9 @@
 import difflib
 from collections.abc import Iterator, Mapping
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
+from latticode.equations.ends import ENDS
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
 from latticode.equations.model_file import at_middle, values_at
@@ -65,6 +66,7 @@ class OwnCase(Case):
     ]
     model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
     parameters: dict[str, Any] = {}
+    boundary: Literal[tuple(ENDS)] = "dirichlet"
 
     @model_validator(mode="before")
     @classmethod

@@ -16,8 +16,7 @@ import re
 
 import numba
 import numpy as np
-from latticode.equations.ends import DIRICHLET
-from latticode.generation.chain import MIRROR
+from latticode.equations.ends import DIRICHLET, MIRROR
 from latticode.kernels.compiled import TESTED
 from latticode.simulation.observables import blank_record
 from llvmlite import binding

@@ -9,7 +9,7 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
-from latticode.generation.chain import MIRROR
+from latticode.equations.ends import MIRROR
 from latticode.integrators import DONE, FAULTS, dop853
 from latticode.kernels.compiled import kernel
 from latticode.numerics.draws import complex_normal

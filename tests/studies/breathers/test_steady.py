@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from latticode.equations.ends import DIRICHLET
-from latticode.generation.chain import MIRROR
+from latticode.equations.ends import DIRICHLET, MIRROR
 from pendula.models.amplitudes import Chain as Ends
 from pendula.models.amplitudes import rates
 from pendula.models.pairs import FAMILIES, pair

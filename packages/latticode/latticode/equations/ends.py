@@ -16,15 +16,16 @@ class Ends(NamedTuple):
     """One kind of ends.
 
     `sees` gives the sites, counted as Python does, whose values stand beyond the first site and
-    beyond the last; nothing where sites at rest stand there. Mode k of N sites has the eigenvalue
-    -4 sin^2(half_angle(k, N)) of the lattice Laplacian, and mode(k, j, N) are its values on the
-    sites j, orthonormal. `label` stands in the titles of figures.
+    beyond the last, each times `factor`; nothing where sites at rest stand there. Mode k of N sites
+    has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian, and mode(k, j, N) are
+    its values on the sites j, orthonormal. `label` stands in the titles of figures.
     """
 
     sees: tuple[int, int] | None
     half_angle: Callable
     mode: Callable
     label: str
+    factor: float = 1.0
 
 
 def _sine(k, j, sites: int):
@@ -42,6 +43,13 @@ def _cosine(k, j, sites: int):
 def _wave(k, j, sites: int):
     # on a ring, cos + sin serves both waves of a pair
     turns = k * j % sites / sites
+    sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
+    return np.sqrt(1 / sites) * (cosine + sine)
+
+
+def _half_wave(k, j, sites: int):
+    # with a half turn more along the ring
+    turns = (2 * k + 1) * j % (2 * sites) / (2 * sites)
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
     return np.sqrt(1 / sites) * (cosine + sine)
 
@@ -65,6 +73,13 @@ ENDS = {
         mode=_wave,
         label="ring",
     ),
+    "antiperiodic": Ends(
+        sees=(-1, 0),
+        half_angle=lambda k, sites: np.pi * (2 * k + 1) / (2 * sites),
+        mode=_half_wave,
+        label="ring with a change of sign",
+        factor=-1.0,
+    ),
 }
 """The kinds of ends that a person can choose, by the name in the configuration."""
 
@@ -76,23 +91,31 @@ def ends_of(boundary: str) -> Ends:
     return ENDS[boundary]
 
 
-DIRICHLET, FREE, PERIODIC = range(3)
-"""What equations and proofs have been taught: a site at rest beyond an end, none, the other end."""
+DIRICHLET, FREE, PERIODIC, MIRROR, ANTIPERIODIC = range(5)
+"""What kernels have been taught: beyond an end is a site at rest, none, or the other end; in the
+middle of an even chain is its other half; of the last kind, the other end with its sign changed."""
 
 
 def kind_of(boundary: str) -> int:
     """Return the kind of the ends of that name; raises ValueError where it is none of the above."""
-    kinds = {None: DIRICHLET, (0, -1): FREE, (-1, 0): PERIODIC}
-    sees = ends_of(boundary).sees
-    if sees not in kinds:
-        raise ValueError(f"the ends {boundary!r} see the sites {sees}, which no equations know yet")
-    return kinds[sees]
+    kinds = {
+        (None, 1.0): DIRICHLET,
+        ((0, -1), 1.0): FREE,
+        ((-1, 0), 1.0): PERIODIC,
+        ((-1, 0), -1.0): ANTIPERIODIC,
+    }
+    ends = ends_of(boundary)
+    if (ends.sees, ends.factor) not in kinds:
+        seen = f"the sites {ends.sees}" + ("" if ends.factor == 1.0 else f", times {ends.factor:g}")
+        raise ValueError(f"the ends {boundary!r} see {seen}, which no equations know yet")
+    return kinds[ends.sees, ends.factor]
 
 
 def neighbours(values: np.ndarray, boundary: str) -> tuple[np.ndarray, np.ndarray]:
     """Return the values to the right and to the left of each site (last axis)."""
     right, left = np.zeros_like(values), np.zeros_like(values)
     right[..., :-1], left[..., 1:] = values[..., 1:], values[..., :-1]
-    if sees := ends_of(boundary).sees:
-        left[..., 0], right[..., -1] = values[..., sees[0]], values[..., sees[1]]
+    ends = ends_of(boundary)
+    if ends.sees:
+        left[..., 0], right[..., -1] = (ends.factor * values[..., place] for place in ends.sees)
     return right, left

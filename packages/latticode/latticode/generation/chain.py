@@ -14,12 +14,9 @@ A `chain` is what a model takes for its parameters, with the kinds of its two en
 `right`.
 """
 
-from latticode.equations.ends import FREE, PERIODIC
+from latticode.equations.ends import ANTIPERIODIC, FREE, MIRROR, PERIODIC
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import LANES, vector_views
-
-MIRROR = 3
-"""The kind of end at the centre of an even chain, beyond which lies its other half."""
 
 
 @kernel
@@ -38,11 +35,15 @@ def close(chain, y):
             y[row, 0] = y[row, n]
         elif chain.left == MIRROR:
             y[row, 0] = y[row, 2]
+        elif chain.left == ANTIPERIODIC:
+            y[row, 0] = -y[row, n]
         y[row, n + 1] = 0.0
         if chain.right == FREE:
             y[row, n + 1] = y[row, n]
         elif chain.right == PERIODIC:
             y[row, n + 1] = y[row, 1]
+        elif chain.right == ANTIPERIODIC:
+            y[row, n + 1] = -y[row, 1]
 
 
 @kernel
@@ -53,9 +54,16 @@ def seen_at(chain, site, sites):
     end = chain.left if site < 0 else chain.right
     if end == FREE:
         return -1 - site if site < 0 else 2 * sites - 1 - site
-    if end == PERIODIC:
+    if end in (PERIODIC, ANTIPERIODIC):
         return site + sites if site < 0 else site - sites
     return -site if end == MIRROR else -1
+
+
+@kernel
+def sign_at(chain, site, sites):
+    """Return the factor of the value that stands at `site`, counted from 0."""
+    outside = site < 0 or site >= sites
+    return -1.0 if outside and chain.left == ANTIPERIODIC else 1.0
 
 
 @kernel
@@ -66,7 +74,8 @@ def widen(chain, y, wide):
     for row in range(y.shape[0]):
         for j in range(wide.shape[1]):
             site = seen_at(chain, j - reach, sites)
-            wide[row, j] = y[row, 1 + site] if site >= 0 else 0.0
+            sign = sign_at(chain, j - reach, sites)
+            wide[row, j] = sign * y[row, 1 + site] if site >= 0 else 0.0
 
 
 @inlined_by_llvm
@@ -78,7 +87,7 @@ def modulus2(y, re, j):
 @kernel
 def can_be_tiled(chain):
     """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""
-    return chain.left != PERIODIC
+    return chain.left != PERIODIC and chain.left != ANTIPERIODIC
 
 
 def at_every_site(rule, rows=2):

@@ -8,7 +8,7 @@ neighbours are summed as in the right-hand sides, and so half of an even chain h
 whole.
 """
 
-from latticode.equations.ends import PERIODIC
+from latticode.equations.ends import ANTIPERIODIC, PERIODIC
 from latticode.integrators.taylor import (
     BLOCK_SIZE,
     LEFT,
@@ -23,7 +23,7 @@ from latticode.integrators.taylor import (
 from latticode.kernels.compiled import inlined_by_llvm, uncached
 from latticode.kernels.simd import LANES, fill, keep_lanes, load, store
 
-from .chain import seen_at
+from .chain import seen_at, sign_at
 
 # --- The ends of the chain: `close` of `chain`, one order at a time ------------------------
 # The padding of a last block holds what its ghost holds, in every order: so it never exceeds what
@@ -46,13 +46,14 @@ def close_ends(reach):
         for i in range(reach):
             after_end = place_of(chain, series, before * LANES + kept + i)
             before_start = place_of(chain, series, -1 - i)
+            sign = sign_at(chain, -1, 1)  # of what stands beyond both ends
             for component in range(series.components):
                 ghosts = ghosts_start(series, component)
                 for part in range(X, Y + 1, Y - X):
                     start = block_start(series, component, 0) + k * ORDER_STRIDE + part
                     last = start + before * BLOCK_SIZE
                     if at_right:
-                        value = m[start + after_end] if after_end >= 0 else 0.0
+                        value = sign * m[start + after_end] if after_end >= 0 else 0.0
                         if i == 0:
                             store(m, last, keep_lanes(load(m, last), kept, value))
                             store(m, ghosts + RIGHT + part, fill(value))
@@ -61,7 +62,7 @@ def close_ends(reach):
                         else:
                             m[ghosts + RIGHT + part + kept + i - LANES] = value
                     if at_left:
-                        value = m[start + before_start] if before_start >= 0 else 0.0
+                        value = sign * m[start + before_start] if before_start >= 0 else 0.0
                         if i == 0:  # at once: a vector is read sooner if it is written as one
                             store(m, ghosts + LEFT + part, fill(value))
                         else:
@@ -110,7 +111,7 @@ def in_waves(write_next_order, reach):
         """
         blocks = series.blocks
         # a ring has no side to start from
-        at_once = blocks <= CACHED_BLOCKS or chain.left == PERIODIC
+        at_once = blocks <= CACHED_BLOCKS or chain.left in (PERIODIC, ANTIPERIODIC)
         group = blocks if at_once else GROUP
         groups = (blocks + group - 1) // group
         for wave in range(groups + ORDER):

@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from latticode.equations.ends import FREE, PERIODIC, kind_of
-from latticode.generation.chain import MIRROR
+from latticode.equations.ends import FREE, MIRROR, PERIODIC, kind_of
 
 CACHE_LINE = 64
 """Bytes of a line of the cache."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from latticode.equations.ends import PERIODIC, ends_of, kind_of
+from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import evaluate
 from latticode.equations.model import Model
 from latticode.equations.model_file import values_at
@@ -24,6 +24,18 @@ from .problem import Problem
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
+
+
+def beyond_ends(values: np.ndarray, margin: int, boundary: str) -> np.ndarray:
+    """Return values (..., site, snapshot) with so many more at each end, as the ends see them."""
+    ends = ends_of(boundary)
+    margins = [(0, 0)] * (values.ndim - 2) + [(margin,) * 2, (0, 0)]
+    wide = np.pad(values, margins, PADDING[ends.sees])
+    wide[..., :margin, :] *= ends.factor
+    wide[..., wide.shape[-2] - margin :, :] *= ends.factor
+    return wide
+
+
 EXPLICIT = ("rtol", "atol")
 SOLVERS = {
     "taylor": ("continue_series", EXPLICIT, None),  # the generated module has its number
@@ -103,6 +115,7 @@ def find_reduction_of(problem: Problem) -> Reduction:
     It has where data, equations and parameters are the same with left and right exchanged.
     """
     alike = problem.model.even and not site_dependent(problem)
+    alike = alike and kind_of(problem.boundary) != ANTIPERIODIC  # its far half has another sign
     even = alike and problem.half_width >= 2 * problem.model.reach
     return Reduction(even and find_reduction(problem.amplitudes).even, synchronised=False)
 
@@ -142,8 +155,7 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
     reach = max((density.reach for density in densities.values()), default=0)
     sees = ends_of(problem.boundary).sees
     margin = reach if sees is None else 0
-    wide = [(0, 0), (0, 0), (margin + reach, margin + reach), (0, 0)]
-    padded = np.pad(snapshots, wide, PADDING[sees])
+    padded = beyond_ends(snapshots, margin + reach, problem.boundary)
     count = snapshots.shape[2] + 2 * margin
 
     def leaf(one):
@@ -165,7 +177,7 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
     """Return the values at the sites n + by; beyond an end that of the last site, or of a ring."""
     places = np.arange(values.size) + by
-    if kind_of(boundary) == PERIODIC:
+    if kind_of(boundary) in (PERIODIC, ANTIPERIODIC):
         return values[places % values.size]
     return values[np.clip(places, 0, values.size - 1)]
 
