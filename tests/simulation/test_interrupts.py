@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from helpers import HANGS, wait_for
 from latticode.integrators import INTERRUPTED
+from latticode.localised import tangents
 from latticode.simulation import simulate as simulation
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import WHOLE, aligned, pack
 from latticode.simulation.observables import blank_record
 from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import SOLVERS as CONTROLS
-from pendula.models import tangents
 from pendula.models.integrations import make_chain
 from pendula.models.solvers import SOLVERS
 from pendula.studies.unbounded import active_sites

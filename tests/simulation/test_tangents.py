@@ -4,19 +4,16 @@ import hashlib
 
 import numpy as np
 import pytest
+from latticode.localised.tangents import grow
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unpack
-from latticode.simulation.simulate import simulate
 from oracle import BOUNDARIES, random_chain, slope
-from pendula.models.amplitudes import Chain
+from pendula.models.amplitudes import Chain, tangent_rates
 from pendula.models.linear_chain import finite_rate
-from pendula.models.tangent import ROWS, tangent_rates
-from pendula.models.tangents import grow, orthonormalise
 from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)
 WHOLE = Reduction(even=False, synchronised=False)
 HALF = Reduction(even=True, synchronised=False)
-DOP853 = {"name": "dop853", "rtol": 1e-12, "atol": 1e-14}
 
 
 def tangent_rate(z, vector, boundary, reduction=WHOLE):
@@ -58,30 +55,6 @@ def test_at_rest_a_vector_grows_as_lemma_1_says(omega):
     growth = grow(problem_from(rest, (1.0, 1.0, omega)), vector, 60.0)
     rate = (growth.log_growth[0, -1] - growth.log_growth[0, 160]) / 20.0
     assert rate == pytest.approx(finite_rate(omega, 1.0, 1.0, 7, "dirichlet"), rel=2e-3)
-
-
-def test_a_vector_grows_like_the_distance_of_two_solutions():
-    z, vector, h = random_chain(3), random_chain(3, seed=4), 1e-6
-    vector /= np.linalg.norm(vector)
-    problem = problem_from(z, CONSTANTS, end_time=2.0, output_step=2.0, solver=DOP853)
-    ends = [simulate(problem.changed(initial=z + s * vector)).final for s in (h, -h)]
-    distance = np.linalg.norm(ends[0] - ends[1]) / (2 * h)
-    growth = grow(problem, vector[None], 2.0, tolerance=1e-11)
-    assert growth.log_growth[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
-    both = np.linalg.norm((ends[0] + ends[1]) / 2)
-    assert growth.size[-1] == pytest.approx(both, rel=1e-9)
-
-
-def test_orthonormalising_measures_what_a_qr_decomposition_does():
-    states = np.array([pack(random_chain(2, seed=seed), WHOLE) for seed in range(4)])
-    bundle, lengths = np.concatenate(states), np.empty(3)
-    chain = Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", WHOLE))
-    orthonormalise(chain, bundle, lengths)
-    vectors = states[1:, :, 1:-1].reshape(3, -1).T
-    expected = np.abs(np.diag(np.linalg.qr(vectors)[1]))
-    np.testing.assert_allclose(lengths, expected, rtol=1e-12)
-    after = bundle.reshape(4, ROWS, -1)[1:, :, 1:-1].reshape(3, -1)
-    np.testing.assert_allclose(after @ after.T, np.eye(3), atol=1e-14)
 
 
 HASH = "669dfa1c71eb6f7b"

@@ -34,7 +34,7 @@ def test_figures_claims_checks_and_tangent_equations_rerun_alone(full_run, clone
     """What was observed and what algebra proves have no part in what checks do: checks.py."""
     for module in ("paper/chain_figure", "paper/claims_norms", "theory/figures", "theory/checks"):
         change(clone / f"scripts/pendula/studies/{module}.py")
-    change(clone / "scripts/pendula/models/tangent.py")
+    change(clone / "packages/latticode/latticode/localised/tangents.py")
     jobs = planned(clone, full_run)
     assert jobs.keys() & MEASURES == {"measure_lyapunov"} and not jobs.keys() & SIMULATIONS
     checks = {one for one in jobs if one.startswith("check_")}

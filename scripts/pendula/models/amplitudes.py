@@ -102,6 +102,19 @@ def rates(chain, y, dy):
     write_rates(chain, (y,), dy)
 
 
+write_tangent_rates = at_every_site(load_rule(EQUATIONS.tangent().rates[4:], "y", "w"))
+
+
+@kernel
+def tangent_rates(chain, y, w, dw):
+    """Write the rate of `w`, a small perturbation of the state `y`, into `dw` (all of one shape).
+
+    The ghosts of `y` must be filled.
+    """
+    close(chain, w)
+    write_tangent_rates(chain, (y, w), dw)
+
+
 write_midpoint_rates = at_every_site(
     load_rule(traced(mean_i_dt, 3).rates[8:], "old", "new", "mean")
 )

@@ -29,8 +29,7 @@ from latticode.generation.chain import at_every_site
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 
 from . import amplitudes
-from .amplitudes import Chain, modulus2
-from .tangent import tangent_rates
+from .amplitudes import Chain, modulus2, tangent_rates
 
 
 class Expansion(NamedTuple):

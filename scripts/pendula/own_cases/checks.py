@@ -15,7 +15,7 @@ import xarray as xr
 from latticode.datasets.checks import table, variable
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
-from latticode.integrators import DONE, FAULTS
+from latticode.localised.tangents import STEP, Growth, grow, random_tangent
 from latticode.measures.difference import NORMS, at_times, difference, divergence_time
 from latticode.measures.growth import (
     ROUNDING,
@@ -29,9 +29,7 @@ from latticode.measures.norms import power_of
 from latticode.numerics.elementary import log, modulus, product, square_modulus
 from latticode.numerics.quadrature import gauss_legendre
 from latticode.simulation.feasibility import SMALLEST_ERROR
-from latticode.simulation.interrupts import interruptible
-from latticode.simulation.lattice import WHOLE, find_reduction
-from latticode.simulation.problem import on_sites, output_times, place, read_initial
+from latticode.simulation.problem import on_sites, place, read_initial
 from latticode.simulation.simulate import IntegrationError, simulate
 from latticode.simulation.systems import integration_of
 
@@ -39,7 +37,6 @@ from pendula.configuration.cost import TIGHTEST, other_than
 from pendula.models.bounds import best_bound, growth_margin
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
-from pendula.models.tangents import STEP, TOLERANCE, Growth, grow, random_tangent
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.equations import run as run_on
@@ -103,48 +100,16 @@ FEWEST_STEPS, SEED = 64, 20170817
 
 def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
-    even = bool(find_reduction(problem.amplitudes).even)
-    tangent = random_tangent(problem.sites, np.random.default_rng(SEED), even)
+    even, rng = integration_of(problem).find_reduction(problem).even, np.random.default_rng(SEED)
+    tangent = random_tangent(problem.sites, rng, even, len(problem.model.fields))
     step = min(STEP, problem.end_time / FEWEST_STEPS)
     return grow(problem, tangent[None], problem.end_time, even, step)
-
-
-def follow_own(problem: Problem) -> Growth:
-    """Return the growth of a random small perturbation, by the derivative of the traced equations.
-
-    It is integrated beside the solution and made of unit length again at equal steps. Raises
-    IntegrationError where dop853 gives up.
-    """
-    shape = problem.amplitudes.shape
-    drawn = np.random.default_rng(SEED).normal(size=(2, *shape))
-    both = np.concatenate([problem.amplitudes, drawn[0] + 1j * drawn[1]])
-    solver = {"name": "dop853", "rtol": TOLERANCE, "atol": TOLERANCE}
-    tangent = problem.model.tangent()
-    twin = problem.changed(model=tangent, initial=both, snapshot_every=0, solver=solver)
-    model = integration_of(twin)
-    system, y, method = model.system(twin, WHOLE), model.start(twin, WHOLE), model.solvers["dop853"]
-    tau = output_times(problem.end_time, min(STEP, problem.end_time / FEWEST_STEPS))
-    work, record = method.room_for(system, y), model.record(len(both), shape[1], 2, 0)
-    controls = (TOLERANCE, TOLERANCE)
-    solution, change = y[: 2 * shape[0]], y[2 * shape[0] :]
-    lengths, sizes = np.ones(tau.size), np.empty(tau.size)
-    for i in range(tau.size):
-        if i > 0:
-            given = (system, y, tau[i - 1 : i + 1], controls, work, record)
-            outcome = interruptible(method.run, *given)
-            if outcome.status != DONE:
-                raise IntegrationError(f"it could not be followed: {FAULTS[outcome.status]}")
-        length = np.sqrt(np.sum(change[:, 1:-1] ** 2))
-        lengths[i] = length if i > 0 else 1.0
-        change /= length
-        sizes[i] = np.sqrt(np.sum(solution[:, 1:-1] ** 2))
-    return Growth(tau, log(lengths).cumsum()[None], sizes)
 
 
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
     """Return the rate at which tangent vectors grow, whether that is chaos, and when digits end."""
     try:
-        growth = (follow if problem.model.name == AMPLITUDES else follow_own)(problem)
+        growth = follow(problem)
     except IntegrationError as error:
         return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
     tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size

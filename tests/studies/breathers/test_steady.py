@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from latticode.equations.ends import DIRICHLET, MIRROR
 from pendula.models.amplitudes import Chain as Ends
-from pendula.models.amplitudes import rates
+from pendula.models.amplitudes import rates, tangent_rates
 from pendula.models.pairs import FAMILIES, pair
-from pendula.models.tangent import tangent_rates
 from pendula.studies.breathers import steady
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES

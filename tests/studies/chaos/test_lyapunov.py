@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
+from latticode.localised.tangents import grow, random_tangent
 from latticode.measures.growth import mean_rate, mean_rate_error
 from latticode.simulation.ensembles import draw_members
-from pendula.models.tangents import grow, random_tangent
 from pendula.studies.chaos import lyapunov
 from problems import problem_of
 

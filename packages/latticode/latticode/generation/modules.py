@@ -14,19 +14,21 @@ from latticode.equations.model import Model
 from latticode.kernels.cache import keep_source
 
 from . import toolbox
-from .rate_rules import Rule, rates_text, rule_text
+from .rate_rules import Rule, rates_text, rule_text, tangents_text
 from .series_graph import with_carried
 from .series_rules import Series
 from .statements import Names, Parts, affine, parts_of
 
 HEAD = f"from {toolbox.__name__} import *\n"
-CLOCKS = """
+AT_TIME = """
 @kernel
 def at_time(system, t):
 {now}
     clocks = ({values})
     others = system.at, system.wide, system.left, system.right
     return System(system.constants, clocks, *others)
+"""
+CLOCKS = """
 @inlined_by_llvm
 def write_clocks(system, m, d):
 {series}
@@ -51,21 +53,30 @@ def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> P
     return parts_of([*rates, *(one for pair in found for one in pair)], site_dependent)
 
 
-def clocks_text(parts: Parts, names: Names) -> str:
-    """Return the functions that know the time: `at_time`, and the series of its functions."""
-    now, series, count = [], [], len(parts.clocks)
+def at_time_text(parts: Parts, names: Names) -> str:
+    """Return the function `at_time`, which puts the functions of the time into a system."""
+    now, count = [], len(parts.clocks)
     for i, clock in enumerate(parts.clocks):
-        speed, value = "0.0", "t, 1.0"
+        value = "t, 1.0"
         if clock.operation != "time":
             speed, phase = map(names.constant, affine(clock.operands[0]))
             now.append(f"    sine, cosine = sine_and_cosine({speed} * t + {phase})")
             pairs = {"sin": f"sine, {speed} * cosine", "cos": f"cosine, -({speed} * sine)"}
             value = pairs[clock.operation]
         now.append(f"    k{i}, l{i} = {value}")
-        series.append(CLOCK_SERIES.format(value=i, slope=count + i, speed=speed))
     values = "".join(f"{x}{i}, " for x in "kl" for i in range(count))
-    steps = "\n".join(series) or "    pass"
-    return CLOCKS.format(now="\n".join(now), values=values, series=steps)
+    return AT_TIME.format(now="\n".join(now), values=values)
+
+
+def clocks_text(parts: Parts, names: Names) -> str:
+    """Return the functions that continue the functions of the time as power series."""
+    series, count = [], len(parts.clocks)
+    for i, clock in enumerate(parts.clocks):
+        speed = "0.0"
+        if clock.operation != "time":
+            speed = names.constant(affine(clock.operands[0])[0])
+        series.append(CLOCK_SERIES.format(value=i, slope=count + i, speed=speed))
+    return CLOCKS.format(series="\n".join(series) or "    pass")
 
 
 def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
@@ -76,8 +87,16 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
         HEAD,
         rates_text(rates, names, reach),
         Series(rates, names, site_dependent).text(reach),
+        at_time_text(parts, names),
         clocks_text(parts, names),
     ])  # fmt: skip
+
+
+def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
+    """Return the text of the module with the rates of a solution and its tangent vectors."""
+    parts = parts_of_rates(tangent.rates, site_dependent)
+    names = Names(parts)
+    return "".join([HEAD, tangents_text(tangent, names), at_time_text(parts, names)])
 
 
 def load_series(model: Model) -> ModuleType:

@@ -6,13 +6,14 @@ Every node of the graph is a statement, in the order of the trace.
 from collections.abc import Callable
 
 from latticode.equations.graph import MOTION, Node, in_order
+from latticode.equations.model import Model
 from latticode.equations.symbols import ModelError
 
 from .statements import Code, Names, parts_of, require_alike
 
 RULE = """
 @inlined_by_llvm
-def rates_at_site(system, states, re, j, dy):
+def {name}_at_site(system, states, re, j, dy):
     {given}
 {statements}
 """
@@ -22,6 +23,17 @@ write_rates = at_every_site(rates_at_site, {rows})
 def rates(system, y, dy):
     {prepare}
     write_rates(system, ({states},), dy)
+"""
+TANGENT_RATES = """
+write_tangent_rates = at_every_site(tangent_rates_at_site, {rows})
+@kernel
+def bundle_rates(system, bundle, slopes):
+    y = bundle[:{rows}]
+    rates(system, y, slopes[:{rows}])
+    for first in range({rows}, bundle.shape[0], {rows}):
+        w = bundle[first : first + {rows}]
+        {prepare}
+        write_tangent_rates(system, ({states},), slopes[first : first + {rows}])
 """
 
 
@@ -92,20 +104,50 @@ class Rule:
 
 def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
     """Return the functions that write the rates of a state, one row of it for each of `rates`."""
-    offset = reach - 1
+    wide, at = reach > 1, bool(names.at_sites)
+    rule = _rule_of_rows("rates", rates, names, reach, ("y",))
+    return rule + RATES.format(
+        rows=len(rates),
+        prepare="widen(system, y, system.wide)" if wide else "close(system, y)",
+        states=("system.wide" if wide else "y") + ", system.at" * at,
+    )
+
+
+def tangents_text(tangent: Model, names: Names) -> str:
+    """Return the functions that write the rates of a bundle: of a solution and its tangent vectors.
+
+    All have as many rows as the solution, and lie one after the other. `tangent` is what
+    `Model.tangent` returns, with whose rates a system is made.
+    """
+    rows = len(tangent.rates) // 2
+    wide, at = tangent.reach > 1, bool(names.at_sites)
+    rule = _rule_of_rows("tangent_rates", tangent.rates[rows:], names, tangent.reach, ("y", "w"))
+    states = f"system.wide[:{rows}], system.wide[{rows}:]" if wide else "y, w"
+    return (
+        rates_text(tangent.rates[:rows], names, tangent.reach)
+        + rule
+        + TANGENT_RATES.format(
+            rows=rows,
+            prepare=f"widen(system, w, system.wide[{rows}:])" if wide else "close(system, w)",
+            states=states + ", system.at" * at,
+        )
+    )
+
+
+def _rule_of_rows(
+    name: str, rates: tuple[Node, ...], names: Names, reach: int, states: tuple[str, ...]
+) -> str:
+    """Return the rule that writes all rates at a site; each of `states` has as many rows."""
+    offset, fields = reach - 1, len(rates) // 2
 
     def place(component: int, part: int, by: int) -> str:
         by += offset
-        return f"y[{2 * component + part}, j{f' {by:+d}' if by else ''}]"
+        state, row = states[component // fields], 2 * (component % fields) + part
+        return f"{state}[{row}, j{f' {by:+d}' if by else ''}]"
 
-    rows = [str(row) for row in range(len(rates))]
-    statements = Rule(names, place).write(rows, rates)
-    given = "y, at = states[0], states[1]" if names.at_sites else "y = states[0]"
-    states = ("system.wide" if reach > 1 else "y") + (", system.at" * bool(names.at_sites))
-    prepare = "widen(system, y, system.wide)" if reach > 1 else "close(system, y)"
-    return RULE.format(given=given, statements=statements) + RATES.format(
-        rows=len(rows), prepare=prepare, states=states
-    )
+    statements = Rule(names, place).write([str(row) for row in range(len(rates))], rates)
+    given = ", ".join([*states, *["at"] * bool(names.at_sites)])
+    return RULE.format(name=name, given=f"{given}, = states", statements=statements)
 
 
 def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
@@ -125,4 +167,4 @@ def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
     statements = Rule(names, place).write(rows[0], rates[:2])
     other = f"other = {states[0]}.shape[0] - 2 - re"
     given = f"{', '.join(states)}, = states\n    {other}"
-    return RULE.format(given=given, statements=statements)
+    return RULE.format(name="rates", given=given, statements=statements)

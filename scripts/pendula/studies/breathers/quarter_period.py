@@ -12,8 +12,7 @@ from latticode.integrators.dop853 import combine
 from latticode.kernels.compiled import copy, kernel
 from latticode.simulation.lattice import aligned
 
-from pendula.models.amplitudes import Chain, rates
-from pendula.models.tangent import ROWS, write_tangent_rates
+from pendula.models.amplitudes import Chain, rates, write_tangent_rates
 from pendula.problem import Constants
 
 STEPS, FINE_STEPS = 16, 40
@@ -22,6 +21,8 @@ same to 1e-10 with twice as many. With the others, the period of a solution clos
 TOGETHER = 64
 """Tangent vectors that are carried at once: so many have their slopes in the cache."""
 STAGES, SLOPES = 13, 16
+ROWS = 4
+"""Rows of one state: Re A, Im A, Re B, Im B."""
 
 
 @kernel

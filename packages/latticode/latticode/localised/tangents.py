@@ -1,0 +1,89 @@
+"""How small perturbations of a solution grow, of any traced model: the way to Lyapunov exponents.
+
+Solution and tangent vectors are integrated together, by the derivative of the traced equations (see
+`bundles`).
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from latticode.equations.model import Model
+from latticode.generation.modules import load_text, tangents_module_text
+from latticode.integrators import DONE, FAULTS, dop853
+from latticode.numerics.draws import complex_normal
+from latticode.numerics.elementary import log
+from latticode.simulation.interrupts import interruptible
+from latticode.simulation.lattice import Reduction, aligned, pack
+from latticode.simulation.problem import Problem, output_times
+from latticode.simulation.simulate import IntegrationError
+from latticode.simulation.systems import integration_of, make_system, site_dependent
+
+from .bundles import orthonormalise, size_of_solution
+
+STEP = 0.25
+"""Units of tau between orthonormalisations: on the paper's chains nothing grows by more than a
+factor of e in one."""
+TOLERANCE = 1e-9
+CARRY = """
+from latticode.localised import bundles
+carry_bundle = bundles.build(bundle_rates{time})
+@kernel
+def carry(system, bundle, times, controls, work, record, lengths, sizes, stop):
+    return carry_bundle(system, bundle, times, controls, work, record, lengths, sizes, stop)
+"""
+
+
+class Growth(NamedTuple):
+    """How tangent vectors have grown; logarithms are natural ones."""
+
+    tau: np.ndarray  # (time,)
+    log_growth: np.ndarray  # (vector, time), logarithm of the growth since tau = 0
+    size: np.ndarray  # (time,), l2 norm of the solution itself
+
+
+@cache
+def kernels_of_tangents(model: Model, site_dependent: frozenset[str]):
+    """Return the generated module that carries solutions of a model with tangent vectors."""
+    carry = CARRY.format(time=", at_time" if model.driven else "")
+    return load_text(tangents_module_text(model.tangent(), site_dependent) + carry)
+
+
+def random_tangent(
+    sites: int, rng: np.random.Generator, even: bool = False, fields: int = 2
+) -> np.ndarray:
+    """Return complex Gaussian fields (field, N), even in n to the last bit if that is wanted."""
+    z = complex_normal(rng, (fields, sites))
+    return z + z[:, ::-1] if even else z
+
+
+def grow(
+    problem: Problem,
+    tangents: np.ndarray,
+    end_time: float,
+    even: bool = False,
+    step: float = STEP,
+    tolerance: float = TOLERANCE,
+) -> Growth:
+    """Carry `tangents` (vector, field, N), perturbations of a problem's data, with its solution.
+
+    They must be linearly independent; their imaginary parts are those of the fields, or rates of
+    real ones. `even` integrates half of a chain on which all are even. Raises IntegrationError
+    where dop853 gives up.
+    """
+    cut, count = Reduction(even, synchronised=False), len(tangents)
+    model, at_rest = problem.model.tangent(), np.zeros((2 * tangents.shape[1], 1))
+    system = make_system(problem.changed(model=model, initial=at_rest), cut)
+    start = integration_of(problem).start(problem, cut)
+    bundle = np.concatenate([start, *(pack(one, cut) for one in tangents)])
+    tau = output_times(end_time, step)
+    lengths, sizes = np.empty((tau.size, count)), np.empty(tau.size)
+    orthonormalise(system, bundle, lengths[0])
+    lengths[0], sizes[0] = 1.0, size_of_solution(system, bundle, count)
+    carry = kernels_of_tangents(problem.model, site_dependent(problem)).carry
+    given = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)
+    status = interruptible(carry, system, bundle, tau, *given, lengths[1:], sizes[1:])
+    if status != DONE:
+        raise IntegrationError(f"the motion could not be followed: {FAULTS[status]}")
+    return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)
