@@ -1,7 +1,8 @@
 """The process that imports modules and forks a child for each job: `server.py SOCKET MODULE...`.
 
 It imports while nobody asks; a job that comes earlier imports for itself what is not there yet.
-Only the first job waits for one module, which it and those beside it would else import each.
+Only the first job waits for one module, which it and those beside it would else import each. The
+rest is imported once a job has ended, because a run may have no more.
 """
 
 import atexit
@@ -34,7 +35,7 @@ class Server:
         """Listen at `control`, and import `modules` meanwhile."""
         self.control, self.modules = control, modules
         self.jobs: dict[int, socket.socket] = {}
-        self.begun = False
+        self.begun, self.ended = False, False
         signal.signal(signal.SIGCHLD, self.bury)
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # a job hears it in its script
 
@@ -60,9 +61,13 @@ class Server:
         os.killpg(0, signal.SIGKILL)
 
     def can_prepare(self) -> bool:
-        """Return whether to import: the workflow may not yet have told where the next module is."""
+        """Return whether to import: the workflow may not yet have told where the next module is.
+
+        Once it has begun, only a run of more jobs than its first ones gains by further imports.
+        """
         name = self.modules[0].partition(".")[0] if self.modules else ""
-        return bool(name) and (self.begun or importlib.util.find_spec(name) is not None)
+        may = self.ended if self.begun else name and importlib.util.find_spec(name)
+        return bool(name and may)
 
     def begin(self, path: str) -> None:
         """Look for modules in these folders first; start anew if imported ones would be others."""
@@ -115,6 +120,7 @@ class Server:
             with suppress(OSError):  # this was called while it was at work, or Snakemake is gone
                 ended, status = os.waitpid(pid, os.WNOHANG)
                 if ended:
+                    self.ended = True
                     with self.jobs.pop(pid) as asked:
                         asked.sendall(str(os.waitstatus_to_exitcode(status)).encode())
 
