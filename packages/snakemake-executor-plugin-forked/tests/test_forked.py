@@ -89,6 +89,12 @@ def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder, sets, modules):
     assert others == json.loads((folder / "b.json").read_text())[1:] == [True, "lett"]
 
 
+def test_a_dry_run_imports_nothing(folder):
+    (folder.parent / "told.py").write_text("print('imported')")
+    assert run(folder, "a.json", "--dry-run", modules="told")[1].count("imported") == 0
+    assert run(folder, "a.json", modules="told")[1].count("imported") == 1
+
+
 def test_a_benchmark_measures_the_job(folder):
     assert run(folder, "measured.txt")[0] == 0
     names, values = (line.split() for line in (folder / "measured.tsv").read_text().splitlines())
