@@ -3,9 +3,10 @@
 import numpy as np
 import xarray as xr
 from latticode.datasets.registry import SOLVER_NAMES
+from latticode.drawing import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from pendula.drawing import style
+from pendula.drawing import name_case
 
 ACCURACY = ["accuracy", "seconds", "error", "title", "horizon", "target", "omega", "initial"]
 RATIOS = ["ratio", "ratio_least", "ratio_most"]
@@ -65,7 +66,7 @@ def _draw_case(axes: Axes, case: xr.Dataset) -> None:
     axes.set_yscale("log")
     axes.set_xlim(right=1.0)
     axes.set_xlabel(rf"error of an amplitude at $\tau = {float(case['horizon']):g}$")
-    axes.set_title(style.name_case(case), loc="left")
+    axes.set_title(name_case(case), loc="left")
 
 
 def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
@@ -76,7 +77,7 @@ def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
         case = data.isel(case=i)
         ratio, least, most = (case[name].values for name in RATIOS)
         spread = np.nan_to_num([ratio - least, most - ratio])
-        look = look | {"linestyle": "none", "elinewidth": 0.8, "label": style.name_case(case)}
+        look = look | {"linestyle": "none", "elinewidth": 0.8, "label": name_case(case)}
         axes.errorbar(ratio, rows + 0.15 - 0.3 * i, xerr=spread, **look)
     axes.axvline(1.0, color="0.45", lw=0.8)
     titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))

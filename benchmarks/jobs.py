@@ -7,8 +7,8 @@ from functools import partial
 import xarray as xr
 from latticode.datasets.netcdf import read, write
 from latticode.datasets.trajectories import Contents
+from latticode.drawing.style import save
 from latticode.kernels.sources import describe_machine
-from pendula.drawing.style import save
 from pendula.problem import Problem, by_name
 from pendula.report.words import number, write_markdown
 

@@ -7,7 +7,8 @@ import pendula.names  # noqa: F401, so that datasets have the paper's words
 from job import arguments, called, datasets_in, name_of, run
 from latticode.datasets.netcdf import read
 from latticode.datasets.stated import stated
-from pendula.drawing.style import save
+from latticode.drawing.style import save
+from pendula.configuration.paper import in_short
 
 KINDS = 4
 """A figure is so many files: PNG, PDF, data, description."""
@@ -33,7 +34,11 @@ def draw(snakemake) -> None:
         given.setdefault(topic.lstrip("_"), drawn)
         names = [name_of(path) for name in wanted & files.keys() for path in files[name]]
         shown = drawn.assign_attrs(stated({}, (), sorted(names), function))
-        save(function(drawn), shown, *paths[KINDS * number : KINDS * (number + 1)], differs)
+        note = f"Not the paper's: {in_short(differs)}" if differs else ""
+        if differs:
+            words = f"the configuration differs in {', '.join(differs)}"
+            shown = shown.assign_attrs(comment=words)
+        save(function(drawn), shown, *paths[KINDS * number : KINDS * (number + 1)], note)
 
 
 def _taken(value):

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 from latticode.datasets import DatasetError, complete_or_absent
 from latticode.datasets.netcdf import Variable, write
-from pendula.drawing.style import new_figure, save
+from latticode.drawing.style import new_figure, save
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.json_files import write_json
 from latticode.datasets.netcdf import save
+from latticode.drawing import style
 from matplotlib.figure import Figure
-from pendula.drawing import style
 
 TAU, HORIZON, M = np.linspace(0, 50, 401), 9.0, np.arange(5.0, 45.0, 5.0)
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"
@@ -81,7 +81,7 @@ def draw(data: xr.Dataset, colours="AB", panels=2, label=r"$\ell^2$ norm", limit
     for axes in figure.subplots(1, panels, squeeze=False)[0]:
         for component, colour in zip("AB", colours, strict=True):
             curve = data["l2"].sel(component=component)
-            axes.plot(TAU, curve, color=style.COLOURS[colour], label=f"${component}$")
+            axes.plot(TAU, curve, color=style.colour_of("AB".index(colour)), label=f"${component}$")
         axes.set(xlabel=r"$\tau$", ylabel=label, xlim=(0, 50), ylim=(0, limit))
         axes.set_title("some case", loc="left")
     style.name_legend(figure, figure.axes[0])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.drawing import style
+from latticode.drawing import style
 from pendula.own_cases import figures
 
 

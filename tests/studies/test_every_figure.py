@@ -12,13 +12,13 @@ import xarray as xr
 from accepted import BASELINE, changed, check_words, dataset, datasets, differing, wrong_changes
 from accepted_figures import FIGURES
 from latticode.datasets.netcdf import read, save
+from latticode.drawing import style
+from latticode.drawing.description import describe
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from matplotlib.text import Text
 from pendula.article import write
-from pendula.drawing import style
-from pendula.drawing.description import describe
 from pendula.own_cases import figures as own
 from pendula.studies.breathers.figures import LOOKS
 

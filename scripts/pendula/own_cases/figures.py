@@ -7,6 +7,8 @@ from textwrap import shorten
 import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import read, save
+from latticode.drawing import panels, strips, style
+from latticode.drawing.strips import NORMS, Strip
 from latticode.equations.ends import ends_of
 from latticode.measures.difference import VISIBLE
 from latticode.simulation.problem import read_initial
@@ -14,8 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from pendula.drawing import panels, strips, style
-from pendula.drawing.strips import NORMS, Strip
+from pendula.drawing import name_initial
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA
 
@@ -73,7 +74,7 @@ def name_data(attributes: Mapping) -> str:
     if "model_text" in attributes:
         count = len(read_initial(attributes["initial"]))
         return f"data on {count} site{'s' * (count > 1)}"
-    named = style.name_initial(attributes["initial"])
+    named = name_initial(attributes["initial"])
     return named if len(named) <= LONGEST else "data on 1 site"
 
 
@@ -154,7 +155,7 @@ def draw_breather(data: xr.Dataset) -> Figure:
         return figure
     left, right = figure.subplots(1, 2)
     for i, one in enumerate(data["component"].values):
-        look = {"color": style.COLOURS.get(one, f"C{i}"), "marker": ".", "label": f"${one}$"}
+        look = {"color": style.colour_of(i), "marker": ".", "label": f"${one}$"}
         left.plot(data["site"], data["breather"].sel(component=one), **look)
     left.set(xlabel="site $n$", ylabel="modulus", ylim=(0, None))
     left.xaxis.get_major_locator().set_params(integer=True)
@@ -180,7 +181,8 @@ def gather_sweep(
     """
     first = str(sweep["window"].values[0])
     windows = max_window or first, mean_window or first
-    drawn = panels.join_sweeps({"sweep": sweep}, *windows, list(NORMS)).assign_attrs(sweep.attrs)
+    readings = {"max": ("max", windows[0]), "mean": ("mean", windows[1])}
+    drawn = panels.join_sweeps({"sweep": sweep}, readings, list(NORMS)).assign_attrs(sweep.attrs)
     names = [str(name) for name in sweep["quantity"].values if name != "pair"]
     fields = "all fields" if "model_text" in sweep.attrs else f"the pair ({', '.join(names)})"
     caption = SWEEP_CAPTION.format(fields=fields, filled=windows[0], hollow=windows[1])
@@ -192,8 +194,12 @@ def draw_sweep(data: xr.Dataset) -> Figure:
     """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
     figure = style.new_figure(style.WIDTH, 2.7)
     row = figure.subplots(1, 2, sharex=True)
+    pair = "$(x, y)$" if data.attrs.get("model") == PENDULA else "$(A, B)$"
+    fields = "all fields" if "model_text" in data.attrs else pair
     for axes, name in zip(row, NORMS, strict=True):
-        panels.draw_sweep(axes, data.isel(panel=0).drop_vars([n for n in NORMS if n != name]))
+        panels.draw_sweep(
+            axes, data.isel(panel=0).drop_vars([n for n in NORMS if n != name]), fields
+        )
     _mark_widths(row[0], data["half_width"].values)
     row[0].set_title(name_parameters(data.attrs), loc="left")
     row[1].set_title(name_data_and_ends(data.attrs), loc="left")

@@ -2,13 +2,12 @@
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-
-from pendula.drawing import style
 
 LOOKS = {
     "disperses": "#fdfcf8",

@@ -2,11 +2,10 @@
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-
-from pendula.drawing import style
 
 PAPERS_END = 50.0
 """The paper runs Fig 4 up to this time."""

@@ -2,16 +2,15 @@
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from latticode.numerics.elementary import cos, sin
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pendula.drawing import style
-
 PAIRS, ANGLES = 3, (-0.5, 0.35)
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
 COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2
-COLOURS = {"x": style.COLOURS["A"], "y": style.COLOURS["B"]}  # A_n is the amplitude of x_n
+COLOURS = {"x": style.RED, "y": style.BLUE}  # A_n is the amplitude of x_n
 CAPTION = (
     "The chain, redrawn after Fig 1 of the paper. Pairs of pendula xₙ (red) and yₙ (blue) hang "
     "from common strings, whose coupling D(t) is driven. Springs of strength C couple "

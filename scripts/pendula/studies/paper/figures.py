@@ -3,6 +3,8 @@
 import numpy as np
 import xarray as xr
 from latticode.datasets.registry import SOLVER_NAMES
+from latticode.drawing import panels, strips, style
+from latticode.drawing.strips import NORMS, Strip
 from latticode.measures.difference import (
     VISIBLE,
     at_times,
@@ -13,8 +15,7 @@ from latticode.measures.difference import (
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pendula.drawing import panels, strips, style
-from pendula.drawing.strips import NORMS, Strip
+from pendula.drawing import KEPT, draw_cases, name_case
 
 SIZES = ["small", "large"]
 BAND = [0.05, 0.5, 0.95]
@@ -71,7 +72,7 @@ def gather_norms(
     if ensembles is not None:
         cases = [case.assign(_bands(case, ensembles)) for case in cases]
     caption = NORMS_CAPTION + PARTS_CAPTION * any(map(strips.diverges, cases))
-    return style.join(cases, SIZES, "initial_size").assign_attrs(caption=caption)
+    return style.join(cases, SIZES, "initial_size", KEPT).assign_attrs(caption=caption)
 
 
 def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
@@ -108,7 +109,7 @@ def draw_norms(data: xr.Dataset) -> Figure:
     figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
     for case, grid in zip(cases, drawn, strict=True):
         for axes in grid[0]:
-            axes.set_title(style.name_case(case), loc="left")
+            axes.set_title(name_case(case), loc="left")
     parts = any(strips.diverges(case) for case in cases)
     under = any(strip.under for case in cases for strip in _strips(case))
     strips.name_legend(figure, data["component"].values, DIVERGED if parts else "", under)
@@ -135,7 +136,7 @@ def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
     Beside them is when the runs leave their references, from what `gather_norms` returns of them.
     """
     cases = [panels.over_time(case) for case in runs]
-    data = style.join(cases, SIZES, "initial_size").assign_attrs(caption=SPACETIME_CAPTION)
+    data = style.join(cases, SIZES, "initial_size", KEPT).assign_attrs(caption=SPACETIME_CAPTION)
     return data.assign(divergence_time=norms["divergence_time"])
 
 
@@ -149,7 +150,7 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
     grid = figure.subplots(2, 2, sharex=True, sharey=True)
     for row, size in zip(grid, data["initial_size"].values, strict=True):
         case = data.sel(initial_size=size)
-        panels.draw_moduli(figure, row, case, 2 * [style.name_case(case)])
+        panels.draw_moduli(figure, row, case, 2 * [name_case(case)])
         for axes in row if strips.diverges(case) else ():
             axes.axvline(float(case["divergence_time"]), label=DIVERGED, **style.ON_COLOURS)
     for axes in grid[-1]:
@@ -175,7 +176,8 @@ def gather_sweeps(
     sweeps that have an ensemble, its mean and standard deviation are beside them.
     """
     sweeps = {"left": left, "right": right}
-    data = panels.join_sweeps(sweeps, text_window, caption_window, list(norms))
+    readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
+    data = panels.join_sweeps(sweeps, readings, list(norms), KEPT)
     if ensembles is not None:
         names = [sweep.attrs["case"] for sweep in sweeps.values()]
         counts = ensembles["swept_members"].where(ensembles["sweep"].isin(names))
@@ -199,7 +201,8 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
     figure = style.new_figure(style.WIDTH, 2.4)
     row = figure.subplots(1, 2)
     for axes, name in zip(row, data["panel"].values, strict=True):
-        panels.draw_sweep(axes, data.sel(panel=name))
+        panels.draw_sweep(axes, data.sel(panel=name), "$(A, B)$")
+        axes.set_title(name_case(data.sel(panel=name)), loc="left")
     style.name_legend(figure, *row, columns=3)
     return figure
 
@@ -248,7 +251,7 @@ def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_drift(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a solver, and the paper's statement as a dashed line."""
-    return panels.draw_cases(data, _draw_drift, r"largest $|H(\tau) - H(0)|$ so far")
+    return draw_cases(data, _draw_drift, r"largest $|H(\tau) - H(0)|$ so far")
 
 
 def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
@@ -302,7 +305,7 @@ def draw_trust(data: xr.Dataset) -> Figure:
     A curve that never is has its mark at the end, so that marks tell the curves apart everywhere.
     A curve of polynomials with a proof has its bound, and a mark where the proof ends.
     """
-    return panels.draw_cases(data, _draw_trust, "largest error so far")
+    return draw_cases(data, _draw_trust, "largest error so far")
 
 
 def _draw_trust(axes: Axes, case: xr.Dataset) -> None:

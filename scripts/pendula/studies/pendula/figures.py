@@ -2,12 +2,11 @@
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
-
-from pendula.drawing import style
 
 MARKS = "osD^vPX*"
 COLOURS = colormaps["viridis"]

@@ -5,11 +5,12 @@ The bounds are on P = |A|^2 + |B|^2 in l2.
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from pendula.drawing import style
+from pendula.drawing import name_initial
 
 BOUNDS = {
     "theorem_1": (">", "#16876b", "Theorem 1"),
@@ -83,7 +84,7 @@ def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
 
 
 def _name(omega: xr.DataArray, initial: xr.DataArray) -> str:
-    return rf"$\Omega = {float(omega):g}$" + "\n" + style.name_initial(str(initial.values))
+    return rf"$\Omega = {float(omega):g}$" + "\n" + name_initial(str(initial.values))
 
 
 def _draw_forms(axes: Axes, data: xr.Dataset) -> None:

@@ -4,10 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-
-from pendula.drawing import style
 
 HEAT = "YlOrRd"  # from light to dark: the boundaries, where growth is slow, lie on light ground
 SHADES = ["#9ecae1", "#6baed6", "#3182bd", "#08519c", "#041f42"]

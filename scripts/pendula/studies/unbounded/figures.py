@@ -2,13 +2,14 @@
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import panels, style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import NullFormatter
 
-from pendula.drawing import panels, style
+from pendula.drawing import name_case
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-", "lw": 1.1},
@@ -43,9 +44,7 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     start = float(data["span_tau"].min())
     for i, case in enumerate(data["case"].values):
         one, look = data.sel(case=case), LOOKS[str(case)]
-        rate.plot(
-            one["span_tau"], one["l2_rate"].sel(band="mean"), label=style.name_case(one), **look
-        )
+        rate.plot(one["span_tau"], one["l2_rate"].sel(band="mean"), label=name_case(one), **look)
         _shade(rate, one["span_tau"], one["l2_rate"], look)
         rate.plot(one["span_tau"], one["law_rate"], **LAW)
         if np.isfinite(one["law_rate"]).any():

@@ -2,11 +2,10 @@
 
 import numpy as np
 import xarray as xr
+from latticode.drawing import style
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-
-from pendula.drawing import style
 
 LEAST = 1e-16
 """Powers below this one have its colour."""

@@ -1,4 +1,4 @@
-"""Norms of A and B against time: a run, and in strips below it what it must be told apart from.
+"""Norms of fields against time: a run, and in strips below it what it must be told apart from.
 
 After two chaotic runs have diverged, their curves in one panel cannot be read. So each stands in a
 strip of its own, all on the same scales, and a dashed line shows from when on they differ.
@@ -18,8 +18,6 @@ from matplotlib.ticker import MaxNLocator
 from . import style
 
 NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
-PALE = {"A": "#f0a79f", "B": "#9db2de", "x": "#f0a79f", "y": "#9db2de"}
-"""Colours of bands, and of curves that lie under others."""
 UNDER = {"lw": 2.0, "label": "wide, pale: multiprecision reference"}
 """Curves under others are wider than these, so that they are seen."""
 TALL, LOW = 1.15, 0.66
@@ -79,27 +77,31 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
 
 def _draw_strip(axes: Axes, case: xr.Dataset, name: str, strip: Strip) -> None:
     if strip.under:
-        _draw_curves(axes, case[f"{strip.under}{name}"], PALE, **UNDER)
+        _draw_curves(axes, case[f"{strip.under}{name}"], pale=True)
     curves = case[f"{strip.prefix}{name}"]
     draw = _draw_bands if "quantile" in curves.dims else _draw_curves
-    draw(axes, curves, style.COLOURS)
+    draw(axes, curves)
     if diverges(case):
         axes.axvline(float(case["divergence_time"]), **DIVERGED)
 
 
-def _draw_curves(axes: Axes, curves: xr.DataArray, colours: dict, **under) -> None:
+def _draw_curves(axes: Axes, curves: xr.DataArray, pale: bool = False) -> None:
     for i, component in enumerate(curves["component"].values):
-        curve, colour = curves.sel(component=component).dropna("tau"), colours.get(component)
-        look = {"color": colour or f"C{i}", "label": f"${component}$", "alpha": 0.9} | under
-        axes.plot(curve["tau"], curve, **look)
+        curve = curves.sel(component=component).dropna("tau")
+        look = {"label": f"${component}$", "alpha": 0.9} | (UNDER if pale else {})
+        axes.plot(curve["tau"], curve, color=(pale_of if pale else style.colour_of)(i), **look)
 
 
-def _draw_bands(axes: Axes, bands: xr.DataArray, colours: dict) -> None:
-    for component in bands["component"].values:
+def _draw_bands(axes: Axes, bands: xr.DataArray) -> None:
+    for i, component in enumerate(bands["component"].values):
         low, middle, high = bands.sel(component=component).dropna("tau")
-        look = {"color": PALE[component], "lw": 0, "alpha": 0.6}
-        axes.fill_between(middle["tau"], low, high, **look)
-        axes.plot(middle["tau"], middle, color=colours[component])
+        axes.fill_between(middle["tau"], low, high, color=pale_of(i), lw=0, alpha=0.6)
+        axes.plot(middle["tau"], middle, color=style.colour_of(i))
+
+
+def pale_of(field: int) -> str:
+    """Return the colour of bands of a field, and of its curves that lie under others."""
+    return style.PALE.get(style.colour_of(field), "0.8")
 
 
 def diverges(case: xr.Dataset) -> bool:
@@ -112,11 +114,11 @@ def name_legend(
 ) -> None:
     """Put one legend above all: the components, what lies under them, and the dashed line."""
     lines = [
-        Line2D([], [], color=style.COLOURS.get(one, f"C{i}"), label=f"${one}$", lw=1.6)
+        Line2D([], [], color=style.colour_of(i), label=f"${one}$", lw=1.6)
         for i, one in enumerate(components)
     ]
     if under:
-        lines.append(Line2D([], [], color=PALE[components[0]], **UNDER))
+        lines.append(Line2D([], [], color=pale_of(0), **UNDER))
     if mark:
         lines.append(Line2D([], [], **DIVERGED | {"lw": 1.0}, label=mark))
     figure.legend(handles=lines, loc="outside upper center", ncols=len(lines))

@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from latticode.datasets.digest import digest
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
@@ -28,6 +27,8 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Annotation, Text
+
+from latticode.datasets.digest import digest
 
 DIGITS = 6
 """Significant digits of limits, positions and ranges: a panel is about 2000 pixels wide."""

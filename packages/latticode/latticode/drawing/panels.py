@@ -1,6 +1,6 @@
-"""Panels that figures of several studies share: one for each case, moduli, sweeps."""
+"""Panels of runs and sweeps: moduli over time and sites, norms against the half-width."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -13,34 +13,11 @@ from . import style
 from .strips import NORMS
 
 MARKERS = {"l2": "o", "linf": "s"}  # the shapes tell the norms apart in grey too
-SIZES = {"text": 3.6, "caption": 2.4}
+SIZES = {"max": 3.6, "mean": 2.4}
 BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.5}
 BESIDE = 1.06
 """Bars of ensembles stand so far beside the dots: a factor on the half-width."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
-
-
-def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None], label: str):
-    """Return a figure with a panel for each case, drawn by `draw_panel`, and one legend above.
-
-    Each figure of the paper has a column, with small data above.
-    """
-    figure, count = style.new_figure(style.WIDTH, 3.2), data.sizes["case"]
-    grid = figure.subplots(min(count, 2), -(-count // 2), sharex=True, sharey=True, squeeze=False)
-    for axes in grid.T.flat[count:]:
-        axes.set_visible(False)
-    drawn = list(grid.T.flat[:count])
-    for axes, name in zip(drawn, data["case"].values, strict=True):
-        case = data.sel(case=name)
-        axes.set_title(style.name_case(case), loc="left")
-        axes.set_yscale("log")
-        draw_panel(axes, case)
-        axes.set_xlim(0, float(data["tau"].max()))
-    for axes in grid[-1]:
-        axes.set_xlabel(r"$\tau$")
-    figure.supylabel(label, fontsize="medium")
-    style.name_legend(figure, *drawn, columns=4)
-    return figure
 
 
 def positive(curve: xr.DataArray) -> xr.DataArray:
@@ -55,7 +32,7 @@ def over_time(run: xr.Dataset) -> xr.Dataset:
 
 
 def draw_moduli(figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str]) -> None:
-    """Draw |A_n| and |B_n| of one case, each under its name, on one scale of colours."""
+    """Draw the moduli of each field of one case, under its name, on one scale of colours."""
     moduli = case["modulus"].transpose("component", "site", "snapshot_tau")
     peak = float(moduli.max()) or 1.0
     extent = (*_edges(moduli["snapshot_tau"].values), *_edges(moduli["site"].values))
@@ -81,17 +58,19 @@ def _edges(centres: np.ndarray) -> tuple[float, float]:
 
 
 def join_sweeps(
-    sweeps: dict[str, xr.Dataset], text_window: str, caption_window: str, norms: list[str]
+    sweeps: dict[str, xr.Dataset],
+    readings: dict[str, tuple[str, str]],
+    norms: list[str],
+    kept: Sequence[str] = ("initial",),
 ) -> xr.Dataset:
-    """Return two readings of the pair's norms in each sweep, by the name of its panel.
+    """Return readings of the norms of all fields in each sweep, by the name of its panel.
 
-    The reading "text" is the maximum over `text_window`, "caption" the mean over `caption_window`.
-    Windows of time are named as in the sweeps, such as "[10, 50]".
+    A reading is a statistic and a window of time as the sweeps name them, such as ("max",
+    "[10, 50]"). `kept` are attributes, as `style.join` takes them.
     """
-    readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
     panels = [_read(sweep[list(norms)], readings) for sweep in sweeps.values()]
     statistics, windows = zip(*readings.values(), strict=True)
-    data = style.join(panels, list(sweeps), "panel")
+    data = style.join(panels, list(sweeps), "panel", kept)
     return data.assign(statistic=("reading", list(statistics)), window=("reading", list(windows)))
 
 
@@ -103,10 +82,11 @@ def _read(sweep: xr.Dataset, readings: dict[str, tuple[str, str]]) -> xr.Dataset
     return xr.concat(chosen, xr.Variable("reading", list(readings))).assign_attrs(sweep.attrs)
 
 
-def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
+def draw_sweep(axes: Axes, panel: xr.Dataset, fields: str) -> None:
     """Draw the norms of one panel against the half-width, and bars of their ensembles.
 
-    Each norm and reading has a label for a legend, and the bars have one.
+    Maxima are filled, means are hollow. Each norm and reading has a label for a legend, and the
+    bars have one. `fields` says on the axis what the norms are of.
     """
     norms = [name for name in reversed(NORMS) if name in panel]
     label = f"mean ± standard deviation of {int(panel.get('members', 0))} runs"
@@ -115,7 +95,7 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
             one = panel.sel(reading=reading)
             words = f"{one['statistic'].item()} on {one['window'].item()}"
             dots = one[name].dropna("half_width")
-            look = {"label": f"{NORMS[name]}, {words}"} | _sweep_look(name, reading)
+            look = {"label": f"{NORMS[name]}, {words}"} | _sweep_look(name, one["statistic"].item())
             axes.plot(dots["half_width"], dots, **look)
             if "members" in panel and one[f"{name}_mean"].notnull().any():
                 bars = one[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
@@ -128,19 +108,16 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
     axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
     said = " and ".join(NORMS[name] for name in norms)
-    pair = "$(x, y)$" if panel.attrs.get("model") == "pendula" else "$(A, B)$"
-    pair = "all fields" if "model_text" in panel.attrs else pair
-    axes.set_ylabel(f"{said} of {pair}{style.name_units(panel[norms[0]])}")
-    axes.set_title(style.name_case(panel), loc="left")
+    axes.set_ylabel(f"{said} of {fields}{style.name_units(panel[norms[0]])}")
 
 
-def _sweep_look(name: str, reading: str) -> dict:
+def _sweep_look(name: str, statistic: str) -> dict:
     colour = style.COLOURS[name]
     return {
         "linestyle": "none",
         "marker": MARKERS[name],
-        "markersize": SIZES[reading],
+        "markersize": SIZES[statistic],
         "color": colour,
-        "markerfacecolor": colour if reading == "text" else "white",
+        "markerfacecolor": colour if statistic == "max" else "white",
         "markeredgewidth": 0.7,
     }

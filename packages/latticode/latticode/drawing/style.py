@@ -1,6 +1,6 @@
 """One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
@@ -8,10 +8,6 @@ from textwrap import fill
 
 import matplotlib
 import xarray as xr
-from latticode.datasets import complete_or_absent
-from latticode.datasets.digest import fingerprint
-from latticode.datasets.netcdf import save as save_dataset
-from latticode.simulation.problem import read_initial
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
@@ -20,7 +16,9 @@ from matplotlib.image import imsave
 from matplotlib.layout_engine import PlaceHolderLayoutEngine
 from matplotlib.patheffects import withStroke
 
-from pendula.configuration.paper import in_short
+from latticode.datasets import complete_or_absent
+from latticode.datasets.digest import fingerprint
+from latticode.datasets.netcdf import save as save_dataset
 
 from .description import as_text, describe
 
@@ -42,7 +40,9 @@ ON_COLOURS = {
 """A dashed line that is seen on every colour of a map, and in a legend on white."""
 
 RED, BLUE = "#e8402f", "#123b8c"
-"""The paper's two colours, of a lightness so different that they stay apart in grey."""
+"""Two colours of a lightness so different that they stay apart in grey."""
+PALE = {RED: "#f0a79f", BLUE: "#9db2de"}
+"""Colours of bands, and of curves that lie under others."""
 
 SOLVERS = {
     "ode45": ("#111111", "o"),
@@ -55,10 +55,13 @@ SOLVERS = {
 }
 """The colour of each solver, and the mark that tells it apart in grey too."""
 MARKERS = {name: marker for name, (_, marker) in SOLVERS.items()}
-COLOURS = {name: colour for name, (colour, _) in SOLVERS.items()} | {
-    **dict.fromkeys(("A", "x", "l2"), RED),
-    **dict.fromkeys(("B", "y", "linf"), BLUE),
-}
+COLOURS = {name: colour for name, (colour, _) in SOLVERS.items()} | {"l2": RED, "linf": BLUE}
+
+
+def colour_of(field: int) -> str:
+    """Return the colour of a field by its place: the first is red, the second blue."""
+    return (RED, BLUE)[field] if field < 2 else f"C{field}"
+
 
 # the library's own defaults first: a reader's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
@@ -135,24 +138,10 @@ def name_units(values: xr.DataArray) -> str:
     return "" if units == "1" else f" ({units})"
 
 
-def name_case(case: xr.Dataset) -> str:
-    """Return the detuning and the initial data of one case as they are written in its panel."""
-    omega = rf"$\Omega = {float(case['omega']):g}$"
-    return f"{omega},  {name_initial(str(case['initial'].values))}"
-
-
-def name_initial(initial: str) -> str:
-    """Return initial data, as datasets keep them ({site: [A, B]}), as written in a panel."""
-    sites = read_initial(initial)
-    if [len(values) for values in sites.values()] != [2]:
-        return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
-    ((site, pair),) = sites.items()
-    a, b = (f"{number if number.imag else number.real:g}" for number in pair)
-    return rf"$(A_{{{site}}}, B_{{{site}}}) = ({a}, {b})$"
-
-
-def join(datasets: list[xr.Dataset], names: list[str], dim: str) -> xr.Dataset:
-    """Stack datasets along a new dimension, keeping of their attributes Omega and initial data."""
+def join(
+    datasets: list[xr.Dataset], names: list[str], dim: str, kept: Sequence[str] = ()
+) -> xr.Dataset:
+    """Stack datasets along a new dimension; `kept` names the attributes that become variables."""
     stacked = xr.concat(
         [data.drop_attrs(deep=False) for data in datasets],
         xr.Variable(dim, names),
@@ -161,9 +150,7 @@ def join(datasets: list[xr.Dataset], names: list[str], dim: str) -> xr.Dataset:
         coords="minimal",
         compat="override",
     )
-    omegas = [float(data.attrs.get("omega", "nan")) for data in datasets]
-    initials = [data.attrs["initial"] for data in datasets]
-    return stacked.assign(omega=(dim, omegas), initial=(dim, initials))
+    return stacked.assign({key: (dim, [one.attrs[key] for one in datasets]) for key in kept})
 
 
 @styled
@@ -174,23 +161,21 @@ def save(
     pdf: str | Path,
     netcdf: str | Path,
     description: str | Path,
-    differs: list[str] | None = None,
+    note: str = "",
 ) -> None:
     """Write the figure twice, its data and its description: whole files, the same bytes every time.
 
-    `differs` says where the configuration is not the paper's. The data have all of it as `comment`,
-    and the first of it stands below the panels.
+    A `note` stands below the panels.
 
     Both pictures carry the fingerprint of the description, and the description that of the data, so
     that a picture of other data is told by its content.
     """
-    about = {"title": f"What the figure {Path(netcdf).stem} shows"}
-    if differs:
-        about["comment"] = f"the configuration differs in {', '.join(differs)}"
+    if note:
         # without a layout engine, nothing makes room: half of the space below the panels is free
         whole = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
-        note = fill(f"Not the paper's: {in_short(differs)}", NOTE if whole else NOTE * 2 // 5)
-        figure.supxlabel(note, x=0.5 if whole else 0.22, fontsize=7)
+        text = fill(note, NOTE if whole else NOTE * 2 // 5)
+        figure.supxlabel(text, x=0.5 if whole else 0.22, fontsize=7)
+    title = f"What the figure {Path(netcdf).stem} shows"
     with (
         complete_or_absent(png) as new_png,
         complete_or_absent(pdf) as new_pdf,
@@ -208,7 +193,7 @@ def save(
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})
-        save_dataset(new_netcdf, data.assign_attrs(about))
+        save_dataset(new_netcdf, data.assign_attrs(title=title))
 
 
 def _panels(figure: Figure) -> str:

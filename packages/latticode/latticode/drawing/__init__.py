@@ -1,0 +1,1 @@
+"""How figures of runs and sweeps look, how they are saved, and what they show in words."""
