@@ -2,7 +2,7 @@
 
 import io
 
-from pendula.drawing import style
+from latticode.drawing import style
 
 
 @style.styled

@@ -17,8 +17,10 @@ from tempfile import TemporaryDirectory
 
 import yaml
 from false_sentences import false_sentences
-from pendula.configuration.files import ConfigurationError, gather
-from pendula.configuration.messages import SOLVERS, STUDIES, load, require
+from latticode.configuration.files import ConfigurationError
+from latticode.configuration.messages import SOLVERS
+from pendula.configuration.files import gather
+from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 
 ROOT = Path(__file__).resolve().parents[1]

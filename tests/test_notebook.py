@@ -71,8 +71,8 @@ def test_faults_are_told_in_words_and_all_at_once():
         pendula.Case(omega="fast", half_width=1, initial={5: (1, 0)}, solver="dop835")
     assert str(told.value).splitlines() == [
         "the case has 2 errors:",
-        "  omega: is 'fast', not a number",
         "  solver: there is no solver 'dop835'; did you mean 'dop853'?",
+        "  omega: is 'fast', not a number",
     ]
     with pytest.raises(pendula.ConfigurationError, match="site 5 lies outside the chain"):
         pendula.Case(omega=1, half_width=1, initial={5: (1, 0)})

@@ -17,7 +17,7 @@ _HOMES = {
     ),
     "latticode.datasets.netcdf": ("read", "DatasetError"),
     "latticode.equations.model": ("Model", "ModelError"),
-    "pendula.configuration.files": ("ConfigurationError",),
+    "latticode.configuration.files": ("ConfigurationError",),
     "latticode.simulation.simulate": ("IntegrationError",),
 }
 """The public names by their module. A module is loaded when a name of it is first asked for, so

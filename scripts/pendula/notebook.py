@@ -10,6 +10,12 @@ Figures are matplotlib's: a notebook shows the one that a cell ends with, and sa
 from collections.abc import Iterable
 
 import xarray as xr
+from latticode.configuration import cost, values
+from latticode.configuration.cases import Case as OfModel
+from latticode.configuration.files import ConfigurationError, list_faults
+from latticode.configuration.messages import in_words
+from latticode.configuration.schema import Limits
+from latticode.configuration.solvers import with_controls
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
@@ -17,15 +23,12 @@ from latticode.simulation import simulate as simulation
 from latticode.simulation import sweep as sweeps
 from pydantic import ValidationError
 
-from pendula.configuration.files import ConfigurationError, list_faults
-from pendula.configuration.messages import in_words, load
+from pendula.configuration.messages import Sections, load
 from pendula.own_cases.checks import check_run
 from pendula.problem import AMPLITUDES, Problem
 
-from .configuration import cases, cost, own_models, values
-from .configuration.own_models import is_own
-from .configuration.schema import Limits
-from .configuration.solvers import with_controls
+from .configuration import cases
+from .configuration.cases import takes_model
 
 __all__ = [
     "Case",
@@ -71,20 +74,20 @@ class Case(cases.Case):
     30
     >>> Case(omgea=-4)
     Traceback (most recent call last):
-    pendula.configuration.files.ConfigurationError: the case has 2 errors:
+    latticode.configuration.files.ConfigurationError: the case has 2 errors:
       omega: is missing
       omgea: is not a known key; did you mean 'omega'?
     """
 
     def __new__(cls, /, **keys):
         """Return a case of the kind that its model asks for."""
-        return super().__new__(OwnCase if is_own(keys.get("model")) else cls)
+        return ModelCase(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
 
     def __init__(self, /, **keys):
         try:
             super().__init__(**with_controls({"solver": "taylor", **keys}, {}))
         except ValidationError as error:
-            raise in_words(error, "the case", ("cases", "case")) from None
+            raise in_words(error, "the case", ("cases", "case"), Sections) from None
 
     def changed(self, **keys) -> "Case":
         """Return the case with other values under `keys`, checked anew.
@@ -95,8 +98,18 @@ class Case(cases.Case):
         return Case(**{**self.model_dump(), **keys})
 
 
-class OwnCase(own_models.OwnCase, Case):
-    """A case of a model of one's own."""
+class ModelCase(OfModel):
+    """A case of a traced model."""
+
+    def __init__(self, /, **keys):
+        try:
+            super().__init__(**with_controls({"solver": "taylor", **keys}, {}))
+        except ValidationError as error:
+            raise in_words(error, "the case", ("cases", "case")) from None
+
+    def changed(self, **keys) -> "ModelCase":
+        """Return the case with other values under `keys`, checked anew."""
+        return ModelCase(**{**self.model_dump(), **keys})
 
 
 def _affordable(case: Case, hours: float | None) -> None:
@@ -104,18 +117,18 @@ def _affordable(case: Case, hours: float | None) -> None:
 
     A run of minutes says what it will take.
     """
-    _require(case, Case, "a case, such as Case(omega=8)")
+    _require(case, OfModel, "a case, such as Case(omega=8)")
     try:
         limits = Limits() if hours is None else Limits(hours=hours)
     except ValidationError as error:
         raise in_words(error, "the limit") from None
     # The second problem chooses the times of its snapshots, which needs a run that is not too long.
     for problem in (case.problem, case.shown_problem):
-        found = cost.find_excess(problem(), limits.model_dump())
+        found = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
         if found:
             text = found[1].replace("limits.hours", "hours").replace("limits.", "")
             raise list_faults([f"{found[0]}: {text}"], "the case")
-    _announce(cost.estimate(case.shown_problem()))
+    _announce(case.cost(case.shown_problem()))
 
 
 def _announce(takes: cost.Cost) -> None:
@@ -212,7 +225,7 @@ def sweep(
     >>> peaks["l2"].sel(quantity="pair", statistic="max", window="[1, 5]").shape
     (3,)
     """
-    _require(case, Case, "a case, such as Case(omega=8)")
+    _require(case, OfModel, "a case, such as Case(omega=8)")
     asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
     limits = {} if hours is None else {"limits": {"hours": hours}}
     settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}} | limits)
@@ -242,7 +255,7 @@ def check(case: Case, run=None):
     >>> str(found["region"].values), bool(found["ratio"] < 1)
     ('theorem 1', True)
     """
-    _require(case, Case, "a case, such as Case(omega=8)")
+    _require(case, OfModel, "a case, such as Case(omega=8)")
     run = simulate(case) if run is None else run
     kept = "energy" if case.model == AMPLITUDES else "final"
     _require(run, xr.Dataset, RUN, "linf", "l2", kept, "tau")

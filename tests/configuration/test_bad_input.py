@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 import yaml
-from pendula.configuration.files import ConfigurationError, gather, merge, read
+from latticode.configuration.files import ConfigurationError, read
+from pendula.configuration.files import gather, merge
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 

@@ -5,17 +5,10 @@ import json
 import numpy as np
 import pytest
 from helpers import ROOT
+from latticode.configuration.cost import EXPLICIT, Cost, find_excess, steps_of
+from latticode.configuration.files import ConfigurationError
 from latticode.datasets.netcdf import read
-from pendula.configuration.cost import (
-    EXPLICIT,
-    Cost,
-    estimate,
-    find_excess,
-    integrated_pairs,
-    steps_of,
-    with_checks,
-)
-from pendula.configuration.files import ConfigurationError
+from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs, with_checks
 from pendula.configuration.messages import load
 
 SPEED = ROOT / "tests/baseline/speed"
@@ -57,7 +50,7 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
                 omega=float(row["omega"]), initial=data, end_time=span, output_step=span,
                 solver={"name": solver, **controls},
             )  # fmt: skip
-            steps, evaluations = steps_of(given["solver"], given)
+            steps, evaluations = steps_of(given["solver"], given, demand(given))
             work = steps if solver in EXPLICIT else evaluations
             done = row["steps" if solver in EXPLICIT else "evaluations"][point]
             assert 1 / FACTOR < work / float(done) < FACTOR
@@ -99,7 +92,7 @@ def test_even_and_synchronised_data_cost_half_each():
     ],
 )  # fmt: skip
 def test_the_key_that_costs_most_is_named(change, key):
-    found, text = find_excess(problem(**change), LIMITS)
+    found, text = find_excess(problem(**change), LIMITS, estimate, ORDINARY)
     assert found == key and "the run would take" in text and "limits." in text
 
 

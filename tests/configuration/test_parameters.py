@@ -1,8 +1,9 @@
 """What a configuration means: defaults from the paper, controls of solvers, snapshots."""
 
 import pytest
-from pendula.configuration.cases import MOST_NUMBERS, choose_every
-from pendula.configuration.messages import ConfigurationError, load
+from latticode.configuration.cases import MOST_NUMBERS, choose_every
+from latticode.configuration.files import ConfigurationError
+from pendula.configuration.messages import load
 
 
 def test_what_is_left_out_takes_the_papers_value_and_the_default_solver():

@@ -1,5 +1,6 @@
 """The studies' sections of the configuration: all valid, and their faults in words."""
 
+import os
 import re
 import subprocess
 import sys
@@ -7,7 +8,7 @@ from typing import Annotated, Literal, get_args, get_origin
 
 import pytest
 import yaml
-from helpers import ROOT
+from helpers import ROOT, python_path
 from pendula.configuration.messages import STUDIES, Sections, load
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
@@ -66,6 +67,6 @@ def test_the_configuration_is_read_without_what_computes_or_draws():
     """Each call of Snakemake reads it, and compilers and plots take longer to import than that."""
     heavy = ("flint", "matplotlib", "netCDF4", "numba", "scipy", "xarray")
     code = f"import sys, pendula.configuration.messages; print(sys.modules.keys() & {set(heavy)})"
-    command, here = [sys.executable, "-c", code], ROOT / "scripts"
-    found = subprocess.run(command, cwd=here, capture_output=True, text=True, check=True)
+    command, paths = [sys.executable, "-c", code], {**os.environ, "PYTHONPATH": python_path()}
+    found = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
     assert found.stdout == "set()\n"

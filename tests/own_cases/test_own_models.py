@@ -4,9 +4,10 @@ import json
 
 import numpy as np
 import pytest
+from latticode.configuration.files import ConfigurationError
 from latticode.equations.model import ModelError, abs2, lap
 from pendula import Case, Model, check, simulate
-from pendula.configuration.files import ConfigurationError, gather
+from pendula.configuration.files import gather
 from pendula.configuration.messages import load
 from pendula.problem import Problem
 
@@ -72,7 +73,7 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
         ("initial: {0: [1, 2]}", "site 0 has 2 values; give 1, [u]"),
         ("initial: {0: [1]}, omega: 1", "omega: belongs to the paper's equations"),
         ("initial: {0: [1]}, half_width: 2, parameters: {gamma: [1, 2]}", "2 values for 5 sites"),
-        ("initial: {0: [1]}, solver: kahan_li", "kahan_li does not take models of one's own"),
+        ("initial: {0: [1]}, solver: kahan_li", "kahan_li does not take the model mine.py"),
         ("half_width: 2", "initial: is missing"),
         ("initial: {0: [1.0e+6]}", "initial: the run turns the data by"),
         ("initial: {0: [1.0e+200]}", "initial: the squares of the data or the constants overflow"),

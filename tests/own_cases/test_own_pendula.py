@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from latticode.configuration import cost
+from latticode.configuration.files import ConfigurationError
 from latticode.simulation import simulate as simulation
 from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
-from pendula.configuration import cost
-from pendula.configuration.files import ConfigurationError
-from pendula.configuration.solvers import OF_AMPLITUDES, OF_PENDULA
+from pendula.configuration.cases import SOLVERS
+from pendula.configuration.cost import demand
 from pendula.models.integrations import NAMED
 from pendula.own_cases import answers
 from pendula.own_cases.checks import check_sweep
@@ -104,7 +105,7 @@ def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
 
 
 def test_the_configuration_knows_the_solvers_of_each_model():
-    for model, known in (("pendula", OF_PENDULA), ("amplitudes", OF_AMPLITUDES)):
+    for model, known in SOLVERS.items():
         own = {*NAMED[model].integration.solvers} - {"ode45_real"}  # never configured
         assert own == {*known} - {"auto"}
 
@@ -125,5 +126,5 @@ def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():
 def test_the_estimate_of_its_cost_counts_its_steps(solver, mu):
     case = SWING.changed(solver=solver, mu=mu)
     problem = case.problem()
-    steps, _ = cost.steps_of(problem["solver"], problem)
+    steps, _ = cost.steps_of(problem["solver"], problem, demand(problem))
     assert 1 / 3 < steps / simulate(case).attrs["steps"] < 3

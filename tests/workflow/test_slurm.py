@@ -34,7 +34,7 @@ def test_what_fails_for_a_reason_is_not_tried_twice_but_what_lost_its_node_is():
 ASKED = """
 include: "{project}/Snakefile"
 for case in ("short", "long"):
-    cost = asked(lambda wildcards: estimate(SETTINGS.shown_problem(wildcards)))
+    cost = asked(lambda wildcards: SETTINGS.cost_of(wildcards))
     print("asks", *(cost[name](case, attempt) for attempt in (1, 2) for name in cost))
 for rule in ("trajectory", "trajectory_by_solver", "sweep", "sweep_by_second_solver", "own_checks"):
     print("of", rule, *sorted({{"mem_mb", "runtime"}} & set(workflow.get_rule(rule).resources)))

@@ -44,14 +44,14 @@ from reasons import why_jobs_failed
 from benchmarks.problems import REGIMES
 from pendula import __version__
 from pendula.archive.contents import code_files
-from pendula.configuration.cost import estimate, with_checks
-from pendula.configuration.files import ConfigurationError, gather
+from latticode.configuration.files import ConfigurationError
+from latticode.configuration.values import Steps
+from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
-from pendula.configuration.values import Steps
 from latticode.simulation.problem import name_window
-from pendula.problem import Constants
+from pendula.problem import MODELS, Constants
 from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
 from pendula.sources import SCRIPTS
 from pendula.studies import files_of_part
@@ -222,7 +222,7 @@ def some_own_files(wildcards):
         )
     of_sweep = [*FIGURE_KINDS, "checks.nc"]
     of_case = [*of_sweep, *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
-    of_models = [case for case in OWN_CASES if hasattr(SETTINGS.cases[case], "parameters")]
+    of_models = [case for case in OWN_CASES if SETTINGS.cases[case].model not in MODELS]
     return [
         *datasets("trajectories", *OWN_CASES),
         *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),

@@ -10,7 +10,7 @@ use rule dataset as own_checks with:
     pathvars:
         made="own/cases/<own_case>.checks",
     resources:
-        **asked(lambda wildcards: with_checks(SETTINGS.shown_problem(wildcards.case))),
+        **asked(lambda wildcards: SETTINGS.takes(wildcards.case)[1](SETTINGS.shown_problem(wildcards.case))),
     params:
         call=function("pendula.own_cases.checks.check_run"),
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),

@@ -20,7 +20,7 @@ use rule dataset as trajectory with:
     pathvars:
         made="trajectories/<any_case>",
     resources:
-        **asked(lambda wildcards: estimate(SETTINGS.shown_problem(wildcards.case))),
+        **asked(lambda wildcards: SETTINGS.cost_of(wildcards.case)),
     params:
         call=function("pendula.studies.paper.runs.run_case"),
         name="{case}",
@@ -34,7 +34,7 @@ use rule trajectory as trajectory_by_solver with:
     pathvars:
         made="trajectories/<any_case>.<any_solver>",
     resources:
-        **asked(lambda wildcards: estimate(SETTINGS.shown_problem(*wildcards))),
+        **asked(lambda wildcards: SETTINGS.cost_of(*wildcards)),
     params:
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case, wildcards.solver),
 

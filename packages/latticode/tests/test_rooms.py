@@ -21,7 +21,7 @@ STOREYS = (
     ("kernels", "numerics"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""
-FOR_ALL = ("simulation/problem.py", "simulation/feasibility.py")
+FOR_ALL = tuple(f"simulation/{name}.py" for name in ("__init__", "problem", "feasibility"))
 """What the configuration takes of a room above it: a problem, and which no solver can follow."""
 MOST_ENTRIES = 13
 

@@ -12,6 +12,7 @@ good.
 
 import numpy as np
 import xarray as xr
+from latticode.configuration.cost import TIGHTEST, other_than
 from latticode.datasets.checks import table, variable
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
@@ -33,7 +34,6 @@ from latticode.simulation.problem import on_sites, place, read_initial
 from latticode.simulation.simulate import IntegrationError, simulate
 from latticode.simulation.systems import integration_of
 
-from pendula.configuration.cost import TIGHTEST, other_than
 from pendula.models.bounds import best_bound, growth_margin
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles

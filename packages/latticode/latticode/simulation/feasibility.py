@@ -28,6 +28,13 @@ Obstacle = tuple[str, str]
 """The key of a case that stands in the way of its run, and why, in words."""
 
 
+def solver_names(model: Model) -> list[str]:
+    """Return the solvers that take a model: each of the last two needs equations of one kind."""
+    found = ["taylor", "dop853", "ode45"]
+    found += ["kahan_li"] if model.separable else []
+    return found + ([] if model.driven else ["crank_nicolson"])
+
+
 def find_fault(
     values: Mapping,
     rates: Mapping[str, float],

@@ -17,7 +17,7 @@ from latticode.kernels.simd import LANES
 from latticode.numerics import elementary
 from latticode.numerics.elementary import complex_of, modulus
 
-from .feasibility import rates_of
+from .feasibility import rates_of, solver_names
 from .integration import ITERATED, Integration, Solver, Words
 from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .problem import Problem
@@ -56,12 +56,6 @@ solve_{name} = {name}.build({rule}, {observe}{time})
 def run_{name}(system, y, times, controls, work, record, stop):
     return solve_{name}(system, y, times, controls, work, record, stop)
 """
-
-
-def solver_names(model: Model) -> list[str]:
-    """Return the solvers that take a model: each of the last two needs equations of one kind."""
-    takes = {"kahan_li": model.separable, "crank_nicolson": not model.driven}
-    return [name for name in SOLVERS if takes.get(name, True)]
 
 
 @cache

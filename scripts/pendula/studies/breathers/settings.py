@@ -3,11 +3,7 @@
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Field
-
-from pendula.configuration.cost import estimate
-from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import (
+from latticode.configuration.values import (
     Count,
     Model,
     Name,
@@ -19,6 +15,10 @@ from pendula.configuration.values import (
     Whole,
     model,
 )
+from pydantic import Field
+
+from pendula.configuration.cost import estimate
+from pendula.configuration.schema import Configuration, Faults
 
 Steady = model(omegas=Numbers, half_width=Annotated[Whole, Field(ge=4)])
 

@@ -2,11 +2,8 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
-from pendula.configuration.cases import is_multiple
-from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import (
+from latticode.configuration.cases import is_multiple
+from latticode.configuration.values import (
     Count,
     Model,
     Name,
@@ -17,6 +14,9 @@ from pendula.configuration.values import (
     model,
     shown,
 )
+from pydantic import Field
+
+from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 from pendula.models.pairs import FAMILIES, pair
 
 

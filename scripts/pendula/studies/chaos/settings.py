@@ -2,11 +2,7 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
-from pendula.configuration.cost import Cost, estimate
-from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import (
+from latticode.configuration.values import (
     Count,
     Counts,
     Distinct,
@@ -20,6 +16,10 @@ from pendula.configuration.values import (
     Window,
     model,
 )
+from pydantic import Field
+
+from pendula.configuration.cost import Cost, estimate
+from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 
 
 class Spectrum(Model):

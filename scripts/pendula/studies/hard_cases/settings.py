@@ -5,10 +5,9 @@ Numbers may be anything, not finite ones too, since solvers must refuse what mak
 
 from typing import Annotated, Any, Literal
 
+from latticode.configuration.values import AnyNumber, Model, Name, Whole
 from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
-
-from pendula.configuration.values import AnyNumber, Model, Name, Whole
 
 MEASURES = (
     *("miss_of_linear_flow", "miss_near_threshold", "miss_of_rotation", "drift_of_norms"),

@@ -5,12 +5,8 @@ from itertools import pairwise
 from typing import Annotated, ClassVar
 
 import numpy as np
-from pydantic import Field
-
-from pendula.configuration.cases import is_multiple
-from pendula.configuration.cost import Cost, estimate, integrated_pairs
-from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import (
+from latticode.configuration.cases import is_multiple
+from latticode.configuration.values import (
     Count,
     Model,
     Name,
@@ -23,6 +19,10 @@ from pendula.configuration.values import (
     Window,
     model,
 )
+from pydantic import Field
+
+from pendula.configuration.cost import Cost, estimate, integrated_pairs
+from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 from pendula.problem import Constants
 
 from .mathieu import squared_frequency, strength, strings_grow

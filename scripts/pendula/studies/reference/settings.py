@@ -2,10 +2,10 @@
 
 from typing import Annotated
 
+from latticode.configuration.values import Model, Name, Positives, Whole
 from pydantic import Field
 
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Model, Name, Positives, Whole
 
 Bits = Annotated[Whole, Field(ge=64, le=4096)]
 

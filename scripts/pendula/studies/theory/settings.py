@@ -6,11 +6,8 @@ there, and config/theory.yaml why it has its value.
 
 from typing import Annotated, Literal
 
-from latticode.equations.ends import ENDS
-from pydantic import Field, create_model
-
-from pendula.configuration.solvers import Solver
-from pendula.configuration.values import (
+from latticode.configuration.solvers import Solver
+from latticode.configuration.values import (
     Complex,
     Count,
     Model,
@@ -21,6 +18,8 @@ from pendula.configuration.values import (
     Window,
     model,
 )
+from latticode.equations.ends import ENDS
+from pydantic import Field, create_model
 
 Size = Annotated[Count, Field(le=100_000)]
 """A number of sites, samples or members: more of them take hours in every check."""

@@ -6,13 +6,9 @@ A full run makes the study of `short`, and `snakemake unbounded` that of `long`.
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from pydantic import Field
-
-from pendula.configuration.cases import is_multiple
-from pendula.configuration.cost import estimate
-from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.solvers import Dop853, Taylor
-from pendula.configuration.values import (
+from latticode.configuration.cases import is_multiple
+from latticode.configuration.solvers import Dop853, Taylor
+from latticode.configuration.values import (
     Count,
     Model,
     Name,
@@ -23,6 +19,10 @@ from pendula.configuration.values import (
     Whole,
     model,
 )
+from pydantic import Field
+
+from pendula.configuration.cost import estimate
+from pendula.configuration.schema import Configuration, Faults
 
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""

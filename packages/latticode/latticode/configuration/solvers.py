@@ -11,7 +11,7 @@ COARSEST = 0.1
 
 
 class Ode45(Model):
-    """MATLAB's ode45, at the paper's tolerances."""
+    """Dormand and Prince's method of order five with the step control of MATLAB's ode45."""
 
     name: Literal["ode45"] = "ode45"
     rtol: Annotated[Positive, Field(ge=1e-13, le=COARSEST)] = 1e-7
@@ -27,7 +27,7 @@ class Dop853(Model):
 
 
 class Taylor(Model):
-    """The Taylor method, the default: at small errors the fastest on the paper's chains."""
+    """The Taylor method, the default: at small errors the fastest."""
 
     name: Literal["taylor"] = "taylor"
     rtol: Annotated[Positive, Field(ge=1e-16, le=COARSEST)] = 1e-14
@@ -50,35 +50,25 @@ class Iterated(Model):
 
 
 class CrankNicolson(Iterated):
-    """The trapezoidal rule, the paper's second solver."""
+    """The trapezoidal rule."""
 
     name: Literal["crank_nicolson"] = "crank_nicolson"
 
 
 class DelfourFortinPayre(Iterated):
-    """The variant of Crank-Nicolson that conserves the energy."""
+    """The variant of Crank-Nicolson that conserves an energy; for models that declare it."""
 
     name: Literal["delfour_fortin_payre"] = "delfour_fortin_payre"
 
 
 class KahanLi(Model):
-    """Kahan and Li's symplectic composition of order eight, of the pendula alone.
+    """Kahan and Li's symplectic composition of order eight, of second derivatives alone.
 
-    Its step is the longest in the pendula's own time t, in which they swing by about 2 pi.
+    Its step is the longest, in the time of the equations.
     """
 
     name: Literal["kahan_li"] = "kahan_li"
     step: Positive = 0.25
-
-
-OF_PENDULA = ("taylor", "dop853", "ode45", "kahan_li", "auto")
-"""The solvers that take Newton's equations."""
-OF_AMPLITUDES = ("taylor", "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre", "auto")
-"""The solvers that take the amplitude equations."""
-OF_OWN_MODELS = ("taylor", "dop853", "ode45", "auto")
-"""The solvers that take any model of a user's own."""
-OF_SECOND_ORDER = ("kahan_li",)
-"""Those that take such models of second order in time, too."""
 
 
 class Solvers(Model):

@@ -1,0 +1,1 @@
+"""The configuration of cases and sweeps: what may stand in it, what a run costs, its errors."""

@@ -1,0 +1,329 @@
+"""A case of a traced model: every key with its default, and which values fit each other."""
+
+import difflib
+from collections.abc import Iterator, Mapping
+from math import inf
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    BeforeValidator,
+    Field,
+    PlainSerializer,
+    SerializationInfo,
+    model_validator,
+)
+
+from latticode.equations.ends import ENDS
+from latticode.equations.model import Model as Traced
+from latticode.equations.model import ModelError
+from latticode.equations.model_file import at_middle, values_at
+from latticode.simulation.feasibility import (
+    MOST_STEPS,
+    Obstacle,
+    find_fault,
+    rates_of,
+    solver_names,
+)
+
+from . import cost
+from .cost import Cost
+from .solvers import Solver, Taylor
+from .values import Complex, Model, Natural, Positive, Whole, as_whole, fault, faults, shown
+
+FEWEST = 200
+"""A smooth picture needs so many snapshots."""
+MOST_NUMBERS = 20_000_000
+"""At most so many moduli are kept in memory: very long chains have fewer snapshots."""
+UNKNOWN = "initial", "mu", "parameters", "solver.name"
+"""Where one of these keys has a fault, nothing can be said of what the run takes."""
+MOST_COUNTED = 1e15
+"""Of more steps no digit tells whether they divide a time; such runs are refused by their cost."""
+
+
+def choose_every(outputs: int, sites: int) -> int:
+    """Return how many output steps lie between snapshots, for a run of `outputs` steps.
+
+    They divide the run, so that its last state is among the snapshots.
+    """
+    most = max(1, MOST_NUMBERS // (2 * sites))
+    whole = [every for every in range(1, outputs // FEWEST + 1) if outputs % every == 0]
+    every = whole[-1] if whole else 1
+    while outputs // every > most or outputs % every:
+        every += 1
+    return every
+
+
+def is_multiple(time: float, step: float) -> bool:
+    """Return whether a time is a whole number of steps, one at least."""
+    if time / step >= MOST_COUNTED:
+        return True
+    count = round(time / step)
+    return count >= 1 and abs(time - count * step) <= 1e-9 * time
+
+
+def _nearest_multiples(time: float, step: float) -> str:
+    count = int(time / step)
+    near = [f"{max(count, 1) * step:.12g}", f"{(max(count, 1) + 1) * step:.12g}"]
+    return f"the nearest are {near[0]} and {near[1]}" if count else f"the shortest is {near[0]}"
+
+
+def _nearest_parts(whole: float, part: float) -> str:
+    """Return in words the steps next to `part` that divide `whole`."""
+    count = min(whole / part, MOST_COUNTED)
+    near = [whole / max(1, int(count) + more) for more in (0, 1)]
+    shortest = f"the longest that does is {whole:.12g}"
+    return shortest if count < 1 else f"the nearest that do are {near[1]:.12g} and {near[0]:.12g}"
+
+
+def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
+    """Return in words the snapshot steps next to `every` outputs that divide the run."""
+    below = next(n for n in range(every, 0, -1) if outputs % n == 0)
+    above = next(n for n in range(every, outputs + 1) if outputs % n == 0)
+    return f"the nearest that do are {below * step:.12g} and {above * step:.12g}"
+
+
+def sites_of(given: Any) -> Any:
+    """Return initial data by the number of their site; refuse a site that stands twice."""
+    if not isinstance(given, Mapping):
+        raise fault(f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}")
+    found: dict = {}
+    for key, values in given.items():
+        site = as_whole(key)
+        if site in found and len(found) < len(given):
+            raise fault(f"the site {site} stands twice, as a number and as a word")
+        if not isinstance(values, list | tuple):
+            raise fault(f"site {site} has {shown(values)}; give a list of a value for each field")
+        found[site] = values
+    return found
+
+
+Initial = Annotated[
+    dict[Whole, tuple[Complex, ...]], BeforeValidator(sites_of), Field(min_length=1)
+]
+
+
+def _as_model(value: Any) -> Traced:
+    try:
+        if isinstance(value, Mapping):
+            raise fault(
+                "is a mapping; give the path of a file, such as mine.py: a configuration"
+                " holds no code"
+            )
+        return value if isinstance(value, Traced) else Traced.read(value)
+    except ModelError as error:
+        raise fault(str(error)) from None
+
+
+def _as_written(model: Traced, info: SerializationInfo) -> Any:
+    """Return a model as it is, or in JSON as its plain values."""
+    return model.plain if info.mode == "json" else model
+
+
+class Case(Model):
+    """One initial-value problem of a traced model, and the solver that integrates it.
+
+    Data and parameters are named as the model names them.
+    """
+
+    model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
+    parameters: dict[str, Any] = {}
+    half_width: Natural = 30
+    boundary: Literal[tuple(ENDS)] = "dirichlet"
+    initial: Initial
+    end_time: Positive = 50.0
+    output_step: Positive = 0.025
+    snapshot_step: Positive | None = None
+    solver: Solver = Taylor()
+
+    # --- What the model decides
+
+    @property
+    def equations(self) -> str:
+        """What the case is of, in words."""
+        return f"the model {self.model.name}"
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The names of the fields."""
+        return self.model.fields
+
+    @property
+    def solver_names(self) -> list[str]:
+        """The solvers that take the equations."""
+        return [*solver_names(self.model), "auto"]
+
+    @property
+    def ordinary(self) -> Mapping[str, Mapping]:
+        """Values, at which a run is short, of the keys that decide a cost."""
+        return cost.ORDINARY
+
+    def _faults_of_model(self) -> Iterator[tuple[str, str]]:
+        known = self.model.parameters
+        if self.half_width < self.model.reach:
+            text = f"is {self.half_width}; the equations look {self.model.reach} sites far"
+            yield "half_width", text
+        for name in self.parameters.keys() - known.keys():
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+            yield f"parameters.{name}", f"is no parameter of {self.model.name}; {hint}"
+        yield from self.faults_of_parameters(self.half_width)
+
+    def faults_of_parameters(self, half_width: int) -> Iterator[tuple[str, str]]:
+        """Yield the fault of each parameter that has no values on the sites of such a chain."""
+        for name, value in self._given().items():
+            try:
+                values_at(value, half_width)
+            except ValueError as error:
+                where = "" if name in self.parameters else f" (the default in {self.model.name})"
+                yield f"parameters.{name}", f"{error}{where}"
+
+    def faults_of_half_widths(self, half_widths: list[int]) -> Iterator[tuple[str, str]]:
+        """Yield the fault of each parameter without values on all chains of a sweep.
+
+        All chains have the values of the longest at their sites, which must be those that a
+        function gives for them.
+        """
+        longest, found = max(half_widths), []
+        for name, text in self.faults_of_parameters(longest):
+            found.append(name)
+            yield name, f"on the longest chain: {text}"
+        for name, value in self._given().items():
+            if callable(value) and f"parameters.{name}" not in found:
+                whole = values_at(value, longest)
+                if any(at_middle(whole, m) != values_at(value, m) for m in half_widths):
+                    text = "is a function with other values at the same sites of a longer chain"
+                    yield f"parameters.{name}", f"{text}; let them follow from the site alone"
+
+    def _given(self) -> dict[str, Any]:
+        return {k: self.parameters.get(k, one) for k, one in self.model.parameters.items()}
+
+    def _values(self, half_width: int) -> dict[str, float | list[float]]:
+        return {name: values_at(value, half_width) for name, value in self._given().items()}
+
+    def _fault_and_rate(
+        self, peak: float, span: float, solver: dict
+    ) -> tuple[Obstacle | None, float]:
+        """Return what keeps data of the size `peak` from being followed, and how fast they turn."""
+        values = self._values(self.half_width)
+        found = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
+        return found, self.model.rate(values, peak)
+
+    def problem(self, **changes) -> dict:
+        """Return the case as plain values of a Problem, some of them changed.
+
+        Each parameter is what it is on the sites of the chain, so that a job depends on the values.
+        """
+        found = self._plain(**changes)
+        values = self._values(found["half_width"])
+        return {**found, "model": self.model.plain, "parameters": values}
+
+    def cost(self, problem: Mapping) -> Cost:
+        """Return what such a problem of the case takes, given as plain values."""
+        return cost.estimate(problem)
+
+    def cost_with_checks(self, problem: Mapping) -> Cost:
+        """Return what a run and its checks take."""
+        return cost.with_checks(problem)
+
+    # --- What fits
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Case":
+        found = [*self._faults_of_initial(), *self._faults_of_model(), *self._faults_of_times()]
+        found += [*self.faults_of_solver(self.solver)] or [*self.faults_of_step(self.solver)]
+        if not any(key.startswith(UNKNOWN) for key, _ in found):
+            found += self.obstacles()
+        if found:
+            raise faults(found)
+        return self
+
+    def _faults_of_initial(self) -> Iterator[tuple[str, str]]:
+        count, m = len(self.fields), self.half_width
+        for site, values in self.initial.items():
+            if len(values) != count:
+                names = ", ".join(self.fields)
+                has = f"{len(values)} value{'s' * (len(values) != 1)}"
+                yield "initial", f"site {site} has {has}; give {count}, [{names}]"
+        outside = [site for site in self.initial if abs(site) > m]
+        if outside:
+            text = f"site {outside[0]} lies outside the chain, whose sites run from -{m} to {m}"
+            yield "initial", text
+
+    def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
+        """Yield the fault of a solver that does not take the equations of the case."""
+        if solver.name not in self.solver_names:
+            known, what = ", ".join(self.solver_names), self.equations
+            yield (
+                "solver.name",
+                f"{solver.name} does not take {what}; give one of {known}",
+            )
+
+    def _faults_of_times(self) -> Iterator[tuple[str, str]]:
+        step, off_grid = self.output_step, []
+        for key in ("end_time", "snapshot_step"):
+            time = getattr(self, key)
+            if time is not None and not is_multiple(time, step):
+                off_grid.append(key)
+                near = _nearest_multiples(time, step)
+                yield key, f"{time:g} is not a whole number of output steps of {step:g}; {near}"
+        if self.snapshot_step is None or off_grid:
+            return
+        if self.snapshot_step > self.end_time:
+            yield "snapshot_step", "is longer than the run"
+        elif not is_multiple(self.end_time, self.snapshot_step):
+            outputs, every = round(self.end_time / step), round(self.snapshot_step / step)
+            text = f"{self.snapshot_step:g} does not divide the run of {self.end_time:g}"
+            near = _nearest_snapshots(outputs, every, step) if outputs < 1e7 else ""
+            yield "snapshot_step", f"{text}, whose last picture would be lost; {near}".strip("; ")
+
+    def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
+        """Yield the fault of a step that does not divide the time between two outputs."""
+        step = getattr(solver, "step", None)
+        if solver.name == "kahan_li":  # its steps fit themselves between two outputs
+            return
+        if step is not None and not is_multiple(self.output_step, step):
+            near = _nearest_parts(self.output_step, step)
+            text = f"{step:g} does not divide the output step of {self.output_step:g}"
+            yield "solver.step", f"{text}; {near}"
+
+    def obstacles(self, solver: Model | None = None, span: float = 0.0) -> list[tuple[str, str]]:
+        """Return the key that keeps a run from reaching its end with its digits, and why.
+
+        `solver` and `span` take the place of the case's own solver and end time.
+        """
+        given, span = (solver or self.solver).model_dump(), span or self.end_time
+        if given["name"] == "auto":  # its first run, which asks for least
+            tolerance = cost.auto_tolerances(given["error"])[0]
+            given = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
+        amplitudes = [z for values in self.initial.values() for z in values]
+        peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
+        found, speed = self._fault_and_rate(peak, span, given)
+        angle = speed * span
+        took = self.cost(self.problem(solver=given, end_time=span, snapshot_step=None))
+        if found is not None and cost.HOUR < took.seconds < inf:
+            found = found[0], f"{found[1]}, and would take {took}"
+        if found is not None and MOST_STEPS < angle < inf:
+            longest = 0.99 * MOST_STEPS / speed  # which three digits never round up beyond it
+            found = found[0], f"{found[1]}; end_time may be at most {longest:.3g} here"
+        if found is None and 0.0 < angle < SMALLEST_ANGLE:
+            text = f"is so short that the data turn by {angle:.0e} radians: nothing would be seen"
+            found = "end_time", f"{span:g} {text}"
+        return [found] if found else []
+
+    def _plain(self, **changes) -> dict:
+        values = {**self.model_dump(), **changes}
+        snapshots = values.pop("snapshot_step")
+        every = round(snapshots / values["output_step"]) if snapshots else 0
+        return {**values, "snapshot_every": every}
+
+    def shown_problem(self, **changes) -> dict:
+        """Return the problem, with snapshots enough for a picture if the case names no number."""
+        problem = self.problem(**changes)
+        every = problem["snapshot_every"] or choose_every(
+            round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
+        )
+        return {**problem, "snapshot_every": every}
+
+
+SMALLEST_ANGLE = 1e-9
+"""Radians by which a run must turn its data: of less, rounding is most of what is seen."""

@@ -1,0 +1,257 @@
+"""What a run will take, estimated before it starts, so that one without end is refused by its key.
+
+The cost of a run is the number of its steps times that of its sites. The number of steps follows
+from the fastest rate at which the data turn, and from the tolerance by the order of the method.
+The constants fit the speeds that were measured (tests/baseline/speed),
+and a test asks that every estimate is within a factor of three of what was measured.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from math import inf
+from typing import NamedTuple
+
+from latticode.equations.model import Model
+from latticode.simulation.feasibility import Obstacle
+
+HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
+WORTH_SAYING = 180.0
+"""Seconds: a run that will take longer says so before it starts."""
+
+
+class Explicit(NamedTuple):
+    """Steps = per_angle * angle * tolerance ** (-1 / order), and the seconds that each takes."""
+
+    per_angle: float
+    order: float
+    seconds: float  # a step, whatever the chain
+    site_seconds: float  # a step and a pair of fields that is integrated
+    site_bytes: float  # of the state and of the method's arrays, a pair
+
+
+EXPLICIT = {
+    "ode45": Explicit(0.18, 5, 2e-7, 3.8e-8, 700),
+    "dop853": Explicit(0.11, 8, 1.2e-6, 7.5e-8, 800),
+    "taylor": Explicit(0.16, 15, 6e-7, 1.5e-7, 1400),
+}
+ITERATED = {"seconds": 7e-8, "site_seconds": 3.5e-9}
+"""Of a step of a scheme that is solved by iteration, beside its evaluations."""
+EVALUATED = {"seconds": 7e-8, "site_seconds": 5.5e-9}
+"""Of an evaluation of such a scheme."""
+ITERATED_BYTES = 1000.0
+COMPOSED = {"seconds": 2e-6, "site_seconds": 3e-7}
+"""Of a step of the composition of order eight."""
+OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
+"""Of an output: the state between two steps, its norms and its energy."""
+OUTPUT_BYTES, MODULUS_BYTES, SITE_BYTES = 200.0, 40.0, 200.0
+"""Of an output, of a modulus that is kept, and of a site of the whole chain in complex numbers."""
+COARSEST, FINEST, REFINEMENT = 1e-4, 1e-15, 1e-2
+"""The tolerances that `auto` tries, at most."""
+
+
+class Demand(NamedTuple):
+    """What decides the cost of a problem beyond the keys of its run."""
+
+    rate: float  # the fastest at which the data turn, per unit of time
+    pairs: float  # of fields that are integrated
+    clock: float = 1.0  # units of the equations' own time in one of the problem
+
+
+Measure = Callable[[Mapping], Demand]
+"""From a problem, as plain values, to its demand. What knows its equations better has its own."""
+
+
+class Cost(NamedTuple):
+    """Seconds of one processor, and bytes of memory."""
+
+    seconds: float
+    memory: float
+
+    def __str__(self) -> str:
+        time = duration(self.seconds)
+        return f"{'' if ' than ' in time else 'about '}{time} and {amount(self.memory)} of memory"
+
+    def excess(self, limits: Mapping[str, float]) -> float:
+        """Return this cost divided by the largest that `limits` allow: above 1 it is refused."""
+        return max(
+            self.seconds / (limits["hours"] * HOUR), self.memory / (limits["gigabytes"] * GIGABYTE)
+        )
+
+
+def demand(problem: Mapping) -> Demand:
+    """Return the demand of a problem as it follows from its model.
+
+    Half of the chain is integrated where equations, parameters and data are even in n.
+    """
+    model, initial = problem["model"], problem["initial"]
+    model = Model.of_plain(model) if isinstance(model, Mapping) else model
+    peak = max(max(map(abs, values)) for values in initial.values())
+    alike = model.even and not any(isinstance(one, list) for one in problem["parameters"].values())
+    even = alike and all(initial.get(-site) == values for site, values in initial.items())
+    sites = problem["half_width"] + 1 if even else 2 * problem["half_width"] + 1
+    return Demand(model.rate(problem["parameters"], peak), 0.5 * len(model.fields) * sites)
+
+
+def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
+    """Return the cost of a problem, given as the plain values of a Problem.
+
+    Nothing of the size of the chain is made; what overflows costs infinitely much.
+    """
+    solver, every = problem["solver"], problem["snapshot_every"]
+    solvers = [solver]
+    if solver["name"] == "auto":
+        tolerances = auto_tolerances(solver["error"])
+        solvers = [{"name": "taylor", "rtol": tolerance} for tolerance in tolerances]
+    method = EXPLICIT.get(solvers[0]["name"])
+    try:
+        needs, sites = measure(problem), 2 * problem["half_width"] + 1
+        outputs = problem["end_time"] / problem["output_step"] + 1
+        moduli = 2 * sites * (outputs / every) if every else 0.0
+        seconds = sum(_solver_seconds(one, problem, needs, outputs) for one in solvers)
+        memory = (
+            method.site_bytes if method else ITERATED_BYTES
+        ) * needs.pairs + SITE_BYTES * sites
+        return Cost(seconds, memory + OUTPUT_BYTES * outputs + MODULUS_BYTES * moduli)
+    except (OverflowError, ZeroDivisionError):
+        return Cost(inf, inf)
+
+
+def _solver_seconds(solver: Mapping, problem: Mapping, needs: Demand, outputs: float) -> float:
+    steps, evaluations = steps_of(solver, problem, needs)
+    pairs = needs.pairs
+    if solver["name"] == "kahan_li":
+        each = COMPOSED["seconds"] + COMPOSED["site_seconds"] * pairs
+        return outputs * OUTPUT["seconds"] + steps * each
+    seconds = outputs * (OUTPUT["seconds"] + OUTPUT["site_seconds"] * pairs)
+    if solver["name"] in EXPLICIT:
+        method = EXPLICIT[solver["name"]]
+        return seconds + steps * (method.seconds + method.site_seconds * pairs)
+    seconds += steps * (ITERATED["seconds"] + ITERATED["site_seconds"] * pairs)
+    return seconds + evaluations * (EVALUATED["seconds"] + EVALUATED["site_seconds"] * pairs)
+
+
+TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
+"""The tolerances of a second run, by which the first is checked."""
+OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
+"""The solver of tangent vectors."""
+
+
+def other_than(solver: str) -> str:
+    """Return the solver that runs a case again."""
+    return "dop853" if solver in ("taylor", "auto") else "taylor"
+
+
+def runs_of_checks(problem: Mapping) -> list[Mapping]:
+    """Return what the checks of a run integrate, as plain values: its second run, and a tangent.
+
+    A tangent is carried beside the solution, which takes twice the work.
+    """
+    other, plain = other_than(problem["solver"]["name"]), {**problem, "snapshot_every": 0}
+    again = plain | {"solver": {"name": other, "rtol": TIGHTEST[other]}}
+    tangent = plain | {"solver": OF_TANGENTS, "output_step": problem["end_time"]}
+    return [again, tangent, tangent]
+
+
+def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
+    """Return the cost of a run and of its checks."""
+    return total(estimate(one, measure) for one in [problem, *runs_of_checks(problem)])
+
+
+def total(costs: Iterable[Cost]) -> Cost:
+    """Return the cost of runs that are made one after another."""
+    costs = list(costs)
+    return Cost(sum(one.seconds for one in costs), max(one.memory for one in costs))
+
+
+def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
+    """Return the steps of a run and, for a scheme that is solved by iteration, the evaluations."""
+    span, rate = problem["end_time"], needs.rate
+    if solver["name"] in EXPLICIT:
+        method = EXPLICIT[solver["name"]]
+        tolerance = max(solver["rtol"], 1e-17) ** (-1.0 / method.order)
+        return max(1.0, method.per_angle * rate * span * tolerance), 0.0
+    if solver["name"] == "kahan_li":
+        longest = min(solver["step"], problem["output_step"] * needs.clock)
+        return span * needs.clock / longest, 0.0
+    step = min(solver["step"], problem["output_step"])
+    while rate * step > 2.0:  # it is halved until the iteration contracts
+        step *= 0.5
+    return span / step, span / step * _iterations(rate * step, solver)
+
+
+def _iterations(angle: float, solver: Mapping) -> float:
+    """Return how often a step is iterated from a guess of the sixth order."""
+    error = max(1e-30, (0.5 * angle) ** 6)
+    count = 1.0
+    while error > solver["tolerance"] and count < solver["iterations"]:
+        error *= max(1e-3, min(0.9, 0.5 * angle))
+        count += 1.0
+    return count
+
+
+def auto_tolerances(error: float) -> list[float]:
+    """Return the tolerances that `auto` may try until two runs agree to `error`."""
+    tried = [min(error, COARSEST)]
+    while tried[-1] > FINEST:
+        tried.append(max(REFINEMENT * tried[-1], FINEST))
+    return tried
+
+
+ORDINARY = {
+    "half_width": {"half_width": 30},
+    "output_step": {"output_step": 0.025},
+    "end_time": {"end_time": 50.0},
+    "snapshot_step": {"snapshot_every": 0},
+    "initial": {"initial": {0: (1.0,)}},
+    "solver": {"solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}},
+}
+"""Values, at which a run is short, of the keys that decide a cost."""
+
+
+def find_excess(
+    problem: Mapping,
+    limits: Mapping[str, float],
+    takes: Callable[[Mapping], Cost] = estimate,
+    ordinary: Mapping[str, Mapping] = ORDINARY,
+    what: str = "the run",
+) -> Obstacle | None:
+    """Return the key that makes a run longer or larger than is allowed, and what it would take.
+
+    It is the key whose change to its `ordinary` values would save most. `takes` estimates the cost
+    of `what`.
+    """
+    cost = takes(problem)
+    if cost.excess(limits) <= 1.0:
+        return None
+    rest = {key: takes({**problem, **plain}) for key, plain in ordinary.items()}
+    return min(rest, key=lambda key: rest[key].excess(limits)), refusal(cost, limits, what)
+
+
+def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> str:
+    """Return the words for a run that costs more than is allowed."""
+    over_time = cost.seconds > limits["hours"] * HOUR
+    name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
+    allowed = f"limits.{name} allows {limits[name]:g} {unit}"
+    return f"{what} would take {cost}, and {allowed}; make it smaller, or raise the limit"
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words, of one or two digits."""
+    units = {"second": 1.0, "minute": 60.0, "hour": HOUR, "day": 24 * HOUR, "year": YEAR}
+    if seconds >= 1e6 * YEAR:
+        return "more than a million years"
+    if seconds < 1.0:
+        return "less than a second"
+    name, size = [unit for unit in units.items() if seconds >= unit[1]][-1]
+    count = max(1, round(seconds / size))
+    return f"{count} {name}{'s' * (count > 1)}"
+
+
+def amount(size: float) -> str:
+    """Return an amount of memory in words."""
+    if size >= 1e18:
+        return "more than a million terabytes"
+    for unit, scale in (("TB", 1e12), ("GB", 1e9)):
+        if size >= scale:
+            digits = ".2g" if size < 100 * scale else ".0f"
+            return f"{size / scale:{digits}} {unit}"
+    return f"{max(1, round(size / 1e6))} MB"

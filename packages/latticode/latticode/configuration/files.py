@@ -1,0 +1,218 @@
+"""Configuration files as they stand: read strictly, and laid over each other.
+
+YAML readers take the last of two equal keys, 010 for eight and 1:30 for ninety, and say nothing.
+Here each is a fault with its place. All else is read as YAML 1.1 or JSON, as Snakemake reads it.
+"""
+
+import json
+import os
+import re
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+MOST_VALUES, DEEPEST = 100_000, 30
+"""A file of more values, or nested deeper, is no configuration but an accident."""
+SURPRISES = {
+    "int": (
+        (re.compile(r"[-+]?0[0-9_]+"), "is read as a number to the base 8"),
+        (re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+"), "is read as a number to the base 60"),
+        (re.compile(r"[-+]?[0-9_]*_[0-9_]*"), "has a _ in it"),
+    ),
+    "float": (
+        (re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+\.[0-9_]*"), "is read to the base 60"),
+        (re.compile(r".*_.*"), "has a _ in it"),
+    ),
+}
+"""Numbers that YAML reads otherwise than people do."""
+OF_MODELS = ".py"
+"""How the names of files end that hold equations."""
+PLAIN = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
+"""The tags of YAML that a configuration may have; others would make objects of programs."""
+WHOLE = ("initial",)
+"""Keys of mappings that are one value: a later file replaces them, and adds nothing to them."""
+
+
+class ConfigurationError(ValueError):
+    """The configuration has errors; the message lists them all."""
+
+
+def list_faults(lines: list[str], what: str) -> ConfigurationError:
+    """Return the exception that lists all errors of `what`, a line each."""
+    many = f"{what} has {len(lines)} error{'s' * (len(lines) > 1)}:"
+    return ConfigurationError("\n  ".join([many, *lines]))
+
+
+def read(path: Path | str) -> dict:
+    """Return what a file holds, or raise ConfigurationError with every fault and its line."""
+    path = Path(os.path.normpath(path))
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise ConfigurationError(f"there is no file {path}") from None
+    except UnicodeDecodeError:
+        raise ConfigurationError(f"{path} is not a text in UTF-8: save it in that code") from None
+    except OSError as error:
+        raise ConfigurationError(f"{path} cannot be read: {error.strerror}") from None
+    found, faults = parse(text)
+    if not faults and not isinstance(found, dict):
+        what = "is empty" if found is None else "holds no keys"
+        faults = [f"{what}; give cases: {{mine: {{model: mine.py, initial: ...}}}}"]
+    if faults:
+        raise list_faults(faults, str(path))
+    return found
+
+
+def parse(text: str) -> tuple[Any, list[str]]:
+    """Return what a text in JSON or YAML holds, and its faults in words."""
+    if text.lstrip().startswith("{"):
+        faults: list[str] = []
+        try:
+            return json.loads(text, object_pairs_hook=lambda pairs: _pairs(pairs, faults)), faults
+        except (ValueError, RecursionError):
+            pass  # YAML may start with a brace too
+    try:
+        too_large = _size_fault(text)
+        if too_large:
+            return None, [too_large]
+        loader = yaml.CSafeLoader(text)
+        node = loader.get_single_node()
+        faults = list(_faults(node, (), set(), loader)) if node else []
+        return (None, faults) if faults else (loader.construct_document(node) if node else None, [])
+    except yaml.YAMLError as error:
+        return None, [_in_words(error, text)]
+
+
+def _pairs(pairs: list, faults: list[str]) -> dict:
+    found, keys = dict(pairs), [key for key, _ in pairs]
+    faults += [f"the key {key!r} stands twice" for key in found if keys.count(key) > 1]
+    return found
+
+
+def _size_fault(text: str) -> str | None:
+    """Return the fault of a text that is nested too deeply to be read."""
+    depth = 0
+    for event in yaml.parse(text, yaml.CSafeLoader):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+        if depth > DEEPEST:
+            return f"line {event.start_mark.line + 1}: is nested more than {DEEPEST} deep"
+    return None
+
+
+def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
+    """Yield what YAML would read in silence, with its line and dotted path."""
+    here = f"line {node.start_mark.line + 1}: {'.'.join(place)}".rstrip(": ") + ":"
+    if id(node) in above:
+        yield f"{here} contains itself"
+        return
+    loader.seen = getattr(loader, "seen", 0) + 1
+    if loader.seen > MOST_VALUES:
+        if loader.seen == MOST_VALUES + 1:
+            yield f"{here} more than {MOST_VALUES} values, counting each time that one is repeated"
+        return
+    tag = node.tag.removeprefix("tag:yaml.org,2002:")
+    if tag not in PLAIN:
+        yield f"{here} the tag {node.tag} is not read: a configuration holds plain values"
+    elif isinstance(node, yaml.ScalarNode):
+        yield from (f"{here} {text}" for text in _surprises(node, tag, loader))
+    elif isinstance(node, yaml.SequenceNode):
+        for i, item in enumerate(node.value):
+            yield from _faults(item, (*place, str(i)), above | {id(node)}, loader)
+    else:
+        yield from _faults_of_mapping(node, place, above | {id(node)}, loader)
+
+
+def _faults_of_mapping(node: yaml.MappingNode, place: tuple, above: set, loader) -> Iterator[str]:
+    seen = set()
+    for key, value in node.value:
+        line, name = f"line {key.start_mark.line + 1}:", str(key.value)
+        tag = key.tag.removeprefix("tag:yaml.org,2002:")
+        path = ".".join((*place, name))
+        if not isinstance(key, yaml.ScalarNode):
+            yield f"{line} {'.'.join(place)}: a key must be a name or a number"
+            continue
+        read_as = _read_as(key, tag, loader)
+        if tag in ("bool", "null", "timestamp"):
+            yield f"{line} {path}: the key is read as {tag}; put it into quotes"
+        elif read_as in seen:
+            yield f"{line} {path}: the key stands twice"
+        yield from (f"{line} {path}: the key {text}" for text in _surprises(key, tag, loader))
+        seen.add(read_as)
+        yield from _faults(value, place if tag == "merge" else (*place, name), above, loader)
+
+
+def _read_as(key: yaml.ScalarNode, tag: str, loader) -> Any:
+    """Return what YAML makes of a key: 1, +1 and 0x1 are the same, and 1 and "1" are not."""
+    try:
+        return loader.construct_object(key) if tag in ("int", "float") else (tag, key.value)
+    except ValueError:  # told elsewhere
+        return tag, key.value
+
+
+def _surprises(node: yaml.ScalarNode, tag: str, loader) -> Iterator[str]:
+    text = node.value
+    for pattern, what in SURPRISES.get(tag, ()):
+        if not node.style and pattern.fullmatch(text) and text.strip("+-0"):
+            yield f"{text} {what}; write it in decimals, or in quotes if it is a word"
+            return
+    try:
+        if tag not in ("merge", "value"):
+            loader.construct_object(node)
+    except ValueError:
+        yield f"{text[:60]} is not a {'date' if tag == 'timestamp' else 'number'} that can be read"
+
+
+def _in_words(error: yaml.YAMLError, text: str) -> str:
+    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+    what = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
+    if mark is None:
+        return f"is not YAML: {what}"
+    line = [*text.split("\n"), ""][min(mark.line, text.count("\n") + 1)]
+    if "start any token" in what and line[mark.column : mark.column + 1] == "\t":
+        what = "a tab stands where blanks must: YAML is indented by blanks alone"
+    if "single document" in str(getattr(error, "context", "")):
+        what = "a second document starts; a configuration is one"
+    return f"line {mark.line + 1}: {what}"
+
+
+def merge(below: Mapping, above: Mapping, whole: Collection[str] = WHOLE) -> dict:
+    """Return one configuration laid over another: keys are added, values replaced.
+
+    Mappings are merged key by key, but not those under the keys `whole`, which are one value, and
+    not the controls of another solver.
+    """
+    found = dict(below)
+    for key, value in above.items():
+        old = found.get(key)
+        if isinstance(value, Mapping) and isinstance(old, Mapping) and key not in whole:
+            other = key == "solver" and value.get("name", old.get("name")) != old.get("name")
+            found[key] = dict(value) if other else merge(old, value, whole)
+        else:
+            found[key] = value
+    return found
+
+
+def with_paths(configuration: dict, folder: Path) -> dict:
+    """Return a configuration whose paths of models start at `folder`."""
+    cases = configuration.get("cases")
+    if not isinstance(cases, dict):
+        return configuration
+    found = dict(cases)
+    for name, case in cases.items():
+        path = case.get("model") if isinstance(case, dict) else None
+        if isinstance(path, str) and path.endswith(OF_MODELS):
+            found[name] = {**case, "model": str(folder / path)}
+    return {**configuration, "cases": found}
+
+
+def gather(files: list[Path], given: Mapping, whole: Collection[str] = WHOLE) -> dict:
+    """Return what files hold, each laid over those before it, and `given` over all."""
+    found: dict = {}
+    for path in files:
+        found = merge(found, with_paths(read(path), Path(path).parent), whole)
+    return merge(found, with_paths(dict(given), Path()), whole)

@@ -1,0 +1,232 @@
+"""The configuration: cases, sweeps over half-widths, solvers' controls, and the limits of a run.
+
+Problems are returned as plain values, which `Problem.of` reads, since a workflow compares the
+parameters of its jobs from run to run.
+"""
+
+import difflib
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Annotated, Any
+
+from pydantic import Field, SerializeAsAny, model_validator
+
+from latticode.simulation.problem import name_window
+
+from . import cost
+from .cases import Case, is_multiple
+from .cost import Cost
+from .solvers import Solver, Solvers, with_controls
+from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
+
+Faults = Iterator[tuple[str, str]]
+"""Pairs: the dotted path of a key, from the mapping that is checked, and what is wrong with it."""
+
+
+class Drawn(Model):
+    """The windows whose maximum and whose mean a figure shows."""
+
+    max: Window
+    mean: Window
+
+
+class Sweep(Model):
+    """A case repeated over half-widths, with its norms reduced over windows of time."""
+
+    case: str
+    half_widths: Annotated[list[Natural], Field(min_length=1, max_length=1000), Distinct]
+    windows: Annotated[list[Window], Field(min_length=1, max_length=1000), Distinct] = [
+        (10, 40),
+        (10, 50),
+        (10, 70),
+    ]
+    draw: Drawn | None = None
+    solver: Solver | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Sweep":
+        found = [
+            ("windows", f"[{start:g}, {end:g}] does not run forward from a time >= 0")
+            for start, end in self.windows
+            if not 0 <= start < end
+        ]
+        names = [name_window(window) for window in self.windows]
+        twice = [name for i, name in enumerate(names) if name in names[:i]]
+        if twice:
+            found.append(("windows", f"two are so near that both are named {twice[0]}"))
+        if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
+            found.append(("draw", "takes windows that stand under windows only"))
+        if found:
+            raise faults(found)
+        return self
+
+    @property
+    def drawn(self) -> Drawn:
+        """The windows that a figure shows: the first one, if the configuration names none."""
+        return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
+
+
+class Limits(Model):
+    """What a run may take; a longer or larger one is refused before it starts."""
+
+    hours: Positive = 1.0
+    gigabytes: Positive = 8.0
+
+
+class Configuration(Model):
+    """Cases, sweeps and the solvers' controls. A program adds sections, and cases of its own."""
+
+    cases: Annotated[dict[Name, SerializeAsAny[Case]], Field(min_length=1)]
+    sweeps: dict[Name, Sweep] = {}
+    solvers: Solvers = Solvers()
+    limits: Limits = Limits()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete_solvers(cls, raw: Any) -> Any:
+        """Give every solver that is only named its controls from `solvers`."""
+        if not isinstance(raw, dict):
+            return raw
+        sections = {}
+        for section, default in (("cases", {"solver": "taylor"}), ("sweeps", {})):
+            if isinstance(raw.get(section), dict):
+                sections[section] = {
+                    name: with_controls({**default, **item}, raw.get("solvers") or {})
+                    if isinstance(item, dict)
+                    else item
+                    for name, item in raw[section].items()
+                }
+        return {**raw, **sections}
+
+    @model_validator(mode="after")
+    def _runs_are_possible(self) -> "Configuration":
+        found = [
+            (f"sweeps.{name}.{key}", text)
+            for name in self.sweeps
+            for key, text in self._faults_of_sweep(name)
+        ]
+        found += self._same_files()
+        found += [
+            (f"cases.{name}.{key}", text)
+            for name in self.cases
+            for key, text in self._excess_of_case(name)
+        ]
+        if found:
+            raise faults(found)
+        return self
+
+    def absent(self, section: str, key: str, names: list[str]) -> Faults:
+        """Yield each of `names`, which stand at `key`, that `section` does not have."""
+        for name in names:
+            if name not in getattr(self, section):
+                near = difflib.get_close_matches(name, getattr(self, section), 1)
+                hint = f"; did you mean {near[0]!r}?" if near else ""
+                yield key, f"there is no {section.removesuffix('s')} {shown(name)}{hint}"
+
+    def takes(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
+        """Return in words what is made of a case, and what estimates its cost."""
+        return "the run", self.cases[name].cost
+
+    def _same_files(self) -> Iterator[tuple[str, str]]:
+        """Yield names whose files would be the same where a file system takes a for A."""
+        for section in ("cases", "sweeps"):
+            seen: dict[str, str] = {}
+            for name in getattr(self, section):
+                other = seen.setdefault(name.lower(), name)
+                if other != name:
+                    text = f"and {other!r} differ in capitals alone, and so would their files"
+                    yield f"{section}.{name}", text
+
+    def _excess_of_case(self, name: str) -> list[tuple[str, str]]:
+        case, limits, (what, takes) = self.cases[name], self.limits.model_dump(), self.takes(name)
+        found = cost.find_excess(case.problem(), limits, case.cost, case.ordinary)
+        # the times of its snapshots are chosen for a run that is not too long
+        found = found or cost.find_excess(case.shown_problem(), limits, takes, case.ordinary, what)
+        return [found] if found else []
+
+    def _faults_of_sweep(self, name: str) -> list[tuple[str, str]]:
+        sweep = self.sweeps[name]
+        if sweep.case not in self.cases:
+            return list(self.absent("cases", "case", [sweep.case]))
+        case, found = self.cases[sweep.case], []
+        reach, shortest = max(map(abs, case.initial)), min(sweep.half_widths)
+        if reach > shortest:
+            text = f"lies outside the chain of half-width {shortest}"
+            found.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
+        unknown = case.faults_of_half_widths(sweep.half_widths)
+        found += [("half_widths", f"case {sweep.case!r}: {k}: {text}") for k, text in unknown]
+        if found:
+            return found
+        times = [time for window in sweep.windows for time in window if time > 0]
+        off_grid = [time for time in times if not is_multiple(time, case.output_step)]
+        if off_grid:
+            text = f"is not a whole number of output steps of {case.output_step:g}"
+            found.append(("windows", f"{off_grid[0]:g} {text}"))
+        if sweep.solver is not None:
+            found += [*case.faults_of_solver(sweep.solver)] or case.faults_of_step(sweep.solver)
+            if found:
+                return found
+        for key, text in case.obstacles(sweep.solver, max(times)):
+            own = key.startswith("solver") and sweep.solver is not None
+            here = key if own else "windows" if key == "end_time" else "case"
+            found.append((here, text if own else f"in case {sweep.case!r}, {key}: {text}"))
+        return found or self._excess_of_sweep(name)
+
+    def _excess_of_sweep(self, name: str) -> list[tuple[str, str]]:
+        """Return which key makes a sweep too long, `windows` or `half_widths`, and its cost."""
+        limits, total = self.limits.model_dump(), self.cost_of_sweep(name)
+        if total.excess(limits) <= 1.0:
+            return []
+        many = self.sweeps[name].half_widths
+        ordinary = self._sum_of(name, ({"half_width": 30} for _ in many))
+        short = self._sum_of(name, ({"half_width": m, "end_time": 50.0} for m in many))
+        key = "windows" if short.excess(limits) < ordinary.excess(limits) else "half_widths"
+        return [(key, cost.refusal(total, limits))]
+
+    def cost_of_sweep(self, name: str) -> Cost:
+        """Return what all runs of a sweep take, one after another."""
+        return self._sum_of(name, ({"half_width": m} for m in self.sweeps[name].half_widths))
+
+    def _sum_of(self, name: str, changes: Iterable[Mapping]) -> Cost:
+        """Return what the problem of a sweep takes, run once with each of the changes."""
+        problem, case = self.swept_problem(name), self.cases[self.sweeps[name].case]
+        return cost.total(case.cost({**problem, **one}) for one in changes)
+
+    def cost_of(self, case: str, solver: str | None = None) -> Cost:
+        """Return what a run of a case takes, with its snapshots."""
+        return self.cases[case].cost(self.shown_problem(case, solver))
+
+    def long_runs(self) -> list[str]:
+        """Return a sentence on each run that will last for minutes, to be said before it starts."""
+        found = {}
+        for name, case in self.cases.items():
+            what, takes = self.takes(name)
+            verb = "take" if " and " in what else "takes"
+            found[f"cases.{name}: {what} {verb}"] = takes(case.shown_problem())
+        found |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
+        return [f"{what} {one}" for what, one in found.items() if one.seconds > cost.WORTH_SAYING]
+
+    def problem(self, case: str, solver: str | None = None, **changes) -> dict:
+        """Return a case as plain values of a Problem.
+
+        `solver` takes the place of the case's own, `changes` that of other keys.
+        """
+        return self.cases[case].problem(**self._by(solver), **changes)
+
+    def shown_problem(self, case: str, solver: str | None = None) -> dict:
+        """Return the problem, with snapshots enough for a picture if the case names no number."""
+        return self.cases[case].shown_problem(**self._by(solver))
+
+    def swept_problem(self, sweep: str, solver: str | None = None) -> dict:
+        """Return the case of a sweep as plain values, to be run to the end of the last window."""
+        given = self.sweeps[sweep]
+        changes = {
+            "end_time": max(end for _, end in given.windows),
+            "half_width": max(given.half_widths),
+            "snapshot_step": None,
+        }
+        if given.solver is not None:
+            changes["solver"] = given.solver.model_dump()
+        return self.cases[given.case].problem(**changes | self._by(solver))
+
+    def _by(self, solver: str | None) -> dict:
+        return {} if solver is None else {"solver": getattr(self.solvers, solver).model_dump()}
