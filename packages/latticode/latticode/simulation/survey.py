@@ -1,28 +1,17 @@
-"""Many runs of one problem: over axes of its values, for members of an ensemble, in parts.
+"""Many runs of one problem: over axes of its values, and for members of an ensemble.
 
 An axis names what it changes: a parameter of the model ("omega"), "half_width", "end_time", or the
-initial value of a field at a site ("initial.0.1": site 0, the second field). What is kept of a run
-is reduced as soon as the run is over, so that the memory of a survey is that of its results.
-
-Runs are numbered, the last axis first and members fastest. A part of a survey is every so many-th
-run, so that parts take alike long; each run depends on its number alone, and a survey has the same
-bits in any number of parts.
+initial value of a field at a site ("initial.0.1": site 0, the second field). Runs are numbered, the
+last axis first and members fastest, and each depends on its number alone. `survey_runs` makes them.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.measures.difference import VISIBLE, first_above, norm_difference
-from latticode.measures.spreading import lay_line
-from latticode.numerics.elementary import log
-
 from .ensembles import PERTURBATIONS
 from .problem import Problem
-from .simulate import IntegrationError, Trajectory, simulate
-from .sweep import mean_of, within
 
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")
 CHAINS = ("exponent", "divergence")
@@ -44,7 +33,7 @@ class Survey(NamedTuple):
     """Which runs are made of a problem, and what is kept of each."""
 
     axes: Mapping[str, Sequence]
-    keep: tuple[str | Callable[[Trajectory], float], ...] = ("max_l2",)
+    keep: tuple[str | Callable[..., float], ...] = ("max_l2",)
     window: tuple[float, float] | None = None
     """The span of time, both ends included, of maxima, means and exponents; None is the whole."""
     members: Members | None = None
@@ -54,45 +43,6 @@ class Survey(NamedTuple):
         """The numbers of values of all axes, and of members where there are any."""
         sizes = tuple(len(values) for values in self.axes.values())
         return (*sizes, self.members.count) if self.members else sizes
-
-
-def run_part(
-    problem: Problem,
-    survey: Survey,
-    part: int = 0,
-    parts: int = 1,
-    progress: Callable[[str], None] = lambda message: None,
-) -> dict[str, np.ndarray]:
-    """Return what is kept of every `parts`-th run from number `part` on, each (run, ...).
-
-    A run that cannot be made to its end has NaN. Raises ValueError for what cannot be kept or
-    changed.
-    """
-    names = _checked(problem, survey)
-    numbers = range(part, prod(survey.shape), parts)
-    found: dict[str, list] = {name: [] for name in names}
-    for done, number in enumerate(numbers, 1):
-        for name, value in _kept_of(problem_at(problem, survey, number), survey).items():
-            found[name].append(value)
-        if done % 1000 == 0:
-            progress(f"{done} of {len(numbers)} runs done")
-    return {name: np.array(values) for name, values in found.items()}
-
-
-def joined(survey: Survey, parts: Sequence[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
-    """Return what all parts of a survey hold, each of the survey's shape and behind it fields."""
-    found = {}
-    for name, first in parts[0].items():
-        values = np.empty((prod(survey.shape), *first.shape[1:]))
-        for number, part in enumerate(parts):
-            values[number :: len(parts)] = part[name]
-        found[name] = values.reshape(*survey.shape, *first.shape[1:])
-    return found
-
-
-def run_survey(problem: Problem, survey: Survey) -> dict[str, np.ndarray]:
-    """Return the whole survey, made in one part."""
-    return joined(survey, [run_part(problem, survey)])
 
 
 def problem_at(problem: Problem, survey: Survey, number: int) -> Problem:
@@ -115,7 +65,7 @@ def problem_at(problem: Problem, survey: Survey, number: int) -> Problem:
     return problem.changed(**changes, **({} if initial is None else {"initial": initial}))
 
 
-def _checked(problem: Problem, survey: Survey) -> list[str]:
+def names_of(problem: Problem, survey: Survey) -> list[str]:
     """Return the names of what is kept; raise ValueError for what cannot be kept or changed."""
     for name in survey.axes:
         _require_axis(problem, name)
@@ -140,57 +90,3 @@ def _require_axis(problem: Problem, name: str) -> None:
             f"axes: {name!r} is outside the initial data, which have the sites -{reach}..{reach} "
             f"and the fields 0..{fields - 1}"
         )
-
-
-def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:
-    """Return what is kept of one run."""
-    fields = len(problem.initial)
-    try:
-        run = simulate(problem, energy=False)
-    except IntegrationError:
-        run = None
-    found = {}
-    for kept in survey.keep:
-        if callable(kept):
-            found[kept.__name__] = np.nan if run is None else float(kept(run))
-        elif run is None:
-            found[kept] = np.nan if kept in CHAINS else np.full(fields, np.nan)
-        elif kept == "divergence":
-            found[kept] = _divergence(problem, run)
-        elif kept == "exponent":
-            found[kept] = _exponent(run, survey.window)
-        else:
-            found[kept] = _statistic(run, survey.window, *kept.split("_"))
-    return found
-
-
-def _statistic(run: Trajectory, window, statistic: str, norm: str) -> np.ndarray:
-    """Return the largest, the mean or the last value of a norm of each field, (field,)."""
-    series = getattr(run, norm)
-    if statistic == "final":
-        return series[:, -1]
-    inside = series if window is None else series[:, within(run.tau, window)]
-    return inside.max(axis=1) if statistic == "max" else mean_of(inside)
-
-
-def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
-    """Return the exponent of time with which the power of all fields grows in the window."""
-    start, end = window or (run.tau[1], run.tau[-1])
-    inside = within(run.tau, (start, end)) & (run.tau > 0.0)
-    power = np.add.reduce(run.l2 * run.l2)[inside]
-    if not power.all():
-        return np.nan
-    return lay_line(log(run.tau[inside]), log(power)).slope
-
-
-def _divergence(problem: Problem, run: Trajectory) -> float:
-    """Return the first time at which a run by another method differs by the visible part."""
-    other = "dop853" if problem.solver["name"] in ("taylor", "auto") else "taylor"
-    try:
-        again = simulate(
-            problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), energy=False
-        )
-    except IntegrationError:
-        return np.nan
-    apart = norm_difference(run.linf, run.l2, again.linf, again.l2)
-    return float(first_above(run.tau, apart, VISIBLE))

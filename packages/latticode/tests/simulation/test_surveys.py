@@ -8,7 +8,8 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.surveys import survey_contents
 from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import simulate
-from latticode.simulation.survey import Members, Survey, joined, problem_at, run_part, run_survey
+from latticode.simulation.survey import Members, Survey, problem_at
+from latticode.simulation.survey_runs import joined, run_part, run_survey
 
 AXES = {"omega": [-4.0, 0.0, 3.0], "initial.0.0": [1.0, 2.0 + 0.5j]}
 
