@@ -15,6 +15,8 @@ from latticode.simulation import problem
 
 AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
 """The amplitude equations (4), and Newton's equations (1) of the pendula."""
+BOUNDARIES = ("dirichlet", "free", "periodic")
+"""The ends for which the paper's equations have an energy, bounds and proofs."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +65,7 @@ class Problem(problem.Problem):
         if self.model.name in MODELS:
             require_model(self.model.name, self.mu, self.constants.omega)
             if kind_of(self.boundary) == ANTIPERIODIC:
-                text = "the paper's equations have no energy and no bounds on this ring"
+                text = f"the paper's equations take {', '.join(BOUNDARIES)}"
                 raise ValueError(f"{self.boundary}: {text}; give a model of your own")
 
     @classmethod

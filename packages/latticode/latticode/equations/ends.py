@@ -117,5 +117,7 @@ def neighbours(values: np.ndarray, boundary: str) -> tuple[np.ndarray, np.ndarra
     right[..., :-1], left[..., 1:] = values[..., 1:], values[..., :-1]
     ends = ends_of(boundary)
     if ends.sees:
-        left[..., 0], right[..., -1] = (ends.factor * values[..., place] for place in ends.sees)
+        left[..., 0], right[..., -1] = (values[..., place] for place in ends.sees)
+    if ends.factor < 0.0:  # numbers may be of any kind, exact ones too
+        left[..., 0], right[..., -1] = -left[..., 0], -right[..., -1]
     return right, left

@@ -13,8 +13,10 @@ import numpy as np
 import xarray as xr
 from flint import fmpq
 from latticode.datasets.checks import describe, table, variable
-from latticode.equations.ends import ENDS, neighbours
+from latticode.equations.ends import neighbours
 from latticode.equations.model import Model, Value, abs2, conj, lap
+
+from pendula.problem import BOUNDARIES
 
 from . import derivation, inequalities
 from .polynomials import (
@@ -240,12 +242,12 @@ def prove_identities() -> xr.Dataset:
     """Count the terms that are left of each statement and of its twin, for each kind of ends."""
     dims = ("identity", "boundary")
     right, wrong = (
-        [[terms_left(pair[i](ends)) for ends in ENDS] for pair in IDENTITIES.values()]
+        [[terms_left(pair[i](ends)) for ends in BOUNDARIES] for pair in IDENTITIES.values()]
         for i in (0, 1)
     )
     check = table(
         "Identities and inequalities of the paper, proved as polynomials over the rationals",
-        {"identity": list(IDENTITIES), "boundary": list(ENDS)},
+        {"identity": list(IDENTITIES), "boundary": list(BOUNDARIES)},
         terms=variable(right, dims, "terms that are left of the statement", tolerance=0),
         twin_terms=variable(wrong, dims, "terms that are left of its wrong twin"),
     )

@@ -18,8 +18,9 @@ from latticode.configuration.values import (
     Window,
     model,
 )
-from latticode.equations.ends import ENDS
 from pydantic import Field, create_model
+
+from pendula.problem import BOUNDARIES
 
 Size = Annotated[Count, Field(le=100_000)]
 """A number of sites, samples or members: more of them take hours in every check."""
@@ -48,7 +49,7 @@ ARGUMENTS = {
     **dict.fromkeys(("epsilon", "gamma", "omega"), Number),
     "omegas": Annotated[list[Number], Field(min_length=1)],
     "gammas": Grid,
-    "boundary": Literal[tuple(ENDS)],
+    "boundary": Literal[BOUNDARIES],
     "solver": Solver,
     # chains and their data
     **dict.fromkeys(("sites", "ring_sites"), Size),
