@@ -12,6 +12,7 @@ from pendula.figure_diff import Status
 from pendula.ledger.changes import exchange, put, scale, shift
 
 REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING = made_up.NAMES[:6]
+BOUND = made_up.BOUND
 LEDGER, PART, TABLE, REPORT = made_up.NAMES[7:11]
 DIFFERENT, DAMAGED, MISSING = Status.DIFFERENT, Status.DAMAGED, Status.MISSING
 BEYOND, WITHIN = Status.BEYOND, Status.WITHIN
@@ -115,14 +116,26 @@ FAULTS = [
     content("lost seal", REGULAR, lambda found: found[:-LENGTH], DAMAGED),
     # What rests on chaos
     data("another tail", CHAOTIC, shift("l2", 1.0, tau=slice(HORIZON + 0.1, None)), BEYOND),
+    data("huge number in the tail", CHAOTIC, put("l2", 1e300, tau=45.0), says="too much"),
+    data("negative norms", CHAOTIC, scale("l2", -1.0, tau=slice(40, None)), says="negative"),
+    data("NaN in the tail", CHAOTIC, put("l2", np.nan, tau=45.0), says="NaN"),
+    data("a jump in time", CHAOTIC, put("l2", 14.0, tau=45.0, component="A"), says="range"),
+    data("tail thrice as large", CHAOTIC, scale("l2", 3.0, tau=slice(40, None)), says="range"),
+    data("another omega of the cases", EXPONENTS,
+         lambda d: d.assign_coords(case=["fig4_small", "fig2_small"]), says="words"),
     data("before the horizon", CHAOTIC, put("l2", 2.5, component="A", tau=TAU[60]), says="off by"),
     data("tau of chaos moved", CHAOTIC, lambda d: d.assign_coords(tau=d["tau"] * (1 + 1e-12))),
     data("points of a sweep exchanged", SWEEP, exchange("half_width"), BEYOND),
     data("exponent of a regular case", EXPONENTS, shift("exponent", 0.01, case="fig2_small")),
     data("a horizon", TRUST, scale("difference", 1.1, case="fig4_small"), BEYOND),
-    data("roundings", ROUNDING, scale("defect", 2.0), BEYOND, "errors of rounding"),
+    data("roundings", ROUNDING, scale("defect", 2.0), WITHIN, "by roundings"),
     data("roundings that are none", ROUNDING, scale("defect", 1e9)),
+    data("proven bound times 0.01", BOUND, scale("bound", 0.01), says="what is proved"),
+    drawn("A and B exchanged", "figures/fig2.json", components="BA"),
     # Texts
+    text("criterion of a chaotic claim", LEDGER, "largest norm <= 9.5", "largest norm <= 95"),
+    text("cut-off of a chaotic claim", LEDGER, '"value": 0.25', '"value": 0.5'),
+    text("verdict in a table", TABLE, "| confirmed |", "| refuted |"),
     text("verdict", LEDGER, "confirmed", "not reproduced"),
     text("verdict by hand", LEDGER, "confirmed", "refuted", DAMAGED, DAMAGED, sealed=False),
     text("number of a claim", LEDGER, "6.60403", "6.60404"),
@@ -166,3 +179,22 @@ def test_an_untouched_run_is_identical_in_both_modes(run):
     for any_bits in (False, True):
         verdict = run.judge(any_bits=any_bits)
         assert not verdict.faults and verdict.counts == {Status.IDENTICAL: len(made_up.NAMES)}
+
+
+OF_CHAOS = (
+    *("huge number in the tail", "negative norms", "NaN in the tail", "tail thrice as large"),
+    *("before the horizon", "proven bound times 0.01", "roundings that are none", "verdict"),
+    *("criterion of a chaotic claim", "cut-off of a chaotic claim", "verdict in a table"),
+    *("verdict in the report", "A and B exchanged", "other label", "older picture"),
+)
+"""Faults that are found where chaos has taken another path too."""
+
+
+@pytest.mark.parametrize("name", OF_CHAOS)
+def test_a_planted_fault_is_found_in_a_run_with_other_last_bits(name, run):
+    made_up.make_run(run.made, seed=1)
+    assert not run.judge(any_bits=True).faults
+    (fault,) = (fault for fault in FAULTS if fault.name == name)
+    fault.plant(run)
+    found = run.findings(any_bits=True)[fault.file]
+    assert found.status.is_fault, found

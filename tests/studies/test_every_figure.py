@@ -43,10 +43,21 @@ OWN = {
 
 
 @style.styled
-def described(figure) -> dict:
+def described(figure, data=None) -> dict:
     """Return what a figure shows; to draw it finds its ticks and its margins."""
     figure.draw_without_rendering()
-    return describe(figure, xr.Dataset())
+    return describe(figure, xr.Dataset() if data is None else data)
+
+
+def without(keys: set[str], part):
+    """Return a description without some entries of curves and areas."""
+    if isinstance(part, dict):
+        return {key: without(keys, each) for key, each in part.items() if key not in keys}
+    return [without(keys, each) for each in part] if isinstance(part, list) else part
+
+
+OF_ROWS = {"shows", "x leaves", "y leaves"}
+"""Entries that say which rows of the data a curve shows, and on which side it leaves its panel."""
 
 
 class Plot(NamedTuple):
@@ -88,9 +99,38 @@ def accepted(name: str) -> dict:
 
 def test_saved_data_show_what_is_accepted_whatever_the_users_style(plot):
     """Each text, colour, stroke and axis, and the ranges of each curve."""
-    apart = differing(accepted(plot.name), plot.shown | {"data": ""}, 1e-3)
+    kept, shown = (without(OF_ROWS, each) for each in (accepted(plot.name), plot.shown))
+    apart = differing(kept, shown | {"data": ""}, 1e-3)
     rounded = MORE_DIGITS.get(plot.name, "none")
     assert {at: pair for at, pair in apart.items() if not at.startswith(rounded)} == {}
+
+
+LEAST = 100
+"""Points of a curve that is no mark, no bar and no edge of a panel."""
+
+
+def test_each_curve_names_the_rows_that_it_shows(plot):
+    if plot.name == "growth_law":  # its curves are of fewer points
+        return
+    shown = described(plot.figure, read(plot.file))
+    curves = [one for panel in shown["panels"] for one in panel.get("curves", ())]
+    assert all(one.get("shows") for one in curves if one["points"] >= LEAST)
+
+
+def test_a_curve_that_is_reversed_or_hidden_or_cut_off_is_told():
+    data = dataset("trajectories/fig4_large")
+    figure = style.new_figure(4, 2)
+    axes = figure.subplots()
+    for component in "AB":
+        axes.plot(data["tau"], data["l2"].sel(component=component))
+    told = lambda: [one.get("shows") for one in described(figure, data)["panels"][0]["curves"]]  # noqa: E731
+    assert told() == ["l2 [A] over tau", "l2 [B] over tau"]
+    axes.lines[0].set_ydata(axes.lines[0].get_ydata()[::-1])
+    assert told() == ["tau", "l2 [B] over tau"]
+    axes.lines[1].set_visible(False)
+    axes.set_ylim(5, 10)
+    (curve,) = described(figure, data)["panels"][0]["curves"]
+    assert curve["y leaves"] == "below and above" and curve["shows"] == "tau"
 
 
 def test_every_accepted_figure_is_drawn():

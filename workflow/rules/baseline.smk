@@ -51,19 +51,3 @@ def tell_faults():
     print(*verdict["lines"], sep="\n", end=f"; see {from_outside(PAGE)}\n", file=sys.stderr)
     if verdict["faults"]:
         sys.exit(1)
-
-
-# Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of the
-# file or along a dimension. Where their bits differ, they cannot be judged.
-RESTS_ON_CHAOS = [
-    # Maps and scans over data, some of which lead to chaos
-    *("breathers/fates:*", "breathers/sensitivity:*", "figures/fates:*"),
-    *("checks/lifetimes:*", "figures/lifetimes:*"),
-    # Chains of other lengths, and without ends, at the detuning of a chaotic case
-    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
-    *(f"unbounded/{name}:*" for name in ("fronts", "omegas", "transverse")),
-    # The sea that fills a chain of pendula
-    "pendula/sea:*",
-]
-# Variables that are divided by the largest value of a whole run: in a chaotic case it is one of the tail.
-DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]

@@ -17,7 +17,6 @@ use rule job as figure_diff with:
         baseline=baseline_told_at_the_end,
         configuration=plain(SETTINGS),
         any_bits=OPTIONS["bits"] == "any",
-        rests_on_chaos=[RESTS_ON_CHAOS, DIVIDED_BY_THE_TAIL],
         html=PAGE,
         verdict=VERDICT,
     message:

@@ -104,6 +104,7 @@ def gather(results: Results) -> dict[str, Any]:
             results[one]["measured"].size for one in ("checks/chart", "checks/short_chart")
         ),
         "runs_level": level_of_runs(results),
+        "means_level": level_of_means(numbers.ledger),
         "mark": MARK,
         "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),
         "omegas": results.quote(LONG, study.sizes["omega"]),
@@ -144,6 +145,17 @@ def regular_error(results: Results, solver: str) -> Quote:
     regular = results["checks/lyapunov"]["chaotic"] == 0
     errors = results["checks/trust"]["difference"].sel(solver=solver).where(regular)
     return results.quote("checks/trust", float(errors.max()), 2)
+
+
+def level_of_means(ledger: Ledger) -> Quote:
+    """Return the half-width from which ensemble means are level, of the kinds of which it is known.
+
+    In some right runs the means of one kind of ensemble are level only on the longest chains.
+    """
+    keys = [f"{kind}_level_from" for kind in ("even", "uneven")]
+    known = {ledger.value("ensemble_fig6_diverges", key): key for key in keys}
+    largest = max(filter(np.isfinite, known), default=np.nan)
+    return ledger.quote("ensemble_fig6_diverges", known.get(largest, keys[0]))
 
 
 def level_of_runs(results: Results) -> Quote:

@@ -23,7 +23,7 @@ from .baseline import (
     unlike_settings,
 )
 from .compare_datasets import fault_of_form
-from .compare_shown import comparable, damage
+from .compare_shown import damage, hash_of
 
 ALL = "accept all files, so that all are of one run"
 OWN = """run it without --configfile and --config; for a baseline of another configuration give a \
@@ -122,7 +122,7 @@ def _take(name: str, content: bytes | xr.Dataset, path: Path, kept: Path) -> str
         if is_kept(name):
             with complete_or_absent(kept) as partial:
                 partial.write_bytes(content)
-        return hashes.of_bytes(comparable(name, content))
+        return hash_of(name, content)
     if not is_kept(name):
         return hashes.of(content)
     hashes.keep(kept, path)

@@ -9,7 +9,7 @@ import platform
 import re
 import zlib
 from collections.abc import Iterable, Mapping
-from functools import cache
+from functools import cache, cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -79,11 +79,10 @@ def compare(
     folder: Path,
     configuration: Mapping[str, Any],
     any_bits: bool = False,
-    rests_on_chaos: Iterable[Iterable[str]] = (),
 ) -> Verdict:
     """Return a finding for each file of `names` below `made` or in the baseline alone.
 
-    With `any_bits` numbers have a tolerance; `rests_on_chaos` has patterns of `Chaos`.
+    With `any_bits` numbers have a tolerance.
     """
     try:
         record = recorded(folder)
@@ -91,7 +90,7 @@ def compare(
         way_out = "restore it by git, or delete it and run `snakemake accept_figures`"
         says = f"in the baseline is damaged or was edited: {way_out}"
         return Verdict("Nothing was compared.", [Finding(RECORD, Status.DAMAGED, says)])
-    comparison = _Comparison(record, made, folder, rests_on_chaos)
+    comparison = Comparison(record, made, folder)
     findings = [comparison.strictly(each, any_bits) for each in comparison.look_at_all(set(names))]
     unlike = " and ".join(unlike_settings(record["configuration"], configuration)[:2])
     if unlike and record["files"]:
@@ -109,27 +108,31 @@ def compare(
     return Verdict(judged, findings)
 
 
-class _Comparison:
+class Comparison:
     """A run beside its baseline, and what was found of each file."""
 
-    def __init__(self, record: Mapping, made: Path, folder: Path, rests_on_chaos: Iterable):
+    def __init__(self, record: Mapping, made: Path, folder: Path):
         self.accepted, self.made, self.folder = record["files"], made, folder
         was, now = record["environment"], environment()
         self.same_data, self.same_drawing = was.get("data") == now["data"], was == now
         sweeps = record["configuration"].get("sweeps", {})
         unknown = fault_of_kept(TRUST, self.accepted, folder)
         known = {} if unknown else horizons(folder, sweeps)
-        self.chaos = Chaos(known, *map(tuple, rests_on_chaos))
+        self.chaos = Chaos(known)
         self.found: dict[str, Finding] = {}
 
     def look_at_all(self, names: set[str]) -> list[Finding]:
         """Return the findings; datasets come first, since they decide about texts and pictures."""
-        every = names | self.accepted.keys()
-        for name in sorted(every, key=lambda n: (n.endswith(PICTURES), not n.endswith(".nc"))):
-            self.found[name] = Finding(name, *self._look_at(name, name in names))
+        for name in sorted(names | self.accepted.keys(), key=place):
+            self.look_at(name, name in names)
         return list(self.found.values())
 
-    def _look_at(self, name: str, is_made: bool) -> tuple[Status, str]:
+    def look_at(self, name: str, is_made: bool = True) -> Finding:
+        """Return the finding for one file, and keep it for those that follow."""
+        self.found[name] = Finding(name, *self._judge(name, is_made))
+        return self.found[name]
+
+    def _judge(self, name: str, is_made: bool) -> tuple[Status, str]:
         if not is_made:
             return Status.MISSING, "is in the baseline, but no longer among the results"
         if not (self.made / name).exists():
@@ -143,19 +146,35 @@ class _Comparison:
     def _compare(self, name: str, new: Path, kept: Path, accepted: Any) -> tuple[Status, str]:
         if name.endswith(".nc"):
             known = kept if is_kept(name) else None
-            return compare_datasets.compare(name, new, accepted, known, self.chaos)
-        same = hashes.of_bytes(compare_shown.comparable(name, new.read_bytes())) == accepted
+            found = compare_datasets.compare(name, new, accepted, known, self.chaos)
+            if found[0] != Status.BEYOND or not name.startswith(FIGURES):
+                return found
+            fault = compare_datasets.fault_of_copies(kept, new, self.sources)
+            return (Status.DIFFERENT, fault) if fault else found
+        found = compare_shown.hash_of(name, new.read_bytes())
+        same = found == accepted
         if name.startswith(FIGURES) and name.endswith(PICTURES):
-            return compare_shown.compare_picture(new, same, self._beside(name, ".json"))
+            return compare_shown.compare_picture(new, kept, same, self._beside(name, ".json"))
         if name.startswith(FIGURES):
             return compare_shown.compare_description(kept, new, self._beside(name, ".nc"))
         if same:
             return Status.IDENTICAL, ""
-        datasets = {found.status for each, found in self.found.items() if each.endswith(".nc")}
+        if name.endswith(".pdf") and (fault := compare_shown.damage(new, new.read_bytes())):
+            return Status.DAMAGED, fault
+        datasets = {n: found.status for n, found in self.found.items() if n.endswith(".nc")}
         if is_kept(name):
             return compare_shown.compare(new, kept.read_text("utf-8"), datasets)
-        status = Status.BEYOND if Status.BEYOND in datasets else Status.DIFFERENT
+        has_words = name.endswith(".pdf") or found.split()[-1] == accepted.split()[-1]
+        follows = Status.BEYOND in datasets.values() and has_words
+        status = Status.BEYOND if follows else Status.DIFFERENT
         return status, "is not the accepted one, of which the baseline keeps the hash alone"
+
+    @cached_property
+    def sources(self) -> compare_datasets.Sources:
+        """The datasets that rest on chaos, which come before those of figures."""
+        chaotic = [name for name, found in self.found.items() if found.status == Status.BEYOND]
+        names = [n for n in chaotic if n.endswith(".nc") and not n.startswith(FIGURES)]
+        return compare_datasets.sources(names, self.folder, self.made)
 
     def _beside(self, name: str, kind: str) -> Status:
         """Return the status of the file of another kind beside this one."""
@@ -172,6 +191,11 @@ class _Comparison:
             strict = self.same_drawing and (strict or drawn_alike)
         says = f"other bits, {found.status}: {found.says}"
         return found._replace(status=Status.DIFFERENT, says=says) if strict else found
+
+
+def place(name: str) -> tuple[bool, ...]:
+    """Return by what a file is sorted: each kind after those that it follows."""
+    return name.endswith(PICTURES), not name.endswith(".nc"), name.startswith(FIGURES)
 
 
 def unlike_settings(was: Any, now: Any, place: str = "") -> list[str]:

@@ -6,7 +6,7 @@ those of any right run are smaller than the tolerance. A case without such a tim
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -23,11 +23,46 @@ TOLERANCE = 1e-6
 ROUNDING = 1e-8
 """A variable with nothing larger holds errors of rounding, of which no digit can be compared."""
 
-MARGIN = 0.01
+MARGIN = 0.001
 """Other solvers round ten times as often as Taylor's, or more, and roundings add up."""
 
 TRUST, ROUNDED_ONLY = "checks/trust.nc", "taylor"
 """The dataset with the differences to the references, and the solver among those of it."""
+
+
+RESTS_ON_CHAOS = [
+    # Maps and scans over data, some of which lead to chaos
+    *(f"breathers/{name}" for name in ("fates:*fate", "fates:*area*", "sensitivity:*")),
+    *("checks/lifetimes:*", "figures/lifetimes:*", "figures/fates:*fate"),
+    # Chains of other lengths, and without ends, at the detuning of a chaotic case
+    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
+    *(f"unbounded/{name}:*" for name in ("fronts", "omegas", "transverse")),
+    # The sea that fills a chain of pendula
+    "pendula/sea:*",
+]
+"""Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
+the file or along a dimension."""
+
+DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]
+"""Variables that are divided by the largest value of a run: of a chaotic one, it is in the tail."""
+
+STEADY = [
+    *(
+        "*omega",
+        "*:case_[ab]0",
+        "*:start",
+        "*_start",
+        "*:until",
+        "*:stated_drift",
+        "*:allowed_drift",
+        "*:true_*",
+        "*_undriven",
+    ),
+    *("*:theorem_*", "*:widened", "*:proved_until", "*:proven_bound", "*:largest_bound"),
+    *("*:linear_speed", "*:predicted_[dr]*", "*:predicted_speed", "*:thermal*_power"),
+    *("pendula/remainder:*error", "pendula/remainder:*order"),  # they end before chaos
+]
+"""Variables that theory, a reference or the configuration gives, also those beside chaotic runs."""
 
 
 class Chaos(NamedTuple):
@@ -35,10 +70,6 @@ class Chaos(NamedTuple):
 
     horizons: Mapping[str, float]
     """The horizon of trust of each chaotic case, and -inf for each sweep over one, by name."""
-    variables: tuple[str, ...] = ()
-    """Patterns of variables that rest on chaos though no name shows it, as `pendula/sea:*`."""
-    scaled: tuple[str, ...] = ()
-    """Patterns of variables that are divided by a value of the tail, and so have no horizon."""
 
     def beyond(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
         """Return which values of the variable `key` of the dataset `name` cannot be judged.
@@ -49,10 +80,14 @@ class Chaos(NamedTuple):
         variable, stem = data.variables[key], name.removesuffix(".nc")
         label, found = f"{stem}:{key}", np.zeros(variable.shape, bool)
         if are_coordinates(key, variable):  # a star does not mean them
-            return found | (label in self.variables)
-        if any(fnmatchcase(label, pattern) for pattern in self.variables):
+            return found | (label in RESTS_ON_CHAOS)
+        if _is_one_of(label, STEADY):
+            return found
+        if _is_one_of(label, RESTS_ON_CHAOS):
             return ~found
-        has_horizon = not any(fnmatchcase(label, pattern) for pattern in self.scaled)
+        if variable.dtype.kind != "f":  # counts and parameters
+            return found
+        has_horizon = not _is_one_of(label, DIVIDED_BY_THE_TAIL)
         times = _times(variable, data) if has_horizon else np.inf
         labels = [_labels(dimension, data) for dimension in variable.dims]
         for place in np.ndindex(*map(len, labels)):
@@ -63,6 +98,10 @@ class Chaos(NamedTuple):
                 index = (slice(i, i + 1) if len(along) > 1 else slice(None) for along, i in pairs)
                 found[tuple(index)] = times >= min(hits)
         return found
+
+
+def _is_one_of(label: str, patterns: Iterable[str]) -> bool:
+    return any(fnmatchcase(label, pattern) for pattern in patterns)
 
 
 def are_coordinates(key: str, variable: xr.Variable) -> bool:

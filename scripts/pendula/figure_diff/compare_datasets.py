@@ -1,23 +1,28 @@
 """Compares a dataset with the accepted one: by its hashes, and where they differ by its numbers.
 
-Words, coordinates, attributes, types and shapes must be equal. Numbers may be off by TOLERANCE of
-the largest of their variable; those that rest on chaos, and roundings, are beyond comparison.
+Words, coordinates, attributes, types and shapes must be equal, and numbers agree as `values` says.
+Those that rest on chaos are beyond comparison, but obey its limits and the laws of `laws`.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import netCDF4
-import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import LENGTH, MARK, DatasetError, read
+from latticode.drawing.shown_data import Rows
 
-from . import Status, hashes
-from .chaos import ROUNDING, TOLERANCE, Chaos, are_coordinates
+from . import Status, hashes, laws, values
+from .chaos import Chaos, are_coordinates
 
 WORK = ("steps", "rejected_steps", "right_hand_sides")
 """Attributes that count what a solver did: they follow every rounding, also of a regular run."""
+
+
+Sources = Mapping[str, tuple[Rows, ...]]
+"""The rows of datasets from which figures are made: accepted, and new."""
 
 
 class Unlike(NamedTuple):
@@ -45,13 +50,24 @@ def compare(
         return Status.IDENTICAL, ""
     if kept is None:
         return Status.DIFFERENT, "is not the accepted reference: it has other bits"
-    found = list(differences(name, read(kept), content, accepted["variables"], chaos))
-    if faults := [each.says for each in found if each.is_fault]:
+    was = read(kept)
+    found = list(differences(name, was, content, accepted["variables"], chaos))
+    if faults := [each.says for each in found if each.is_fault] or laws.broken(was, content):
         return Status.DIFFERENT, "; ".join(faults[:3])
     if beyond := [each.says for each in found if each.beyond]:
         count = sum(each.beyond for each in found)
         return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
     return Status.WITHIN, "; ".join([each.says for each in found][:3])
+
+
+def sources(names: Iterable[str], *folders: Path) -> Sources:
+    """Return the rows of datasets in two folders, by the names of the datasets."""
+    return {name: tuple(Rows(read(folder / name)) for folder in folders) for name in names}
+
+
+def fault_of_copies(kept: Path, made: Path, sources: Sources) -> str:
+    """Return which rows of a figure's dataset are no longer those of its sources, or nothing."""
+    return "; ".join(islice(laws.copied(read(kept), read(made), sources), 3))
 
 
 def fault_of_form(path: Path) -> str:
@@ -74,12 +90,12 @@ def differences(
         if before is None or after is None:
             yield Unlike(True, 0, f"{key} is {'gone' if after is None else 'new'}")
             continue
-        kind, values, _ = accepted[key].rsplit(" ", 2)
+        kind, hash_of_values, _ = accepted[key].rsplit(" ", 2)
         yield from _of_attributes(f"{key}: ", before.attrs, after.attrs)
         if (now_kind := hashes.kind(after)) != kind:
             yield Unlike(True, 0, f"{key} is {now_kind} in place of {kind}")
-        elif hashes.of_values(after) != values:
-            yield _of_values(key, before, after, chaos.beyond(name, key, now))
+        elif hashes.of_values(after) != hash_of_values:
+            yield _of_values(key, before, after, chaos.beyond(name, key, now), now)
 
 
 def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[Unlike]:
@@ -92,24 +108,13 @@ def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[Unlike]:
             yield Unlike(not counts_work, int(counts_work), says)
 
 
-def _of_values(key: str, was: xr.Variable, now: xr.Variable, beyond: np.ndarray) -> Unlike:
-    """Compare values with other bits; `beyond` says which of them cannot be judged."""
+def _of_values(key: str, was: xr.Variable, now: xr.Variable, chaotic, data: xr.Dataset) -> Unlike:
+    """Compare values with other bits; `chaotic` says which of them rest on chaos."""
     is_text = hashes.are_words(was)
-    if is_text or (are_coordinates(key, now) and not beyond.all()):
+    if is_text or (are_coordinates(key, now) and not chaotic.all()):
         return Unlike(True, 0, f"{key} holds other {'words' if is_text else 'coordinates'}")
-    before, after = was.values.astype(float), now.values.astype(float)
-    largest, is_exact = hashes.largest(before), now.dtype.kind != "f"
-    if not is_exact and max(largest, hashes.largest(after)) < ROUNDING:
-        return Unlike(False, before.size, f"{key} holds errors of rounding")
-    with np.errstate(invalid="ignore"):
-        apart = abs(after - before)  # NaN where only one of two is finite, or none
-    same = beyond | (before == after) | (np.isnan(before) & np.isnan(after))
-    if gaps := int((~same & ~np.isfinite(apart)).sum()):
-        return Unlike(True, 0, f"{key} has NaN or infinity elsewhere, at {gaps} places")
-    off = float(apart[~same].max(initial=0.0)) / (largest or 1.0)
-    allowed = 0.0 if is_exact else TOLERANCE
-    if off <= allowed and beyond.any():
-        says = f"{beyond.sum()} of {beyond.size} numbers of {key} rest on chaos"
-        return Unlike(False, int(beyond.sum()), says)
-    says = f"{key} is off by {off:.2g} of its largest value, {allowed:.2g} is allowed"
-    return Unlike(off > allowed, 0, says)
+    if fault := values.fault(key, was, now, chaotic, data):
+        return Unlike(True, 0, fault)
+    count = int(chaotic.sum())
+    of_chaos = f"{count} of {chaotic.size} numbers of {key} rest on chaos"
+    return Unlike(False, count, of_chaos if count else f"{key} is off by roundings")

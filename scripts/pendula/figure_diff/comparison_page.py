@@ -39,14 +39,13 @@ def compare_results(
     baseline: str,
     configuration: dict,
     any_bits: bool,
-    rests_on_chaos: list[list[str]],
     html: str,
     verdict: str,
 ) -> None:
     """Compare files of a run in the folder `made` with a baseline; the run's end tells faults."""
     names = [Path(path).relative_to(made).as_posix() for path in results]
     folders = Path(made), Path(baseline)
-    found = compare(names, *folders, configuration, any_bits, rests_on_chaos)
+    found = compare(names, *folders, configuration, any_bits)
     with complete_or_absent(html) as partial:
         partial.write_text(render(found, *folders), "utf-8")
     write_json(verdict, {"faults": found.faults, "counts": found.counts, "lines": found.lines})

@@ -37,7 +37,7 @@ class Ledger:
     def value(self, claim: str, key: str) -> float:
         """Return a measured number, NaN if the claim was not decided or is not applicable."""
         measured = self._by_name[claim]["measured"].get(key, "nan")
-        return float(str(measured).replace("none", "nan"))
+        return float({"none": "nan", "infinite": "inf"}.get(measured, measured))
 
     def quote(self, claim: str, key: str, digits: int = 3) -> "Quote":
         """Return a measured number as a page shows it."""

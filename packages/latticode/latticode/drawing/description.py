@@ -1,8 +1,8 @@
 """What a figure shows, in words and numbers, written beside the picture as JSON.
 
-Pixels do not say which of two curves is A. So everything that a reader would read, and what tells
-curves apart, is kept as text: the figure diff compares it word by word on any machine, where the
-pixels of letters depend on a library of fonts.
+Pixels do not say which of two curves is A. So all that a reader would read, what tells curves
+apart, and which rows of the data they show, is kept as text: the figure diff compares it word by
+word on any machine, where the pixels of letters depend on a library of fonts.
 
 Numbers keep DIGITS digits, which is finer than a pixel and coarser than what processors round
 otherwise. Places on the page are left out, since they follow the width of letters; an annotation
@@ -18,7 +18,7 @@ import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.collections import Collection, QuadMesh
+from matplotlib.collections import Collection, FillBetweenPolyCollection, QuadMesh
 from matplotlib.colorizer import ColorizingArtist
 from matplotlib.colors import to_hex, to_rgba
 from matplotlib.figure import Figure
@@ -30,6 +30,8 @@ from matplotlib.text import Annotation, Text
 
 from latticode.datasets.digest import digest
 
+from .shown_data import Rows
+
 DIGITS = 6
 """Significant digits of limits, positions and ranges: a panel is about 2000 pixels wide."""
 LINE = 220
@@ -40,13 +42,14 @@ def describe(figure: Figure, data: xr.Dataset) -> dict[str, Any]:
     """Return the description of a figure that has been drawn, and of the data that it shows."""
     mapped = (artist for axes in figure.axes for artist in (*axes.images, *axes.collections))
     bars = {artist.colorbar.ax for artist in mapped if getattr(artist, "colorbar", None)}
+    rows = Rows(data)
     parts = {
         "data": digest(data),
         "size_in_inches": [_round(length) for length in figure.get_size_inches()],
         "title": figure.get_suptitle(),
         "legends": [_legend(legend) for legend in figure.legends],
         "texts": [_text(text) for text in figure.texts if text.get_text() != figure.get_suptitle()],
-        "panels": [_panel(axes, axes in bars) for axes in figure.axes if axes.get_visible()],
+        "panels": [_panel(axes, axes in bars, rows) for axes in figure.axes if axes.get_visible()],
     }
     return _without_empty(parts)
 
@@ -70,7 +73,7 @@ def as_text(description: Any, indent: int = 0) -> str:
     return f"{opening}\n{margin} {inner}\n{margin}{closing}"
 
 
-def _panel(axes: Axes, is_bar: bool) -> dict[str, Any]:
+def _panel(axes: Axes, is_bar: bool, rows: Rows) -> dict[str, Any]:
     titles = [axes.get_title(loc) for loc in ("left", "center", "right")]
     grid = axes.get_subplotspec()
     drawn = {
@@ -86,11 +89,11 @@ def _panel(axes: Axes, is_bar: bool) -> dict[str, Any]:
     legend = axes.get_legend()
     drawn |= {
         "legends": [_legend(legend)] if legend else [],
-        "curves": [_curve(line) for line in axes.lines],
-        "areas": [_area(area) for area in axes.collections],
-        "images": [_mapped(image) for image in axes.images],
-        "shapes": [_shape(patch) for patch in axes.patches],
-        "texts": [_text(text) for text in axes.texts],
+        "curves": [_curve(line, rows) for line in _seen(axes.lines)],
+        "areas": [_area(area, rows) for area in _seen(axes.collections)],
+        "images": [_mapped(image, rows) for image in _seen(axes.images)],
+        "shapes": [_shape(patch) for patch in _seen(axes.patches)],
+        "texts": [_text(text) for text in _seen(axes.texts)],
     }
     return _without_empty(drawn)
 
@@ -118,21 +121,47 @@ def _legend(legend: Legend) -> dict[str, Any]:
     return _without_empty({"title": legend.get_title().get_text(), "entries": entries})
 
 
-def _curve(line: Line2D) -> dict[str, Any]:
+def _seen(artists: Iterable[Artist]) -> list[Artist]:
+    """Return the artists that are drawn."""
+    return [artist for artist in artists if artist.get_visible()]
+
+
+def _curve(line: Line2D, rows: Rows) -> dict[str, Any]:
     x, y = (np.ma.filled(np.asarray(values, float), np.nan) for values in line.get_data())
     shown = np.isfinite(x) & np.isfinite(y)
-    return _named(line) | _look(line) | {"points": int(shown.sum())} | _ranges(x[shown], y[shown])
+    found = _named(line) | _look(line) | {"points": int(shown.sum())}
+    of_rows = {"shows": rows.of_curve(x, y) or rows.of_curve(x[shown], y[shown])}
+    told = _without_empty(of_rows | _cut(line, x, y))
+    return found | told | _ranges(x[shown], y[shown])
 
 
-def _area(area: Collection) -> dict[str, Any]:
+def _cut(line: Line2D, x: np.ndarray, y: np.ndarray) -> dict[str, str]:
+    """Return on which side of its panel a curve leaves it: below, above, or both."""
+    if line.get_transform() != line.axes.transData:
+        return {}
+    sides = {}
+    for name, values, axis in (("x", x, line.axes.xaxis), ("y", y, line.axes.yaxis)):
+        first, last = sorted(axis.get_view_interval())
+        found = {"below": (values < first).any(), "above": (values > last).any()}
+        sides |= {f"{name} leaves": " and ".join(side for side, is_out in found.items() if is_out)}
+    return sides
+
+
+def _area(area: Collection, rows: Rows) -> dict[str, Any]:
     """Return bands, bars and maps of colour: the colours, and between what they lie."""
     if isinstance(area, QuadMesh):
         corners = area.get_coordinates().reshape(-1, 2)
-        return _named(area) | _mapped(area) | _ranges(*corners.T)
+        return _named(area) | _mapped(area, rows) | _ranges(*corners.T)
     outlines = [path.vertices for path in area.get_paths()]
     corners = np.concatenate([np.empty((0, 2)), *outlines])
+    shown = {}
+    if isinstance(area, FillBetweenPolyCollection) and len(outlines) == 1:
+        length = (len(corners) - 3) // 2  # there along one edge, and back along the other
+        edges = corners[1 : length + 1], corners[length + 2 : -1][::-1]
+        shown = {"shows": " and ".join(filter(None, (rows.of_curve(*edge.T) for edge in edges)))}
     corners = corners[np.isfinite(corners).all(axis=1)]
-    return _named(area) | _look(area) | {"points": len(corners)} | _ranges(*corners.T)
+    found = _named(area) | _look(area) | {"points": len(corners)} | _without_empty(shown)
+    return found | _ranges(*corners.T)
 
 
 def _shape(patch: Patch) -> dict[str, Any]:
@@ -140,18 +169,20 @@ def _shape(patch: Patch) -> dict[str, Any]:
     return _named(patch) | _look(patch) | _ranges(*outline.T)
 
 
-def _mapped(image: ColorizingArtist) -> dict[str, Any]:
+def _mapped(image: ColorizingArtist, rows: Rows) -> dict[str, Any]:
     """Return the map of colours and its limits; a reversed map has the ends exchanged."""
-    values, ends = image.get_array(), [to_hex(image.cmap(share)) for share in (0.0, 0.5, 1.0)]
+    values = np.ma.filled(np.ma.asarray(image.get_array(), float), np.nan)
+    ends = [to_hex(image.cmap(share)) for share in (0.0, 0.5, 1.0)]
     found = {
         "colour_map": " ".join([image.cmap.name, *ends]),
         "scale": type(image.norm).__name__,
         "limits": [_round(image.norm.vmin), _round(image.norm.vmax)],
         "shape": list(values.shape),
+        "shows": rows.name(values),
     }
     if isinstance(image, AxesImage):
         found["extent"] = [_round(edge) for edge in image.get_extent()]
-    return found
+    return _without_empty(found)
 
 
 def _named(artist: Artist) -> dict[str, str]:

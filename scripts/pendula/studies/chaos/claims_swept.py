@@ -274,9 +274,11 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
     for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
         levels[f"{kind}_level_from"] = measured[f"{kind}_level_from"] = means.level_from(least=3)
         measured |= {f"{kind}_last": means.mean[-1], f"{kind}_off": means.off[-1]}
+    found = [level for level in levels.values() if np.isfinite(level)]
+    of = "" if len(found) == len(levels) else " of one kind"
     fails = (
-        f"from M = {max(levels.values()):.0f} on the ensemble means agree within their confidence"
-        " intervals, because the front does not reach the ends"
+        f"from M = {max(found, default=np.nan):.0f} on the ensemble means{of} agree within their"
+        " confidence intervals, because the front does not reach the ends"
     )
     return judge(measured, NeverLevels(*levels), fails=fails)
 

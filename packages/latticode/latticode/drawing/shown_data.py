@@ -1,0 +1,74 @@
+"""Which rows of its data a figure shows: known by their content, so that a curve cannot be another.
+
+A curve that is reversed, scaled or of another variable is no row of the data, or another row. This
+holds on any machine, for chaotic data too, because data and picture are of the same run.
+"""
+
+from collections.abc import Iterator
+from itertools import permutations
+
+import numpy as np
+import xarray as xr
+
+FEWEST = 4
+"""Rows with fewer numbers are not looked for: they are equal by chance."""
+
+
+class Rows:
+    """The names of the rows and planes of a dataset, by what they hold."""
+
+    def __init__(self, data: xr.Dataset):
+        self.data = data
+        self.known: dict[tuple, dict[bytes, str]] = {}
+
+    def name(self, values: np.ndarray) -> str:
+        """Return which row, first or last part of a row, or plane holds these values, if one does.
+
+        A row may have gaps, which a curve leaves out.
+        """
+        if np.isfinite(values).sum() < FEWEST:
+            return ""
+        if values.shape not in self.known:
+            self.known[values.shape] = dict(reversed([*_contents(self.data, values.shape)]))
+        return self.known[values.shape].get(_content(values), "")
+
+    def of_curve(self, x: np.ndarray, y: np.ndarray) -> str:
+        """Return what a curve shows, as in `l2 [small, A] over tau`."""
+        return " over ".join(filter(None, [self.name(y), self.name(x)]))
+
+
+def _content(values: np.ndarray) -> bytes:
+    numbers = np.asarray(values, float)
+    return np.where(np.isnan(numbers), np.nan, numbers + 0.0).tobytes()  # no negative zero
+
+
+def _contents(data: xr.Dataset, shape: tuple[int, ...]) -> Iterator[tuple[bytes, str]]:
+    """Yield content and name of all that has this shape."""
+    for key, variable in data.variables.items():
+        if variable.dtype.kind not in "fi":
+            continue
+        for axes in permutations(range(variable.ndim), len(shape)):
+            if all(variable.shape[a] >= size for a, size in zip(axes, shape, strict=True)):
+                for name, values in _slices(str(key), variable, data, axes):
+                    whole = values if len(shape) > 1 else values[np.isfinite(values)]
+                    found = [values, whole, values[: shape[0]], values[-shape[0] :]]
+                    yield from ((_content(one), name) for one in found if one.shape == shape)
+
+
+def _slices(
+    key: str, variable: xr.Variable, data: xr.Dataset, axes: tuple[int, ...]
+) -> Iterator[tuple[str, np.ndarray]]:
+    """Yield name and values of each row or plane along these axes."""
+    others = [axis for axis in range(variable.ndim) if axis not in axes]
+    values = variable.values.transpose(*others, *axes)
+    for place in np.ndindex(values.shape[: len(others)]):
+        labels = [_label(variable.dims[a], i, data) for a, i in zip(others, place, strict=True)]
+        yield f"{key} [{', '.join(labels)}]" if labels else str(key), values[place]
+
+
+def _label(dimension: str, index: int, data: xr.Dataset) -> str:
+    """Return the word at a place along a dimension, or the dimension and its number there."""
+    if dimension not in data.variables:
+        return f"{dimension} {index}"
+    label = data[dimension].values[index]
+    return str(label) if isinstance(label, str) else f"{dimension} {label:.6g}"
