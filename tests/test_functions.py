@@ -21,9 +21,8 @@ MAY_DIFFER = ("report", "drawing", "figure_diff", "archive")
 
 ALLOWED = {
     ("studies/certified/fixed_point.py", "**"): "powers of integers, which are exact",
-    ("studies/breathers/steady.py", "@"): "rates are rounded before they are stored",
     ("studies/breathers/multipliers.py", "@"): "rates are rounded before they are stored",
-    ("own_cases/breathers.py", "@"): "what is found is rounded before it is stored",
+    ("localised/breathers.py", "@"): "what is found is rounded before it is stored",
     ("configuration/cost.py", "**"): "what a run will take is an estimate that is told to people",
     ("numerics/elementary.py", "**"): "powers of Decimal, by its own arithmetic",
     ("numerics/quadrature.py", "**"): "powers of Fraction, which are exact",

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from latticode.equations.model import Model
+from latticode.localised.breathers import State, exponents, find_state
 from latticode.simulation.simulate import simulate
-from pendula.own_cases.breathers import State, exponents, find_state
 from pendula.problem import Problem
 from problems import constants_of
 

@@ -3,22 +3,34 @@
 import numpy as np
 import pytest
 from latticode.equations.ends import DIRICHLET, MIRROR
-from pendula.models.amplitudes import Chain as Ends
-from pendula.models.amplitudes import rates, tangent_rates
+from latticode.localised import breathers
+from latticode.localised.breathers import NoStateError, State, flat, newton
+from latticode.localised.linearised import linearise
+from pendula.models.amplitudes import Chain, rates, tangent_rates
 from pendula.models.pairs import FAMILIES, pair
+from pendula.problem import Constants
 from pendula.studies.breathers import steady
+from problems import problem_from
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
-HERE = steady.Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=30)
 each_family = pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+
+
+def numbers(epsilon=1.0, gamma=1.0, omega=-4.0):
+    return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+
+
+def found_on(family, constants, half_width):
+    """Return the problem and the state of a family, or None."""
+    return next(steady.continued(family, constants, [half_width]), None)
 
 
 @each_family
 def test_the_closed_form_solves_the_equations_of_one_pair(family):
-    alone = steady.Chain(epsilon=0.0, gamma=0.7, omega=-4.3, half_width=1)
-    state = np.zeros((2, 2))
-    state[:, 0] = pair(family, alone.gamma, alone.omega)
-    assert np.abs(steady.residual(alone, family.drive(alone.gamma), state)).max() < 1e-13
+    alone = numbers(epsilon=0.0, gamma=0.7, omega=-4.3)
+    problem = steady.chain_of(family, alone, 1)
+    assert problem.amplitudes[:, 1].imag.any() == family.imaginary
+    assert np.abs(linearise(problem, flat(problem.amplitudes))[0]).max() < 1e-13
 
 
 def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
@@ -26,38 +38,36 @@ def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
     for family, end in zip(FAMILIES, (2.0, 0.0, -1.0, -2.0, -3.0), strict=True):
         assert pair(family, 1.0, end - 1e-9) is not None
         assert pair(family, 1.0, end + 1e-9) is None
-        assert steady.continued(HERE._replace(omega=end + 0.5), family) is None
+        assert found_on(family, numbers(omega=end + 0.5), 30) is None
 
 
-def vector_field(chain, family, state):
-    """Return the rates of the kernels at a steady state, (4, M + 1)."""
-    y = np.zeros((4, state.shape[1] + 2))
-    y[1 if family.imaginary else 0, 1:-1] = state[0]
-    y[3 if family.imaginary else 2, 1:-1] = state[1]
-    dy = np.zeros_like(y)
-    ends = Ends(chain.epsilon, chain.gamma, chain.omega, MIRROR, DIRICHLET)
-    rates(ends, y, dy)
-    return ends, y, dy[:, 1:-1]
+def state_of_kernels(state):
+    """Return the state of the kernels, (4, 1 + site), and the chain."""
+    y = np.zeros((4, state.x.size // 4 + 2))
+    y[:, 1:-1] = state.x.reshape(4, -1)
+    return y, Chain(1.0, 1.0, -4.0, MIRROR, DIRICHLET)
 
 
 @each_family
 def test_the_kernels_of_the_integrators_see_a_state_at_rest_and_its_exponents(family):
-    assert np.abs(vector_field(HERE, family, steady.continued(HERE, family))[-1]).max() < 1e-11
-    state = steady.continued(HERE._replace(half_width=8), family)
-    ends, y, _ = vector_field(HERE, family, state)
-    size = 4 * state.shape[1]
-    jacobian = np.empty((size, size))
-    for column in range(size):
+    (_, long), (problem, state) = found_on(family, numbers(), 30), found_on(family, numbers(), 8)
+    y, chain = state_of_kernels(long)
+    dy = np.zeros_like(y)
+    rates(chain, y, dy)
+    assert np.abs(dy[:, 1:-1]).max() < 1e-11
+    y, chain = state_of_kernels(state)
+    rates(chain, y, np.zeros_like(y))  # fills the ghosts
+    columns = []
+    for unit in np.eye(state.x.size):
         w, dw = np.zeros_like(y), np.zeros_like(y)
-        w[:, 1:-1].reshape(4, -1)[np.unravel_index(column, (4, state.shape[1]))] = 1.0
-        tangent_rates(ends, y, w, dw)
-        jacobian[:, column] = dw[:, 1:-1].ravel()
-    expected = np.linalg.eigvals(jacobian).real.max()
-    found = steady.growth(
-        steady.squared_exponents(HERE, family.drive(HERE.gamma), state, even=True)
-    )
+        w[:, 1:-1] = unit.reshape(4, -1)
+        tangent_rates(chain, y, w, dw)
+        columns.append(dw[:, 1:-1].ravel())
+    expected = np.linalg.eigvals(np.array(columns).T).real.max()
+    even = linearise(problem, state.x, parity=state.parity)[1]
+    np.testing.assert_allclose(even, np.array(columns).T, rtol=0, atol=1e-13)
     # where A = B the zero exponent is double, and rounding shows by its square root
-    assert found == pytest.approx(expected, abs=3e-7)
+    assert steady.growth(problem, state) >= expected - 3e-7
 
 
 @pytest.mark.parametrize(("family", "epsilon", "omega", "stable"), [
@@ -69,36 +79,33 @@ def test_the_kernels_of_the_integrators_see_a_state_at_rest_and_its_exponents(fa
     (EQUAL, 0.01, -4.0, False),
 ])  # fmt: skip
 def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, epsilon, omega, stable):
-    for half_width in (20, 40):
-        chain = steady.Chain(epsilon, 1.0, omega, half_width)
-        assert (
-            steady.fastest_growth(chain, family, steady.continued(chain, family)) == 0.0
-        ) is stable
+    for problem, state in steady.continued(family, numbers(epsilon, 1.0, omega), (20, 40)):
+        assert (steady.growth(problem, state) == 0.0) is stable
 
 
 @pytest.mark.parametrize("omega", [6.0, 6.5, 8.0])
 def test_no_start_leads_to_a_state_where_the_theorem_forbids_one(omega):
     """Omega >= 4 epsilon + 2 gamma: the form is definite, so that only zero is left."""
     rng = np.random.default_rng(1)
-    chain = HERE._replace(omega=omega, half_width=10)
-    for s in (chain.gamma, -chain.gamma):
-        for _ in range(20):
-            state = rng.normal(size=(2, 11)) * 4.0
-            weights = np.array([1.0] + [2.0] * 10)
-            form = np.sum(weights * state * steady.residual(chain, s, state))
-            assert form >= 0.5 * np.sum(weights * state**4) > 0.0
-    for sign in (1.0, -1.0):
-        start = np.zeros((2, 11))
-        start[:, 0] = (4.0, 4.0 * sign)
-        with pytest.raises(steady.NotFoundError):
-            steady.newton(chain, chain.gamma, start)
+    for _ in range(20):
+        data = 4.0 * (rng.normal(size=(2, 21)) + 1j * rng.normal(size=(2, 21)))
+        given = problem_from(data, (1.0, 1.0, omega))
+        slopes = linearise(given, flat(data))[0].reshape(2, 2, 21)
+        left = -slopes[:, 1] + 1j * slopes[:, 0]  # i dA/dtau
+        assert np.sum(data.conj() * left).real >= 0.25 * np.sum(np.abs(data) ** 4) > 0.0
+    for unit in (4.0, 4.0j):
+        for sign in (1.0, -1.0):
+            given = problem_from(np.array([[unit], [sign * unit]]), (1.0, 1.0, omega))
+            given = given.changed(half_width=10)
+            with pytest.raises(NoStateError):
+                newton(given, State(flat(given.amplitudes, even=True), even=True), None)
 
 
 def test_the_size_of_the_steps_of_the_coupling_changes_no_state(monkeypatch):
     """In one step Newton's method would lose the family: the step is halved."""
-    by_small_steps = steady.continued(HERE, REAL)
-    monkeypatch.setattr(steady, "FIRST_STEP", 1.0)
-    assert np.abs(steady.continued(HERE, REAL) - by_small_steps).max() < 1e-12
-    monkeypatch.setattr(steady, "LARGEST_CHANGE", 0.0)
-    with pytest.raises(steady.NotFoundError, match="ends at 0 of the coupling"):
-        steady.continued(HERE, REAL)
+    by_small_steps = found_on(REAL, numbers(), 30)[1].x
+    monkeypatch.setattr(breathers, "FIRST_STEP", 1.0)
+    assert np.abs(found_on(REAL, numbers(), 30)[1].x - by_small_steps).max() < 1e-12
+    monkeypatch.setattr(breathers, "LARGEST_CHANGE", 0.0)
+    with pytest.raises(NoStateError, match="it ends at 0 of the coupling"):
+        found_on(REAL, numbers(), 30)

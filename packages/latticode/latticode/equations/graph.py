@@ -5,9 +5,8 @@ what changes no bit: signs and doublings move outwards through products and sums
 computed, and a sum with zero is no operation.
 """
 
-import operator
 from collections.abc import Callable, Iterable
-from functools import cache, cached_property, partial
+from functools import cache, cached_property, lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -209,13 +208,7 @@ def shifted(a: Node, by: int) -> Node:
     return rebuilt([a], moved)[0]
 
 
-ARITHMETIC = {
-    "add": operator.add,
-    "sub": operator.sub,
-    "mul": operator.mul,
-    "div": operator.truediv,
-    "neg": operator.neg,
-}
+ARITHMETIC = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
 
 
 def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) -> list:
@@ -224,15 +217,28 @@ def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) 
     These may be numbers of any kind that adds and multiplies: arrays, multiprecision reals,
     integers where no leaf is a fraction. `functions` has sin, cos, exp, log and sqrt of them.
     """
-    known: dict[Node, Any] = {}
-    for one in in_order(nodes):
-        operands = [known[a] for a in one.inputs]
-        if operands:
-            compute = ARITHMETIC.get(one.operation) or getattr(functions, one.operation)
-            known[one] = compute(*operands)
-        else:
-            known[one] = value(one)
-    return [known[one] for one in nodes]
+    leaves, compute = _as_function(tuple(nodes))
+    return compute([*map(value, leaves)], functions)
+
+
+@lru_cache(64)
+def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
+    """Return the leaves of nodes, and the function of their values that returns the nodes'.
+
+    It is written as source code: who evaluates a graph often would spend most time on the walk.
+    """
+    order = in_order(nodes)
+    names = {one: f"v{i}" for i, one in enumerate(order)}
+    leaves = [one for one in order if not one.inputs]
+    lines = [f"    {''.join(f'{names[one]}, ' for one in leaves)} = leaves" if leaves else ""]
+    for one in order:
+        if one.inputs:
+            how = ARITHMETIC.get(one.operation, f"functions.{one.operation}({{}})")
+            lines.append(f"    {names[one]} = {how.format(*(names[a] for a in one.inputs))}")
+    made: dict[str, Callable] = {}
+    values = ", ".join(names[one] for one in nodes)
+    exec("\n".join(["def compute(leaves, functions):", *lines, f"    return [{values}]"]), made)
+    return leaves, made["compute"]
 
 
 def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[Node]:

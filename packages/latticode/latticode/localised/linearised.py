@@ -1,33 +1,33 @@
 """The linear equations of a small perturbation of a state, as a matrix."""
 
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
 from latticode.equations.ends import ends_of
-from latticode.equations.graph import derivative, evaluate, leaves_in, number
+from latticode.equations.graph import ZERO, Node, derivative, evaluate, leaves_in, number
 from latticode.equations.model import Model
 from latticode.simulation.problem import Problem
 from latticode.simulation.systems import PADDING, moved, parameters_of
 
+EVEN, ODD = 1, -1
+
 
 def linearise(
-    problem: Problem, state: np.ndarray, coupling: float = 1.0
+    problem: Problem, state: np.ndarray, coupling: float = 1.0, parity: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the rates of a state at time 0, and the matrix of their derivatives.
 
     `state` and rates are flat: by row, which are the real and imaginary parts of each field or its
-    value and its rate, and then by site. A `coupling` below 1 replaces a neighbour's value by its
-    mean with the site's own, where it has this weight: at 0 sites are independent.
+    value and its rate, and then by site. Where a `parity` is given, the state is even and has the
+    sites 0..M; the matrix is that of EVEN perturbations, or of ODD ones, on the sites 1..M. A
+    `coupling` below 1 replaces a neighbour's value by its mean with the site's own, where it has
+    this weight: at 0 sites are independent.
     """
     model, values = problem.model, parameters_of(problem)
-    parts = state.reshape(-1, problem.sites)
-    sites = problem.sites
-    own, mode = np.arange(sites), PADDING[ends_of(problem.boundary).sees]
-    seen = np.pad(own + 1, model.reach, mode) - 1  # a site at rest is -1
-
-    def places(by):
-        return seen[model.reach + by : model.reach + by + sites]
+    places = _places(model.reach, problem.boundary, problem.half_width, parity)
+    parts = state.reshape(len(model.rates), -1)
+    rows, sites = parts.shape
 
     def value(one):
         if one.operation in ("number", "time"):
@@ -36,26 +36,61 @@ def linearise(
         if one.operation == "parameter":
             found = values[one.operands[0]]
             return found if np.ndim(found) == 0 else moved(found, by, problem.boundary)
-        row, at = parts[2 * one.operands[0] + one.operands[1]], places(by)
-        return coupling * np.where(at >= 0, row[at], 0.0) + (1.0 - coupling) * row
+        row = parts[2 * one.operands[0] + one.operands[1]]
+        if by == 0:
+            return row
+        seen, factor, _ = places[:, model.reach + by :][:, :sites]
+        return coupling * factor * row[seen.astype(int)] + (1.0 - coupling) * row
 
-    rates = [np.broadcast_to(rate, sites) for rate in evaluate(model.rates, value)]
-    matrix = np.zeros((len(parts), sites, len(parts), sites))
-    for leaf, slopes in _slopes(model):
-        component, part, by = leaf.operands
-        at = places(by)
-        inside = np.flatnonzero(at >= 0)
-        for row, slope in enumerate(evaluate(slopes, value)):
-            slope, column = np.broadcast_to(slope, sites), 2 * component + part
-            matrix[row, inside, column, at[inside]] += coupling * slope[inside]
-            matrix[row, own, column, own] += (1.0 - coupling) * slope
-    return np.concatenate(rates), matrix.reshape(len(parts) * sites, -1)
+    (row, column, by), nodes = _slopes(model)
+    found = np.empty((len(nodes), sites))
+    for k, one in enumerate(evaluate(nodes, value)):
+        found[k] = one
+    rates, slopes = found[:rows], found[rows:]
+    own = np.arange(sites)
+    seen, _, sign = places[:, model.reach + by[:, None] + own]
+    line = (row[:, None] * sites + own) * rows + column[:, None]
+
+    def placed(at, slopes):
+        index = (line * sites + at).astype(int)
+        return np.bincount(index.ravel(), slopes.ravel(), minlength=(rows * sites) ** 2)
+
+    matrix = placed(seen, coupling * sign * slopes) + placed(own, (1.0 - coupling) * slopes)
+    first = int(parity == ODD)
+    matrix = matrix.reshape(rows, sites, rows, sites)[:, first:, :, first:]
+    return rates.ravel(), matrix.reshape(rows * (sites - first), -1)
+
+
+@lru_cache
+def _places(reach: int, boundary: str, half_width: int, parity: int | None) -> np.ndarray:
+    """Return which site stands at each one, from the first but `reach` to the last and `reach`.
+
+    Below it stand its factor in the state, 0 where a site is at rest, and that in a perturbation.
+    """
+    ends, sites = ends_of(boundary), 2 * half_width + 1
+    seen = np.pad(np.arange(sites) + 1, reach, PADDING[ends.sees]) - 1
+    factor = np.full(seen.size, ends.factor)
+    factor[reach:-reach] = 1.0
+    factor[seen < 0] = 0.0
+    seen = np.maximum(seen, 0)
+    if parity is None:
+        return np.array([seen, factor, factor])
+    site, factor = seen[half_width:] - half_width, factor[half_width:]
+    return np.array([np.abs(site), factor, np.where(site < 0, parity, 1) * factor])
 
 
 @cache
-def _slopes(model: Model) -> list[tuple]:
-    """Return each field of the equations, at each shift, with the derivatives by it."""
-    return [
-        (leaf, derivative(model.rates, lambda one, leaf=leaf: number(one is leaf)))
-        for leaf in leaves_in(model.rates, "field")
-    ]
+def _slopes(model: Model) -> tuple[np.ndarray, tuple[Node, ...]]:
+    """Return which rates change with which fields, and the rates with these derivatives.
+
+    The former are rows of rates, rows of fields and shifts of these, (3, derivative).
+    """
+    entries, nodes = [], [*model.rates]
+    for leaf in leaves_in(model.rates, "field"):
+        component, part, by = leaf.operands
+        changes = derivative(model.rates, lambda one, leaf=leaf: number(one is leaf))
+        for row, change in enumerate(changes):
+            if change is not ZERO:
+                entries.append((row, 2 * component + part, by))
+                nodes.append(change)
+    return np.array(entries, int).reshape(-1, 3).T, tuple(nodes)

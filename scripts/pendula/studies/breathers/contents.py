@@ -6,9 +6,10 @@ import numpy as np
 from latticode.datasets.checks import rounded
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
+from latticode.localised.breathers import TOLERANCE
 
 from pendula.many_cases import COMPONENTS
-from pendula.models.pairs import FAMILIES, pair
+from pendula.models.pairs import FAMILIES
 from pendula.problem import Constants
 
 from . import multipliers, periodic, steady, waves
@@ -47,15 +48,12 @@ def steady_contents(
     rates = np.full((2, *shape), np.nan)  # on each of the two chains
     for i, family in enumerate(FAMILIES):
         for j, omega in enumerate(omegas):
-            if pair(family, gamma, omega) is None:
-                continue
-            for k, half in enumerate(halves):
-                chain = steady.Chain(epsilon, gamma, omega, half)
-                state = steady.continued(chain, family)
-                rates[k, i, j] = steady.fastest_growth(chain, family, state)
-            turned = state * (1j if family.imaginary else 1.0)
-            amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
-            power[i, j] = steady.power(state).sum()
+            constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+            for k, (problem, state) in enumerate(steady.continued(family, constants, halves)):
+                rates[k, i, j] = steady.growth(problem, state)
+                parts = state.parts(problem)
+                amplitude[:, :, i, j] = parts[:, :, halves[k]].T
+                power[i, j] = np.sum(parts**2)
     over = ("family", "omega")
     variables = {
         "part": PARTS,
@@ -66,7 +64,7 @@ def steady_contents(
         "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
         **_rates(over, rates),
     }
-    about = {"epsilon": epsilon, "gamma": gamma, "residual": steady.TOLERANCE}
+    about = {"epsilon": epsilon, "gamma": gamma, "residual": TOLERANCE}
     return variables, {"title": "Steady states localised at one pair", **about}
 
 
@@ -89,7 +87,7 @@ def periodic_contents(
             found = [*periodic.family_of(constants, family, frequencies, half_widths)]
             for one in found:
                 at = (slice(None), i, j, frequencies.index(one.frequency))
-                amplitude[at], power[at] = one.data[:, 0], steady.power(one.data)
+                amplitude[at], power[at] = one.data[:, 0], periodic.power(one.data)
                 rates[at] = multipliers.growth(periodic.on_half(one)), multipliers.growth(one)
             if found:
                 least[:, i, j] = [periodic.least_power(found, one) for one in periodic.INSTANTS]

@@ -26,9 +26,8 @@ length of the chain. So rates of growth are found on half of the chain too.
 import numpy as np
 from latticode.numerics.elementary import log
 
-from .periodic import Breather, real_data
+from .periodic import Breather, exchange_sign, real_data
 from .quarter_period import STEPS, flow
-from .steady import exchange_sign
 
 PARITIES = ("even", "odd")
 NOISE = 1e-5

@@ -24,6 +24,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from latticode.localised.breathers import NoStateError
 from latticode.numerics.elementary import geometric, log
 from latticode.numerics.matrices import times
 from scipy.optimize import minimize_scalar
@@ -31,7 +32,6 @@ from scipy.optimize import minimize_scalar
 from pendula.problem import Constants
 
 from .quarter_period import FINE_STEPS, STEPS, flow
-from .steady import NotFoundError, exchange_sign, power
 from .waves import distance_from_bands, highest
 
 FAMILIES = ("A only", "A = -B", "A = B")
@@ -61,11 +61,21 @@ class Breather(NamedTuple):
         return max(1, int(np.ceil(highest(self.constants) / self.frequency)))
 
 
+def exchange_sign(data: np.ndarray) -> int:
+    """Return 1 where A = B, -1 where A = -B, and 0 elsewhere."""
+    return next((sign for sign in (1, -1) if np.array_equal(data[0], sign * data[1])), 0)
+
+
+def power(data: np.ndarray) -> np.ndarray:
+    """Return the sum of squares over the whole chain of each component, (component,)."""
+    return 2.0 * np.sum(data**2, axis=1) - data[:, 0] ** 2
+
+
 def single_site(constants: Constants, frequency: float, family: str, half_width: int) -> np.ndarray:
     """Return a first guess: the motion of one pair whose neighbours follow it weakly."""
     binding = frequency - constants.omega + 2.0 * constants.epsilon
     if binding <= 0.0:
-        raise NotFoundError(f"no localised motion of frequency {frequency:g}")
+        raise NoStateError(f"no localised motion of frequency {frequency:g}")
     data = np.zeros((2, half_width + 1))
     data[0, :2] = np.sqrt(2.0 * binding) * np.array([1.0, constants.epsilon / binding])
     if family == "A only":
@@ -108,7 +118,7 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
         step = -times(inverse, miss)
         one = step.reshape(-1, sites)
         data = data + (np.concatenate([one, symmetry * one]) if symmetry else one)
-    raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
+    raise NoStateError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
 
 
 def on_half(breather: Breather) -> Breather:

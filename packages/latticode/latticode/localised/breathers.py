@@ -1,0 +1,235 @@
+"""A localised state of a traced model, steady or turning, and its stability.
+
+Where the equations do not change as all fields turn by one phase, a state u_n(tau) = phi_n
+exp(-i lambda tau) with the power of the data is looked for:
+
+    F(phi) + i lambda phi = nu phi,    |phi|^2 = P,
+
+F the rates of the model. The unknown nu must come out as zero: elsewhere the state would grow or
+decay. In other models a steady state F(phi) = 0 is looked for. The coupling of the sites is turned
+on in steps from zero, where the state lies on the one site at which the data are largest, and each
+step is solved by Newton's method (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
+
+In the frame that turns with the state, a perturbation grows as exp(mu tau) with the eigenvalues mu
+of the derivative of F + i lambda; exp(2 pi mu / abs(lambda)) is its Floquet multiplier.
+
+A state that is even in n is found on the sites 0..M, and its even and its odd perturbations apart.
+Where first parts (real parts, or values) change second parts alone and the other way round, as in
+reversible equations about a real state, squares of mu are the eigenvalues of a matrix of half the
+size. LAPACK solves: what is published must be rounded to the digits that it has.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from latticode.numerics.elementary import square_modulus
+from latticode.simulation.problem import Problem
+from latticode.simulation.systems import find_reduction_of
+
+from .linearised import EVEN, ODD, linearise
+
+MOST_UNKNOWNS = 1000
+"""The eigenvalues of a larger matrix take a minute and more."""
+TOLERANCE, ITERATIONS = 1e-13, 30
+"""Largest rate that is left, relative to the largest slope times the largest value."""
+FIRST_STEP, SMALLEST_STEP, LARGEST_CHANGE = 1 / 8, 1 / 4096, 0.2
+"""Of the coupling; and of a state in one such step, relative to its largest value: a larger change
+may lead to another family."""
+DAMPING = 1e-12
+"""Of the squares of slopes: those below are none."""
+NOISE = 1e-5
+"""Exponents are known to the root of rounding where two of them meet, as those of a phase do."""
+
+
+class NoStateError(ArithmeticError):
+    """There is no localised state to be found; the message says why."""
+
+
+class State(NamedTuple):
+    """A state phi that turns as exp(-i frequency tau), or is steady, as a flat real state x.
+
+    That is by row, the real and imaginary parts of each field or its value and its rate, and site.
+    """
+
+    x: np.ndarray
+    frequency: float = 0.0
+    growth: float = 0.0  # nu of the module's text
+    even: bool = False  # x has the sites 0..M
+
+    @property
+    def parity(self) -> int | None:
+        """What `linearise` takes for it."""
+        return EVEN if self.even else None
+
+    def parts(self, problem: Problem) -> np.ndarray:
+        """Return the state on the whole chain, (field, part, site)."""
+        parts = self.x.reshape(len(problem.model.fields), 2, -1)
+        return np.concatenate([parts[..., :0:-1], parts], axis=2) if self.even else parts
+
+    def weights(self, problem: Problem) -> np.ndarray:
+        """Return how many sites of the chain each number of x stands for."""
+        count = 2 * len(problem.model.fields)
+        sites = np.full(self.x.size // count, 2.0 if self.even else 1.0)
+        sites[0] = 1.0
+        return np.tile(sites, count)
+
+
+def flat(fields: np.ndarray, even: bool = False) -> np.ndarray:
+    """Return complex fields (field, site) as a flat real state; of `even` ones the sites 0..M."""
+    kept = fields[:, fields.shape[1] // 2 :] if even else fields
+    return np.stack([kept.real, kept.imag], axis=1).ravel()
+
+
+def widened(problem: Problem, state: State) -> State:
+    """Return the start on a longer chain that an even state on a shorter one gives."""
+    rows = state.x.reshape(2 * len(problem.model.fields), -1)
+    more = problem.half_width + 1 - rows.shape[1]
+    return state._replace(x=np.pad(rows, [(0, 0), (0, more)]).ravel())
+
+
+def turning(problem: Problem, size: int) -> np.ndarray:
+    """Return the matrix that multiplies all fields of a flat state of this size by i."""
+    fields = len(problem.model.fields)
+    one_field = np.kron([[0.0, -1.0], [1.0, 0.0]], np.eye(size // (2 * fields)))
+    return np.kron(np.eye(fields), one_field)
+
+
+def can_turn(problem: Problem) -> bool:
+    """Return whether the equations stay the same as all fields turn by one phase.
+
+    Random fields decide: a polynomial that vanishes there vanishes everywhere.
+    """
+    if problem.model.second_order:
+        return False
+    turn = turning(problem, 2 * problem.amplitudes.size)
+    x = np.random.default_rng(1).normal(size=len(turn))
+    rates, after = (linearise(problem, one)[0] for one in (x, 0.6 * x + 0.8 * (turn @ x)))
+    expected = 0.6 * rates + 0.8 * (turn @ rates)
+    return bool(np.abs(after - expected).max() <= 1e-10 * np.abs(expected).max())
+
+
+def newton(problem: Problem, state: State, power: float | None, coupling: float = 1.0) -> State:
+    """Return the state that Newton's method finds: of a `power`, or steady if it is None.
+
+    Raises NoStateError where it finds none.
+    """
+    turn, weights, least = turning(problem, state.x.size), state.weights(problem), np.inf
+    for _ in range(ITERATIONS):
+        x = state.x
+        rates, matrix = linearise(problem, x, coupling, state.parity)
+        scale = np.abs(matrix).max() * np.abs(x).max()
+        if power is not None:
+            frame = state.frequency * turn - state.growth * np.eye(x.size)
+            rates = np.append(rates + frame @ x, weights * x @ x - power)
+            slopes = np.column_stack([matrix + frame, turn @ x, -x])
+            matrix = np.vstack([slopes, np.append(2.0 * weights * x, (0.0, 0.0))])
+        left = np.abs(rates).max() / scale if scale > 0.0 else np.inf
+        if not np.isfinite(left):
+            break
+        if left <= TOLERANCE and left >= 0.5 * least:  # converged, and rounding is reached
+            return state
+        least = min(left, least)
+        change = least_change(matrix, rates)
+        more = change[x.size :] if power is not None else (0.0, 0.0)
+        state = State(
+            x + change[: x.size], state.frequency + more[0], state.growth + more[1], state.even
+        )
+    raise NoStateError("Newton's method does not converge")
+
+
+def least_change(matrix: np.ndarray, rates: np.ndarray) -> np.ndarray:
+    """Return the step that solves matrix @ step = -rates, along no direction that this leaves free.
+
+    Such are a phase, and the place of a state that can slide (K. Levenberg, Quart. Appl. Math. 2
+    (1944) 164).
+    """
+    normal = matrix.T @ matrix
+    normal[np.diag_indices_from(normal)] += DAMPING * np.abs(normal).max()
+    return -np.linalg.solve(normal, matrix.T @ rates)
+
+
+def find_state(problem: Problem) -> State:
+    """Return the localised state that continues the data at their largest site.
+
+    Raises NoStateError, with the reason, where there is none.
+    """
+    data, even = problem.amplitudes, find_reduction_of(problem).even
+    if problem.model.driven:
+        raise NoStateError("the equations depend on the time")
+    if not data.any():
+        raise NoStateError("the chain is at rest")
+    if flat(data, even).size > MOST_UNKNOWNS:
+        most = MOST_UNKNOWNS // (2 * len(data))
+        raise NoStateError(f"the chain has {problem.sites} sites; give at most {most}")
+    if linearise(problem, flat(0.0 * data))[0].any():
+        raise NoStateError("rest does not solve the equations, so that no state decays to it")
+    try:
+        state, power = uncoupled(problem, even)
+    except NoStateError:
+        raise NoStateError("an uncoupled site has none near the data; try others") from None
+    return coupled(problem, state, power)
+
+
+def uncoupled(problem: Problem, even: bool) -> tuple[State, float | None]:
+    """Return the state of the site where the data are largest, and its power if it turns.
+
+    It starts from the data there, made larger to have the power of all.
+    """
+    data = problem.amplitudes
+    sizes = np.sum(square_modulus(data), axis=0)
+    state = State(flat(np.where(sizes == sizes.max(), data, 0.0), even), even=even)
+    if not can_turn(problem):
+        return newton(problem, state, None, coupling=0.0), None
+    power, weights = float(np.sum(sizes)), state.weights(problem)
+    x = state.x * np.sqrt(power / (weights * state.x @ state.x))
+    rates = weights * linearise(problem, x, 0.0, state.parity)[0]
+    turn = turning(problem, x.size)
+    start = State(x, -(turn @ x) @ rates / power, x @ rates / power, even)
+    return newton(problem, start, power, coupling=0.0), power
+
+
+def coupled(problem: Problem, state: State, power: float | None) -> State:
+    """Return the state of the full coupling that continues one without any."""
+    reached, step = 0.0, FIRST_STEP
+    while reached < 1.0:
+        target = min(1.0, reached + step)
+        try:
+            found = newton(problem, state, power, target)
+            near = np.abs(found.x - state.x).max() <= LARGEST_CHANGE * np.abs(state.x).max()
+        except NoStateError:
+            near = False
+        if near:
+            state, reached, step = found, target, 2.0 * step
+        elif step > SMALLEST_STEP:
+            step *= 0.5
+        else:
+            raise NoStateError(f"it ends at {reached:.3g} of the coupling")
+    if abs(state.growth) > NOISE:
+        change = "grow" if state.growth > 0.0 else "decay"
+        raise NoStateError(f"its power would {change}, at the rate {2.0 * abs(state.growth):.3g}")
+    return state
+
+
+def exponents(problem: Problem, state: State) -> np.ndarray:
+    """Return the eigenvalues mu of perturbations in the frame of a state, complex, sorted."""
+    found = []
+    for parity in (EVEN, ODD) if state.even else (None,):
+        matrix = linearise(problem, state.x, parity=parity)[1]
+        matrix += state.frequency * turning(problem, len(matrix))
+        found.append(_eigenvalues(matrix, len(problem.model.fields)))
+    values = np.concatenate(found)
+    clean = [np.where(np.abs(part) < NOISE, 0.0, part) for part in (values.real, values.imag)]
+    return np.sort_complex(np.round(clean[0], 9) + 1j * np.round(clean[1], 9))
+
+
+def _eigenvalues(matrix: np.ndarray, fields: int) -> np.ndarray:
+    parts = matrix.reshape(fields, 2, -1, fields, 2, matrix.shape[0] // (2 * fields))
+    if parts[:, 0, :, :, 0].any() or parts[:, 1, :, :, 1].any():
+        return np.linalg.eigvals(matrix).astype(complex)
+    half = len(matrix) // 2
+    first, second = (parts[:, i, :, :, 1 - i].reshape(half, half) for i in (0, 1))
+    squares = np.linalg.eigvals(first @ second).astype(complex)
+    squares[np.abs(squares) < NOISE**2] = 0.0
+    roots = np.sqrt(squares)
+    return np.concatenate([roots, -roots])
