@@ -68,9 +68,9 @@ COMPILED = [*ALL_SOLVERS, "ode45_real"]  # with ode45 as it is for real unknowns
 CONFIG_FILES = [f"{PROJECT}/config/{name}.yaml" for name in ("config", *STUDIES)]
 try:
     # Options of a single call, by --config alone: the baseline to compare with, whether any bits
-    # will do, and what of a run to accept. In a file they would send a run's results elsewhere.
+    # will do, what of a run to accept, and in how many parts to make surveys. In a file they would send a run's results elsewhere.
     given = dict(workflow.config_settings.config)
-    OPTIONS = {name: given.pop(name, None) for name in ("baseline", "bits", "accept")}
+    OPTIONS = {name: given.pop(name, None) for name in ("baseline", "bits", "accept", "chunks")}
     for name in OPTIONS:
         config.pop(name, None)
     config.update(gather([*CONFIG_FILES, *workflow.overwrite_configfiles], given))
@@ -84,6 +84,7 @@ if workflow.is_main_process:
 
 DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
+OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
@@ -129,6 +130,7 @@ pathvars:
     own_case=f"{{case,{one_of(OWN_CASES)}}}",
     paper_sweep=f"{{sweep,{one_of(PAPER_SWEEPS)}}}",
     own_sweep=f"{{sweep,{one_of(OWN_SWEEPS)}}}",
+    own_survey=f"{{survey,{one_of(OWN_SURVEYS)}}}",
     any_case=f"{{case,{one_of(SETTINGS.cases)}}}",
     any_sweep=f"{{sweep,{one_of(SETTINGS.sweeps)}}}",
     any_solver=f"{{solver,{one_of([*ALL_SOLVERS, 'auto', 'kahan_li'])}}}",
@@ -215,9 +217,9 @@ def committed_proofs():
 
 def some_own_files(wildcards):
     """Return every figure and dataset of one's own cases and sweeps."""
-    if not (OWN_CASES or OWN_SWEEPS):
+    if not (OWN_CASES or OWN_SWEEPS or OWN_SURVEYS):
         stop(
-            "the configuration has no case and no sweep of your own: give some by "
+            "the configuration has no case, sweep or survey of your own: give some by "
             "--configfile, as docs/own_cases.md shows"
         )
     of_sweep = [*FIGURE_KINDS, "checks.nc"]
@@ -229,4 +231,6 @@ def some_own_files(wildcards):
         *expand("<results>/own/cases/{case}.breather.{kind}", case=of_models, kind=FIGURE_KINDS),
         *datasets("sweeps", *OWN_SWEEPS),
         *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=of_sweep),
+        *datasets("surveys", *OWN_SURVEYS),
+        *expand("<results>/own/surveys/{survey}.{kind}", survey=OWN_SURVEYS, kind=FIGURE_KINDS),
     ]

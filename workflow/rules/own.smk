@@ -10,7 +10,11 @@ use rule dataset as own_checks with:
     pathvars:
         made="own/cases/<own_case>.checks",
     resources:
-        **asked(lambda wildcards: SETTINGS.takes(wildcards.case)[1](SETTINGS.shown_problem(wildcards.case))),
+        **asked(
+            lambda wildcards: SETTINGS.takes(wildcards.case)[1](
+                SETTINGS.shown_problem(wildcards.case)
+            )
+        ),
     params:
         call=function("pendula.own_cases.checks.check_run"),
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
@@ -69,3 +73,59 @@ use rule job as own with:
         call=function("pendula.own_cases.page.write_report"),
         cases=OWN_CASES,
         sweeps={sweep: SETTINGS.sweeps[sweep].case for sweep in OWN_SWEEPS},
+        surveys={survey: SETTINGS.surveys[survey].case for survey in OWN_SURVEYS},
+
+
+# A survey is made in parts, which fill the cores here and the nodes of a cluster. A part that is there is
+# not made again; the number of parts changes no bit.
+def parts_of(survey):
+    """Return the files of all parts of a survey, as many as it asks for or else as there are cores."""
+    count = chunks_of(survey)
+    return datasets(f"surveys/{survey}.parts", *(f"{part}-of-{count}" for part in range(count)))
+
+
+def chunks_of(survey):
+    """Return the number of parts of a survey: of the command line, of the survey, or of the cores."""
+    asked_for = OPTIONS["chunks"] or SETTINGS.surveys[survey].chunks
+    cores = workflow.resource_settings.cores
+    runs = math.prod(SETTINGS.surveys[survey].plan.shape)
+    return min(runs, int(asked_for or (cores if isinstance(cores, int) else 1)))
+
+
+use rule dataset as survey_part with:
+    "A part of a survey of your own: results/surveys/{survey}.parts/{part}-of-{parts}.nc"
+    input:
+        kernels=lambda wildcards: kernels_of(SETTINGS.surveyed_problem(wildcards.survey)),
+    pathvars:
+        made="surveys/<own_survey>.parts/{part,[0-9]+}-of-{parts,[0-9]+}",
+    resources:
+        **asked(lambda wildcards: SETTINGS.cost_of_survey(wildcards.survey, int(wildcards.parts))),
+    params:
+        call=function("pendula.own_cases.surveys.measure_part"),
+        problem=lambda wildcards: SETTINGS.surveyed_problem(wildcards.survey),
+        survey=lambda wildcards: SETTINGS.plain_survey(wildcards.survey),
+        part=lambda wildcards: int(wildcards.part),
+        parts=lambda wildcards: int(wildcards.parts),
+
+
+use rule dataset as survey with:
+    "A survey of your own: results/surveys/{survey}.nc"
+    input:
+        made=lambda wildcards: parts_of(wildcards.survey),
+    pathvars:
+        made="surveys/<own_survey>",
+    params:
+        call=function("pendula.own_cases.surveys.join_parts"),
+        name="{survey}",
+        problem=lambda wildcards: SETTINGS.surveyed_problem(wildcards.survey),
+        survey=lambda wildcards: SETTINGS.plain_survey(wildcards.survey),
+
+
+use rule figure as own_survey with:
+    "The figure of a survey of your own: results/own/surveys/{survey}.png"
+    input:
+        survey="<results>/surveys/{survey}.nc",
+    pathvars:
+        made="own/surveys/<own_survey>",
+    params:
+        call=function("pendula.own_cases.surveys.draw_survey"),

@@ -87,6 +87,14 @@ class Case(cases.Case):
     def _given(self) -> dict[str, Any]:
         return {}  # the constants stand as keys of their own
 
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """The constants that an axis of a survey may change."""
+        return CONSTANTS if self.model == PENDULA else CONSTANTS[:3]
+
+    def _varied(self, name: str, value: Any) -> dict[str, Any]:
+        return {name: value}
+
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:

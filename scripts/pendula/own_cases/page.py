@@ -13,14 +13,21 @@ TITLE = "Cases of your own"
 PARTS = ("", ".spacetime", ".breather")
 
 
-def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
-    """Write the page `html` on `cases`, and on `sweeps` with the case of each.
+def write_report(
+    html: str,
+    cases: list[str],
+    sweeps: dict[str, str],
+    surveys: dict[str, str],
+    files: list[str],
+) -> None:
+    """Write the page `html` on `cases`, and on `sweeps` and `surveys` with the case of each.
 
     Their `files` lie below its folder.
     """
     folder, made = Path(html).parent, set(files)
     sections = [_case(name, folder, made) for name in cases]
     sections += [_sweep(name, case, folder) for name, case in sweeps.items()]
+    sections += [_survey(name, case, folder) for name, case in surveys.items()]
     write_page(html, "own.html.j2", TITLE, sections)
 
 
@@ -46,6 +53,15 @@ def _sweep(name: str, case: str, folder: Path) -> Section:
         tables=[_answers(answers.of_sweep(read(swept), read(checks)))],
         figures=[figure(drawn, folder)],
         datasets={"Datasets": [dataset(path, folder) for path in (swept, drawn, checks)]},
+    )  # fmt: skip
+
+
+def _survey(name: str, case: str, folder: Path) -> Section:
+    made, drawn = folder / f"surveys/{name}.nc", folder / f"own/surveys/{name}.nc"
+    return Section(
+        f"survey-{name}", f"The survey {name} of the case {case}",
+        figures=[figure(drawn, folder)],
+        datasets={"Datasets": [dataset(made, folder)]},
     )  # fmt: skip
 
 

@@ -225,6 +225,30 @@ class Case(Model):
         """Return what a run and its checks take."""
         return cost.with_checks(problem)
 
+    # --- What a survey changes
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """The names that an axis of a survey may have, beside those of chain, time and data."""
+        return tuple(self.model.parameters)
+
+    def _varied(self, name: str, value: Any) -> dict[str, Any]:
+        return {"parameters": {**self.parameters, name: value}}
+
+    def at(self, values: Mapping[str, Any]) -> "Case":
+        """Return the case at a point of the axes of a survey, checked."""
+        changes: dict[str, Any] = {"snapshot_step": None}
+        initial = {site: list(data) for site, data in self.initial.items()}
+        for name, value in values.items():
+            if name.startswith("initial."):
+                site, place = map(int, name.split(".")[1:])
+                initial[site][place] = value
+            elif name in ("half_width", "end_time"):
+                changes[name] = value
+            else:
+                changes |= self._varied(name, value)
+        return type(self).model_validate({**self.model_dump(), **changes, "initial": initial})
+
     # --- What fits
 
     @model_validator(mode="after")

@@ -6,6 +6,7 @@ parameters of its jobs from run to run.
 
 import difflib
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from math import prod
 from typing import Annotated, Any
 
 from pydantic import Field, SerializeAsAny, model_validator
@@ -16,6 +17,7 @@ from . import cost
 from .cases import Case, is_multiple
 from .cost import Cost
 from .solvers import Solver, Solvers, with_controls
+from .surveys import Survey
 from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
 
 Faults = Iterator[tuple[str, str]]
@@ -77,6 +79,7 @@ class Configuration(Model):
 
     cases: Annotated[dict[Name, SerializeAsAny[Case]], Field(min_length=1)]
     sweeps: dict[Name, Sweep] = {}
+    surveys: dict[Name, Survey] = {}
     solvers: Solvers = Solvers()
     limits: Limits = Limits()
 
@@ -104,6 +107,11 @@ class Configuration(Model):
             for name in self.sweeps
             for key, text in self._faults_of_sweep(name)
         ]
+        found += [
+            (f"surveys.{name}.{key}", text)
+            for name in self.surveys
+            for key, text in self._faults_of_survey(name)
+        ]
         found += self._same_files()
         found += [
             (f"cases.{name}.{key}", text)
@@ -128,7 +136,7 @@ class Configuration(Model):
 
     def _same_files(self) -> Iterator[tuple[str, str]]:
         """Yield names whose files would be the same where a file system takes a for A."""
-        for section in ("cases", "sweeps"):
+        for section in ("cases", "sweeps", "surveys"):
             seen: dict[str, str] = {}
             for name in getattr(self, section):
                 other = seen.setdefault(name.lower(), name)
@@ -191,6 +199,37 @@ class Configuration(Model):
         problem, case = self.swept_problem(name), self.cases[self.sweeps[name].case]
         return cost.total(case.cost({**problem, **one}) for one in changes)
 
+    def _faults_of_survey(self, name: str) -> list[tuple[str, str]]:
+        survey = self.surveys[name]
+        if survey.case not in self.cases:
+            return list(self.absent("cases", "case", [survey.case]))
+        if found := survey.faults_of(self.cases[survey.case]):
+            return found
+        limits, total = self.limits.model_dump(), self.cost_of_survey(name)
+        return [("axes", cost.refusal(total, limits))] if total.excess(limits) > 1.0 else []
+
+    def surveyed_problem(self, name: str) -> dict:
+        """Return the problem whose values a survey changes."""
+        return self.cases[self.surveys[name].case].problem(snapshot_step=None)
+
+    def plain_survey(self, name: str) -> dict:
+        """Return a survey as plain values, as the parameters of a job have them."""
+        survey = self.surveys[name]
+        members = survey.members and survey.members.model_dump()
+        kept, window = survey.keep, survey.window and list(survey.window)
+        return {"axes": survey.plan.axes, "members": members, "keep": kept, "window": window}
+
+    def cost_of_survey(self, name: str, parts: int = 1) -> Cost:
+        """Return what one of so many parts takes, if each run is as dear as the dearest corner."""
+        survey, base = self.surveys[name], self.cases[self.surveys[name].case]
+        runs = -(-prod(survey.plan.shape) // parts)
+        dearest = max(
+            (case.cost(case.problem()) for case in map(base.at, survey.corners())),
+            key=lambda one: one.seconds,
+        )
+        twice = 2.0 if "divergence" in survey.keep else 1.0
+        return dearest._replace(seconds=twice * runs * dearest.seconds)
+
     def cost_of(self, case: str, solver: str | None = None) -> Cost:
         """Return what a run of a case takes, with its snapshots."""
         return self.cases[case].cost(self.shown_problem(case, solver))
@@ -203,6 +242,7 @@ class Configuration(Model):
             verb = "take" if " and " in what else "takes"
             found[f"cases.{name}: {what} {verb}"] = takes(case.shown_problem())
         found |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
+        found |= {f"surveys.{n}: its runs take": self.cost_of_survey(n) for n in self.surveys}
         return [f"{what} {one}" for what, one in found.items() if one.seconds > cost.WORTH_SAYING]
 
     def problem(self, case: str, solver: str | None = None, **changes) -> dict:

@@ -29,7 +29,7 @@ def survey_contents(
     """Return the contents of the dataset on a survey of `problem`."""
     dimensions = [_plain(axis) for axis in survey.axes]
     variables = {
-        dimension: _axis(axis, dimension, given)
+        dimension: _axis(axis, dimension, given, problem.model.fields)
         for (axis, given), dimension in zip(survey.axes.items(), dimensions, strict=True)
     }
     if survey.members:
@@ -55,14 +55,14 @@ def _plain(axis: str) -> str:
     return axis.replace(".-", "_minus_").replace(".", "_")
 
 
-def _axis(axis: str, dimension: str, given: Sequence) -> Variable:
+def _axis(axis: str, dimension: str, given: Sequence, fields: Sequence[str]) -> Variable:
     """Return the values of an axis; complex ones are written as Python writes them."""
     values = np.asarray(given)
     if np.iscomplexobj(values):
         values = values.real if not values.imag.any() else np.array([str(z) for z in values])
     if axis.startswith("initial."):
         site, field = axis.split(".")[1:]
-        words = f"initial value at site {site} of field {field}, counted from 0"
+        words = f"initial {fields[int(field)]} at site {site}"
     else:
         words = NAMES.get(axis, axis.replace("_", " "))
     return Variable((dimension,), values, words)

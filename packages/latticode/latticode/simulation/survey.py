@@ -5,7 +5,7 @@ initial value of a field at a site ("initial.0.1": site 0, the second field). Ru
 last axis first and members fastest, and each depends on its number alone. `survey_runs` makes them.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,28 +65,29 @@ def problem_at(problem: Problem, survey: Survey, number: int) -> Problem:
     return problem.changed(**changes, **({} if initial is None else {"initial": initial}))
 
 
-def names_of(problem: Problem, survey: Survey) -> list[str]:
-    """Return the names of what is kept; raise ValueError for what cannot be kept or changed."""
-    for name in survey.axes:
-        _require_axis(problem, name)
+def names_of(survey: Survey) -> list[str]:
+    """Return the names of what is kept; raise ValueError for what there is not."""
     for kept in survey.keep:
         if not callable(kept) and kept not in NAMES:
             raise ValueError(f"keep: there is no {kept!r}; there are {', '.join(NAMES)}")
     return [kept if isinstance(kept, str) else kept.__name__ for kept in survey.keep]
 
 
-def _require_axis(problem: Problem, name: str) -> None:
-    known = {**problem.model.parameters, **problem.parameters}
-    if name in known or name in ("half_width", "end_time"):
-        return
+def fault_of_axis(
+    name: str, parameters: Collection[str], sites: Collection[int], fields: int
+) -> str | None:
+    """Return why nothing has the name of an axis, None if it has a meaning.
+
+    `sites` have initial values, of so many fields.
+    """
+    if name in parameters or name in ("half_width", "end_time"):
+        return None
     head, *place = name.split(".")
-    reach, fields = problem.initial.shape[1] // 2, len(problem.initial)
     if head != "initial" or len(place) != 2 or not all(one.lstrip("-").isdigit() for one in place):
-        options = f"{', '.join(known)}, half_width, end_time, or initial.SITE.FIELD"
-        raise ValueError(f"axes: {name!r} names nothing to change; give one of {options}")
+        options = ", ".join([*parameters, "half_width", "end_time"])
+        return f"{name!r} names nothing to change; give one of {options}, or initial.SITE.FIELD"
     site, field = map(int, place)
-    if abs(site) > reach or not 0 <= field < fields:
-        raise ValueError(
-            f"axes: {name!r} is outside the initial data, which have the sites -{reach}..{reach} "
-            f"and the fields 0..{fields - 1}"
-        )
+    if site not in sites or not 0 <= field < fields:
+        known = ", ".join(map(str, sorted(sites)))
+        return f"{name!r} has no initial value: the sites {known} do, in the fields 0..{fields - 1}"
+    return None

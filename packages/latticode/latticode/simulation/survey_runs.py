@@ -17,7 +17,7 @@ from latticode.numerics.elementary import log
 
 from .problem import Problem
 from .simulate import IntegrationError, Trajectory, simulate
-from .survey import CHAINS, Survey, names_of, problem_at
+from .survey import CHAINS, Survey, fault_of_axis, names_of, problem_at
 from .sweep import mean_of, within
 
 
@@ -33,7 +33,12 @@ def run_part(
     A run that cannot be made to its end has NaN. Raises ValueError for what cannot be kept or
     changed.
     """
-    names = names_of(problem, survey)
+    names = names_of(survey)
+    known = {**problem.model.parameters, **problem.parameters}
+    reach, fields = problem.initial.shape[1] // 2, len(problem.initial)
+    for axis in survey.axes:
+        if fault := fault_of_axis(axis, known, range(-reach, reach + 1), fields):
+            raise ValueError(f"axes: {fault}")
     numbers = range(part, prod(survey.shape), parts)
     found: dict[str, list] = {name: [] for name in names}
     for done, number in enumerate(numbers, 1):

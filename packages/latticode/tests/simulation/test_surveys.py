@@ -74,8 +74,8 @@ def test_a_run_that_cannot_end_is_nan_and_the_others_are_numbers():
     ("axes", "keep", "told"),
     [
         ({"omgea": [1.0]}, ("max_l2",), "axes: 'omgea' names nothing to change; give one of eps"),
-        ({"initial.1.0": [1.0]}, ("max_l2",), "outside the initial data, which have the sites -0"),
-        ({"initial.0.2": [1.0]}, ("max_l2",), r"the fields 0\.\.1"),
+        ({"initial.1.0": [1.0]}, ("max_l2",), "has no initial value: the sites 0 do"),
+        ({"initial.0.2": [1.0]}, ("max_l2",), r"in the fields 0\.\.1"),
         ({"omega": [1.0]}, ("max_l3",), "keep: there is no 'max_l3'; there are max_l2"),
     ],
 )

@@ -1,0 +1,133 @@
+"""A survey as people write it: its case, axes, members, what is kept, and in how many parts."""
+
+from math import prod
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BeforeValidator, Field, ValidationError, model_validator
+
+from latticode.simulation import survey
+from latticode.simulation.ensembles import PERTURBATIONS
+
+from .cases import Case
+from .values import (
+    Complex,
+    Count,
+    Distinct,
+    Model,
+    Name,
+    Number,
+    Positive,
+    Whole,
+    Window,
+    fault,
+    faults,
+    shown,
+)
+
+MOST_RUNS = 10_000_000
+
+
+class Grid(Model):
+    """Equally spaced values of an axis, both ends included."""
+
+    first: Number
+    last: Number
+    points: Annotated[Whole, Field(ge=2, le=MOST_RUNS)]
+
+    @property
+    def values(self) -> list[float]:
+        """The values, each rounded to twelve digits."""
+        return [float(f"{x:.12g}") for x in np.linspace(self.first, self.last, self.points)]
+
+
+def _as_axis(value: Any) -> Any:
+    return Grid.model_validate(value).values if isinstance(value, dict) else value
+
+
+def _one_of(known) -> BeforeValidator:
+    def check(name: Any) -> Any:
+        if name not in known:
+            raise fault(f"is {shown(name)}; give one of {', '.join(known)}")
+        return name
+
+    return BeforeValidator(check)
+
+
+Axis = Annotated[list[Complex], BeforeValidator(_as_axis), Field(min_length=1), Distinct]
+Kept = Annotated[str, _one_of(survey.NAMES)]
+
+
+class Members(Model):
+    """Copies of each run, whose initial data differ by a random relative change."""
+
+    count: Count
+    size: Positive
+    seed: Whole
+    kind: Annotated[str, _one_of(PERTURBATIONS)] = "even"
+
+
+class Survey(Model):
+    """Many runs of a case, and how many parts they are made in."""
+
+    case: Name
+    axes: dict[str, Axis] = {}
+    members: Members | None = None
+    keep: Annotated[list[Kept], Field(min_length=1), Distinct] = ["max_l2"]
+    window: Window | None = None
+    chunks: Count | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Survey":
+        found, runs = [], prod(self.plan.shape)
+        if not (self.axes or self.members):
+            found.append(("axes", "is empty, and there are no members: give what is varied"))
+        if runs > MOST_RUNS:
+            found.append(("axes", f"make {runs} runs; a survey may have {MOST_RUNS}"))
+        if self.window and not 0 <= self.window[0] < self.window[1]:
+            text = f"[{self.window[0]:g}, {self.window[1]:g}] does not run forward from a time >= 0"
+            found.append(("window", text))
+        if found:
+            raise faults(found)
+        return self
+
+    @property
+    def plan(self) -> survey.Survey:
+        """The survey as the simulation takes it, its numbers real or whole where they are such."""
+        axes = {name: [_plain(name, z) for z in values] for name, values in self.axes.items()}
+        members = self.members and survey.Members(**self.members.model_dump())
+        return survey.Survey(axes, tuple(self.keep), self.window, members)
+
+    def faults_of(self, case: Case) -> list[tuple[str, str]]:
+        """Return what keeps the survey from being made of a case, and under which key."""
+        found = []
+        for name in self.axes:
+            text = survey.fault_of_axis(name, case.varied, case.initial, len(case.fields))
+            found += [("axes", text)] if text else []
+        if found:
+            return found
+        for point in self.corners():
+            try:
+                case.at(point)
+            except ValidationError as error:
+                from .messages import in_words  # which knows all sections, this one too
+
+                at = ", ".join(f"{name} = {value:g}" for name, value in point.items())
+                lines = str(in_words(error, "")).splitlines()[1:]
+                return [("axes", f"at {at}, {line.strip()}") for line in lines]
+        span = min([case.end_time, *self.plan.axes.get("end_time", ())])
+        if self.window and self.window[1] > span + 1e-9:
+            text = f"ends at {self.window[1]:g}, after the shortest run, which ends at {span:g}"
+            found.append(("window", text))
+        return found
+
+    def corners(self) -> list[dict[str, Any]]:
+        """Return the first and the last value of all axes together: runs that are checked."""
+        axes = self.plan.axes
+        return [{name: values[end] for name, values in axes.items()} for end in (0, -1)]
+
+
+def _plain(name: str, value: complex) -> Any:
+    if value.imag:
+        return value
+    return int(value.real) if name == "half_width" and value.real.is_integer() else value.real

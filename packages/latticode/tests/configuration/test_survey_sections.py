@@ -1,0 +1,55 @@
+"""A survey in a configuration: what it may say, and the words for what it may not."""
+
+import pytest
+from latticode.configuration.files import ConfigurationError
+from latticode.configuration.messages import load
+from latticode.equations.model import Model, abs2, lap
+
+CHAIN = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
+CASES = {"mine": {"model": CHAIN, "half_width": 5, "initial": {0: [1], 1: [0.5]}, "end_time": 5}}
+
+
+def loaded(**survey):
+    return load({"cases": CASES, "surveys": {"map": {"case": "mine", **survey}}})
+
+
+def test_a_survey_is_read_with_its_grids_and_whole_numbers():
+    axes = {"c": {"first": 0, "last": 1, "points": 5}, "half_width": [2, 4], "initial.1.0": ["1j"]}
+    settings = loaded(axes=axes, members={"count": 3, "size": 0.1, "seed": 1}, keep=["exponent"])
+    plan = settings.surveys["map"].plan
+    assert plan.axes == {
+        "c": [0.0, 0.25, 0.5, 0.75, 1.0], "half_width": [2, 4], "initial.1.0": [1j]
+    }  # fmt: skip
+    assert plan.shape == (5, 2, 1, 3)
+    assert settings.plain_survey("map")["members"]["count"] == 3
+    whole, part = settings.cost_of_survey("map"), settings.cost_of_survey("map", 10)
+    assert part.seconds == pytest.approx(whole.seconds / 10)
+
+
+@pytest.mark.parametrize(
+    ("survey", "told"),
+    [
+        ({}, "surveys.map.axes: is empty, and there are no members"),
+        ({"case": "mien", "axes": {"c": [1]}}, "there is no case 'mien'; did you mean 'mine'"),
+        ({"axes": {"d": [1]}}, "surveys.map.axes: 'd' names nothing to change; give one of c, hal"),
+        ({"axes": {"initial.2.0": [1]}}, "has no initial value: the sites 0, 1 do"),
+        ({"axes": {"initial.0.1": [1]}}, r"in the fields 0..0"),
+        ({"axes": {"c": []}}, "surveys.map.axes.c: is empty; give at least 1"),
+        ({"axes": {"c": [1, 1.0]}}, "the same value stands twice"),
+        ({"axes": {"c": {"first": 0, "last": 1, "points": 1}}}, "it must be at least 2"),
+        ({"axes": {"half_width": [0, 3]}}, "surveys.map.axes: at half_width = 0"),
+        ({"axes": {"end_time": [1, 1.01]}}, "at end_time = 1.01, end_time: 1.01 is not a whole"),
+        ({"axes": {"c": [1]}, "keep": ["max_l3"]}, "keep.0: is 'max_l3'; give one of max_l2"),
+        ({"axes": {"c": [1]}, "window": [2, 1]}, r"\[2, 1\] does not run forward"),
+        ({"axes": {"c": [1]}, "window": [2, 9]}, "ends at 9, after the shortest run, which ends"),
+        ({"members": {"count": 3, "size": 0.1, "seed": 1, "kind": "odd"}}, "give one of even, un"),
+        ({"members": {"count": 10**8, "size": 0.1, "seed": 1}}, "a survey may have 10000000"),
+        (
+            {"axes": {"end_time": [500]}, "members": {"count": 10**7, "size": 0.1, "seed": 1}},
+            "limits.hours allows 1 h",
+        ),
+    ],
+)
+def test_what_a_survey_may_not_say(survey, told):
+    with pytest.raises(ConfigurationError, match=told):
+        loaded(**survey)

@@ -1,0 +1,137 @@
+"""Surveys of a user's cases as jobs: their parts, what all of them hold, and a figure."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.surveys import survey_contents
+from latticode.datasets.trajectories import Contents
+from latticode.drawing import style
+from latticode.measures.confidence import mean_limits
+from latticode.simulation.survey import Members, Survey
+from latticode.simulation.survey_runs import joined, run_part
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pendula.problem import Problem
+
+MOST_PANELS = 4
+WORDS = {
+    "line": "against {x}",
+    "map": "over {x} and {y}",
+    "points": "of each member",
+}
+
+
+def plan_of(survey: Mapping[str, Any]) -> Survey:
+    """Return the survey that plain values describe, as the parameters of a job have them."""
+    members = survey["members"] and Members(**survey["members"])
+    return Survey(survey["axes"], tuple(survey["keep"]), survey["window"], members)
+
+
+def measure_part(
+    problem: Problem, survey: Mapping[str, Any], part: int, parts: int, step: Callable
+) -> Contents:
+    """Return one part of a survey: what is kept of each of its runs."""
+    found = run_part(problem, plan_of(survey), part, parts, step)
+    variables = {
+        name: Variable(("run", "component")[: values.ndim], values, f"{name} of each run")
+        for name, values in found.items()
+    }
+    return variables, {"title": f"Part {part} of {parts} of a survey"}
+
+
+def join_parts(
+    name: str, problem: Problem, survey: Mapping[str, Any], made: Mapping[str, xr.Dataset]
+) -> Contents:
+    """Return the dataset of a survey from its parts, by their names "0-of-4" and so on."""
+    ordered = sorted(made, key=lambda part: int(part.partition("-")[0]))
+    values = [{kept: made[part][kept].values for kept in made[part].data_vars} for part in ordered]
+    plan = plan_of(survey)
+    return survey_contents(name, problem, plan, joined(plan, values))
+
+
+# --- The figure -----------------------------------------------------------------------------------
+
+
+def gather_survey(survey: xr.Dataset) -> xr.Dataset:
+    """Return what the figure shows: the first axes, of further ones their first value."""
+    axes = [name for name in survey.dims if name not in ("component", "member")]
+    drawn = survey.isel(dict.fromkeys(axes[2:], 0))
+    kind = ("points", "line", "map")[min(len(axes), 2)]
+    x, y = ([style_name(survey, name) for name in axes] + ["", ""])[:2]
+    kept = "; ".join(str(one.attrs["long_name"]) for one in drawn.data_vars.values())
+    caption = f"A survey: {kept}, {WORDS[kind].format(x=x, y=y)}."
+    if "member" in survey.dims and kind != "points":
+        caption += " Members of the ensemble are averaged; bars are 95 % limits of the mean."
+    if axes[2:]:
+        caption += f" Of {', '.join(axes[2:])} the first value is shown."
+    return drawn.assign_attrs(caption=caption, kind=kind)
+
+
+def style_name(survey: xr.Dataset, name: str) -> str:
+    """Return an axis in words."""
+    return str(survey[name].attrs.get("long_name", name))
+
+
+@style.styled
+def draw_survey(data: xr.Dataset) -> Figure:
+    """Draw what is kept: against one axis as lines, over two as maps, of members as points."""
+    names = list(data.data_vars)[:MOST_PANELS]
+    fields = data.sizes["component"] if data.attrs["kind"] == "map" else 1
+    figure = style.new_figure(style.WIDTH, 2.6 * len(names))
+    grid = figure.subplots(len(names), fields, squeeze=False)
+    for row, name in zip(grid, names, strict=True):
+        if data.attrs["kind"] == "map":
+            _draw_maps(figure, row, data[name])
+        else:
+            _draw_lines(row[0], data[name])
+    return figure
+
+
+def _draw_lines(axes: Axes, kept: xr.DataArray) -> None:
+    dims = [name for name in kept.dims if name not in ("component", "member")]
+    along = dims[0] if dims else "member"
+    for field in _fields_of(kept):
+        x = field[along].values
+        if "member" in field.dims and along != "member":
+            limits = [mean_limits(one) for one in field.transpose(along, "member").values]
+            low, middle, high = np.array([(one.low, one.value, one.high) for one in limits]).T
+            axes.errorbar(x, middle, [middle - low, high - middle], marker=".", label=_label(field))
+        else:
+            axes.plot(x, field.values, marker=".", label=_label(field))
+    axes.set_xlabel(str(kept[along].attrs.get("long_name", along)))
+    axes.set_ylabel(kept.name)
+    if "component" in kept.dims and kept.sizes["component"] > 1:
+        axes.legend()
+
+
+def _draw_maps(figure: Figure, row: np.ndarray, kept: xr.DataArray) -> None:
+    fields = _fields_of(kept)
+    for axes in row[len(fields) :]:
+        axes.set_visible(False)
+    for axes, field in zip(row, fields, strict=False):
+        shown = field.mean("member") if "member" in field.dims else field
+        x, y = shown.dims[:2]
+        places = [_places(shown[name].values) for name in (x, y)]
+        image = axes.pcolormesh(*places, shown.values.T, shading="nearest", cmap="viridis")
+        axes.set_xlabel(str(shown[x].attrs.get("long_name", x)))
+        axes.set_ylabel(str(shown[y].attrs.get("long_name", y)))
+        figure.colorbar(image, ax=axes, label=f"{kept.name} {_label(field)}".strip())
+
+
+def _fields_of(kept: xr.DataArray) -> list[xr.DataArray]:
+    if "component" not in kept.dims:
+        return [kept]
+    return [kept.sel(component=name) for name in kept["component"].values]
+
+
+def _label(field: xr.DataArray) -> str:
+    return str(field["component"].item()) if "component" in field.coords else ""
+
+
+def _places(values: np.ndarray) -> np.ndarray:
+    """Return the values of an axis, or their numbers where they are words."""
+    return values if values.dtype.kind in "iuf" else np.arange(values.size)
