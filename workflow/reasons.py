@@ -2,6 +2,8 @@
 
 import os
 import re
+import signal
+from collections.abc import Iterable
 from pathlib import Path
 
 FAILURE = r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:\1 +.*\n)*))"
@@ -17,9 +19,15 @@ MORE = {
     "NODE_FAIL": "its node was lost: run the same command again",
 }
 """What a state of Slurm means, and what to do."""
-SIGNAL = r"died with (<Signals\.\w+: \d+>)"
-"""What Snakemake says of a script that a signal ended."""
-WORDLESS = "it ended without a word"
+SIGNAL = r"died with <Signals\.\w+: (\d+)>|returned non-zero exit status (1[3-5]\d)\b"
+"""What Snakemake says of a script that a signal ended, or of its shell, which adds 128."""
+MEANS = {
+    signal.SIGKILL: ": the system does this if memory runs out: try fewer --cores",
+    signal.SIGTERM: ": a person or the machine ended it: run the same command again",
+    signal.SIGSEGV: ": a library crashed: run the same command again, and report it if it recurs",
+}
+"""What a signal may mean."""
+WORDLESS = "it wrote no reason: its log may be lost, or the machine ended it (out of memory?)"
 
 
 def why_jobs_failed(text: str) -> list[tuple[str, str]]:
@@ -39,7 +47,7 @@ def _by_slurm(rule: str, details: str, logs: list[str]) -> list[str]:
     means = MORE.get(state[1]) if state else None
     job = re.search(r"SLURM-job '(\S+)'", details)
     said = [line for log in logs[1:] for line in _said(log, OF_SLURM)]
-    signals = [f"it was killed by {signal}" for log in logs[1:] for signal in _said(log, SIGNAL)]
+    signals = [words for log in logs[1:] for words in _killed(_read(log))]
     ended = [f"Slurm ended job {job[1]} ({state[1]}): {means.format(rule=rule)}"] if means else []
     return [
         *ended,
@@ -52,8 +60,18 @@ def _by_slurm(rule: str, details: str, logs: list[str]) -> list[str]:
 def _signal(rule: str, text: str) -> list[str]:
     """Return what the executor said of a job that a signal ended, or Snakemake of its command."""
     forked = re.findall(rf"(?m)^forked: rule {re.escape(rule)} failed: (.*)$", text)
-    alone = re.findall(SIGNAL, text)
-    return forked + [f"it was killed by {signal}" for signal in alone]
+    told = [words for line in forked for words in _in_words(re.findall(r"by signal (\d+)", line))]
+    return told + forked + _killed(text)
+
+
+def _killed(text: str) -> list[str]:
+    """Return which signals ended scripts, and what they may mean."""
+    return _in_words(number or int(status) - 128 for number, status in re.findall(SIGNAL, text))
+
+
+def _in_words(numbers: Iterable[str | int]) -> list[str]:
+    known = (signal.Signals(int(number)) for number in numbers)
+    return [f"it was killed by {one.name}" + MEANS.get(one, "") for one in known]
 
 
 def _said(path: str, pattern: str) -> list[str]:

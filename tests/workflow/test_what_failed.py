@@ -2,7 +2,7 @@
 
 import pytest
 from helpers import ROOT, command_of, edit, run_ready, snakemake
-from reasons import why_jobs_failed
+from reasons import WORDLESS, why_jobs_failed
 
 TARGETS = "results/pendula/threshold.nc", "fig1"
 
@@ -21,8 +21,8 @@ def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_p
     assert result.returncode == 1
     last = result.stderr.splitlines()[-4:]
     assert "ModuleNotFoundError: No module named 'absent'" in last
-    assert any("killed by" in line and "SIGKILL" in line for line in last), last
-    assert "ended without a word" not in result.stderr
+    assert any("killed by SIGKILL: the system does this if memory" in line for line in last), last
+    assert WORDLESS not in result.stderr
 
 
 SLURM = """
@@ -41,8 +41,10 @@ REASONS = [
         "FAILED",
         "",
         "Command x died with <Signals.SIGKILL: 9>\nsrun: error: n",
-        "killed by <Signals",
+        "killed by SIGKILL: the system does this if memory runs out",
     ),
+    ("FAILED", "", "returned non-zero exit status 137.\n", "killed by SIGKILL: the system"),
+    ("FAILED", "", "returned non-zero exit status 143.\n", "killed by SIGTERM: a person"),
     ("FAILED", "", "srun: error: Unable to create step: More processors\n", "srun: error: Unable"),
     (
         "FAILED",
@@ -81,7 +83,7 @@ def test_each_job_of_a_group_has_its_reason(tmp_path):
     logs[1].write_text("failed: it is wrong\nTraceback\n")
     text = f"Error in group mine:\n    message: None\n    jobs:\n{jobs}"
     assert [reason for reason, _ in why_jobs_failed(text)] == [
-        "it ended without a word",
+        WORDLESS,
         "it is wrong",
     ]
 
