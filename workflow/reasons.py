@@ -6,8 +6,10 @@ import signal
 from collections.abc import Iterable
 from pathlib import Path
 
-FAILURE = r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:\1 +.*\n)*))"
-"""An error in Snakemake's log with its details, which are indented more, as jobs of a group are."""
+FAILURE = r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:(?:\1 +|sbatch: |For fur).*\n)*))"
+"""An error in Snakemake's log with its details, which are indented more, as jobs of a group are.
+
+Of what sbatch says, only the first line is indented."""
 TOLD = r"(?ms)^failed: (.*?)\nTraceback"
 """The reason in the log of a job, see scripts/job.py."""
 OF_SLURM = r"(?m)^.*?((?:srun|slurmstepd\S*|sbatch): error: .*|\w+(?:Error|Exception): .*)$"
@@ -46,10 +48,12 @@ def _by_slurm(rule: str, details: str, logs: list[str]) -> list[str]:
     state = re.search(r"SLURM status is: '(\w+)", details)
     means = MORE.get(state[1]) if state else None
     job = re.search(r"SLURM-job '(\S+)'", details)
+    refused = re.findall(r"(?m)(sbatch: error: .*?)'?$", details)
     said = [line for log in logs[1:] for line in _said(log, OF_SLURM)]
     signals = [words for log in logs[1:] for words in _killed(_read(log))]
     ended = [f"Slurm ended job {job[1]} ({state[1]}): {means.format(rule=rule)}"] if means else []
     return [
+        *refused,
         *ended,
         *signals,
         *said,
