@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from pendula.problem import Problem
 
-MOST_PANELS = 4
+MOST_PANELS, OFTEN = 4, 1000
 WORDS = {
     "line": "against {x}",
     "map": "over {x} and {y}",
@@ -35,7 +35,12 @@ def measure_part(
     problem: Problem, survey: Mapping[str, Any], part: int, parts: int, step: Callable
 ) -> Contents:
     """Return one part of a survey: what is kept of each of its runs."""
-    found = run_part(problem, plan_of(survey), part, parts, step)
+
+    def tell(done: int, count: int) -> None:
+        if done % OFTEN == 0:
+            step(f"{done} of {count} runs done")
+
+    found = run_part(problem, plan_of(survey), part, parts, tell)
     variables = {
         name: Variable(("run", "component")[: values.ndim], values, f"{name} of each run")
         for name, values in found.items()

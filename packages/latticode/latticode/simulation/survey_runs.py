@@ -5,7 +5,9 @@ of its results. A part is every so many-th run, so that parts take alike long, a
 same bits in any number of parts.
 """
 
+import threading
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from math import prod
 from typing import Any
 
@@ -26,11 +28,12 @@ def run_part(
     survey: Survey,
     part: int = 0,
     parts: int = 1,
-    progress: Callable[[str], None] = lambda message: None,
+    progress: Callable[[int, int], None] = lambda done, count: None,
 ) -> dict[str, np.ndarray]:
     """Return what is kept of every `parts`-th run from number `part` on, each (run, ...).
 
-    A run that cannot be made to its end has NaN. Raises ValueError for what cannot be kept or
+    `progress` is called with the number of runs that are done, and of all in the part. A run that
+    cannot be made to its end has NaN. Raises ValueError for what cannot be kept or
     changed.
     """
     names = names_of(survey)
@@ -44,8 +47,7 @@ def run_part(
     for done, number in enumerate(numbers, 1):
         for name, value in _kept_of(problem_at(problem, survey, number), survey).items():
             found[name].append(value)
-        if done % 1000 == 0:
-            progress(f"{done} of {len(numbers)} runs done")
+        progress(done, len(numbers))
     return {name: np.array(values) for name, values in found.items()}
 
 
@@ -60,9 +62,24 @@ def joined(survey: Survey, parts: Sequence[Mapping[str, np.ndarray]]) -> dict[st
     return found
 
 
-def run_survey(problem: Problem, survey: Survey) -> dict[str, np.ndarray]:
-    """Return the whole survey, made in one part."""
-    return joined(survey, [run_part(problem, survey)])
+def run_survey(problem: Problem, survey: Survey, cores: int = 1) -> dict[str, np.ndarray]:
+    """Return the whole survey, in a part for each core: kernels run beside each other in threads.
+
+    Ctrl-C ends it when the runs that are at work are over.
+    """
+    ended = threading.Event()
+
+    def go_on(done: int, count: int) -> None:
+        if ended.is_set():
+            raise KeyboardInterrupt
+
+    parts = max(1, min(cores, prod(survey.shape)))
+    with ThreadPoolExecutor(parts) as pool:
+        made = [pool.submit(run_part, problem, survey, n, parts, go_on) for n in range(parts)]
+        try:
+            return joined(survey, [part.result() for part in made])
+        finally:
+            ended.set()
 
 
 def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import xarray as xr
 from dimers import dimers
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.surveys import survey_contents
+from latticode.simulation import survey_runs
 from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import simulate
 from latticode.simulation.survey import Members, Survey, problem_at
@@ -34,6 +35,26 @@ def test_the_bits_do_not_depend_on_the_number_of_parts(parts):
     made = joined(survey, [run_part(problem, survey, part, parts) for part in range(parts)])
     np.testing.assert_array_equal(made["max_l2"], whole)
     assert whole.shape == (3, 2, 4, 2) and np.unique(whole[0, 0, :, 0]).size == 4
+
+
+@pytest.mark.parametrize("cores", [1, 3])
+def test_cores_change_no_bit_and_an_interrupt_ends_all_of_them(cores, monkeypatch):
+    problem, survey = dimers(), Survey(AXES, members=Members(count=5, size=0.1, seed=3))
+    whole = joined(survey, [run_part(problem, survey)])["max_l2"]
+    np.testing.assert_array_equal(run_survey(problem, survey, cores)["max_l2"], whole)
+
+    made = []
+
+    def interrupted(problem):
+        made.append(problem)
+        if len(made) == 4:
+            raise KeyboardInterrupt
+        return simulate(problem, energy=False)
+
+    monkeypatch.setattr(survey_runs, "simulate", lambda problem, energy: interrupted(problem))
+    with pytest.raises(KeyboardInterrupt):
+        run_survey(problem, survey, cores)
+    assert len(made) <= 4 + 2 * cores < 30
 
 
 def test_members_are_small_changes_of_the_data():
