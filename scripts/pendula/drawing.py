@@ -3,8 +3,7 @@
 from collections.abc import Callable
 
 import xarray as xr
-from latticode.drawing import style
-from latticode.simulation.problem import read_initial
+from latticode.drawing import runs, style
 from matplotlib.axes import Axes
 
 KEPT = ("omega", "initial")
@@ -42,9 +41,4 @@ def name_case(case: xr.Dataset) -> str:
 
 def name_initial(initial: str) -> str:
     """Return initial data, as datasets keep them ({site: [A, B]}), as written in a panel."""
-    sites = read_initial(initial)
-    if [len(values) for values in sites.values()] != [2]:
-        return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
-    ((site, pair),) = sites.items()
-    a, b = (f"{number if number.imag else number.real:g}" for number in pair)
-    return rf"$(A_{{{site}}}, B_{{{site}}}) = ({a}, {b})$"
+    return runs.name_initial(initial, ("A", "B"))

@@ -10,25 +10,13 @@ Figures are matplotlib's: a notebook shows the one that a cell ends with, and sa
 from collections.abc import Iterable
 
 import xarray as xr
-from latticode.configuration import cost, values
-from latticode.configuration.cases import Case as OfModel
-from latticode.configuration.files import ConfigurationError, list_faults
-from latticode.configuration.messages import in_words
-from latticode.configuration.schema import Limits
-from latticode.configuration.solvers import with_controls
-from latticode.datasets.netcdf import as_xarray
-from latticode.datasets.stated import describe_run
-from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
-from latticode.simulation import simulate as simulation
-from latticode.simulation import sweep as sweeps
-from pydantic import ValidationError
+from latticode import notebook
+from latticode.notebook import draw_breather
 
-from pendula.configuration.messages import Sections, load
-from pendula.own_cases.checks import check_run
-from pendula.problem import AMPLITUDES, Problem
-
-from .configuration import cases
-from .configuration.cases import takes_model
+from pendula.configuration import cases
+from pendula.configuration.cases import takes_model
+from pendula.configuration.messages import Sections
+from pendula.own_cases.checks import KEPT, check_run
 
 __all__ = [
     "Case",
@@ -64,7 +52,7 @@ class Case(cases.Case):
         the expansion (3) makes of `initial`.
     mu: the small parameter of (3); angles have the size of 2 mu A.
 
-    A `pendula.Model`, or the path of its file, may stand for the model. The case then has
+    A `latticode.Model`, or the path of its file, may stand for the model. The case then has
     `parameters` in place of epsilon, gamma, omega and mu: {name: a number, or one for each site},
     and `initial` has a value for each field.
 
@@ -81,88 +69,18 @@ class Case(cases.Case):
 
     def __new__(cls, /, **keys):
         """Return a case of the kind that its model asks for."""
-        return ModelCase(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
+        return notebook.Case(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
 
     def __init__(self, /, **keys):
-        try:
-            super().__init__(**with_controls({"solver": "taylor", **keys}, {}))
-        except ValidationError as error:
-            raise in_words(error, "the case", ("cases", "case"), Sections) from None
+        notebook.made(super().__init__, keys, root=Sections)
 
-    def changed(self, **keys) -> "Case":
+    def changed(self, **keys) -> notebook.Case:
         """Return the case with other values under `keys`, checked anew.
 
         >>> Case(omega=-4).changed(omega=8, half_width=10).half_width
         10
         """
         return Case(**{**self.model_dump(), **keys})
-
-
-class ModelCase(OfModel):
-    """A case of a traced model."""
-
-    def __init__(self, /, **keys):
-        try:
-            super().__init__(**with_controls({"solver": "taylor", **keys}, {}))
-        except ValidationError as error:
-            raise in_words(error, "the case", ("cases", "case")) from None
-
-    def changed(self, **keys) -> "ModelCase":
-        """Return the case with other values under `keys`, checked anew."""
-        return ModelCase(**{**self.model_dump(), **keys})
-
-
-def _affordable(case: Case, hours: float | None) -> None:
-    """Raise ConfigurationError if a run takes more than it may.
-
-    A run of minutes says what it will take.
-    """
-    _require(case, OfModel, "a case, such as Case(omega=8)")
-    try:
-        limits = Limits() if hours is None else Limits(hours=hours)
-    except ValidationError as error:
-        raise in_words(error, "the limit") from None
-    # The second problem chooses the times of its snapshots, which needs a run that is not too long.
-    for problem in (case.problem, case.shown_problem):
-        found = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
-        if found:
-            text = found[1].replace("limits.hours", "hours").replace("limits.", "")
-            raise list_faults([f"{found[0]}: {text}"], "the case")
-    _announce(case.cost(case.shown_problem()))
-
-
-def _announce(takes: cost.Cost) -> None:
-    if takes.seconds > cost.WORTH_SAYING:
-        print(f"the run takes {takes}", flush=True)
-
-
-# What a run keeps of its case, and what decides its trajectory.
-OF_ONE_RUN = ("model", "mu", "epsilon", "gamma", "omega", "half_width", "boundary", "initial")
-OF_ONE_RUN += ("end_time", "parameters", "model_text")
-
-
-def _require_run_of(case: Case, run: xr.Dataset) -> None:
-    """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
-    problem = Problem.of(case.shown_problem())
-    made_of = describe_run("", problem, problem.solver)
-    other = [key for key in OF_ONE_RUN if run.attrs.get(key) != made_of.get(key)]
-    if other:
-        raise ConfigurationError(
-            f"the run is of another case: they differ in {', '.join(other)}; give the run of this "
-            "case, or leave it out"
-        )
-
-
-def _require(given, kind: type, what: str, *variables: str) -> None:
-    """Raise ConfigurationError unless an argument is of a kind, and a dataset has `variables`."""
-    if not isinstance(given, kind):
-        raise ConfigurationError(f"this takes {what}, and not {values.shown(given)}")
-    absent = [name for name in variables if name not in given]
-    if absent:
-        raise ConfigurationError(f"this takes {what}; the dataset has no {', '.join(absent)}")
-
-
-RUN = "a run, as `simulate` and `read` return it"
 
 
 def simulate(case: Case, name: str = "case", hours: float | None = None):
@@ -192,12 +110,7 @@ def simulate(case: Case, name: str = "case", hours: float | None = None):
     >>> bool(abs(run["energy"] - run["energy"][0]).max() < 1e-11)
     True
     """
-    _affordable(case, hours)
-    _require(name, str, "a name for the dataset")
-    problem = Problem.of(case.shown_problem())
-    trajectory = simulation.simulate(problem)
-    variables, attributes = trajectory_contents(name, problem, trajectory)
-    return as_xarray(variables | final_state(problem, trajectory), attributes)
+    return notebook.simulate(case, name, hours)
 
 
 def sweep(
@@ -225,23 +138,7 @@ def sweep(
     >>> peaks["l2"].sel(quantity="pair", statistic="max", window="[1, 5]").shape
     (3,)
     """
-    _require(case, OfModel, "a case, such as Case(omega=8)")
-    asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
-    limits = {} if hours is None else {"limits": {"hours": hours}}
-    settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}} | limits)
-    _announce(settings.cost_of_sweep(name))
-    checked, problem = settings.sweeps[name], Problem.of(settings.swept_problem(name))
-    result = sweeps.sweep(problem, checked.half_widths, checked.windows)
-    return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
-
-
-def _listed(given):
-    """Return a list of what can be iterated, such as a range, and all else as it is."""
-    return (
-        [_listed(one) for one in given]
-        if isinstance(given, Iterable) and not isinstance(given, str | dict)
-        else given
-    )
+    return notebook.sweep(case, half_widths, windows, name, hours)
 
 
 def check(case: Case, run=None):
@@ -255,12 +152,8 @@ def check(case: Case, run=None):
     >>> str(found["region"].values), bool(found["ratio"] < 1)
     ('theorem 1', True)
     """
-    _require(case, OfModel, "a case, such as Case(omega=8)")
-    run = simulate(case) if run is None else run
-    kept = "energy" if case.model == AMPLITUDES else "final"
-    _require(run, xr.Dataset, RUN, "linf", "l2", kept, "tau")
-    _require_run_of(case, run)
-    return check_run(Problem.of(case.shown_problem()), run)
+    kept = KEPT.get(getattr(case, "model", None), ())
+    return notebook.check(case, run, check_run, *kept)
 
 
 def draw_norms(run, checks=None):
@@ -276,9 +169,7 @@ def draw_norms(run, checks=None):
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
-    _require(run, xr.Dataset, RUN, "linf", "l2", "tau")
-    if checks is not None:
-        _require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
+    notebook.require_norms(run, checks)
     return figures.draw_norms(figures.gather_norms(run, checks))
 
 
@@ -291,21 +182,8 @@ def draw_spacetime(run):
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
-    _require(run, xr.Dataset, f"{RUN}, with snapshots (its case has a snapshot_step)", "modulus")
+    notebook.require(run, xr.Dataset, notebook.SNAPSHOTS, "modulus")
     return figures.draw_spacetime(figures.gather_spacetime(run))
-
-
-def draw_breather(checks):
-    """Draw the localised state that `check` found of a model of one's own, and its stability.
-
-    Left are the moduli of all fields over sites; right its Floquet multipliers beside the unit
-    circle, or the exponents of perturbations where the state is steady.
-    Where there is no such state, the figure says why.
-    """
-    from .own_cases import figures  # here, so that who draws nothing does without it
-
-    _require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
-    return figures.draw_breather(figures.gather_breather(checks))
 
 
 def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):
@@ -321,11 +199,4 @@ def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = N
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
-    _require(sweep, xr.Dataset, "a sweep, as `sweep` returns it", "linf", "l2", "window")
-    known = [str(window) for window in sweep["window"].values]
-    for window in (max_window, mean_window):
-        if window is not None and window not in known:
-            raise ConfigurationError(
-                f"there is no window {values.shown(window)}; known are {', '.join(known)}"
-            )
-    return figures.draw_sweep(figures.gather_sweep(sweep, max_window, mean_window))
+    return figures.draw_sweep(notebook.gathered_sweep(sweep, max_window, mean_window))

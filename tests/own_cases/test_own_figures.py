@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from latticode.drawing import style
+from latticode.drawing import runs, style
 from pendula.own_cases import figures
 
 
@@ -41,7 +41,7 @@ def test_a_chain_at_rest_is_drawn_at_zero_and_without_a_warning(make_trajectory)
 
 
 def test_a_sweep_has_a_panel_for_each_norm(make_sweep):
-    figure = figures.draw_sweep(figures.gather_sweep(make_sweep(), mean_window="[10, 40]"))
+    figure = figures.draw_sweep(runs.gather_sweep(make_sweep(), mean_window="[10, 40]"))
     sweep = make_sweep().sel(quantity="pair")
     for axes, name in zip(figure.axes, ["linf", "l2"], strict=True):
         full, hollow = (line.get_ydata() for line in axes.get_lines())

@@ -12,7 +12,7 @@ import xarray as xr
 from accepted import BASELINE, changed, check_words, dataset, datasets, differing, wrong_changes
 from accepted_figures import FIGURES
 from latticode.datasets.netcdf import read, save
-from latticode.drawing import style
+from latticode.drawing import runs, style
 from latticode.drawing.description import describe
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -37,7 +37,7 @@ OWN = {
     "own_norms": (own.draw_norms, gather_own_norms,
                   "trajectories/fig2_small", "trajectories/fig3_small"),
     "own_spacetime": (own.draw_spacetime, own.gather_spacetime, "trajectories/fig2_small"),
-    "own_sweep": (own.draw_sweep, lambda one: own.gather_sweep(one, mean_window="[10, 40]"),
+    "own_sweep": (own.draw_sweep, lambda one: runs.gather_sweep(one, mean_window="[10, 40]"),
                   "sweeps/fig5_left"),
 }  # fmt: skip
 

@@ -43,7 +43,7 @@ use rule figure as own_breather with:
     pathvars:
         made="own/cases/<own_case>.breather",
     params:
-        call=function("pendula.own_cases.figures.draw_breather"),
+        call=function("latticode.drawing.runs.draw_breather"),
 
 
 use rule job as own_sweep_figure with:

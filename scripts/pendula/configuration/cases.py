@@ -5,7 +5,7 @@ A default is the value of the paper's cases, save for `solver` and `snapshot_ste
 
 from collections.abc import Iterator, Mapping
 from math import sqrt
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from latticode.configuration import cases
 from latticode.configuration.cases import Initial
@@ -17,7 +17,7 @@ from latticode.simulation.feasibility import Obstacle
 from pydantic import Field, SerializeAsAny, WrapValidator, model_validator
 
 from pendula.feasibility import find_fault, rate
-from pendula.problem import AMPLITUDES, PENDULA, Constants
+from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 
 from . import cost
 
@@ -36,6 +36,7 @@ class Case(cases.Case):
     need `mu` and start from the angles and velocities that (3) makes of the amplitudes.
     """
 
+    kind: ClassVar[type[Problem]] = Problem
     omega: Number
     epsilon: Number = 1.0
     gamma: Number = 1.0

@@ -3,7 +3,7 @@
 import difflib
 from collections.abc import Iterator, Mapping
 from math import inf
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import (
     BeforeValidator,
@@ -24,6 +24,7 @@ from latticode.simulation.feasibility import (
     rates_of,
     solver_names,
 )
+from latticode.simulation.problem import Problem
 
 from . import cost
 from .cost import Cost
@@ -125,6 +126,8 @@ class Case(Model):
     Data and parameters are named as the model names them.
     """
 
+    kind: ClassVar[type[Problem]] = Problem
+    """What its plain values make."""
     model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
     parameters: dict[str, Any] = {}
     half_width: Natural = 30

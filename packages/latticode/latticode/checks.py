@@ -1,0 +1,153 @@
+"""Checks of a run: how far it is true, and whether its motion is chaotic.
+
+First the problem is run again by another method at tight tolerances. The difference of the two runs
+is the error of the worse run. If the first was made by the default solver at its default
+tolerances, that is the error of double precision. Then a random tangent vector is carried along:
+its growth says whether the motion is chaotic, and when the digits of double precision end.
+"""
+
+import numpy as np
+import xarray as xr
+
+from latticode.configuration.cost import TIGHTEST, other_than
+from latticode.datasets.checks import table, variable
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.trajectories import trajectory_contents
+from latticode.localised.tangents import STEP, Growth, grow, random_tangent
+from latticode.measures.difference import NORMS, at_times, difference, divergence_time
+from latticode.measures.growth import (
+    ROUNDING,
+    amplification,
+    is_chaotic,
+    mean_rate,
+    mean_rate_error,
+    predict,
+)
+from latticode.numerics.elementary import log, modulus
+from latticode.simulation.feasibility import SMALLEST_ERROR
+from latticode.simulation.problem import Problem
+from latticode.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.systems import integration_of
+
+TITLE = "A run and its checks"
+
+
+def choose_solver(name: str, peak: float) -> dict:
+    """Return the controls of another method than `name`, for data of the largest modulus `peak`.
+
+    Data smaller than 1 need a smaller absolute tolerance, as far as its square does not vanish.
+    """
+    other = other_than(name)
+    rtol = TIGHTEST[other]
+    atol = max(rtol * (peak if 0 < peak < 1 else 1.0), SMALLEST_ERROR)
+    return {"name": other, "rtol": rtol, "atol": atol}
+
+
+def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+    """Return the second run's norms and its difference from `run`; all are NaN if it was refused.
+
+    `run` is the trajectory that `simulate` made of `problem`.
+    """
+    peak = float(modulus(problem.initial).max())
+    solver = choose_solver(str(run.attrs["solver"]), peak)
+    again = problem.changed(solver=solver, snapshot_every=0)
+    said = {f"second_{key}": value for key, value in solver.items()}
+    try:
+        second = as_xarray(*trajectory_contents("second run", again, simulate(again)))
+        apart = difference(run, second).reindex(tau=run["tau"])
+    except IntegrationError as error:
+        second = run[list(NORMS)] * np.nan
+        apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
+        said["second_refusal"] = str(error)
+    return _compared(run, second, apart).assign_attrs(said)
+
+
+def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Dataset:
+    data = at_times(second, run["tau"]).drop_attrs(deep=False)
+    data = data.rename({norm: f"second_{norm}" for norm in NORMS})
+    for norm in NORMS:
+        long_name = f"{run[norm].attrs['long_name']}, by another method"
+        data[f"second_{norm}"].attrs = {"long_name": long_name, "units": run[norm].attrs["units"]}
+    data["difference"] = apart.assign_attrs(
+        long_name="largest difference of the norms of two runs, of full scale", units="1"
+    )
+    data["largest_difference"] = apart.max().assign_attrs(
+        long_name="its largest value: the error of the worse run", units="1"
+    )
+    data["divergence_time"] = divergence_time(apart)
+    return data
+
+
+# --- Sensitivity ----------------------------------------------------------------------------------
+
+FEWEST_STEPS, SEED = 64, 20170817
+
+
+def follow(problem: Problem) -> Growth:
+    """Return the growth of a random tangent vector along the trajectory of a problem."""
+    even, rng = integration_of(problem).find_reduction(problem).even, np.random.default_rng(SEED)
+    tangent = random_tangent(problem.sites, rng, even, len(problem.model.fields))
+    step = min(STEP, problem.end_time / FEWEST_STEPS)
+    return grow(problem, tangent[None], problem.end_time, even, step)
+
+
+def measure_sensitivity(problem: Problem) -> xr.Dataset:
+    """Return the rate at which tangent vectors grow, whether that is chaos, and when digits end."""
+    try:
+        growth = follow(problem)
+    except IntegrationError as error:
+        return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
+    tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size
+    middle = tau[-1] / 2
+    with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
+        relative = log_growth - log(size)
+        late = relative[-1] - relative[np.searchsorted(tau, middle)]
+        amplified = amplification(tau, log_growth, size)
+    chaotic = int(is_chaotic(tau, log_growth, size))
+    numbers = {
+        "exponent": (
+            mean_rate(tau, log_growth, middle),
+            "rate of that growth, second half, per unit of tau",
+        ),
+        "exponent_error": (mean_rate_error(tau, log_growth, middle), "standard error of the rate"),
+        "late_growth": (late, "growth relative to the solution's, second half, logarithm"),
+        "chaotic": (chaotic, "one where that growth is exponential"),
+        "divergence_rounding": (
+            predict(tau, amplified, ROUNDING),
+            "tau at which one rounding a unit of tau has grown to 1 %",
+        ),
+    }
+    described = {name: variable(value, (), text) for name, (value, text) in numbers.items()}
+    curve = variable(log_growth, ("growth_tau",), "logarithm of the growth of a tangent vector")
+    return xr.Dataset.from_dict(table(TITLE, {"growth_tau": tau}, log_growth=curve, **described))
+
+
+# --- All checks -----------------------------------------------------------------------------------
+
+
+def check_conserved(run: xr.Dataset) -> xr.Dataset:
+    """Return by how much each conserved quantity drifts, relative to its largest size."""
+    if "conserved" not in run:
+        return xr.Dataset()
+    values = run["conserved"].values
+    drift = np.abs(values - values[:, :1]).max(axis=1)
+    sizes = np.abs(values).max(axis=1)
+    drift /= np.where(sizes > 0, sizes, 1.0)
+    about = "largest change of a conserved quantity, relative to its largest size"
+    names = {"conserved_quantity": run["conserved_quantity"].values}
+    described = variable(drift, ("conserved_quantity",), about)
+    return xr.Dataset.from_dict(table(TITLE, names, conserved_drift=described))
+
+
+def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+    """Return all checks of a run as one dataset, with the attributes of the run.
+
+    `run` is the trajectory that `simulate` made of `problem`.
+    """
+    return merged(run, run_again(problem, run), measure_sensitivity(problem), check_conserved(run))
+
+
+def merged(run: xr.Dataset, *checks: xr.Dataset) -> xr.Dataset:
+    """Return several checks of a run as one dataset, with the attributes of the run."""
+    data = xr.merge(checks, combine_attrs="drop_conflicts")
+    return data.assign_attrs({**run.attrs, **data.attrs})

@@ -1,0 +1,214 @@
+"""Figures of a run, of a sweep and of a localised state, with every parameter in the titles.
+
+`gather_...` returns what `draw_...` draws, with a caption. A program that calls the library may
+name parameters and fields in its own way, by `Naming`.
+"""
+
+import json
+from collections.abc import Mapping
+from textwrap import shorten
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from latticode.equations.ends import ends_of
+from latticode.measures.difference import VISIBLE
+from latticode.simulation.problem import read_initial
+
+from . import panels, strips, style
+from .strips import NORMS, Strip
+
+FEW = 8
+"""Ticks for so many half-widths fit below a panel."""
+COLOURS = ("red", "blue")
+"""Of the first two fields, as captions name them."""
+RUNS = [Strip("", ""), Strip("second_", "second run, by another method")]
+DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
+LONGEST = 46
+"""A formula with more characters leaves no room for the rest of a title."""
+NORMS_CAPTION = (
+    "Norms of {fields} against τ: ℓ∞ on the left and ℓ² on the right. Where a run by another "
+    "method differs visibly, a dashed line marks the time and the other run is shown below."
+)
+SPACETIME_CAPTION = "Moduli of {fields} over time and sites, from left to right."
+BREATHER_CAPTION = (
+    "A localised state of these equations, continued from the site where the initial amplitudes "
+    "are largest (left), and its Floquet multipliers (right): it is unstable where one lies off "
+    "the circle. A steady state has exponents instead, and is unstable where one lies to the "
+    "right of zero."
+)
+SWEEP_CAPTION = (
+    "Norms of {fields} against the half-width M: ℓ∞ on the left and ℓ² on the right. Filled marks "
+    "are maxima over {filled}, hollow marks averages over {hollow}."
+)
+
+
+class Naming(NamedTuple):
+    """How titles write what the attributes of a dataset hold."""
+
+    symbols: Mapping[str, str] = {"half_width": "M"}  # of attributes, in TeX
+    fields: tuple[str, ...] = ()  # of the initial data, where they are not those of the run
+
+
+PLAIN = Naming()
+
+
+def name_parameters(attributes: Mapping, naming: Naming = PLAIN) -> str:
+    """Return the parameters of the equations, and the half-width where there is only one."""
+    known = {s: attributes[key] for key, s in naming.symbols.items() if key in attributes}
+    symbols = ",  ".join(f"${symbol} = {float(value):.4g}$" for symbol, value in known.items())
+    if "parameters" not in attributes:
+        return symbols
+    given = json.loads(attributes["parameters"]).items()
+    numbers = [f"{key} {one:.4g}" for key, one in given if isinstance(one, int | float)]
+    text = f"{attributes['model']}{': ' if numbers else ''}{', '.join(numbers)}"
+    return ",  ".join([shorten(text, LONGEST, placeholder=" ..."), *filter(None, [symbols])])
+
+
+def name_initial(initial: str, fields: tuple[str, ...]) -> str:
+    """Return initial data, as datasets keep them ({site: [A, B]}), as written in a title."""
+    sites = read_initial(initial)
+    ((site, values),) = sites.items() if len(sites) == 1 else [(0, ())]
+    if len(values) != len(fields):
+        return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
+    names = ", ".join(f"{field}_{{{site}}}" for field in fields)
+    numbers = ", ".join(f"{one if one.imag else one.real:g}" for one in values)
+    return rf"$({names}) = ({numbers})$"
+
+
+def name_data(data: xr.Dataset, naming: Naming = PLAIN) -> str:
+    """Return the initial data, or the number of sites if they do not fit into a title."""
+    fields = naming.fields or tuple(data.attrs["fields"].split(", "))
+    named = name_initial(data.attrs["initial"], fields)
+    return named if len(named) <= LONGEST else "data on 1 site"
+
+
+def name_data_and_ends(data: xr.Dataset, naming: Naming = PLAIN) -> str:
+    """Return the initial data and the kind of ends."""
+    return f"{name_data(data, naming)},  {ends_of(data.attrs['boundary']).label}"
+
+
+def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
+    """Return the norms of a trajectory, beside the second run that its checks hold."""
+    names = [str(name) for name in run["component"].values]
+    coloured = [f"{name} ({colour})" for name, colour in zip(names, COLOURS, strict=False)]
+    fields = " and ".join(coloured) if len(names) <= len(COLOURS) else ", ".join(names)
+    about = {"caption": NORMS_CAPTION.format(fields=fields), "fields": ", ".join(names)}
+    drawn = run[list(NORMS)].assign_attrs(about)
+    if checks is None:
+        return drawn
+    second = {f"second_{name}": checks[f"second_{name}"] for name in NORMS}
+    return drawn.assign(second | {"divergence_time": checks["divergence_time"]})
+
+
+@style.styled
+def draw_norms(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
+    """Draw l-infinity left and l2 right, the first field red and the second blue.
+
+    Where the two runs diverge the second has strips of its own below; elsewhere it is not drawn.
+    """
+    parts = strips.diverges(data)
+    figure, (grid,) = strips.draw_cases([data], [RUNS if parts else [Strip("", "")]])
+    grid[0, 0].set_title(name_parameters(data.attrs, naming), loc="left")
+    grid[0, 1].set_title(name_data_and_ends(data, naming), loc="left")
+    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "")
+    return figure
+
+
+def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
+    """Return the moduli of a trajectory over the times of its snapshots."""
+    names = [str(name) for name in run["component"].values]
+    caption = SPACETIME_CAPTION.format(fields=", ".join(f"{name}ₙ" for name in names))
+    return panels.over_time(run).assign_attrs(caption=caption, fields=", ".join(names))
+
+
+@style.styled
+def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
+    """Draw the moduli of all fields side by side, on one scale of colours."""
+    figure = style.new_figure(style.WIDTH, 2.5)
+    count = data.sizes["component"]
+    row = figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
+    names = [name_parameters(data.attrs, naming), name_data(data, naming), *[""] * count]
+    panels.draw_moduli(figure, row, data, names[:count])
+    for axes in row:
+        axes.set_xlabel(r"$\tau$")
+    row[0].set_ylabel("site $n$")
+    return figure
+
+
+def gather_breather(checks: xr.Dataset) -> xr.Dataset:
+    """Return the localised state that the checks of a run hold, if they hold one."""
+    shown = checks[[name for name in checks.data_vars if name.startswith("breather")]]
+    return shown.assign_attrs(caption=BREATHER_CAPTION)
+
+
+@style.styled
+def draw_breather(data: xr.Dataset) -> Figure:
+    """Draw moduli over sites left; right the multipliers, or the exponents of a steady state."""
+    figure = style.new_figure(style.WIDTH, 2.7)
+    if "breather" not in data:
+        reason = data.attrs.get("breather_refusal", "the checks looked for none")
+        figure.text(0.5, 0.5, f"no localised state: {reason}", ha="center")
+        return figure
+    left, right = figure.subplots(1, 2)
+    for i, one in enumerate(data["component"].values):
+        look = {"color": style.colour_of(i), "marker": ".", "label": f"${one}$"}
+        left.plot(data["site"], data["breather"].sel(component=one), **look)
+    left.set(xlabel="site $n$", ylabel="modulus", ylim=(0, None))
+    left.xaxis.get_major_locator().set_params(integer=True)
+    left.set_title(name_parameters(data.attrs), loc="left")
+    turns = float(data["breather_frequency"]) != 0.0
+    what = "multipliers" if turns else "exponents"
+    points = data[f"breather_{what}"].values
+    right.plot(*points, color="black", marker=".", linestyle="none")
+    if turns:
+        right.add_patch(Circle((0, 0), 1.0, fill=False, color="grey", lw=0.5))
+        right.set_aspect("equal", "datalim")
+    right.set(xlabel=f"real part of {what}", ylabel="imaginary part")
+    style.name_legend(figure, left)
+    return figure
+
+
+def gather_sweep(
+    sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None
+) -> xr.Dataset:
+    """Return the maximum of the norms of all fields over one window, and their mean over another.
+
+    Both are taken over the sweep's first window where none is given.
+    """
+    first = str(sweep["window"].values[0])
+    windows = max_window or first, mean_window or first
+    readings = {"max": ("max", windows[0]), "mean": ("mean", windows[1])}
+    fields = ", ".join(str(name) for name in sweep["quantity"].values if name != "pair")
+    caption = SWEEP_CAPTION.format(fields=fields, filled=windows[0], hollow=windows[1])
+    about = {**sweep.attrs, "caption": caption, "fields": fields}
+    return panels.join_sweeps({"sweep": sweep}, readings, list(NORMS)).assign_attrs(about)
+
+
+@style.styled
+def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
+    """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
+    figure = style.new_figure(style.WIDTH, 2.7)
+    row = figure.subplots(1, 2, sharex=True)
+    fields = data.attrs["fields"]
+    label = f"$({fields})$" if "," in fields else f"${fields}$"
+    for axes, name in zip(row, NORMS, strict=True):
+        shown = data.isel(panel=0).drop_vars([other for other in NORMS if other != name])
+        panels.draw_sweep(axes, shown, label)
+    _mark_widths(row[0], data["half_width"].values)
+    row[0].set_title(name_parameters(data.attrs, naming), loc="left")
+    row[1].set_title(name_data_and_ends(data, naming), loc="left")
+    style.name_legend(figure, *row)
+    return figure
+
+
+def _mark_widths(axes: Axes, widths: np.ndarray) -> None:
+    """Mark the half-widths themselves where they are few; a logarithm has no place for zero."""
+    if widths.min() == 0:
+        axes.set_xscale("linear")
+    if len(widths) <= FEW or widths.min() == 0:
+        axes.set_xticks(widths[:: -(-len(widths) // FEW)])

@@ -1,0 +1,311 @@
+"""The library for notebooks: cases of a model, their runs and sweeps as datasets, checks, figures.
+
+Equations are taken as dimensionless. Datasets are xarray's, each variable with a long_name and
+units. Figures are matplotlib's: a notebook shows the one that a cell ends with, and saves it by
+`figure.savefig("mine.pdf")`.
+
+What is raised: ModelError, where equations cannot be traced; ConfigurationError, with every fault
+of what was given; IntegrationError, where a run cannot reach its end with the digits that were
+asked for; DatasetError, where a file cannot be read or written.
+"""
+
+from collections.abc import Callable, Iterable
+
+import xarray as xr
+from pydantic import ValidationError
+
+from latticode.checks import check_run
+from latticode.configuration import cases, cost, values
+from latticode.configuration.files import ConfigurationError, list_faults
+from latticode.configuration.messages import in_words, load
+from latticode.configuration.schema import Limits
+from latticode.configuration.solvers import with_controls
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.stated import describe_run
+from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
+from latticode.simulation import simulate as simulation
+from latticode.simulation import sweep as sweeps
+
+__all__ = [
+    "Case",
+    "check",
+    "draw_breather",
+    "draw_norms",
+    "draw_spacetime",
+    "draw_sweep",
+    "simulate",
+    "sweep",
+]
+
+
+class Case(cases.Case):
+    """One initial-value problem of a model, checked when it is made.
+
+    Keys and defaults are those of a case in YAML:
+
+    model: a Model, or the path of its file.
+    parameters: {name: a number, one for each site, or a function of the sites}; others have the
+        model's own values.
+    initial: {site: a value for each field} in complex numbers, at rest elsewhere.
+    half_width: M; the chain has the 2M + 1 sites -M..M. 30.
+    boundary: "dirichlet" (zero beyond the ends), "free", "periodic" or "antiperiodic".
+    end_time, output_step: observables are kept at every step. 50 and 0.025.
+    snapshot_step: how often the fields on all sites are kept, whole output steps. They divide the
+        run. Left out, 200 snapshots or more are spread over it.
+    solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "kahan_li" or "auto", or a dict
+        with the controls, such as {"name": "auto", "error": 1e-9}.
+
+    Raises ConfigurationError, with every fault in words.
+
+    >>> from latticode import Model, abs2, lap
+    >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
+    >>> Case(model=dnls, initial={0: [1.5]}).half_width
+    30
+    >>> Case(model=dnls, initail={0: [1.5]})
+    Traceback (most recent call last):
+    latticode.configuration.files.ConfigurationError: the case has 2 errors:
+      initial: is missing
+      initail: is not a known key; did you mean 'initial'?
+    """
+
+    def __init__(self, /, **keys):
+        made(super().__init__, keys)
+
+    def changed(self, **keys) -> "Case":
+        """Return the case with other values under `keys`, checked anew."""
+        return type(self)(**{**self.model_dump(), **keys})
+
+
+def made(initialise: Callable, keys: dict, **place) -> None:
+    """Make a case of its keys, and say in words what is wrong with them.
+
+    `place` is what `in_words` takes beside.
+    """
+    try:
+        initialise(**with_controls({"solver": "taylor", **keys}, {}))
+    except ValidationError as error:
+        raise in_words(error, "the case", ("cases", "case"), **place) from None
+
+
+def _affordable(case: cases.Case, hours: float | None) -> None:
+    """Raise ConfigurationError if a run takes more than it may.
+
+    A run of minutes says what it will take.
+    """
+    require(case, cases.Case, CASE)
+    try:
+        limits = Limits() if hours is None else Limits(hours=hours)
+    except ValidationError as error:
+        raise in_words(error, "the limit") from None
+    # The second problem chooses the times of its snapshots, which needs a run that is not too long.
+    for problem in (case.problem, case.shown_problem):
+        found = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
+        if found:
+            text = found[1].replace("limits.hours", "hours").replace("limits.", "")
+            raise list_faults([f"{found[0]}: {text}"], "the case")
+    _announce(case.cost(case.shown_problem()))
+
+
+def _announce(takes: cost.Cost) -> None:
+    if takes.seconds > cost.WORTH_SAYING:
+        print(f"the run takes {takes}", flush=True)
+
+
+OF_A_RUN = ("case", "output_step", "snapshot_every", "solver")
+"""How attributes start that say how a case was run, and not of which problem the run is."""
+
+
+def _require_run_of(case: cases.Case, run: xr.Dataset) -> None:
+    """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
+    problem = case.kind.of(case.shown_problem())
+    made_of = {"model": None} | describe_run("", problem, problem.solver)
+    compared = [key for key in sorted(made_of) if not key.startswith(OF_A_RUN)]
+    other = [key for key in compared if run.attrs.get(key) != made_of[key]]
+    if other:
+        raise ConfigurationError(
+            f"the run is of another case: they differ in {', '.join(other)}; give the run of this "
+            "case, or leave it out"
+        )
+
+
+def require(given, kind: type, what: str, *variables: str) -> None:
+    """Raise ConfigurationError unless an argument is of a kind, and a dataset has `variables`."""
+    if not isinstance(given, kind):
+        raise ConfigurationError(f"this takes {what}, and not {values.shown(given)}")
+    absent = [name for name in variables if name not in given]
+    if absent:
+        raise ConfigurationError(f"this takes {what}; the dataset has no {', '.join(absent)}")
+
+
+CASE = "a case, as `Case` makes it"
+RUN = "a run, as `simulate` and `read` return it"
+
+
+def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.Dataset:
+    """Integrate a case and return its trajectory.
+
+    Coordinates: tau (time,), component (the fields), site (-M..M), part ("re", "im", or "value",
+    "rate" of fields with second derivatives). Variables, all without units:
+
+    linf, l2 (component, tau): the largest modulus of a field on the chain, and the root of the sum
+        of its squares.
+    modulus (component, site, snapshot): moduli at the times snapshot_tau (snapshot,).
+    conserved (conserved_quantity, snapshot): what the model conserves, if it says so.
+    final (part, component, site): the fields at end_time.
+
+    Attributes: every parameter, the solver's controls and its work, `name` as "case".
+
+    A run that would take more than `hours` (1 if they are left out) or 8 GB of memory is refused
+    before it starts; one of some minutes says first what it takes.
+
+    Raises ConfigurationError for such a run; IntegrationError, with the reason, where the solver
+    cannot reach end_time with the digits that were asked for.
+
+    >>> from latticode import Model, abs2, lap
+    >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
+    >>> run = simulate(Case(model=dnls, initial={0: [1.5]}, half_width=10, end_time=5))
+    >>> run["l2"].shape, run["modulus"].shape, round(float(run["l2"][0, -1]), 12)
+    ((1, 201), (1, 21, 201), 1.5)
+    """
+    _affordable(case, hours)
+    require(name, str, "a name for the dataset")
+    problem = case.kind.of(case.shown_problem())
+    trajectory = simulation.simulate(problem)
+    variables, attributes = trajectory_contents(name, problem, trajectory)
+    return as_xarray(variables | final_state(problem, trajectory), attributes)
+
+
+def sweep(
+    case: Case,
+    half_widths: Iterable[int],
+    windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
+    name: str = "sweep",
+    hours: float | None = None,
+) -> xr.Dataset:
+    """Integrate a case on chains of many half-widths; return maxima and means of its norms.
+
+    `windows` are (start, end) of time, both included, on output steps; the case is run to the end
+    of the last one, whatever its end_time. A parameter that is a function of the sites has the same
+    values at the sites of every chain.
+
+    Returns a dataset with l2 and linf (half_width, quantity, statistic, window), without units:
+    quantity is a field or "pair", all of them together (the root of the sum of squares in l2, the
+    largest in linf); statistic "max" or "mean" (over time, trapezoidal); windows are named
+    "[10, 50]". Attributes as in `simulate`.
+
+    Raises ConfigurationError for windows off the grid, initial data outside a chain, or a sweep
+    that would take more than `hours` (1 if they are left out); IntegrationError as `simulate`.
+
+    >>> from latticode import Model, abs2, lap
+    >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
+    >>> peaks = sweep(Case(model=dnls, initial={0: [1.5]}), [2, 4, 8], windows=[(1, 5)])
+    >>> peaks["l2"].sel(quantity="u", statistic="max", window="[1, 5]").shape
+    (3,)
+    """
+    require(case, cases.Case, CASE)
+    asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
+    limits = {} if hours is None else {"limits": {"hours": hours}}
+    settings = load({"cases": {name: case}, "sweeps": {name: asked}} | limits)
+    _announce(settings.cost_of_sweep(name))
+    checked, problem = settings.sweeps[name], case.kind.of(settings.swept_problem(name))
+    result = sweeps.sweep(problem, checked.half_widths, checked.windows)
+    return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
+
+
+def _listed(given):
+    """Return a list of what can be iterated, such as a range, and all else as it is."""
+    return (
+        [_listed(one) for one in given]
+        if isinstance(given, Iterable) and not isinstance(given, str | dict)
+        else given
+    )
+
+
+def check(
+    case: Case, run: xr.Dataset | None = None, checks: Callable = check_run, *variables: str
+) -> xr.Dataset:
+    """Measure how far a run of a case can be trusted, and whether its motion is chaotic.
+
+    `run` is what `simulate` made of the case; if it is left out, the case is integrated here. Of
+    the problem and of the run, which must have `variables`, `checks` makes a dataset of numbers,
+    each with a long_name and units: see `latticode.checks`.
+
+    >>> from latticode import Model, abs2, lap
+    >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
+    >>> found = check(Case(model=dnls, initial={0: [0.5]}, half_width=10, end_time=5))
+    >>> float(found["largest_difference"]) < 1e-11, int(found["chaotic"])
+    (True, 0)
+    """
+    require(case, cases.Case, CASE)
+    run = simulate(case) if run is None else run
+    require(run, xr.Dataset, RUN, "linf", "l2", "tau", *variables)
+    _require_run_of(case, run)
+    return checks(case.kind.of(case.shown_problem()), run)
+
+
+def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None):
+    """Draw the norms of all fields against time: l-infinity left, l2 right.
+
+    `run` is a trajectory as `simulate` or `read` return it. With the `checks` that `check` made of
+    it, their second run is drawn below it where the two differ, and a mark shows from when on.
+    """
+    from .drawing import runs  # here, so that who draws nothing does without it
+
+    require_norms(run, checks)
+    return runs.draw_norms(runs.gather_norms(run, checks))
+
+
+def require_norms(run: xr.Dataset, checks: xr.Dataset | None) -> None:
+    """Raise ConfigurationError unless a run has norms, and its checks a second run."""
+    require(run, xr.Dataset, RUN, "linf", "l2", "tau")
+    if checks is not None:
+        require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
+
+
+def draw_spacetime(run: xr.Dataset):
+    """Draw the moduli of all fields over time and sites, from a run that keeps `modulus`."""
+    from .drawing import runs  # here, so that who draws nothing does without it
+
+    require(run, xr.Dataset, SNAPSHOTS, "modulus")
+    return runs.draw_spacetime(runs.gather_spacetime(run))
+
+
+SNAPSHOTS = f"{RUN}, with snapshots (its case has a snapshot_step)"
+
+
+def draw_breather(checks: xr.Dataset):
+    """Draw the localised state that `check` found, and its stability.
+
+    Left are the moduli of all fields over sites; right its Floquet multipliers beside the unit
+    circle, or the exponents of perturbations where the state is steady.
+    Where there is no such state, the figure says why.
+    """
+    from .drawing import runs  # here, so that who draws nothing does without it
+
+    require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
+    return runs.draw_breather(runs.gather_breather(checks))
+
+
+def draw_sweep(sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None):
+    """Draw the norms of all fields together against the half-width M: l-infinity left, l2 right.
+
+    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`. Windows
+    are named as in the dataset; where one is left out, the first is taken.
+    """
+    from .drawing import runs  # here, so that who draws nothing does without it
+
+    return runs.draw_sweep(gathered_sweep(sweep, max_window, mean_window))
+
+
+def gathered_sweep(sweep: xr.Dataset, max_window: str | None, mean_window: str | None):
+    """Return what `draw_sweep` draws, or raise ConfigurationError for what is no sweep."""
+    from .drawing import runs
+
+    require(sweep, xr.Dataset, "a sweep, as `sweep` returns it", "linf", "l2", "window")
+    known = [str(window) for window in sweep["window"].values]
+    for window in (max_window, mean_window):
+        if window is not None and window not in known:
+            raise ConfigurationError(
+                f"there is no window {values.shown(window)}; known are {', '.join(known)}"
+            )
+    return runs.gather_sweep(sweep, max_window, mean_window)
