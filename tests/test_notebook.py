@@ -101,7 +101,7 @@ def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda c, r: pendula.simulate({"omega": 8}), "a case, such as Case.omega=8., and not"),
+        (lambda c, r: pendula.simulate({"omega": 8}), "a case, as `Case` makes it, and not"),
         (lambda c, r: pendula.simulate(c, 3), "a name for the dataset, and not 3"),
         (lambda c, r: pendula.simulate(c, hours=-1), "hours: is -1; it must be greater"),
         (lambda c, r: pendula.simulate(c, hours=1e-9), "the run would take less than a"),

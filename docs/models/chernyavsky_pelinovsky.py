@@ -1,6 +1,6 @@
 """A. Chernyavsky and D. E. Pelinovsky, arXiv 1605.06455."""
 
-from latticode.equations.model import abs2, conj, lap
+from latticode import abs2, conj, lap
 
 fields = "u", "v"
 parameters = {"epsilon": 0.1, "gamma": 0.5, "omega": 3.0}

@@ -1,6 +1,6 @@
 """The discrete nonlinear Schroedinger equation with damping."""
 
-from latticode.equations.model import abs2, lap
+from latticode import abs2, lap
 
 fields = "u"
 parameters = {"epsilon": 1.0, "gamma": 0.1}

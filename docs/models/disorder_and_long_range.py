@@ -1,6 +1,6 @@
 """A chain with a random potential and a coupling that falls with the cube of the distance."""
 
-from latticode.equations.model import abs2, shift
+from latticode import abs2, shift
 from numpy.random import default_rng
 
 fields = "u"

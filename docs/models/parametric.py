@@ -1,6 +1,6 @@
 """M. Syafwan, H. Susanto and S. M. Cox, Phys. Rev. E 81 (2010) 026207."""
 
-from latticode.equations.model import abs2, conj, lap
+from latticode import abs2, conj, lap
 
 fields = "u"
 parameters = {"epsilon": 0.1, "gamma": 0.5, "detuning": 1.0}

@@ -1,7 +1,7 @@
 """The page and the figure of a localised state of a user's own case."""
 
 import pytest
-from latticode.equations.model import abs2, lap
+from latticode import abs2, lap
 from pendula import Case, Model, check, draw_breather
 from pendula.own_cases import answers
 from pendula.own_cases.breathers import check_breather

@@ -4,20 +4,20 @@ import json
 
 import numpy as np
 import pytest
+from latticode import ModelError, abs2, lap
 from latticode.configuration.files import ConfigurationError
-from latticode.equations.model import ModelError, abs2, lap
 from pendula import Case, Model, check, simulate
 from pendula.configuration.files import gather
 from pendula.configuration.messages import load
 from pendula.problem import Problem
 
-DAMPED = """from latticode.equations.model import abs2, lap
+DAMPED = """from latticode import abs2, lap
 fields = "u"
 parameters = {"epsilon": 1.0, "gamma": 0.1}
 def i_dt(p, u):
     return p.epsilon * lap(u) + abs2(u) * u - 1j * p.gamma * u
 """
-AMPLITUDES = """from latticode.equations.model import abs2
+AMPLITUDES = """from latticode import abs2
 from pendula.models.amplitudes import i_dt
 fields = "A", "B"
 parameters = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
@@ -103,7 +103,7 @@ def test_faults_of_a_case_are_told_by_key(configured, keys, message):
     ],
 )
 def test_what_has_no_rule_is_refused_with_the_line_of_the_file(write, statement, message):
-    text = "from latticode.equations.model import *\nfields = 'u'\nparameters = {'gamma': 1}\n"
+    text = "from latticode import *\nfields = 'u'\nparameters = {'gamma': 1}\n"
     with pytest.raises(ModelError) as error:
         write(f"{text}def i_dt(p, u):\n    {statement}\n")
     assert message in str(error.value)
@@ -214,7 +214,7 @@ def test_values_that_are_no_parameters_are_refused_before_any_run(given, message
 
 READS = """from pathlib import Path
 import numpy as np
-from latticode.equations.model import lap
+from latticode import lap
 from beside import SCALE
 fields = "u"
 parameters = {"W": np.loadtxt(Path(__file__).with_name("W.txt"))}

@@ -1,6 +1,6 @@
 """(4) of arXiv 1708.06134 as a user writes a model, and problems of it, for the library's tests."""
 
-from latticode.equations.model import Model, abs2, conj, lap
+from latticode import Model, abs2, conj, lap
 from latticode.simulation.problem import Problem, on_sites
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from dimers import DIMERS, dimers
+from latticode import Model, abs2, lap
 from latticode.equations.ends import ENDS, kind_of
-from latticode.equations.model import Model, abs2, lap
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
