@@ -77,7 +77,7 @@ class Problem(problem.Problem):
         model = _model_of(rest.pop("model", AMPLITUDES))
         parameters = {key: rest.pop(key) for key in model.parameters if key in rest}
         if "mu" in rest:
-            raise ValueError("mu has a meaning for the pendula only")
+            raise ValueError("mu requires model: pendula")
         return super().of({**rest, "model": model, "parameters": parameters})
 
     def plain(self) -> dict[str, Any]:

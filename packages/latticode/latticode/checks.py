@@ -111,7 +111,7 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
         ),
         "exponent_error": (mean_rate_error(tau, log_growth, middle), "standard error of the rate"),
         "late_growth": (late, "growth relative to the solution's, second half, logarithm"),
-        "chaotic": (chaotic, "one where that growth is exponential"),
+        "chaotic": (chaotic, "chaotic (1: yes, 0: no)"),
         "divergence_rounding": (
             predict(tau, amplified, ROUNDING),
             "tau at which one rounding a unit of tau has grown to 1 %",

@@ -77,7 +77,7 @@ class Case(cases.Case):
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
         mu = self.mu
         if self.model == AMPLITUDES and mu is not None:
-            yield "mu", "has a meaning for the pendula only; add model: pendula, or leave it out"
+            yield "mu", "requires model: pendula; add it, or leave mu out"
         if self.model == PENDULA and mu is None:
             yield "mu", "is missing: Newton's equations need it, for example 0.1"
         if self.model == PENDULA and mu is not None and not 1.0 + mu * mu * self.omega > 0.0:

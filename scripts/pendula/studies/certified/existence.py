@@ -100,7 +100,7 @@ def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> P
         found = estimate(chain, s, u, infinite)
         radius, unique = radii(found)
         if not arb(radius) < _largest(map(abs, u)):
-            raise RefusedError("the state cannot be told from zero")
+            raise RefusedError("the enclosure of the state contains zero")
         decay = _decay(chain, s, arb(radius)) if infinite else 0.0
         return Proof(radius, unique, balls.upper(found.z), decay)
 

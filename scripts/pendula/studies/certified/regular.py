@@ -44,7 +44,7 @@ being that difference: by (|x_n| + |x_n| / 2) eta for each site. So the integral
 interval is at most delta ((rho_1 + rho_2) / 2 + (3/2) sqrt(m2 / m1) eta). To eta comes what the
 states of the two times are off: their rounding, and the jump at the end of a step.
 
-Rounding of the bound itself: it is made of sums, products, quotients and roots of numbers that are
+Rounding of the bound itself: it uses only + - * / and roots of numbers that are
 not negative, of fewer than a million roundings in a row, which the factor `UP` covers. In the sum
 over all steps there may be more, and `up` covers them. TINY covers what underflow may lose.
 """

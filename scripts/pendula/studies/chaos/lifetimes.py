@@ -2,7 +2,7 @@
 
 Zero is unstable, so that the chain around the centre is always set in motion; a large enough
 oscillation lasts there for some time, which differs from run to run. The transition is over when
-the central pair holds no more than an even share of P, which is P over the number of pairs: a
+the central pair holds at most P / N, where N is the number of pairs: a
 definition without any number to choose. An excited pair is not yet a localised motion, see the
 study of breathers: the chain around it may hold most of P. Lives that outlast the run are censored.
 """
