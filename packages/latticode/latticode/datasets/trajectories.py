@@ -25,7 +25,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
     variables = trajectory_variables(problem, trajectory)
     if words.keeps_final:
         variables |= final_state(problem, trajectory)
-    if trajectory.conserved and problem.snapshot_every:
+    if trajectory.conserved:
         variables |= _conserved(trajectory)
     attributes = describe_run(name, problem, trajectory.solver)
     title = f"{words.measured} of {name} against time, by {trajectory.solver['name']}"
@@ -64,7 +64,7 @@ def _sites(count: int) -> Variable:
 
 def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
     kept, values = list(trajectory.conserved), np.array([*trajectory.conserved.values()])
-    grid = ("conserved_quantity", "snapshot")
+    grid = ("conserved_quantity", "tau")
     return {
         "conserved_quantity": Variable(grid[:1], kept, "conserved quantity"),
         "conserved": Variable(grid, values, "sum of its density over the chain"),

@@ -217,6 +217,11 @@ class Model:
         return max(1, *(rate.reach for rate in self.rates))
 
     @cached_property
+    def reach_of_densities(self) -> int:
+        """How many sites to each side a conserved density looks."""
+        return max((1, *(density.reach for density in self.conserved.values())))
+
+    @cached_property
     def even(self) -> bool:
         """Whether the equations are the same, to the last bit, with left and right exchanged."""
 

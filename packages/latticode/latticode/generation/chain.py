@@ -78,6 +78,33 @@ def widen(chain, y, wide):
             wide[row, j] = sign * y[row, 1 + site] if site >= 0 else 0.0
 
 
+@kernel
+def unfold(chain, y, wide):
+    """Write the rows of `y`, which may be half of an even chain, into `wide`.
+
+    This has all sites of the chain and as many more at each end, which are filled.
+    """
+    sites, middle = y.shape[1] - 2, wide.shape[1] // 2
+    for row in range(y.shape[0]):
+        for j in range(wide.shape[1]):
+            place = abs(j - middle) if chain.left == MIRROR else j - middle + sites // 2
+            site, sign = seen_at(chain, place, sites), sign_at(chain, place, sites)
+            wide[row, j] = sign * y[row, 1 + site] if site >= 0 else 0.0
+
+
+@inlined_by_llvm
+def sum_from_middle(terms):
+    """Return the sum of a row (column,) of the whole chain, from its middle outwards.
+
+    The sites n and -n come together, so that even data and their reflection have the same bits.
+    """
+    middle = terms.size // 2
+    total = terms[middle]
+    for n in range(1, middle):
+        total += terms[middle + n] + terms[middle - n]
+    return total
+
+
 @inlined_by_llvm
 def modulus2(y, re, j):
     """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""

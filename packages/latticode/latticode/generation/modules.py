@@ -14,7 +14,7 @@ from latticode.equations.model import Model
 from latticode.kernels.cache import keep_source
 
 from . import toolbox
-from .rate_rules import Rule, rates_text, rule_text, tangents_text
+from .rate_rules import Rule, densities_text, rates_text, rule_text, tangents_text
 from .series_graph import with_carried
 from .series_rules import Series
 from .statements import Names, Parts, affine, parts_of
@@ -25,7 +25,7 @@ AT_TIME = """
 def at_time(system, t):
 {now}
     clocks = ({values})
-    others = system.at, system.wide, system.left, system.right
+    others = system.at, system.wide, system.sums, system.left, system.right
     return System(system.constants, clocks, *others)
 """
 CLOCKS = """
@@ -97,6 +97,13 @@ def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
     parts = parts_of_rates(tangent.rates, site_dependent)
     names = Names(parts)
     return "".join([HEAD, tangents_text(tangent, names), at_time_text(parts, names)])
+
+
+def conserved_text(model: Model, site_dependent: frozenset[str], observe: str) -> str:
+    """Return `observe`, which keeps what a model conserves beside what the other one keeps."""
+    densities = tuple(model.conserved.values())
+    names = Names(parts_of(densities, site_dependent))
+    return densities_text(densities, names, model.reach_of_densities, len(model.fields), observe)
 
 
 def load_series(model: Model) -> ModuleType:

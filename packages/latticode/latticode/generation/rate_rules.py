@@ -36,6 +36,18 @@ def bundle_rates(system, bundle, slopes):
         write_tangent_rates(system, ({states},), slopes[first : first + {rows}])
 """
 
+CONSERVED = """
+write_densities = at_every_site(densities_at_site, {rows})
+@kernel
+def observe(system, y, i, record):
+    {observe}(system, y, i, record)
+    sums = system.sums
+    unfold(system, y, sums.wide)
+    write_densities(sums, (sums.wide{at},), sums.terms)
+    for k in range({rows}):
+        record.conserved[k, i] = sum_from_middle(sums.terms[k])
+"""
+
 
 class Rule:
     """Statements that compute nodes from the fields; place(component, part, by) is one of a field.
@@ -105,7 +117,7 @@ class Rule:
 def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
     """Return the functions that write the rates of a state, one row of it for each of `rates`."""
     wide, at = reach > 1, bool(names.at_sites)
-    rule = _rule_of_rows("rates", rates, names, reach, ("y",))
+    rule = _rule_of_rows("rates", rates, names, reach, ("y",), len(rates) // 2)
     return rule + RATES.format(
         rows=len(rates),
         prepare="widen(system, y, system.wide)" if wide else "close(system, y)",
@@ -121,7 +133,8 @@ def tangents_text(tangent: Model, names: Names) -> str:
     """
     rows = len(tangent.rates) // 2
     wide, at = tangent.reach > 1, bool(names.at_sites)
-    rule = _rule_of_rows("tangent_rates", tangent.rates[rows:], names, tangent.reach, ("y", "w"))
+    given = tangent.rates[rows:], names, tangent.reach, ("y", "w"), rows // 2
+    rule = _rule_of_rows("tangent_rates", *given)
     states = f"system.wide[:{rows}], system.wide[{rows}:]" if wide else "y, w"
     return (
         rates_text(tangent.rates[:rows], names, tangent.reach)
@@ -134,11 +147,21 @@ def tangents_text(tangent: Model, names: Names) -> str:
     )
 
 
-def _rule_of_rows(
-    name: str, rates: tuple[Node, ...], names: Names, reach: int, states: tuple[str, ...]
+def densities_text(
+    densities: tuple[Node, ...], names: Names, reach: int, fields: int, observe: str
 ) -> str:
-    """Return the rule that writes all rates at a site; each of `states` has as many rows."""
-    offset, fields = reach - 1, len(rates) // 2
+    """Return the function `observe` that keeps the sums of densities beside what another keeps."""
+    rule = _rule_of_rows("densities", densities, names, reach, ("y",), fields)
+    at = ", sums.at" * bool(names.at_sites)
+    return rule + CONSERVED.format(rows=len(densities), observe=observe, at=at)
+
+
+def _rule_of_rows(
+    name: str, rates: tuple[Node, ...], names: Names, reach: int, states: tuple[str, ...],
+    fields: int,
+) -> str:  # fmt: skip
+    """Return the rule that writes all rates at a site; each of `states` has so many fields."""
+    offset = reach - 1
 
     def place(component: int, part: int, by: int) -> str:
         by += offset

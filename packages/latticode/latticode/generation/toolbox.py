@@ -27,8 +27,20 @@ from latticode.kernels.simd import (
 from latticode.numerics import elementary
 from latticode.numerics.elementary import HALF_PI, LN2
 
-from .chain import at_every_site, close, widen
+from .chain import at_every_site, close, sum_from_middle, unfold, widen
 from .series import in_waves, sides_of
+
+
+class Sums(NamedTuple):
+    """What the densities of a model are given, whose sums over the whole chain a run keeps.
+
+    They go on beyond ends at rest as far as they look, so that the bonds to them count.
+    """
+
+    constants: tuple[float, ...]
+    at: np.ndarray  # (row, 1 + site), as that of a system
+    wide: np.ndarray  # (row, reach + site), room for the state
+    terms: np.ndarray  # (density, 1 + site), room for the densities
 
 
 class System(NamedTuple):
@@ -38,6 +50,7 @@ class System(NamedTuple):
     clocks: tuple[float, ...]  # the functions of the time, and behind them their derivatives
     at: np.ndarray  # (row, 1 + site), parameters that depend on the site, with room for a vector
     wide: np.ndarray  # (row, reach + site), room for a state with more ghost columns
+    sums: Sums
     left: int
     right: int
 

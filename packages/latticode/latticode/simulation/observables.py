@@ -39,12 +39,25 @@ def blank_record(
     )
 
 
+class StateRecord(NamedTuple):
+    """A `Record` of whole states, which have no energy, with the sums of a model's densities."""
+
+    linf: np.ndarray
+    l2: np.ndarray
+    energy: np.ndarray
+    kept: np.ndarray
+    every: int
+    scratch: np.ndarray
+    conserved: np.ndarray  # (quantity, time)
+
+
 def blank_state_record(
-    components: int, sites: int, times: int, every: int, energy: bool = False
-) -> Record:
+    components: int, sites: int, times: int, every: int, energy: bool = False, quantities: int = 0
+) -> StateRecord:
     """Return the same for whole states, without energy: what is driven conserves none."""
     blank = blank_record(components, sites, times, every, energy=False)
-    return blank._replace(kept=np.empty((2, *blank.kept.shape)))
+    states = blank._replace(kept=np.empty((2, *blank.kept.shape)))
+    return StateRecord(*states, np.empty((quantities, times)))
 
 
 @inlined_by_llvm

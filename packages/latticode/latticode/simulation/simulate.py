@@ -41,7 +41,7 @@ class Trajectory(NamedTuple):
     snapshots: np.ndarray | None = None
     """Both parts of each field, (part, component, site, snapshot)."""
     conserved: Mapping[str, np.ndarray] = MappingProxyType({})
-    """What the model conserves, each (snapshot,)."""
+    """What the model conserves, each (time,)."""
 
 
 def simulate(

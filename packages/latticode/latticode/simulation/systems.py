@@ -1,7 +1,7 @@
 """Runs of a traced model: its kernels, what they are given, and what is kept of a run."""
 
 import json
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,9 @@ from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import evaluate
 from latticode.equations.model import Model
 from latticode.equations.model_file import values_at
-from latticode.generation.modules import load_text, module_text, parts_of_rates
-from latticode.generation.toolbox import System
+from latticode.generation.modules import conserved_text, load_text, module_text, parts_of_rates
+from latticode.generation.statements import Parts, parts_of
+from latticode.generation.toolbox import Sums, System
 from latticode.integrators import crank_nicolson, dop853, kahan_li, ode45
 from latticode.kernels.simd import LANES
 from latticode.numerics import elementary
@@ -20,22 +21,11 @@ from latticode.numerics.elementary import complex_of, modulus
 from .feasibility import rates_of, solver_names
 from .integration import ITERATED, Integration, Solver, Words
 from .lattice import Reduction, choose_ends, find_reduction, unfold
+from .observables import blank_state_record
 from .problem import Problem
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
-
-
-def beyond_ends(values: np.ndarray, margin: int, boundary: str) -> np.ndarray:
-    """Return values (..., site, snapshot) with so many more at each end, as the ends see them."""
-    ends = ends_of(boundary)
-    margins = [(0, 0)] * (values.ndim - 2) + [(margin,) * 2, (0, 0)]
-    wide = np.pad(values, margins, PADDING[ends.sees])
-    wide[..., :margin, :] *= ends.factor
-    wide[..., wide.shape[-2] - margin :, :] *= ends.factor
-    return wide
-
-
 EXPLICIT = ("rtol", "atol")
 SOLVERS = {
     "taylor": ("continue_series", EXPLICIT, None),  # the generated module has its number
@@ -64,14 +54,14 @@ def kernels_of(model: Model, site_dependent: frozenset[str]):
 
     No chain goes in tiles: their margins are made for equations that look one site far.
     """
-    about = {
-        "observe": "observe_angles" if model.second_order else "observe_fields",
-        "time": ", at_time=at_time" if model.driven else "",
-    }
+    observe = "observe_angles" if model.second_order else "observe_fields"
+    head = "".join(f"\nfrom {module} import {names}\n" for module, names in USED.items())
+    text = module_text(model.rates, model.reach, site_dependent) + head
+    if model.conserved:
+        text, observe = text + conserved_text(model, site_dependent, observe), "observe"
+    about = {"observe": observe, "time": ", at_time=at_time" if model.driven else ""}
     runs = [RUN.format(name=name, rule=SOLVERS[name][0], **about) for name in solver_names(model)]
-    head = [f"\nfrom {module} import {names}\n" for module, names in USED.items()]
-    text = module_text(model.rates, model.reach, site_dependent)
-    return load_text("".join([text, *head, *runs]))
+    return load_text("".join([text, *runs]))
 
 
 def solvers_of(problem: Problem) -> dict[str, Solver]:
@@ -114,11 +104,36 @@ def find_reduction_of(problem: Problem) -> Reduction:
     return Reduction(even and find_reduction(problem.amplitudes).even, synchronised=False)
 
 
-def make_system(problem: Problem, reduction: Reduction):
+def make_system(problem: Problem, reduction: Reduction) -> System:
     """Return what the kernels of a model take for its parameters, at time 0."""
-    model, values = problem.model, parameters_of(problem)
+    model = problem.model
     sites = problem.half_width + 1 if reduction.even else problem.sites
     parts = parts_of_rates(model.rates, site_dependent(problem))
+    constants, at_sites = _values(problem, parts)
+    wide = np.zeros((2 * len(model.fields), sites + 2 * model.reach))
+    clocks = (0.0,) * 2 * len(parts.clocks)
+    ends = choose_ends(problem.boundary, reduction)
+    return System(constants, clocks, at_sites, wide, _sums(problem), *ends)
+
+
+def _sums(problem: Problem) -> Sums:
+    """Return what the densities of a model are given: see Sums."""
+    model, reach = problem.model, problem.model.reach_of_densities
+    if not model.conserved:
+        return Sums((), *np.zeros((3, 1, 3)))
+    margin = reach if ends_of(problem.boundary).sees is None else 0
+    sites = problem.sites + 2 * margin
+    parts = parts_of(model.conserved.values(), site_dependent(problem))
+    constants, at_sites = _values(problem, parts, margin)
+    wide = np.zeros((2 * len(model.fields), sites + 2 * reach))
+    return Sums(constants, at_sites, wide, np.zeros((len(model.conserved), sites + 2)))
+
+
+def _values(
+    problem: Problem, parts: Parts, margin: int = 0
+) -> tuple[tuple[float, ...], np.ndarray]:
+    """Return constants, and what depends on the site, with so many sites more beyond each end."""
+    values = parameters_of(problem)
 
     def leaf(one):
         if one.operation == "number":
@@ -127,45 +142,12 @@ def make_system(problem: Problem, reduction: Reduction):
         value = values[name]
         return value if np.ndim(value) == 0 else moved(value, by, problem.boundary)
 
-    constants = map(float, evaluate(parts.constants, leaf, elementary))
-    at_sites = np.zeros((max(1, len(parts.at_sites)), problem.sites + 2 + 2 * LANES))
+    constants = tuple(map(float, evaluate(parts.constants, leaf, elementary)))
+    count = problem.sites + 2 * margin
+    at_sites = np.zeros((max(1, len(parts.at_sites)), count + 2 + 2 * LANES))
     for row, value in enumerate(evaluate(parts.at_sites, leaf, elementary)):
-        at_sites[row, 1 : 1 + problem.sites] = value
-    rows = 2 * len(model.fields)
-    wide = np.zeros((rows, sites + 2 * model.reach))
-    clocks = (0.0,) * 2 * len(parts.clocks)
-    return System(
-        tuple(constants), clocks, at_sites, wide, *choose_ends(problem.boundary, reduction)
-    )
-
-
-def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the sums over the chain of the densities of a model, each (snapshot,).
-
-    `snapshots` are (part, component, site, snapshot). The sums go on beyond ends at rest as far as
-    densities look, so that the bonds to them count.
-    """
-    densities, values = problem.model.conserved, parameters_of(problem)
-    reach = max((density.reach for density in densities.values()), default=0)
-    sees = ends_of(problem.boundary).sees
-    margin = reach if sees is None else 0
-    padded = beyond_ends(snapshots, margin + reach, problem.boundary)
-    count = snapshots.shape[2] + 2 * margin
-
-    def leaf(one):
-        if one.operation == "number":
-            return one.operands[0]
-        by = one.operands[-1]
-        if one.operation == "field":
-            component, part, _ = one.operands
-            return padded[part, component, reach + by : reach + by + count]
-        value = values[one.operands[0]]
-        if np.ndim(value) == 0:
-            return value
-        return np.pad(moved(value, by, problem.boundary), margin, "edge")[:, None]
-
-    totals = [np.sum(density, axis=0) for density in evaluate(densities.values(), leaf)]
-    return dict(zip(densities, totals, strict=True))
+        at_sites[row, 1 : 1 + count] = np.pad(value, margin, "edge")
+    return constants, at_sites
 
 
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
@@ -195,6 +177,7 @@ def integration_of(problem: Problem) -> Integration:
         collect=_collect,
         rates=lambda problem, peak: rates_of(model, problem.parameters, peak),
         describe=_describe,
+        record=partial(blank_state_record, quantities=len(model.conserved)),
         find_reduction=find_reduction_of,
         words=WORDS_OF_REAL if model.second_order else Words(),
     )
@@ -209,7 +192,7 @@ def _collect(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[st
         "modulus": np.abs(snapshots[0]) if real else modulus(complex_of(*snapshots)),
         "final": parts if real else complex_of(*parts),
         "snapshots": snapshots,
-        "conserved": conserved_in(problem, snapshots),
+        "conserved": dict(zip(problem.model.conserved, record.conserved, strict=True)),
     }
 
 
