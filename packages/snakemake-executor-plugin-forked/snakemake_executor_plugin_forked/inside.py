@@ -97,9 +97,10 @@ class ForkedScript(PythonScript):
         forks, logger = self.executor.forks, self.executor.logger
         try:
             self.refuse_what_differs()
-            pid, job = forks.fork(fname, self.resources.get("tmpdir"))
-            with job, benchmarked(self.bench_record is not None and pid, self.bench_record):
-                job.shutdown(1)  # so that it begins
+            job = forks.fork(fname, self.resources.get("tmpdir"))
+            measured = benchmarked(self.bench_record is not None and job.pid, self.bench_record)
+            with job.socket, measured:
+                job.socket.shutdown(1)  # so that it begins
                 if (status := int(forks.hear(job))) < 0:
                     raise ChildProcessError(f"it {in_words(status)}")
         except ChildProcessError as error:

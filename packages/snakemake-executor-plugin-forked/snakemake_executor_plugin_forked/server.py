@@ -54,7 +54,8 @@ class Server:
             if self.fork(socket.socket(fileno=streams[0])):
                 return json.loads(message)
         for pid in list(self.jobs):
-            os.kill(pid, signal.SIGINT)
+            with suppress(ProcessLookupError):  # it has just ended
+                os.kill(pid, signal.SIGINT)
         end = time.monotonic() + GRACE
         while self.jobs and time.monotonic() < end:
             time.sleep(0.01)
@@ -89,7 +90,7 @@ class Server:
             if name.endswith(".*"):
                 inside = pkgutil.iter_modules(module.__path__, f"{module.__name__}.")
                 self.modules[:0] = [found.name + ".*" * found.ispkg for found in inside]
-        except Exception as error:
+        except BaseException as error:  # such as SystemExit of a script that is meant to be run
             print(f"forked: cannot import {name}: {error!r}", file=sys.stderr, flush=True)
 
     def fork(self, asked: socket.socket) -> bool:

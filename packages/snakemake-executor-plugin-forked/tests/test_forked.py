@@ -119,12 +119,59 @@ def test_a_job_that_cannot_be_a_fork_says_so_once(folder, kind, modules, edit, w
     assert not any(json.loads((folder / name).read_text())[1] for name in targets)
 
 
+DIES_FIRST = """
+import os
+try:
+    os.mkdir("../died")
+    os.kill(os.getpid(), 9)
+except FileExistsError:
+    pass
+"""
+DIES = "import os; os.kill(os.getpid(), 9)"
+KILLED = "the process that jobs are forked from was killed by signal 9 (SIGKILL)"
+
+
+@pytest.mark.parametrize(("module", "forked", "told"), [(DIES_FIRST, True, 0), (DIES, False, 1)])
+def test_a_parent_that_dies_is_started_again_and_given_up_if_it_dies_again(
+    folder, module, forked, told
+):
+    (folder.parent / "fatal.py").write_text(module)
+    targets = [f"{n}.json" for n in range(4)]
+    status, said = run(folder, *targets, modules="fatal")
+    assert status == 0 and said.count("forked: ") == said.count(KILLED) == told
+    assert [json.loads((folder / name).read_text())[1] for name in targets] == [forked] * 4
+
+
+def test_jobs_after_one_that_killed_their_parent_are_forks(folder):
+    status, said = run(folder, "--keep-going", "--cores", "1", "server.end", "a.json", "b.json")
+    assert status == 1 and said.count("forked: ") == said.count(KILLED) == 1
+    assert [json.loads((folder / f"{n}.json").read_text())[1] for n in "ab"] == [True, True]
+
+
+def test_an_import_that_ends_python_is_told_and_ends_nothing(folder):
+    (folder.parent / "leaves.py").write_text("import sys; sys.exit('not meant to be imported')")
+    status, said = run(folder, "a.json", modules="leaves json")
+    told = "forked: cannot import leaves: SystemExit('not meant to be imported')"
+    assert status == 0 and said.count("forked: ") == said.count(told) == 1
+    assert json.loads((folder / "a.json").read_text())[1]
+
+
+@pytest.mark.parametrize(
+    ("option", "imports"), [("-n", 0), ("-np", 0), ("--dryrun", 0), ("-Rend", 1)]
+)
+def test_a_dry_run_starts_no_process_and_what_only_looks_like_one_does(folder, option, imports):
+    (folder.parent / "marks.py").write_text("open('../marked', 'a').close()")
+    status, _ = run(folder, "a.json", option, modules="marks")
+    assert status == 0
+    assert [(folder / "a.json").exists(), (folder.parent / "marked").exists()] == [imports] * 2
+
+
 FAILS = {
     "error": "ZeroDivisionError: division by zero",
     "exit": "enough",
     "kill": "forked: rule end failed: it was killed by signal 9 (SIGKILL): out of memory?",
 }
-SERVER_FAILS = {"server": "the process that jobs are forked from was killed by signal 9 (SIGKILL)"}
+SERVER_FAILS = {"server": KILLED}
 
 
 def test_jobs_that_fail_say_why_once_and_the_next_run_goes_on(folder):
