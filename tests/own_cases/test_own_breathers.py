@@ -2,9 +2,9 @@
 
 import pytest
 from latticode import abs2, lap
+from latticode.checks import check_breather
 from pendula import Case, Model, check, draw_breather
 from pendula.own_cases import answers
-from pendula.own_cases.breathers import check_breather
 from pendula.problem import Problem
 
 CUBIC = Model(fields="u", parameters={}, i_dt=lambda p, u: 0.3 * lap(u) + abs2(u) * u)

@@ -3,7 +3,8 @@
 First the problem is run again by another method at tight tolerances. The difference of the two runs
 is the error of the worse run. If the first was made by the default solver at its default
 tolerances, that is the error of double precision. Then a random tangent vector is carried along:
-its growth says whether the motion is chaotic, and when the digits of double precision end.
+its growth says whether the motion is chaotic, and when the digits of double precision end. Last a
+localised state is looked for, with its stability.
 """
 
 import numpy as np
@@ -13,6 +14,7 @@ from latticode.configuration.cost import TIGHTEST, other_than
 from latticode.datasets.checks import table, variable
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
+from latticode.localised.breathers import NoStateError, exponents, find_state
 from latticode.localised.tangents import STEP, Growth, grow, random_tangent
 from latticode.measures.difference import NORMS, at_times, difference, divergence_time
 from latticode.measures.growth import (
@@ -122,6 +124,53 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
     return xr.Dataset.from_dict(table(TITLE, {"growth_tau": tau}, log_growth=curve, **described))
 
 
+# --- A localised state ----------------------------------------------------------------------------
+
+LOCALISED = 0.01
+"""Largest value at the sites farthest from the centre, relative to that at the centre."""
+
+
+def check_breather(problem: Problem) -> xr.Dataset:
+    """Return a localised state with its exponents, or as an attribute why there is none.
+
+    The multipliers are those over a period, or over a unit of tau where the state is steady.
+    """
+    try:
+        with np.errstate(all="ignore"):  # Newton's method may run away, and is then stopped
+            state = find_state(problem)
+    except NoStateError as error:
+        return xr.Dataset(attrs={"breather_refusal": str(error)})
+    parts = state.parts(problem)
+    moduli = np.sqrt(np.sum(parts**2, axis=1))
+    sizes = moduli.max(axis=0)
+    away = np.abs(np.arange(sizes.size) - sizes.argmax())
+    end = sizes[away >= away.max() - 1].max() / sizes.max()
+    waves, found = exponents(problem, state._replace(x=0.0 * state.x)), exponents(problem, state)
+    period = 2.0 * np.pi / abs(state.frequency) if state.frequency else 1.0
+    growth, multipliers = found.real.max(), np.exp(period * found)
+    frequencies = "its distance from the frequencies of linear waves"
+    edge = "its largest value far from the centre, over that at the centre"
+    modes, sites = ("part", "mode"), np.arange(sizes.size) - problem.half_width
+    numbers = {
+        "_frequency": (state.frequency, (), "frequency lambda of a localised state"),
+        "_gap": (np.abs(waves).min(), (), frequencies),
+        "_end": (end, (), edge),
+        "_growth": (growth, (), "largest rate of growth of its perturbations, per unit of tau"),
+        "_exponents": (_parts(found), modes, "exponents of its perturbations, per unit of tau"),
+        "_multipliers": (_parts(multipliers), modes, "Floquet multipliers of its perturbations"),
+        "": (moduli, ("component", "site"), "moduli of a localised state"),
+    }
+    described = {f"breather{name}": variable(*given, digits=6) for name, given in numbers.items()}
+    axes = {"part": ["re", "im"], "component": list(problem.model.fields), "site": sites}
+    found = xr.Dataset.from_dict(table(TITLE, axes, **described))
+    found["component"].attrs["long_name"] = integration_of(problem).words.component
+    return found
+
+
+def _parts(values: np.ndarray) -> np.ndarray:
+    return np.stack([values.real, values.imag])
+
+
 # --- All checks -----------------------------------------------------------------------------------
 
 
@@ -144,7 +193,8 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
-    return merged(run, run_again(problem, run), measure_sensitivity(problem), check_conserved(run))
+    again, growth = run_again(problem, run), measure_sensitivity(problem)
+    return merged(run, again, growth, check_conserved(run), check_breather(problem))
 
 
 def merged(run: xr.Dataset, *checks: xr.Dataset) -> xr.Dataset:

@@ -29,6 +29,9 @@ SOLVERS = {
 """The solvers that take each of the paper's equations."""
 
 
+CONSTANTS = ("omega", "epsilon", "gamma", "mu")
+
+
 class Case(cases.Case):
     """One initial-value problem of the paper's equations, and the solver that integrates it.
 
@@ -104,8 +107,12 @@ class Case(cases.Case):
         return found, rate(constants, peak, self.mu)
 
     def problem(self, **changes) -> dict:
-        """Return the case as plain values of a Problem, some of them changed."""
-        values = self._plain(**changes)
+        """Return the case as plain values of a Problem, some of them changed.
+
+        The constants come first, as they stand in datasets.
+        """
+        found = self._plain(**changes)
+        values = {key: found[key] for key in CONSTANTS if key in found} | found
         if values["model"] == AMPLITUDES:
             del values["model"], values["mu"]
         return values
@@ -117,9 +124,6 @@ class Case(cases.Case):
     def cost_with_checks(self, problem: Mapping) -> Cost:
         """Return what a run and its checks take."""
         return cost.with_checks(problem)
-
-
-CONSTANTS = ("epsilon", "gamma", "omega", "mu")
 
 
 def takes_model(value: Any) -> bool:

@@ -2,13 +2,12 @@
 
 import numpy as np
 import xarray as xr
+from latticode.checks import LOCALISED
 from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.difference import VISIBLE
 
 from pendula.problem import PENDULA
 from pendula.report.words import number, percent
-
-from .breathers import LOCALISED
 
 # ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
 # more than this.

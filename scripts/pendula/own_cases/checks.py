@@ -8,7 +8,8 @@ the top has left the range of (3) for good.
 
 import numpy as np
 import xarray as xr
-from latticode.checks import check_conserved, measure_sensitivity, merged, run_again
+from latticode import checks
+from latticode.checks import measure_sensitivity, merged, run_again
 from latticode.datasets.checks import table, variable
 from latticode.measures.norms import power_of
 from latticode.numerics.elementary import modulus, product, square_modulus
@@ -23,8 +24,6 @@ from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.equations import run as run_on
 from pendula.studies.theory.equations import total_energy
-
-from .breathers import check_breather
 
 TITLE = "A case beside the paper's statements"
 KEPT = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
@@ -191,11 +190,11 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
-    again = run_again(problem, run)
     if problem.model.name == PENDULA:
-        return merged(run, again, beside_expansion(problem, run))
-    others = [measure_sensitivity(problem), check_conserved(run)]
-    if problem.model.name == AMPLITUDES:
-        solver = {key: again.attrs[f"second_{key}"] for key in ("name", "rtol", "atol")}
-        return merged(run, again, *others, beside_statements(problem, run, solver))
-    return merged(run, again, *others, check_breather(problem))
+        return merged(run, run_again(problem, run), beside_expansion(problem, run))
+    if problem.model.name != AMPLITUDES:
+        return checks.check_run(problem, run)
+    again = run_again(problem, run)
+    solver = {key: again.attrs[f"second_{key}"] for key in ("name", "rtol", "atol")}
+    others = measure_sensitivity(problem), beside_statements(problem, run, solver)
+    return merged(run, again, *others)

@@ -1,0 +1,260 @@
+"""A case of a model: what a configuration and a notebook take, and what they refuse."""
+
+import json
+
+import numpy as np
+import pytest
+from latticode import Case, ConfigurationError, Model, ModelError, abs2, lap, simulate, sweep
+from latticode.configuration.files import gather
+from latticode.configuration.messages import load
+from latticode.simulation.problem import Problem
+
+DAMPED = """from latticode import abs2, lap
+from latticode import abs2, lap
+fields = "u"
+parameters = {"epsilon": 1.0, "gamma": 0.1}
+def i_dt(p, u):
+    return p.epsilon * lap(u) + abs2(u) * u - 1j * p.gamma * u
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    """Return a function: the model of a file with this text."""
+
+    def made(text, name="mine.py"):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        return Model.read(tmp_path / name)
+
+    return made
+
+
+@pytest.fixture
+def configured(tmp_path):
+    """Return a function: the problem of the case `mine` with these keys, and the damped model."""
+
+    def make(keys, text=DAMPED):
+        (tmp_path / "mine.py").write_text(text, encoding="utf-8")
+        path = tmp_path / "mine.yaml"
+        path.write_text(f"cases: {{mine: {{model: mine.py, {keys}}}}}", encoding="utf-8")
+        return load(gather([path], {})).shown_problem("mine")
+
+    return make
+
+
+def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
+    plain = configured("initial: {0: [1.5]}, half_width: 4, parameters: {gamma: 0.2}")
+    assert plain["model"]["name"] == "mine.py" and plain["model"]["text"] == DAMPED
+    assert plain["parameters"] == {"epsilon": 1.0, "gamma": 0.2}
+    assert str(tmp_path) not in str(plain)
+    assert Problem.of(plain).plain() == {**plain, "snapshot_every": plain["snapshot_every"]}
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ("initial: {0: [1]}, parameters: {gama: 1}", "did you mean 'gamma'?"),
+        (
+            "initial: {0: [1]}, parameters: {gamma: {a: 1}}",
+            "not a number or a list of one for each",
+        ),
+        ("initial: {0: [1]}, parameters: {gamma: .inf}", "gamma: is inf, which is not finite"),
+        ("initial: {0: [1, 2]}", "site 0 has 2 values; give 1, [u]"),
+        ("initial: {0: [1]}, omega: 1", "omega: is not a known key; known are model, parameters"),
+        ("initial: {0: [1]}, half_width: 2, parameters: {gamma: [1, 2]}", "2 values for 5 sites"),
+        ("initial: {0: [1]}, solver: kahan_li", "kahan_li does not take the model mine.py"),
+        ("half_width: 2", "initial: is missing"),
+        ("initial: {0: [1.0e+6]}", "initial: the run turns the data by"),
+        ("initial: {0: [1.0e+200]}", "initial: the squares of the data or the constants overflow"),
+        ("initial: {0: [1.0e-160]}", "initial: the data are so small"),
+        ("initial: {0: [1]}, parameters: {epsilon: 1.0e+9}", "parameters: the run turns the data"),
+    ],
+)
+def test_faults_of_a_case_are_told_by_key(configured, keys, message):
+    with pytest.raises(ConfigurationError) as error:
+        configured(keys)
+    assert message in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("statement", "message"),
+    [
+        ("import numpy; return numpy.tanh(u)", "tanh of a field or a parameter has no rule"),
+        ("return u if p.gamma > 0 else 2 * u", "a comparison or a branch is taken from a symbol"),
+        ("return abs(u) * u", "abs has no rule; use abs2(u)"),
+        ("import numpy; return numpy.abs(u) * u", "abs has no rule; use abs2(u)"),
+        ("return sqrt(u)", "sqrt of a complex number has no rule"),
+        ("return p.gama * u", "there is no parameter 'gama'; did you mean 'gamma'?"),
+        ("return u ** None", "the power None: give a number or a parameter"),
+        ("return shift(u, 9)", "farther than 7 sites"),
+        ("return sin(u)", "sin of a complex number has no rule"),
+        ("return u, u", "returns 2 values for 1 fields"),
+    ],
+)
+def test_what_has_no_rule_is_refused_with_the_line_of_the_file(write, statement, message):
+    text = "from latticode import *\nfields = 'u'\nparameters = {'gamma': 1}\n"
+    with pytest.raises(ModelError) as error:
+        write(f"{text}def i_dt(p, u):\n    {statement}\n")
+    assert message in str(error.value)
+    assert "returns" in message or str(error.value).startswith("mine.py, line 5: ")
+
+
+def case(**keys):
+    return Case(**{"half_width": 2, "initial": {0: [1]}, "end_time": 1, **keys})
+
+
+@pytest.mark.parametrize(
+    ("fields", "parameters", "message"),
+    [
+        ("u", {"t": 0.5}, "'t' in parameters is the time, p.t"),
+        ("u", {"_names": 1}, "'_names' in parameters begins with _"),
+        ("u", {"__class__": 1}, "begins with _"),
+        ("u", {"a b": 1}, "'a b' in parameters is no name in Python"),
+        ("u", {"lambda": 1}, "is no name in Python"),
+        ("u", [("a", 1)], "parameters is not a dictionary"),
+        (("u", "u"), {}, "'u' in fields is given twice"),
+        ("", {}, "'' in fields is no name in Python"),
+        ("u, v", {}, "write fields = ('u', 'v')"),
+        ((), {}, "fields is empty"),
+    ],
+)
+def test_names_that_cannot_stand_in_equations_are_refused(fields, parameters, message):
+    with pytest.raises(ModelError) as error:
+        Model(fields=fields, parameters=parameters, i_dt=lambda p, *u: u)
+    assert message in str(error.value)
+
+
+def case_with(given, by):
+    """Return a case whose parameter `a` is given by the model or by the case."""
+    model = Model(
+        fields="u",
+        parameters={"a": given if by == "model" else 1.0},
+        i_dt=lambda p, u: lap(u) + p.a * u,
+    )
+    return case(model=model, parameters={} if by == "model" else {"a": given})
+
+
+VALUES = [
+    (np.float32(0.5), 0.5),
+    (np.int64(2), 2.0),
+    ("1e-5", 1e-5),
+    (np.arange(5), [0, 1, 2, 3, 4]),
+    ([1, 2, 3, 4, np.float32(5)], [1, 2, 3, 4, 5]),
+    (lambda n: n * n, [4, 1, 0, 1, 4]),
+    (lambda n: 3, 3.0),
+]
+
+
+@pytest.mark.parametrize(("given", "value"), VALUES)
+@pytest.mark.parametrize("by", ["model", "case"])
+def test_values_of_parameters_are_taken_from_model_and_case_alike(given, value, by):
+    made = case_with(given, by)
+    problem = Problem.of(made.problem())
+    assert problem.parameters == {"a": value}
+    run, plain = simulate(made), simulate(case_with(value, "case"))
+    np.testing.assert_array_equal(run["final"], plain["final"])
+    assert json.loads(run.attrs["parameters"]) == {"a": value}
+
+
+WRONG = [
+    (1j, "complex"),
+    (np.ones(5) * 1j, "complex"),
+    (lambda n: np.exp(1j * n), "complex"),
+    (lambda n: 1 / n, "inf at site 0, which is not finite"),
+    (lambda n: n[:2], "has 2 values for 5 sites"),
+    (lambda n: None, "None, not a number"),
+    (lambda n: np.random.default_rng().normal(size=n.size), "other values each time"),
+    (lambda n: n.missing, "a function of the sites that fails: AttributeError"),
+    (np.ones((2, 5)), "has 2 x 5 values for 5 sites"),
+    ([1, [2]], "not a number"),
+    ({"a": 1}, "not a number"),
+    (None, "None, not a number"),
+    (True, "True, not a number"),
+    ("abc", "'abc', not a number"),
+    (np.inf, "inf, which is not finite"),
+    (np.ones(3), "has 3 values for 5 sites"),
+]
+
+
+@pytest.mark.parametrize(("given", "message"), WRONG)
+@pytest.mark.parametrize("by", ["model", "case"])
+def test_values_that_are_no_parameters_are_refused_before_any_run(given, message, by):
+    with pytest.raises(ConfigurationError) as error:
+        case_with(given, by)
+    assert "parameters.a: " in str(error.value) and message in str(error.value)
+    assert ("(the default in model)" in str(error.value)) == (by == "model")
+    assert "has 1 error:" in str(error.value)
+
+
+READS = """from pathlib import Path
+import numpy as np
+from latticode import lap
+from beside import SCALE
+fields = "u"
+parameters = {"W": np.loadtxt(Path(__file__).with_name("W.txt"))}
+def i_dt(p, u):
+    return SCALE * lap(u) + p.W * u
+"""
+
+
+def test_files_and_modules_beside_a_model_are_read_and_decide_its_jobs(configured, tmp_path):
+    keys = "initial: {0: [1]}, half_width: 1"
+    np.savetxt(tmp_path / "W.txt", [1, 2, 3])
+    (tmp_path / "beside.py").write_text("SCALE = 2.0\n", encoding="utf-8")
+    first = configured(keys, READS)
+    assert first["parameters"] == {"W": [1.0, 2.0, 3.0]}
+    np.savetxt(tmp_path / "W.txt", [1, 2, 4])
+    (tmp_path / "beside.py").write_text("SCALE = 3.0\n", encoding="utf-8")
+    second = configured(keys, READS)
+    assert second["parameters"] == {"W": [1.0, 2.0, 4.0]}
+    assert second["model"]["nodes"] != first["model"]["nodes"]
+    assert not list(tmp_path.glob("__pycache__"))
+
+
+def test_a_model_without_a_seed_is_refused(write):
+    draws = "import numpy as np\nfields = 'u'\nx = np.random.default_rng().normal()\n"
+    with pytest.raises(ModelError, match="gives a another value each time"):
+        write(f"{draws}parameters = {{'a': x}}\ndef i_dt(p, u):\n    return u\n")
+    with pytest.raises(ModelError, match="gives other equations each time"):
+        write(f"{draws}parameters = {{}}\ndef i_dt(p, u):\n    return x * u\n")
+
+
+def test_a_configuration_carries_no_code():
+    text = "raise SystemExit(3)"
+    with pytest.raises(ConfigurationError, match="a configuration holds no code"):
+        load({"cases": {"mine": {"model": {"name": "a.py", "text": text}, "initial": {0: [1]}}}})
+
+
+@pytest.mark.parametrize(
+    ("conserved", "message"),
+    [
+        (lambda p, u: {"P": p.t * abs2(u)}, "'P' in conserved depends on the time"),
+        (lambda p, u: {"P": u * u}, "'P' in conserved is complex"),
+        (lambda p, u: {"P": 2.0}, "'P' in conserved depends on no field"),
+        (lambda p, u: abs2(u), "conserved returns no dictionary"),
+    ],
+)
+def test_densities_that_no_run_can_keep_are_refused(conserved, message):
+    with pytest.raises(ModelError) as error:
+        Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u), conserved=conserved)
+    assert message in str(error.value)
+
+
+def test_a_complex_number_divides_as_it_multiplies():
+    def by(factor):
+        return Model(fields="u", parameters={"a": 0.5}, i_dt=factor)
+
+    divided = by(lambda p, u: lap(u) / (p.a + 2j) + u.conj() / 2j + u.real)
+    times = by(lambda p, u: lap(u) * (p.a - 2j) / (p.a * p.a + 4) - 0.5j * u.conj() + u.real)
+    runs = [simulate(case(model=one))["final"] for one in (divided, times)]
+    np.testing.assert_allclose(*runs, atol=1e-13)
+
+
+def test_longer_chains_of_a_sweep_have_the_same_values_at_the_same_sites():
+    def swept(values):
+        model = Model(fields="u", parameters={"a": values}, i_dt=lambda p, u: lap(u) + p.a * u)
+        return sweep(case(model=model, half_width=3, end_time=2), [1, 3], windows=[(1, 2)])["l2"]
+
+    np.testing.assert_array_equal(swept(lambda n: n * n), swept([9, 4, 1, 0, 1, 4, 9]))
+    with pytest.raises(ConfigurationError, match="other values at the same sites"):
+        swept(lambda n: n + n.size)

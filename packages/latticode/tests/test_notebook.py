@@ -1,0 +1,75 @@
+"""The library in a notebook: its public names, examples, refusals and figures."""
+
+import doctest
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import latticode
+import pytest
+from latticode import Case, ConfigurationError, Model, abs2, check, lap, notebook, simulate, sweep
+from latticode.drawing import runs, style
+
+LADDER = Model(
+    fields=("u", "v"),
+    parameters={"c": 0.5},
+    i_dt=lambda p, u, v: (lap(u) + p.c * v + abs2(u) * u, lap(v) + p.c * u + abs2(v) * v),
+)
+CASE = Case(model=LADDER, initial={0: [1, 0.5]}, half_width=4, end_time=2)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(CASE)
+
+
+def test_importing_the_package_loads_nothing_else():
+    code = "import sys, latticode; print(*(m for m in sys.modules if m.startswith('latticode.')))"
+    paths = {**os.environ, "PYTHONPATH": str(Path(latticode.__file__).parents[1])}
+    command = [sys.executable, "-c", code + "; print('numpy' in sys.modules)"]
+    said = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
+    assert said.stdout.split() == ["False"]
+
+
+def test_every_public_name_is_there_and_explained():
+    for name in latticode.__all__:
+        assert getattr(latticode, name).__doc__, name
+        assert name in dir(latticode)
+    with pytest.raises(AttributeError, match="no attribute 'simulat'"):
+        _ = latticode.simulat
+
+
+def test_the_examples_in_the_docstrings_run():
+    found = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
+    assert found.attempted and not found.failed
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda r: simulate({"omega": 8}), "a case, as `Case` makes it, and not"),
+        (lambda r: simulate(CASE, hours=1e-9), "the run would take less than a"),
+        (lambda r: simulate(CASE.changed(end_time=2e6)), "end_time: the run would"),
+        (lambda r: sweep(CASE, 3), "half_widths: is 3, not a list"),
+        (lambda r: check(CASE, r[["l2"]]), "the dataset has no linf"),
+        (lambda r: check(CASE.changed(parameters={"c": 1}), r), "differ in parameters"),
+        (lambda r: notebook.draw_spacetime(r.drop_vars("modulus")), "snapshot_step.; the data"),
+        (lambda r: notebook.draw_sweep(r), "a sweep, as `sweep` returns it; the dataset"),
+    ],
+)
+def test_what_cannot_be_done_is_told_before_anything_runs(call, words, run):
+    with pytest.raises(ConfigurationError, match=words):
+        call(run)
+
+
+def test_titles_and_captions_name_the_model_its_fields_and_the_data(run):
+    figure = notebook.draw_norms(run)
+    left, right = figure.axes
+    assert left.get_title("left") == "model: c 0.5,  $M = 4$"
+    assert right.get_title("left") == "$(u_{0}, v_{0}) = (1, 0.5)$,  ends at rest"
+    assert [line.get_color() for line in left.get_lines()] == [style.RED, style.BLUE]
+    assert "Norms of u (red) and v (blue) against" in runs.gather_norms(run).attrs["caption"]
+    swept = sweep(CASE, [2, 4], windows=[(1, 2)])
+    assert notebook.draw_sweep(swept).axes[0].get_ylabel().endswith("of $(u, v)$")
+    assert len(notebook.draw_spacetime(run).axes) == 3
