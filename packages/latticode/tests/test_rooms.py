@@ -21,7 +21,9 @@ STOREYS = (
     ("kernels", "numerics"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""
-FOR_ALL = [f"simulation/{n}.py" for n in ("__init__", "problem", "feasibility", "survey")]
+FOR_ALL = [
+    f"simulation/{n}.py" for n in ("__init__", "problem", "feasibility", "survey", "ensembles")
+]
 """What the configuration takes of a room above it: a problem, and which no solver can follow."""
 MOST_ENTRIES = 13
 
