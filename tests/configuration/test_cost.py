@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from helpers import ROOT
-from latticode.configuration.cost import EXPLICIT, Cost, find_excess, steps_of
+from latticode.configuration.cost import EXPLICIT, Cost, find_excess, refusal, steps_of
 from latticode.configuration.files import ConfigurationError
 from latticode.datasets.netcdf import read
 from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs, with_checks
@@ -142,3 +142,9 @@ def test_checks_take_a_second_run_and_a_tangent_vector_and_auto_several_runs():
 )
 def test_costs_are_said_in_words(cost, words):
     assert str(cost) == words
+
+
+def test_a_little_too_much_memory_is_not_printed_as_what_is_allowed():
+    said = refusal(Cost(1.0, 8.01e9), LIMITS)
+    assert "a little over 8 GB of memory, and limits.gigabytes allows 8 GB;" in said
+    assert "about 1 second and 9 GB of memory" in refusal(Cost(1.0, 9e9), LIMITS)

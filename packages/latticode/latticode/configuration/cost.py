@@ -230,8 +230,10 @@ def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> s
     """Return the words for a run that costs more than is allowed."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
-    allowed = f"limits.{name} allows {limits[name]:g} {unit}"
-    return f"{what} would take {cost}, and {allowed}; make it smaller, or raise the limit"
+    limit = f"{limits[name]:g} {unit}"
+    takes = str(cost).replace(f"and {limit} of memory", f"and a little over {limit} of memory")
+    advice = "make it smaller, or raise the limit"
+    return f"{what} would take {takes}, and limits.{name} allows {limit}; {advice}"
 
 
 def duration(seconds: float) -> str:

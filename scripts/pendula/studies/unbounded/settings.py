@@ -71,7 +71,7 @@ class Settings(Model):
             yield from self._faults_of_size(settings, label, size)
 
     def _faults_of_band(self, settings: Configuration) -> Faults:
-        """Yield why no front has a state behind it: outside of the unstable band nothing spreads."""
+        """Yield why no front has a state behind it: outside of the unstable band none spreads."""
         case = settings.cases[self.omegas.case]
         low, high = -2.0 * abs(case.gamma), 2.0 * abs(case.gamma) + 4.0 * max(case.epsilon, 0.0)
         if not any(low < omega < high for omega in self.omegas.values):
