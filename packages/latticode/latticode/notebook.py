@@ -9,7 +9,7 @@ of what was given; IntegrationError, where a run cannot reach its end with the d
 asked for; DatasetError, where a file cannot be read or written.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import xarray as xr
 from pydantic import ValidationError
@@ -22,8 +22,10 @@ from latticode.configuration.schema import Limits
 from latticode.configuration.solvers import with_controls
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
+from latticode.datasets.surveys import survey_contents
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
 from latticode.simulation import simulate as simulation
+from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
 
 __all__ = [
@@ -34,6 +36,7 @@ __all__ = [
     "draw_spacetime",
     "draw_sweep",
     "simulate",
+    "survey",
     "sweep",
 ]
 
@@ -210,6 +213,58 @@ def sweep(
     checked, problem = settings.sweeps[name], case.kind.of(settings.swept_problem(name))
     result = sweeps.sweep(problem, checked.half_widths, checked.windows)
     return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
+
+
+def survey(
+    case: Case,
+    axes: Mapping[str, Iterable] | None = None,
+    members: Mapping | None = None,
+    keep: Iterable[str | Callable] = ("max_l2",),
+    window: tuple[float, float] | None = None,
+    name: str = "survey",
+    hours: float | None = None,
+    cores: int = 1,
+) -> xr.Dataset:
+    """Make many runs of a case and keep a few numbers of each.
+
+    axes: {a parameter, "half_width", "end_time" or "initial.SITE.FIELD": values}; all are combined.
+    members: {"count": ..., "size": ..., "seed": ...}: copies of each run whose initial data differ
+        by a random relative change of that size.
+    keep: "max_l2", "max_linf", "mean_l2", "mean_linf" over the `window` of time, "final_l2",
+        "final_linf" of each field; "exponent" of time with which the power grows in the window;
+        "divergence", the time at which a run by another method differs; or a function of the
+        trajectory of a run, kept under its own name.
+    cores: how many runs are made side by side; it changes no bit.
+
+    Returns a dataset whose dimensions are the axes, "member", and "component" for what each field
+    has. A run that cannot be made to its end has NaN.
+
+    Raises ConfigurationError for what has no meaning, or would take more than `hours` (1 if they
+    are left out).
+
+    >>> from latticode import Model, abs2, lap
+    >>> dnls = Model(fields="u", parameters={"c": 1}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
+    >>> case = Case(model=dnls, half_width=5, initial={0: [1.5]}, end_time=5)
+    >>> found = survey(case, {"c": [0.5, 1, 2]}, keep=["final_l2"])
+    >>> found["final_l2"].dims, found["final_l2"].round(6).values.ravel().tolist()
+    (('c', 'component'), [1.5, 1.5, 1.5])
+    """
+    require(case, cases.Case, CASE)
+    kept = list(keep)
+    asked = {
+        "case": name,
+        "axes": {axis: _listed(values) for axis, values in (axes or {}).items()},
+        "members": None if members is None else dict(members),
+        "keep": [one for one in kept if not callable(one)] or ["max_l2"],
+        "window": window and tuple(window),
+    }
+    limits = {} if hours is None else {"limits": {"hours": hours}}
+    settings = load({"cases": {name: case}, "surveys": {name: asked}} | limits)
+    _announce(settings.cost_of_survey(name))
+    plan = settings.surveys[name].plan._replace(keep=tuple(kept))
+    problem = case.kind.of(settings.surveyed_problem(name))
+    found = survey_runs.run_survey(problem, plan, cores)
+    return as_xarray(*survey_contents(name, problem, plan, found))
 
 
 def _listed(given):

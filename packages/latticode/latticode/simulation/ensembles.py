@@ -8,18 +8,18 @@ from latticode.simulation.problem import Problem
 
 
 def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (2, 2r + 1), each amplitude times 1 + size (x + iy) of Gaussian x and y.
+    """Return data (field, 2r + 1), each amplitude times 1 + size (x + iy) of Gaussian x and y.
 
     Sites n and -n take the same factors, so that even data stay even.
     """
     reach = initial.shape[1] // 2
-    drawn = (reach + 1, 2)
+    drawn = (reach + 1, len(initial))
     factors = 1.0 + size * complex_normal(rng, drawn)
     return product(initial, factors[np.abs(np.arange(-reach, reach + 1))].T)
 
 
 def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (2, 2r + 3): each amplitude times 1 + size (x + iy), and neighbours not at rest.
+    """Return data (field, 2r + 3): each amplitude times 1 + size (x + iy), and neighbours not at rest.
 
     Sites n and -n are perturbed independently. What is at rest, out to the sites beside the data,
     gets size (x + iy) times the largest amplitude.
