@@ -19,7 +19,7 @@ def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.nd
 
 
 def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (field, 2r + 3): each amplitude times 1 + size (x + iy), and neighbours not at rest.
+    """Return data (field, 2r + 3): each one times 1 + size (x + iy), and neighbours not at rest.
 
     Sites n and -n are perturbed independently. What is at rest, out to the sites beside the data,
     gets size (x + iy) times the largest amplitude.
