@@ -178,7 +178,8 @@ def quoted_messages(page: str) -> list[str]:
 @pytest.fixture(scope="module")
 def messages() -> str:
     """Return our code, with adjacent strings joined, Snakemake's, and bad input of tests."""
-    rooms = [ROOT / "scripts", ROOT / "workflow", Path(find_spec("snakemake").origin).parent]
+    ours = [ROOT / room for room in ("scripts", "workflow", "packages/latticode/latticode")]
+    rooms = [*ours, Path(find_spec("snakemake").origin).parent]
     code = [path for room in rooms for end in ("py", "smk") for path in room.rglob(f"*.{end}")]
     code.append(ROOT / "tests/configuration/bad_input.yaml")
     text = "\n".join(path.read_text(encoding="utf-8") for path in code)
