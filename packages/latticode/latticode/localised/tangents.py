@@ -27,7 +27,7 @@ STEP = 0.25
 factor of e in one."""
 TOLERANCE = 1e-9
 CARRY = """
-from latticode.localised import bundles
+from {home} import bundles
 carry_bundle = bundles.build(bundle_rates{time})
 @kernel
 def carry(system, bundle, times, controls, work, record, lengths, sizes, stop):
@@ -46,7 +46,7 @@ class Growth(NamedTuple):
 @cache
 def kernels_of_tangents(model: Model, site_dependent: frozenset[str]):
     """Return the generated module that carries solutions of a model with tangent vectors."""
-    carry = CARRY.format(time=", at_time" if model.driven else "")
+    carry = CARRY.format(home=__name__.rpartition(".")[0], time=", at_time" if model.driven else "")
     return load_text(tangents_module_text(model.tangent(), site_dependent) + carry)
 
 
