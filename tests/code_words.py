@@ -8,7 +8,7 @@ from pathlib import Path
 
 from helpers import ROOT
 
-SCRIPTS = ROOT / "scripts"
+HOMES = ROOT / "scripts", ROOT / "packages/latticode"
 GAP = "{}"
 LEAST = 3
 """So many letters of a name that is put together must be written, or it could be any name."""
@@ -61,7 +61,8 @@ def words_of_function(module: str, *names: str) -> Words:
 
 @cache
 def _file_of(module: str) -> Path:
-    path = SCRIPTS / module.replace(".", "/")
+    home = HOMES[module.partition(".")[0] == "latticode"]
+    path = home / module.replace(".", "/")
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
 
 
@@ -88,7 +89,8 @@ def _names_made(node: ast.AST) -> Iterator[str]:
 def _named(node: ast.AST, file: Path) -> list[tuple[Path, str]]:
     """Return where all that a part of a module names is defined."""
     if isinstance(node, ast.ImportFrom):
-        folder = file.parents[node.level - 1] if node.level else SCRIPTS
+        named = (node.module or "").partition(".")[0]
+        folder = file.parents[node.level - 1] if node.level else HOMES[named == "latticode"]
         module = folder.joinpath(*(node.module or "").split("."))
         target = module / "__init__.py" if module.is_dir() else module.with_suffix(".py")
         return [(target, one.name) for one in node.names]

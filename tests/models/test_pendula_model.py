@@ -123,7 +123,7 @@ def test_a_run_can_be_reversed():
         ({"mu": None}, "need a positive mu"),
         ({"mu": -0.1}, "need a positive mu"),
         ({"mu": 0.5, "omega": -4.0}, "must be positive"),
-        ({"model": "amplitudes"}, "pendula only"),
+        ({"model": "amplitudes"}, "mu requires model: pendula"),
         ({"model": "springs"}, "no model 'springs'"),
     ],
 )

@@ -100,7 +100,7 @@ RUN_ON_EDITED = (
 
 
 def test_every_key_of_a_case_is_edited_three_times():
-    assert EDITS.keys() == Case.model_fields.keys()
+    assert EDITS.keys() == Case.model_fields.keys() - {"parameters"}  # of other equations
     assert {len(values) for values in EDITS.values()} == {3}
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from latticode.localised.breathers import NoStateError
 from on_breathers import ABOVE, BELOW, at_twelve, members, run_from, unfolded
 from pendula.problem import Constants
 from pendula.studies.breathers.periodic import (
@@ -14,7 +15,6 @@ from pendula.studies.breathers.periodic import (
     shoot,
     single_site,
 )
-from pendula.studies.breathers.steady import NotFoundError
 from pendula.studies.breathers.waves import bands, distance_from_bands
 
 M = 20
@@ -109,7 +109,7 @@ def test_a_family_is_followed_down_to_where_it_ends(constants, family, frequenci
 
 
 def test_what_does_not_exist_is_not_found():
-    with pytest.raises(NotFoundError, match="no localised motion"):
+    with pytest.raises(NoStateError, match="no localised motion"):
         single_site(ABOVE, 5.0, "A only", M)  # a frequency below the chain
-    with pytest.raises(NotFoundError, match="no breather"):
+    with pytest.raises(NoStateError, match="no breather"):
         shoot(BELOW, 12.0, np.full((2, M + 1), 30.0))

@@ -12,7 +12,7 @@ from pendula.studies.pendula import remainder
 def problem(omega=-4.0, pair=(1.0, 0.1), **changes):
     """Return a case on five sites."""
     given = {
-        "constants": Constants(epsilon=1.0, gamma=1.0, omega=omega),
+        "parameters": {"epsilon": 1.0, "gamma": 1.0, "omega": omega},
         "half_width": 2,
         "boundary": "dirichlet",
         "initial": np.array(pair)[:, None],
@@ -20,7 +20,8 @@ def problem(omega=-4.0, pair=(1.0, 0.1), **changes):
         "output_step": 1.0,
         "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
     }
-    return Problem(**given | changes)
+    model = {key: changes.pop(key) for key in ("model", "mu", "constants") if key in changes}
+    return Problem(**given | changes).changed(**model)
 
 
 # --- Sampling -------------------------------------------------------------------------------------

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from latticode.localised.linearised import linearise
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.simulate import simulate
-from latticode.simulation.systems import linearise
 from oracle import random_chain
 from pendula.models.amplitudes import EQUATIONS
 from pendula.studies.unbounded.active_sites import (
