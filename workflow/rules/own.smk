@@ -78,18 +78,6 @@ use rule job as own with:
 
 # A survey is made in parts, which fill the cores here and the nodes of a cluster. A part that is there is
 # not made again; the number of parts changes no bit.
-def parts_of(survey):
-    """Return the files of all parts of a survey, as many as it asks for or else as there are cores."""
-    count = chunks_of(survey)
-    return datasets(f"surveys/{survey}.parts", *(f"{part}-of-{count}" for part in range(count)))
-
-
-def chunks_of(survey):
-    """Return the number of parts of a survey: of the command line, of the survey, or of the cores."""
-    asked_for = OPTIONS["chunks"] or SETTINGS.surveys[survey].chunks
-    cores = workflow.resource_settings.cores
-    runs = math.prod(SETTINGS.surveys[survey].plan.shape)
-    return min(runs, int(asked_for or (cores if isinstance(cores, int) else 1)))
 
 
 use rule dataset as survey_part with:
