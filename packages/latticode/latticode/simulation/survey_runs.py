@@ -7,7 +7,7 @@ same bits in any number of parts.
 
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from math import prod
 from typing import Any
 
@@ -77,9 +77,12 @@ def run_survey(problem: Problem, survey: Survey, cores: int = 1) -> dict[str, np
     with ThreadPoolExecutor(parts) as pool:
         made = [pool.submit(run_part, problem, survey, n, parts, go_on) for n in range(parts)]
         try:
-            return joined(survey, [part.result() for part in made])
+            over, _ = wait(made, return_when=FIRST_EXCEPTION)
         finally:
             ended.set()
+        for part in over:  # what ended one is told, and not that it ended the others
+            part.result()
+        return joined(survey, [part.result() for part in made])
 
 
 def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:
