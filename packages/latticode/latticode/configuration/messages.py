@@ -1,4 +1,4 @@
-"""Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
+"""Messages on what is wrong with a configuration: all at once, each with path and nearest key."""
 
 import difflib
 import re
