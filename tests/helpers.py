@@ -1,11 +1,9 @@
-"""What many tests use: the real snakemake, waiting without a clock, and skips with a way out."""
+"""What many tests use: the real snakemake, and skips with a way out."""
 
 import json
 import os
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from tempfile import NamedTemporaryFile
@@ -19,11 +17,6 @@ from pendula.configuration.messages import load
 
 ROOT = Path(__file__).resolve().parents[1]
 Finished = subprocess.CompletedProcess
-
-HANGS = 600
-"""Seconds after which something hangs: far more than anything takes on the slowest machine, so that
-no test hangs on the clock. It is the only limit of time in the tests."""
-
 
 WAY = "; to have it run: "
 
@@ -41,26 +34,10 @@ def python_path(project: Path = ROOT) -> str:
     return os.pathsep.join(str(project / place) for place in ("packages/latticode", "scripts"))
 
 
-def another_numba(folder: Path) -> dict[str, str]:
-    """Return the environment of a process in which numba says that it is of an unknown version."""
-    said = folder / "numba-0.0.1.dist-info/METADATA"
-    said.parent.mkdir()
-    said.write_text("Metadata-Version: 2.1\nName: numba\nVersion: 0.0.1\n")
-    return os.environ | {"PYTHONPATH": str(folder)}
-
-
 def package(module: str, install: str) -> ModuleType:
     """Return a module that some tests need; where it is missing, skip and say what to install."""
     reason = f"{module.split('.')[0]} is not installed{WAY}pip install {install}"
     return pytest.importorskip(module, reason=reason, exc_type=ImportError)
-
-
-def wait_for(happened: Callable[[], object]) -> None:
-    """Return as soon as `happened()` is true, however long that takes, unless it hangs."""
-    start = time.monotonic()
-    while not happened():
-        assert time.monotonic() - start < HANGS, "what the test waits for did not happen"
-        time.sleep(0.01)
 
 
 def chosen(study: str, *over: str):

@@ -8,7 +8,7 @@ from latticode.drawing.runs import name_data_and_ends
 from latticode.equations.ends import ENDS, neighbours
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.simulate import simulate
-from oracle import BOUNDARIES, laplacian, random_chain
+from oracle import BOUNDARIES, random_chain
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.problem import PENDULA
@@ -95,13 +95,3 @@ def test_equations_and_proofs_refuse_ends_that_they_were_not_taught(reader, monk
     monkeypatch.setitem(ENDS, "reflecting", ENDS["free"]._replace(sees=(1, -2)))
     with pytest.raises(ValueError, match=r"'reflecting' see the sites \(1, -2\), which no equat"):
         TAUGHT[reader]("reflecting")
-
-
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_each_line_of_the_table_is_of_one_laplacian(boundary):
-    matrix = laplacian(7, boundary)
-    right, left = neighbours(Z, boundary)
-    np.testing.assert_allclose(right + left - 2.0 * Z, Z @ matrix.T, atol=1e-15)
-    own = ENDS[boundary].mode(np.arange(7)[:, None], np.arange(7), 7)
-    expected = np.diag(-4.0 * np.sin(ENDS[boundary].half_angle(np.arange(7), 7)) ** 2)
-    np.testing.assert_allclose(own @ matrix @ own.T, expected, atol=1e-14)

@@ -9,9 +9,12 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import dataset
 import job
 import pytest
-from helpers import python_path, skip, wait_for
+from helpers import python_path, skip
+from latticode.datasets.netcdf import Variable, read, write
+from waiting import wait_for
 
 JOB = """
 import sys, threading
@@ -134,3 +137,27 @@ def test_a_job_gets_inputs_settings_and_files_of_the_project_by_name(monkeypatch
         "many": ["/project/b.nc", "/project/c.nc"],
     }  # fmt: skip
     assert job.called(snakemake) == [math.sqrt]
+
+
+def test_each_dataset_of_a_job_states_its_own_entry_and_names_what_it_was_made_from(tmp_path):
+    source, made = tmp_path / "checks" / "source.nc", [tmp_path / f"wrong/{n}.nc" for n in "ab"]
+    write(source, {"mine": Variable((), 1.0, "mine")}, {"title": "A source"})
+    snakemake = SimpleNamespace(
+        input={"source": str(source)},
+        params=Named(
+            call=[f"{__name__}.{make.__name__}", "hash of the code"],
+            checks={"wrong/a": {"seed": 1}, "wrong/b": {"seed": 2}},
+            members=4,
+        ),
+        output=list(map(str, made)),
+    )
+    dataset.make(snakemake)
+    for seed, path in enumerate(made, 1):
+        about = read(path).attrs
+        assert (about["seed"], about["members"], about["sites"]) == (seed, 4, 9)
+        assert "checks" not in about and about["computed_from"].endswith("checks/source")
+
+
+def make(source, checks, members):
+    for _ in checks:
+        yield {"mine": Variable((), float(source["mine"]), "mine")}, {"title": "Two", "sites": 9}

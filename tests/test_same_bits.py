@@ -11,7 +11,8 @@ import machines
 import pytest
 import some_numbers
 from accepted import BASELINE
-from helpers import another_numba, skip
+from another_numba import another_numba
+from helpers import skip
 from latticode.datasets.netcdf import read
 from pendula.figure_diff import hashes
 

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from helpers import HANGS, ROOT
+from helpers import ROOT
 from latticode.datasets.netcdf import as_xarray, read
 from latticode.simulation.simulate import simulate
 from problems import problem_of
+from waiting import HANGS
 
 from benchmarks import contestants, cost, pendula, work_precision
 from benchmarks.contestants import OURS

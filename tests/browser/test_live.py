@@ -9,7 +9,7 @@ import numpy as np
 import problems
 import pytest
 import yaml
-from helpers import ROOT, package, skip, snakemake, wait_for
+from helpers import ROOT, package, skip, snakemake
 from latticode.datasets.netcdf import read, write
 from latticode.measures.difference import first_above, norm_difference
 from latticode.simulation.simulate import simulate
@@ -27,6 +27,7 @@ from pendula.studies.breathers.fates import (
 )
 from pendula.studies.paper.runs import run_case
 from test_report_in_browser import run
+from waiting import wait_for
 
 BASELINE = ROOT / "tests/baseline"
 

@@ -5,7 +5,7 @@ import json
 import re
 
 import pytest
-from helpers import wait_for
+from waiting import wait_for
 
 PHONE = 600
 

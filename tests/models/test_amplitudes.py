@@ -1,72 +1,162 @@
-"""The right-hand side against equation (4), and the laws that its arithmetic keeps exactly."""
+"""(4) as the replication runs it: beside the same model in the library, and what it adds to that.
+
+The library holds its own runs of the model to the laws of the equations. Runs here have the same
+bits, but for `delfour_fortin_payre`, `ode45_real`, the energy (8), and one component where A = B.
+"""
 
 import itertools
 
 import numpy as np
+import plain
 import pytest
-from hypothesis import given
-from latticode.kernels.simd import LANES
-from latticode.simulation.lattice import Reduction, choose_ends, pack, unpack
-from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
-from pendula.models.amplitudes import (
-    Chain,
-    midpoint_rates,
-    rates,
-    rates_at_site,
+from dimers import METHODS, chain
+from hypothesis import given, settings
+from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unpack
+from latticode.simulation.simulate import simulate
+from oracle import (
+    BOUNDARIES,
+    CASES,
+    SOLVERS,
+    boundaries,
+    chains,
+    constants,
+    hamiltonian,
+    random_chain,
+    slope,
 )
+from pendula.models.amplitudes import Chain, energy, midpoint_rates, rates
+from problems import PAPER, make_problem
 
 CONSTANTS = (0.7, 1.3, -2.1)
-WHOLE = Reduction(even=False, synchronised=False)
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
+ADDED = ("ode45_real", "delfour_fortin_payre")
+"""The solvers that the library does not give to every model."""
+DRIFTS = {"ode45": 1e-3, "ode45_real": 1e-3, "delfour_fortin_payre": 1e-9}
+each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)
+some = settings(max_examples=20)
 
 
-def library_slope(z, numbers, boundary, reduction=WHOLE):
-    """Return dz/dtau as the library computes it on what `reduction` leaves of the chain."""
-    chain = Chain(*numbers, *choose_ends(boundary, reduction))
-    y = pack(z, reduction)
-    dy = np.zeros_like(y)
-    rates(chain, y, dy)
-    return unpack(dy, reduction)
+def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=WHOLE, **changes):
+    return simulate(
+        make_problem(z, numbers, boundary, name, snapshot_every=1, **changes), reduction
+    )
 
 
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_rates_are_equation_4(boundary):
-    cases = itertools.product([1, 2, 4, 5, 7, 8], REDUCTIONS)
+def assert_same_bits(one, other, *fields):
+    for field in fields:
+        np.testing.assert_array_equal(getattr(one, field), getattr(other, field), err_msg=field)
+
+
+@each_boundary
+@pytest.mark.parametrize("name", METHODS)
+def test_runs_have_the_bits_of_the_same_model_in_the_library(name, boundary):
+    """On a short chain, and on one that goes in tiles and waves."""
+    for half_width, end in ((4, 1.0), (550, 0.05)):
+        z, times = random_chain(half_width), {"end_time": end, "output_step": end}
+        one = run(name, z, CONSTANTS, boundary, **times)
+        other = simulate(chain(z, CONSTANTS, boundary, name, **times), WHOLE)
+        assert_same_bits(one, other, "final", "linf", "l2", "outcome")
+
+
+@each_boundary
+def test_rates_and_energy_are_equations_4_and_8(boundary):
+    cases = itertools.product([1, 2, 4, 7, 8], REDUCTIONS)
     for half_width, reduction in [(0, WHOLE), *cases]:
         z = random_chain(half_width, **reduction._asdict())
-        expected = slope(z, CONSTANTS, boundary)
-        actual = library_slope(z, CONSTANTS, boundary, reduction)
+        given = Chain(*CONSTANTS, *choose_ends(boundary, reduction))
+        y = pack(z, reduction)
+        dy = np.zeros_like(y)
+        rates(given, y, dy)
+        found, where = unpack(dy, reduction), f"{half_width} {reduction}"
         np.testing.assert_allclose(
-            actual, expected, 1e-13, 1e-13, err_msg=f"{half_width} {reduction}"
+            found, slope(z, CONSTANTS, boundary), 1e-13, 1e-13, err_msg=where
         )
+        assert energy(given, y) == pytest.approx(hamiltonian(z, CONSTANTS, boundary), rel=1e-13)
 
 
-@given(chains(), constants, boundaries)
-def test_conjugation_reverses_the_rates_to_the_last_bit(z, numbers, boundary):
-    reversed_rates = library_slope(np.conj(z), numbers, boundary)
-    np.testing.assert_array_equal(reversed_rates, -np.conj(library_slope(z, numbers, boundary)))
+@given(
+    z=chains(widths=(1, 4), even=True, synchronised=True), numbers=constants, boundary=boundaries
+)
+@some
+def test_half_a_chain_and_one_component_have_the_bits_of_the_whole(z, numbers, boundary):
+    for name in SOLVERS:
+        whole = run(name, z, numbers, boundary)
+        half = run(name, z, numbers, boundary, Reduction(even=True, synchronised=False))
+        assert_same_bits(half, whole, "final", "linf", "l2", "modulus", "outcome", "energy")
+        for kept in (Reduction(even=False, synchronised=True), find_reduction(z)):
+            one = run(name, z, numbers, boundary, kept)
+            assert_same_bits(one, whole, "final", "linf", "l2", "modulus", "outcome")
+            np.testing.assert_allclose(one.energy, whole.energy, 1e-13, 1e-12, err_msg=name)
 
 
-def test_a_vector_of_sites_at_a_time_gets_the_bits_of_one_by_one():
-    chain = Chain(*CONSTANTS, *choose_ends("dirichlet", WHOLE))
-    for sites in range(LANES - 3, 3 * LANES + 1):
-        y = pack(random_chain(sites)[:, :sites], WHOLE)
-        at_once, one_by_one = np.zeros_like(y), np.zeros_like(y)
-        rates(chain, y, at_once)
-        for re, j in itertools.product((0, 2), range(1, sites + 1)):
-            rates_at_site(chain, (y,), re, j, one_by_one)
-        np.testing.assert_array_equal(at_once, one_by_one, err_msg=f"{sites} sites")
+@given(z=chains(), numbers=constants, boundary=boundaries)
+@some
+def test_energy_is_conserved_and_exchange_of_a_and_b_exchanges_the_bits(z, numbers, boundary):
+    for name, drift in DRIFTS.items():
+        straight, exchanged = (run(name, data, numbers, boundary) for data in (z, z[::-1]))
+        off = np.abs(straight.energy - straight.energy[0]).max()
+        assert off < drift * max(1.0, np.abs(straight.energy[0])), name
+        np.testing.assert_array_equal(exchanged.final, straight.final[::-1], err_msg=name)
 
 
-@pytest.mark.parametrize("half_width", [3, 7])
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_square(boundary, half_width):
-    old, new = random_chain(half_width, seed=1), random_chain(half_width, seed=2)
-    mean = (old + new) / 2
-    mean_square = (np.abs(old) ** 2 + np.abs(new) ** 2) / 2
-    linear = slope(mean, CONSTANTS, boundary) + 0.5j * np.abs(mean) ** 2 * mean
-    chain = Chain(*CONSTANTS, *choose_ends(boundary, WHOLE))
-    middle, dy = np.zeros((2, 4, 2 * half_width + 3))
-    midpoint_rates(chain, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
-    expected = linear - 0.5j * mean_square * mean
-    np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)
+@given(z=chains(widths=(0, 2)), numbers=constants, boundary=boundaries)
+@some
+def test_conjugation_reverses_time(z, numbers, boundary):
+    for name, off in zip(ADDED, (1e-4, 1e-8), strict=True):
+        there = run(name, z, numbers, boundary).final
+        back = np.conj(run(name, np.conj(there), numbers, boundary).final)
+        np.testing.assert_allclose(back, z, atol=off, err_msg=name)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-7])
+def test_ode45_of_real_unknowns_takes_the_published_steps(rtol):
+    z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 4.0, 3), (0.7, 1.3, -4.0)
+
+    def rates_of_parts(x):
+        u = slope(x[0] + 1j * x[1], numbers, "free")
+        return np.stack([u.real, u.imag])
+
+    parts = np.stack([z.real, z.imag])
+    final, steps, rejected = plain.ode45(rates_of_parts, parts, times, rtol, 1e-2 * rtol)
+    solver = {"name": "ode45_real", "rtol": rtol, "atol": 1e-2 * rtol}
+    changes = {"end_time": 4.0, "output_step": 2.0}
+    found = run(solver, z, numbers, "free", **changes)
+    assert (found.outcome.steps, found.outcome.rejected) == (steps, rejected)
+    np.testing.assert_allclose(found.final, final[0] + 1j * final[1], atol=1e-8)
+
+
+@each_boundary
+def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_square(boundary):
+    for half_width in (3, 7):
+        old, new = random_chain(half_width, seed=1), random_chain(half_width, seed=2)
+        given = Chain(*CONSTANTS, *choose_ends(boundary, WHOLE))
+        middle, dy = np.zeros((2, 4, 2 * half_width + 3))
+        midpoint_rates(given, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
+        expected = mean_slope(old, new, CONSTANTS, boundary)
+        np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)
+
+
+def mean_slope(old, new, numbers, boundary):
+    """Return the mean right-hand side of Delfour, Fortin and Payre over a step."""
+    middle, mean_square = (old + new) / 2, (np.abs(old) ** 2 + np.abs(new) ** 2) / 2
+    return slope(middle, numbers, boundary) + 0.5j * (np.abs(middle) ** 2 - mean_square) * middle
+
+
+@each_boundary
+def test_a_step_of_delfour_fortin_and_payre_solves_their_equation(boundary):
+    z, h = random_chain(3), 0.05
+    solver = SOLVERS["delfour_fortin_payre"] | {"step": h}
+    new = run(solver, z, boundary=boundary, end_time=h, output_step=h).final
+    np.testing.assert_allclose(new, z + h * mean_slope(z, new, PAPER, boundary), atol=1e-13)
+
+
+@pytest.mark.parametrize("tolerance", [1e-10, 1e-14])
+def test_they_keep_the_energy_to_the_tolerance_of_the_iteration(tolerance):
+    """At most H's slope (below 1e3 here) times the tolerance a step, over 4000 steps of chaos."""
+    omega, pair = CASES["fig4_large"]
+    z = np.zeros((2, 61), complex)
+    z[:, 30] = pair
+    solver = SOLVERS["delfour_fortin_payre"] | {"step": 0.005, "tolerance": tolerance}
+    kept = find_reduction(z)
+    found = run(solver, z, (1.0, 1.0, omega), reduction=kept, end_time=20.0).energy
+    assert np.abs(found - found[0]).max() < min(4000 * 1e3 * tolerance, 1e-5)

@@ -6,7 +6,8 @@ import subprocess
 from hashlib import sha256
 
 import yaml
-from helpers import ROOT, command_of, snakemake, wait_for
+from helpers import ROOT, command_of, snakemake
+from waiting import wait_for
 
 CASE = {"omega": 0, "initial": {0: [5, 1]}, "end_time": 20, "solver": "dop853"}
 TRAJECTORY, SWEEP = TARGETS = "results/trajectories/mine.nc", "results/sweeps/mine.nc"

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from latticode.localised.linearised import linearise
 from latticode.simulation.lattice import WHOLE
-from latticode.simulation.simulate import simulate
+from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import random_chain
 from pendula.models.amplitudes import EQUATIONS
+from pendula.studies.unbounded import active_sites
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
     GUARD,
@@ -102,6 +103,16 @@ def test_a_front_next_to_nothing_stands_on_its_last_site():
     assert 4.0 < find_front(power) < 5.0
     power[:] = 3.0
     assert find_front(power) == 9.0
+
+
+def test_a_piece_ends_where_the_flag_is_up(monkeypatch):
+    own = in_sums(problem(half_width=30, end_time=1.0))
+    state = begin(own.initial, own.half_width)
+    advance(own, state, own.times, {})
+    up = np.ones(1, np.bool_)
+    monkeypatch.setattr(active_sites, "interruptible", lambda run, *given: run(*given, up))
+    with pytest.raises(IntegrationError, match="it was interrupted"):
+        advance(own, state, own.times, {})
 
 
 # --- The unknowns S and D ------------------------------------------------------------------------

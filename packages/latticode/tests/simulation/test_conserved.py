@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from dimers import DIMERS, model
 from latticode.datasets.trajectories import trajectory_contents
-from latticode.equations.model import Model, abs2, conj, cos, lap, shift
+from latticode.equations.model import Model, abs2, cos, lap, shift
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
@@ -12,30 +13,6 @@ from latticode.simulation.simulate import simulate
 def bonds(p, u):
     """Return a density that looks two sites to the right, and reads a parameter of the site."""
     return {"P": abs2(u), "bonds": p.k * abs2(shift(u, 2) - u) + p.w * abs2(u)}
-
-
-def coupled(p, a, b):
-    return [
-        p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u)) + 0.5 * abs2(u) * u
-        for u, v in ((a, b), (b, a))
-    ]
-
-
-def energy(sign):
-    """Return the density of (8), with a sign before the drive: -1 is right."""
-
-    def density(p, a, b):
-        squares = [abs2(u) * (0.25 * abs2(u) + p.omega) for u in (a, b)]
-        bond = abs2(a.right - a) + abs2(b.right - b)
-        drive = ((a - b) * (a - b)).real
-        return {"H": squares[0] + squares[1] + sign * p.gamma * drive - p.epsilon * bond}
-
-    return density
-
-
-def coupled_model(sign=-1):
-    numbers = {"epsilon": 1.0, "gamma": 0.5, "omega": -1.0}
-    return Model(fields=("A", "B"), parameters=numbers, i_dt=coupled, conserved=energy(sign))
 
 
 def run(model, initial, boundary, cut=None, every=0, end_time=2.0):
@@ -79,13 +56,13 @@ def test_sums_are_those_of_numpy_at_every_output(boundary, sites):
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
 def test_half_of_an_even_chain_gives_the_bits_of_the_whole(boundary):
     initial = random(2, 21, even=True)
-    whole, half = (run(coupled_model(), initial, boundary, cut)[1] for cut in (WHOLE, None))
+    whole, half = (run(DIMERS, initial, boundary, cut)[1] for cut in (WHOLE, None))
     assert half.conserved["H"].tobytes() == whole.conserved["H"].tobytes()
     np.testing.assert_allclose(half.conserved["H"], half.conserved["H"][0], rtol=1e-10)
 
 
 def test_the_energy_with_the_drive_of_the_other_sign_is_not_conserved():
-    _, found = run(coupled_model(sign=1), random(2, 9), "dirichlet")
+    _, found = run(model(sign=1), random(2, 9), "dirichlet")
     assert np.ptp(found.conserved["H"]) > 1.0
 
 

@@ -1,31 +1,14 @@
-"""How far two runs differ and from when on; how far trajectories are from the reference."""
+"""How far two runs differ, and from when on."""
 
 import numpy as np
 import pytest
-import xarray as xr
 from latticode.measures.difference import (
-    PARAMETERS,
-    VISIBLE,
     difference,
     divergence_time,
     first_above,
     norm_difference,
 )
-from pendula.studies.paper.solvers import trust_solvers
-
-
-def run(count=11, omega=8.0, changes=()):
-    """Return norms that are 2 for A and 1 for B, but for `changes` {(norm, row, time): value}."""
-    norms = np.repeat([[2.0], [1.0]], count, axis=1)
-    data = xr.Dataset(
-        {name: (("component", "tau"), norms.copy()) for name in ("linf", "l2")},
-        {"tau": 0.5 * np.arange(count), "component": ["A", "B"]},
-        {**dict.fromkeys(PARAMETERS, 1.0), "omega": omega, "initial": "{}"},
-    )
-    data["energy"] = ("tau", np.zeros(count))
-    for (name, row, time), value in dict(changes).items():
-        data[name][row, time] = value
-    return data
+from two_norms import run
 
 
 def test_differences_are_parts_of_the_largest_value_of_their_curve():
@@ -70,29 +53,3 @@ def test_the_first_time_above_a_level_counts_and_never_is_not_unknown():
     values = np.array([[0.0, 1.0, 2.0], [0.0, np.nan, 0.0], [np.nan] * 3])
     np.testing.assert_array_equal(first_above([5, 6, 7], values, 1.0), [7.0, np.inf, np.nan])
     assert first_above([5, 6, 7], [0.0, 1.0, 1.0], 1.0) == np.inf
-
-
-def test_each_solver_has_its_horizon():
-    bad = run(changes={("l2", 1, 2): 1.008, ("l2", 1, 6): 1.02})
-    runs = {"case": {"good": run(), "bad": bad, "other": run(omega=7.0)}}
-    found = trust_solvers(runs, {"case": run()}).sel(case="case")
-    horizons = found["horizon"]
-    assert horizons.sel(solver="bad") == 3.0
-    assert (horizons.sel(solver="good") == np.inf).all()
-    assert horizons.sel(solver="other").isnull().all()
-    assert found["visible"] == VISIBLE
-
-
-@pytest.mark.parametrize(
-    ("omega", "end", "slope", "until"),
-    [(8.0, 5.0, 0.002, 5.0), (8.0, 3.0, 0.008, 1.0), (7.0, 5.0, 0.002, np.nan)],
-)
-def test_a_curve_is_proved_as_long_as_its_bound_is_not_visible(omega, end, slope, until):
-    """The bound is a part of the smallest full scale, that of B, which is 1 in l-infinity."""
-    proved = run(omega=omega).sel(tau=slice(end))
-    proved = proved.assign(bound=slope * proved["tau"], l2=2.0 * proved["l2"])
-    found = trust_solvers({"case": {"run": run()}}, {"case": run()}, {"case": proved})
-    bound = found["proven_bound"].sel(case="case")
-    expected = slope * bound["tau"] if omega == 8.0 else np.nan * bound
-    np.testing.assert_allclose(bound, expected.where(bound["tau"] <= end))
-    np.testing.assert_array_equal(found["proved_until"], [until])

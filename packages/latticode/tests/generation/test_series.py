@@ -1,17 +1,81 @@
-"""The power series of the chain against the equations themselves."""
+"""Rates and power series of a chain of pairs against its equations, and the laws of their bits."""
+
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 import pytest
+from dimers import DIMERS
 from hypothesis import given, settings
+from latticode.generation.chain import at_every_site, close
+from latticode.generation.modules import load_rule, load_series
 from latticode.generation.series import CACHED_BLOCKS
 from latticode.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from latticode.kernels.compiled import kernel
 from latticode.kernels.simd import LANES
 from latticode.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
-from oracle import BOUNDARIES, boundaries, chains, constants, power_series
-from pendula.models.amplitudes import Chain, continue_series
+from oracle import BOUNDARIES, boundaries, chains, constants, power_series, random_chain, slope
 
 WHOLE = Reduction(even=False, synchronised=False)
+CONSTANTS = (0.7, 1.3, -2.1)
+REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
+continue_series = load_series(DIMERS).continue_in_waves
+rates_at_site = load_rule(DIMERS.rates, "y")
+write_rates = at_every_site(rates_at_site)
+
+
+class Pairs(NamedTuple):
+    """The parameters of DIMERS and the ends of the chain, as a kernel takes them.
+
+    Kept kernels tell such classes by their names alone: no other one has this name.
+    """
+
+    epsilon: float
+    gamma: float
+    omega: float
+    left: int
+    right: int
+
+
+@kernel
+def rates(chain, y, dy):
+    close(chain, y)
+    write_rates(chain, (y,), dy)
+
+
+def slope_of(z, numbers, boundary, reduction=WHOLE):
+    """Return dz/dtau by the library on what `reduction` leaves of the chain."""
+    chain = Pairs(*numbers, *choose_ends(boundary, reduction))
+    y = pack(z, reduction)
+    dy = np.zeros_like(y)
+    rates(chain, y, dy)
+    return unpack(dy, reduction)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_rates_are_those_of_the_equations(boundary):
+    cases = product([1, 2, 4, 5, 7, 8], REDUCTIONS)
+    for half_width, reduction in [(0, WHOLE), *cases]:
+        z = random_chain(half_width, **reduction._asdict())
+        found, expected = slope_of(z, CONSTANTS, boundary, reduction), slope(z, CONSTANTS, boundary)
+        np.testing.assert_allclose(found, expected, 1e-13, 1e-13, err_msg=f"{half_width}")
+
+
+@given(chains(), constants, boundaries)
+def test_conjugation_reverses_the_rates_to_the_last_bit(z, numbers, boundary):
+    reversed_rates = slope_of(np.conj(z), numbers, boundary)
+    np.testing.assert_array_equal(reversed_rates, -np.conj(slope_of(z, numbers, boundary)))
+
+
+def test_a_vector_of_sites_at_a_time_gets_the_bits_of_one_by_one():
+    chain = Pairs(*CONSTANTS, *choose_ends("dirichlet", WHOLE))
+    for sites in range(LANES - 3, 3 * LANES + 1):
+        y = pack(random_chain(sites)[:, :sites], WHOLE)
+        at_once, one_by_one = np.zeros_like(y), np.zeros_like(y)
+        rates(chain, y, at_once)
+        for re, j in product((0, 2), range(1, sites + 1)):
+            rates_at_site(chain, (y,), re, j, one_by_one)
+        np.testing.assert_array_equal(at_once, one_by_one, err_msg=f"{sites} sites")
 
 
 @kernel
@@ -25,7 +89,7 @@ def coefficients(z, numbers, boundary, reduction):
     """Return the coefficients (order + 1, 2, N) by the library, complex."""
     y = pack(z, reduction)
     work = np.full((WORK, *y.shape), np.nan)
-    fill(Chain(*numbers, *choose_ends(boundary, reduction)), y, work)
+    fill(Pairs(*numbers, *choose_ends(boundary, reduction)), y, work)
     components, blocks = y.shape[0] // 2, -(-(y.shape[1] - 2) // LANES)
     c = work.reshape(-1)[: components * blocks * BLOCK_SIZE]
     c = c.reshape(components, blocks, ORDER + 1, 3, LANES)[:, :, :, :2]

@@ -8,20 +8,16 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from helpers import HANGS, wait_for
+from dimers import SOLVERS, chain
 from latticode.integrators import INTERRUPTED
 from latticode.localised import tangents
 from latticode.simulation import simulate as simulation
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import WHOLE, aligned, pack
-from latticode.simulation.observables import blank_record
 from latticode.simulation.simulate import IntegrationError, simulate
-from oracle import SOLVERS as CONTROLS
-from pendula.models.integrations import make_chain
-from pendula.models.solvers import SOLVERS
-from pendula.studies.unbounded import active_sites
-from pendula.studies.unbounded.sums import in_sums
-from problems import constants_of, problem_of
+from latticode.simulation.systems import integration_of
+from oracle import random_chain
+from waiting import HANGS, wait_for
 
 # --- The flag in the kernels ----------------------------------------------------------------------
 
@@ -31,31 +27,14 @@ def with_flag_up(run, *arguments):
     return run(*arguments, np.ones(1, np.bool_))
 
 
-@pytest.mark.parametrize("name", SOLVERS)
-def test_a_solver_ends_where_the_flag_is_up(name, monkeypatch):
-    problem = problem_of("fig2_small", solver=CONTROLS[name], end_time=1.0)
-    assert simulate(problem).outcome.time == 1.0
-    monkeypatch.setattr(simulation, "interruptible", with_flag_up)
-    with pytest.raises(IntegrationError, match="it was interrupted"):
-        simulate(problem)
-
-
 def tangent(problem):
     return tangents.grow(problem, np.ones((1, *problem.amplitudes.shape), complex), 1.0)
 
 
-def piece_without_ends(problem):
-    own = in_sums(problem)
-    state = active_sites.begin(own.initial, own.half_width)
-    return active_sites.advance(own, state, own.times, {})
-
-
-@pytest.mark.parametrize(
-    ("module", "run"),
-    [(tangents, tangent), (active_sites, piece_without_ends)],
-)
-def test_the_runs_that_studies_start_themselves_end_there_too(module, run, monkeypatch):
-    problem = problem_of("fig2_small", solver=CONTROLS["dop853"], end_time=1.0)
+@pytest.mark.parametrize("name", [*SOLVERS, "tangents"])
+def test_a_run_ends_where_the_flag_is_up(name, monkeypatch):
+    module, run = (tangents, tangent) if name == "tangents" else (simulation, simulate)
+    problem = chain(random_chain(3), solver=SOLVERS.get(name, SOLVERS["dop853"]))
     run(problem)
     monkeypatch.setattr(module, "interruptible", with_flag_up)
     with pytest.raises(IntegrationError, match="it was interrupted"):
@@ -79,20 +58,21 @@ class LongRun:
     times = np.array([0.0, 1e-4, 2e-4, 3e3])
 
     def __init__(self, name):
-        self.method = SOLVERS[name]
-        self.controls = CONTROLS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
-        self.outcomes, problem = [], problem_of("fig2_small", half_width=2000)
+        problem = chain(random_chain(2000), (1e4, 1.0, 0.0))
+        integration = integration_of(problem)
+        self.method, self.outcomes = integration.solvers[name], []
+        self.controls = SOLVERS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
         self.state = pack(problem.amplitudes, WHOLE)
-        self.record = blank_record(2, self.state.shape[1] - 2, self.times.size, 0)
-        self.record.energy[:] = np.nan
-        self.chain = make_chain(constants_of((1e4, 1.0, 0.0)), "dirichlet", WHOLE)
+        self.record = integration.record(2, problem.sites, self.times.size, 0, False)
+        self.record.l2[:] = np.nan
+        self.system = integration.system(problem, WHOLE)
 
     def start(self):
         """Begin the run and wait for it."""
         controls = tuple(float(self.controls[key]) for key in self.method.controls)
         work = aligned((self.method.work, *self.state.shape))
         return interruptible(
-            self.kernel, self.chain, self.state, self.times, controls, work, self.record
+            self.kernel, self.system, self.state, self.times, controls, work, self.record
         )
 
     def kernel(self, *arguments):
@@ -101,7 +81,7 @@ class LongRun:
 
     def is_under_way(self) -> bool:
         """Return whether the kernel has come to the output before the last."""
-        return bool(np.isfinite(self.record.energy[-2]))
+        return bool(np.isfinite(self.record.l2[0, -2]))
 
 
 def press_when(happened, ctrl_c) -> None:

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from dimers import chain
 from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import sweep
-from problems import make_problem
 
-PROBLEM = make_problem(
+PROBLEM = chain(
     on_sites({0: (1.0, 0.1)}),
     solver={"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
     half_width=30,

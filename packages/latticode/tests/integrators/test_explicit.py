@@ -4,16 +4,16 @@ import numpy as np
 import plain
 import pytest
 import systems
+from dimers import case_of, integrate
 from latticode.integrators import DONE, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL
 from latticode.integrators.taylor import ORDER
-from on_chains import data_of, integrate, numbers_of
-from oracle import BOUNDARIES, SOLVERS, power_series, random_chain, slope
+from latticode.simulation.simulate import simulate
+from oracle import BOUNDARIES, power_series, random_chain, slope
 
 METHODS = ("ode45", "dop853", "taylor")
 each_method = pytest.mark.parametrize("name", METHODS)
 EVALUATIONS = {
     "ode45": lambda tried, interpolated: 1 + 6 * tried,
-    "ode45_real": lambda tried, interpolated: 1 + 6 * tried,
     "dop853": lambda tried, interpolated: 2 + 12 * tried + 3 * interpolated,
     "taylor": lambda tried, interpolated: ORDER * tried,
 }
@@ -28,27 +28,12 @@ def published_run(name, z, times, numbers, boundary, rtol):
             lambda u, order: power_series(u, numbers, boundary, order),
             z, times, rtol, 1e-2 * rtol, ORDER,
         )  # fmt: skip
-    if name == "ode45_real":
-        return published_real_run(z, times, numbers, boundary, rtol)
     return getattr(plain, name)(lambda u: slope(u, numbers, boundary), z, times, rtol, 1e-2 * rtol)
-
-
-def published_real_run(z, times, numbers, boundary, rtol):
-    """Return the run of ode45 whose unknowns are real and imaginary parts."""
-
-    def parts(u):
-        return np.stack([u.real, u.imag])
-
-    def rates(x):
-        return parts(slope(x[0] + 1j * x[1], numbers, boundary))
-
-    final, *counts = plain.ode45(rates, parts(z), times, rtol, 1e-2 * rtol)
-    return final[0] + 1j * final[1], *counts
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 @pytest.mark.parametrize("rtol", [1e-3, 1e-5, 1e-7, 1e-10])
-@pytest.mark.parametrize("name", [*METHODS, "ode45_real"])
+@each_method
 def test_step_control_is_the_published_one_on_the_chain(name, rtol, boundary):
     z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 4.0, 3), (0.7, 1.3, -4.0)
     solver = {"name": name, "rtol": rtol, "atol": 1e-2 * rtol}
@@ -199,8 +184,8 @@ def test_sites_at_rest_do_not_change_the_steps(name):
     ],
 )
 def test_the_energy_drifts_as_much_as_by_matlabs_ode45(case, by_10, by_50, chaos):
-    run = integrate(data_of(case), SOLVERS["ode45"], 50.0, 2000, numbers=numbers_of(case))
-    drift = np.abs(run.energy - run.energy[0])
+    run = simulate(case_of(case, solver="ode45", end_time=50.0, output_step=0.025))
+    drift = np.abs(run.conserved["H"] - run.conserved["H"][0])
     assert drift[run.tau <= 10].max() == pytest.approx(by_10, rel=0.25)
     assert drift.max() == pytest.approx(by_50, rel=chaos)
 

@@ -4,9 +4,11 @@ import dataclasses
 
 import numpy as np
 import pytest
+from dimers import chain
 from hypothesis import given
 from hypothesis import strategies as st
 from latticode.simulation.problem import (
+    Problem,
     by_site,
     on_sites,
     output_times,
@@ -15,8 +17,6 @@ from latticode.simulation.problem import (
     write_initial,
 )
 from oracle import chains
-from pendula.problem import Problem
-from problems import make_problem
 
 PAIR = on_sites({0: (1.0, 0.1)})
 
@@ -30,11 +30,11 @@ def test_data_are_placed_on_their_sites():
 @pytest.mark.parametrize("site", [-3, 3, 100])
 def test_a_site_outside_the_chain_is_refused(site):
     with pytest.raises(ValueError, match=rf"site {abs(site)} .* -2\.\.2"):
-        make_problem(on_sites({site: (1, 1)}), half_width=2)
+        chain(on_sites({site: (1, 1)}), half_width=2)
 
 
 def test_a_problem_cannot_be_changed_in_place():
-    problem = make_problem(PAIR)
+    problem = chain(PAIR)
     with pytest.raises(dataclasses.FrozenInstanceError):
         problem.end_time = 2.0
     with pytest.raises(ValueError, match="read-only"):
@@ -44,15 +44,16 @@ def test_a_problem_cannot_be_changed_in_place():
 
 
 def test_a_change_leaves_the_rest_as_it_was():
-    problem = make_problem(PAIR, numbers=(0.5, 0.7, 3.0))
+    problem = chain(PAIR, numbers=(0.5, 0.7, 3.0))
     other = problem.changed(omega=1.0, half_width=4, end_time=2.0)
-    assert other.plain() == problem.plain() | {"omega": 1.0, "half_width": 4, "end_time": 2.0}
+    changed = {"parameters": problem.parameters | {"omega": 1.0}, "half_width": 4, "end_time": 2.0}
+    assert other.plain() == problem.plain() | changed
     assert other.amplitudes.shape == (2, 9) and other.sites == 9
 
 
 @given(chains(widths=(0, 3)), st.sampled_from(["dirichlet", "free", "periodic"]))
 def test_plain_values_make_the_same_problem(data, boundary):
-    problem = make_problem(data, (0.3, -0.7, 2.0), boundary)
+    problem = chain(data, (0.3, -0.7, 2.0), boundary)
     again = Problem.of(problem.plain())
     assert again.plain() == problem.plain()
     np.testing.assert_array_equal(again.amplitudes, problem.amplitudes)

@@ -1,14 +1,15 @@
 """From amplitudes to the state of a run and back, and what a run keeps of its states."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from latticode.kernels.compiled import kernel
 from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unpack
-from latticode.simulation.observables import blank_record
+from latticode.simulation.observables import blank_record, observe_moduli
 from oracle import chains, random_chain
-from pendula.models.amplitudes import Chain, energy
-from pendula.models.solvers import observe
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
 each_reduction = pytest.mark.parametrize("reduction", REDUCTIONS)
@@ -47,21 +48,31 @@ def test_a_state_is_as_small_as_the_symmetries_allow_and_gives_the_amplitudes_ba
 # --- What is kept of a state --------------------------------------------------------------------
 
 
-def observed(z, reduction=WHOLE, boundary="dirichlet", times=1, i=0, every=1, **others):
-    """Return chain, state and record of an output; all other outputs of the record are -1."""
-    chain, y = Chain(1.0, 1.0, -4.0, *choose_ends(boundary, reduction)), pack(z, reduction)
-    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, times, every, **others)
-    for values in record[:4]:
+class Ends(NamedTuple):
+    left: int
+    right: int
+
+
+@kernel
+def observe(ends, y, i, record):
+    observe_moduli(ends, y, i, record)
+
+
+def observed(z, reduction=WHOLE, times=1, i=0, every=1):
+    """Return the record of an output; all other outputs of the record are -1."""
+    y = pack(z, reduction)
+    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, times, every)
+    for values in (record.linf, record.l2, record.kept):
         values.fill(-1.0)
-    observe(chain, y, i, record)
-    return chain, y, record
+    observe(Ends(*choose_ends("dirichlet", reduction)), y, i, record)
+    return record
 
 
 @each_reduction
 @pytest.mark.parametrize("half_width", [1, 2, 6])
 def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
     z = random_chain(half_width, **reduction._asdict())
-    _, _, record = observed(z, reduction)
+    record = observed(z, reduction)
     kept = z[: len(record.l2)]
     np.testing.assert_allclose(record.linf[:, 0], np.abs(kept).max(axis=1), rtol=1e-14)
     np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(kept, axis=1), rtol=1e-14)
@@ -71,9 +82,9 @@ def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
 
 def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only():
     z = random_chain(2)
-    chain, y, record = observed(z, times=7, i=4, every=2)
-    assert record.energy[4] == energy(chain, y)
-    assert [np.count_nonzero(values != -1.0) for values in record[:4]] == [2, 2, 1, 10]
+    record = observed(z, times=7, i=4, every=2)
+    written = [np.count_nonzero(one != -1.0) for one in (record.linf, record.l2, record.kept)]
+    assert written == [2, 2, 10]
     np.testing.assert_allclose(record.kept[:, :, 2], np.abs(z), rtol=1e-14)
-    assert np.all(observed(z, times=7, i=3, every=2)[2].kept == -1.0)
-    assert observed(z, every=0)[2].kept.shape == (2, 5, 0)
+    assert np.all(observed(z, times=7, i=3, every=2).kept == -1.0)
+    assert observed(z, every=0).kept.shape == (2, 5, 0)

@@ -6,19 +6,33 @@ import random
 import numpy as np
 import pytest
 import xarray as xr
-from helpers import ROOT
+from dimers import dimers
 from latticode.datasets import netcdf
 from latticode.datasets.json_files import load_json, write_json
-from latticode.datasets.netcdf import DatasetError, read, readable, save
+from latticode.datasets.netcdf import DatasetError, as_xarray, read, readable, save
+from latticode.datasets.surveys import survey_contents
+from latticode.datasets.trajectories import trajectory_contents
+from latticode.simulation.simulate import simulate
+from latticode.simulation.survey import Survey
+from latticode.simulation.survey_runs import run_survey
 
 FLIPS = 200
 
 
-@pytest.fixture(params=["trajectories/fig2_small", "sweeps/fig5_left", "checks/ensembles"])
+def a_run():
+    problem = dimers(snapshot_every=1, half_width=30, output_step=0.0625)
+    return trajectory_contents("mine", problem, simulate(problem))
+
+
+def a_survey():
+    problem, survey = dimers(), Survey({"omega": [-4.0, 0.0]}, ("max_l2", "exponent"))
+    return survey_contents("map", problem, survey, run_survey(problem, survey))
+
+
+@pytest.fixture(params=[a_run, a_survey])
 def dataset(request, tmp_path):
-    """Return the file of an accepted dataset, written anew: numbers, words and single values."""
-    accepted = read(ROOT / f"tests/baseline/{request.param}.nc")
-    save(tmp_path / "a.nc", accepted.drop_encoding())
+    """Return the file of a dataset: numbers, words and single values."""
+    save(tmp_path / "a.nc", as_xarray(*request.param()))
     return tmp_path / "a.nc"
 
 
@@ -66,7 +80,7 @@ def test_a_dataset_cut_anywhere_is_rejected(dataset):
     content = dataset.read_bytes()
     for kept in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
         dataset.write_bytes(content[:kept])
-        with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and run snakemake"):
+        with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and run"):
             read(dataset)
 
 
@@ -98,5 +112,5 @@ def test_a_changed_byte_of_json_is_told_wherever_it_is(tmp_path):
     ]
     for wrong in (*changed, content[:-3], content + b" ", b"", b'{"rows": []}'):
         path.write_bytes(wrong)
-        with pytest.raises(DatasetError, match=r"claims\.json is damaged .*run snakemake to make"):
+        with pytest.raises(DatasetError, match=r"claims\.json is damaged .*run .* to make"):
             load_json(path)

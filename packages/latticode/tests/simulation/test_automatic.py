@@ -1,18 +1,16 @@
 """auto: the error that was asked for is kept, or the run is refused."""
 
 import pytest
+from dimers import case_of, chain
 from latticode.measures.difference import norm_difference
 from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import CASES
-from problems import make_problem
 
 
 def run(case, error, end_time):
-    omega, pair = CASES[case]
     solver = error if isinstance(error, dict) else {"name": "auto", "error": error}
-    chain = {"half_width": 30, "end_time": end_time, "output_step": 0.1, "solver": solver}
-    return simulate(make_problem(on_sites({0: pair}), (1.0, 1.0, omega), **chain))
+    return simulate(case_of(case, solver=solver, end_time=end_time, output_step=0.1))
 
 
 def taylor(tolerance):
@@ -38,5 +36,5 @@ def test_what_stays_at_rest_is_no_obstacle(pair):
     """Zero differs from zero by nothing, and no norm of it is divided by."""
     numbers = (1.0, 0.0, -4.0)  # without a drive B stays at rest where it starts so
     solver = {"name": "auto", "error": 1e-9}
-    kept = simulate(make_problem(on_sites({0: pair}), numbers, solver=solver, half_width=2))
+    kept = simulate(chain(on_sites({0: pair}), numbers, solver=solver, half_width=2))
     assert kept.solver["estimated_error"] <= 1e-9
