@@ -27,9 +27,9 @@ use rule dataset as measure_lyapunov with:
 use rule dataset as measure_ensembles with:
     "Chaotic cases and sweeps from data that differ in their last digits"
     input:
-        kernels=kernels("taylor"),
+        kernels=lambda wildcards: kernels(solver_of_members(wildcards.kind)),
     pathvars:
-        made="checks/ensembles{kind,|_uneven}",
+        made="checks/ensembles{kind,|_uneven|_second|_finer}",
     params:
         **values_of(ENSEMBLES, "members", "size", "seed"),
         call=function("pendula.studies.chaos.ensembles.measure_ensembles"),
@@ -39,11 +39,9 @@ use rule dataset as measure_ensembles with:
             end_time=longest(ENSEMBLES.cases),
             output_step=min(SETTINGS.cases[case].output_step for case in ENSEMBLES.cases),
         ),
-        swept=lambda wildcards: swept(
-            ENSEMBLES.uneven if wildcards.kind else ENSEMBLES.sweeps, ENSEMBLES.tolerance
-        ),
+        swept=lambda wildcards: swept(wildcards.kind, ENSEMBLES),
         windows=in_any(ENSEMBLES.sweeps, "windows"),
-        kind=lambda wildcards: wildcards.kind.removeprefix("_") or "even",
+        kind=lambda wildcards: "uneven" if wildcards.kind == "_uneven" else "even",
 
 
 use rule dataset as measure_members with:

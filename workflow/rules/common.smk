@@ -89,7 +89,8 @@ OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
-CHAOS_CHECKS = ["lyapunov", "ensembles", "ensembles_uneven", "members", "lifetimes"]
+DRAWN = [f"ensembles{kind}" for kind in ("", "_uneven", "_second", "_finer")]
+CHAOS_CHECKS = ["lyapunov", *DRAWN, "members", "lifetimes"]
 THEORY_CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group)]
 CHECKS = [*THEORY_CHECKS, "cases"]
 SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
@@ -116,8 +117,9 @@ def runs_by(solver):
 
 TRAJECTORIES = datasets("trajectories", *PAPER_CASES)
 SWEEPS = datasets("sweeps", *PAPER_SWEEPS)
-SECOND_SWEEPS = datasets("sweeps", *(f"{sweep}.crank_nicolson" for sweep in PAPER_SWEEPS))
-SECOND_SWEEPS += datasets("sweeps", "fig6_right.crank_nicolson.finer")
+SECOND_SWEEPS = datasets(
+    "sweeps", *(f"{sweep}.crank_nicolson" for sweep in ("fig5_left", "fig6_left"))
+)
 PROVED_CURVES = datasets("certified", *SETTINGS.certified.curves.cases)
 
 

@@ -5,7 +5,8 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
     "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
     "solvers": [
         *(*SWEEPS, *SECOND_SWEEPS),
-        *checks("cases", "lyapunov", "ensembles", "members", "solvers"),
+        *checks("cases", "lyapunov", "members", "solvers"),
+        *checks("ensembles", "ensembles_second", "ensembles_finer"),
     ],
     "theory": [
         *(*TRAJECTORIES, *checks("lyapunov")),

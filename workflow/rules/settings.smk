@@ -55,16 +55,22 @@ def in_any(sweeps, key):
     return sorted({value for name in sweeps for value in getattr(SETTINGS.sweeps[name], key)})
 
 
-def swept(drawn, tolerance):
-    """Return by sweep what its ensembles run, each to the end of the last window of any."""
+def solver_of_members(kind):
+    """Return the solver of a kind of ensembles: the paper's second one, with either step."""
+    return "crank_nicolson" if kind in ("_second", "_finer") else "taylor"
+
+
+def swept(kind, ensembles):
+    """Return by sweep what a kind of ensembles runs, each to the end of the last window of any."""
+    key = {"": "sweeps", "_finer": "second"}.get(kind, kind.removeprefix("_"))
+    found, drawn = {}, getattr(ensembles, key)
     end_time = max(end for _, end in in_any(drawn, "windows"))
-    return {
-        name: {
-            "problem": run_of(SETTINGS.sweeps[name].case, tolerance, end_time=end_time),
-            **dict(one),
-        }
-        for name, one in drawn.items()
-    }
+    for name, one in drawn.items():
+        problem = run_of(SETTINGS.sweeps[name].case, ensembles.tolerance, end_time=end_time)
+        if (solver := solver_of_members(kind)) != "taylor":
+            problem["solver"] = SETTINGS.swept_problem(name, solver)["solver"]
+        found[name] = {"problem": finer(problem) if kind == "_finer" else problem, **dict(one)}
+    return found
 
 
 def drawn_windows(sweep):

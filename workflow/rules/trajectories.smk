@@ -64,12 +64,3 @@ use rule sweep as sweep_by_second_solver with:
         made="sweeps/<paper_sweep>.crank_nicolson",
     params:
         problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson"),
-
-
-use rule sweep_by_second_solver as sweep_by_finer_step with:
-    "A chaotic sweep by the second solver with a finer step, where it has ensembles to compare with"
-    pathvars:
-        made="sweeps/{sweep,fig6_right}.crank_nicolson.finer",
-    params:
-        problem=lambda wildcards: finer(SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson")),
-        half_widths=lambda wildcards: SETTINGS.chaos.ensembles.sweeps[wildcards.sweep].half_widths,

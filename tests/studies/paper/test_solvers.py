@@ -76,19 +76,14 @@ def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, ver
     assert finding.verdict == verdict and said in finding.because.replace("_small", "")
 
 
-def test_the_furthest_half_width_decides_the_chance_of_a_sweep():
-    sweep, ensembles = dataset("sweeps/fig6_right"), dataset("checks/ensembles")
-    at = {"quantity": "pair", "statistic": "mean", "window": "[10, 40]"}
-    drawn = ensembles.sel(sweep="fig6_right", **at).dropna("half_width", subset=["l2_mean"])
-    width = int(drawn["half_width"][-1])
-    here = (sweep["half_width"] == width) & (sweep["statistic"] == "mean")
-    off = drawn["l2_mean"].values[-1] + 5.0 * drawn["l2_deviation"].values[-1]
-    far = sweep.assign(l2=sweep["l2"].where(~here, off))
-    assert (
-        swept_chance("fig6_right", far, ensembles)
-        < 0.01
-        < swept_chance("fig6_right", sweep, ensembles)
-    )
+def test_the_most_distant_means_decide_the_chance_of_a_sweep():
+    """Of 24 means one is off by five standard errors, then all agree."""
+    ensembles = dataset("checks/ensembles").sel(half_width=[25, 60, 100])
+    far = ensembles["l2_mean"] + 5.0 * np.hypot(*2 * [ensembles["l2_error"]])
+    here = (ensembles["half_width"] == 60) & (ensembles["statistic"] == "mean")
+    off = ensembles.assign(l2_mean=ensembles["l2_mean"].where(~here, far))
+    assert swept_chance("fig6_right", ensembles, off) < 0.001
+    assert swept_chance("fig6_right", ensembles, ensembles) == 1.0
 
 
 def test_the_divergence_time_of_a_figure_is_the_horizon_of_the_dataset(make_trajectory):

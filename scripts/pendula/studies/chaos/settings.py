@@ -45,7 +45,10 @@ Lyapunov = model(
     **RANDOM,
 )
 
-# The ensembles of sweeps: so many members on chains of each half-width.
+SWEPT = ("sweeps", "uneven", "second")
+"""Ensembles of sweeps: even in n, not even, and by the paper's second solver."""
+
+# Those of one kind: so many members on chains of each half-width.
 Swept = Annotated[
     dict[Name, model(half_widths=Counts, members=Annotated[Whole, Field(ge=2)])],
     Field(min_length=1),
@@ -53,7 +56,7 @@ Swept = Annotated[
 
 
 # Cases and sweeps from data that differ in their last digits.
-Ensembles = model(cases=Names, sweeps=Swept, uneven=Swept, members=Count, **RANDOM)
+Ensembles = model(cases=Names, **dict.fromkeys(SWEPT, Swept), members=Count, **RANDOM)
 
 # Ensembles of every case, each member reduced to numbers over windows of time.
 Members = model(
@@ -91,8 +94,13 @@ class Settings(Model):
         absent = [
             *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
             *settings.absent("cases", "ensembles.cases", self.ensembles.cases),
-            *settings.absent("sweeps", "ensembles.sweeps", list(self.ensembles.sweeps)),
-            *settings.absent("sweeps", "ensembles.uneven", list(self.ensembles.uneven)),
+            *(
+                fault
+                for kind in SWEPT
+                for fault in settings.absent(
+                    "sweeps", f"ensembles.{kind}", list(getattr(self.ensembles, kind))
+                )
+            ),
             *settings.absent("cases", "lifetimes.case", [self.lifetimes.case]),
         ]
         yield from absent
@@ -108,7 +116,7 @@ class Settings(Model):
         """Return the least half-width on which each ensemble integrates a case, by its key."""
         spectrum = self.lyapunov.spectrum
         found = {"lyapunov.spectrum": min(spectrum.lengths)} if case in spectrum.cases else {}
-        for kind in ("sweeps", "uneven"):
+        for kind in SWEPT:
             for name, swept in getattr(self.ensembles, kind).items():
                 if name in settings.sweeps and settings.sweeps[name].case == case:
                     found[f"ensembles.{kind}.{name}"] = min(swept.half_widths)
@@ -127,7 +135,7 @@ class Settings(Model):
         yield from settings.excess("lyapunov.members", runs, 2.0 * followed * self.lyapunov.members)
         yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
         yield from settings.excess("ensembles.members", drawn, self.ensembles.members)
-        for kind in ("sweeps", "uneven"):
+        for kind in SWEPT:
             for name, drawn in getattr(self.ensembles, kind).items():
                 one = [settings.cost_of_sweep(name)]
                 yield from settings.excess(f"ensembles.{kind}.{name}.members", one, drawn.members)
