@@ -306,7 +306,7 @@ class Case(Model):
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a step that does not divide the time between two outputs."""
         step = getattr(solver, "step", None)
-        if solver.name == "kahan_li":  # its steps fit themselves between two outputs
+        if solver.name in cost.STEPPED:
             return
         if step is not None and not is_multiple(self.output_step, step):
             near = _nearest_parts(self.output_step, step)
