@@ -74,10 +74,14 @@ print(json.dumps([found, core().decode(), numba.config.CPU_NAME, bits.tobytes().
 """
 
 
+def need_time():
+    if not os.environ.get("PENDULA_PLAYED"):
+        skip("what is compiled anew takes minutes", "run .ci/elsewhere bits")
+
+
 def need_machine(name):
     """Skip if PENDULA_PLAYED is not set, or if this computer cannot play the machine `name`."""
-    if not os.environ.get("PENDULA_PLAYED"):
-        skip("what is compiled for other processors takes minutes", "run .ci/elsewhere bits")
+    need_time()
     if not machines.playable(name):
         skip(f"{name} cannot be played here", "run it on x86-64 with AVX-512, FMA and glibc")
 
@@ -104,6 +108,7 @@ def test_code_for_another_processor_gives_the_same_bits_cold_warm_and_threaded(m
 
 
 def test_numba_alone_compiles_and_keeps_code_of_the_same_bits(tmp_path):
+    need_time()
     environment, solvers = another_numba(tmp_path), ("pendula.kahan_li",)
     cold, warm = (run(sys.executable, environment, tmp_path, 1, *solvers) for _ in range(2))
     assert (set(cold["cached"].values()), set(warm["cached"].values())) == ({0}, {1})

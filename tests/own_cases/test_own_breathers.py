@@ -3,7 +3,7 @@
 import pytest
 from latticode import abs2, lap
 from latticode.checks import check_breather
-from pendula import Case, Model, check, draw_breather
+from pendula import Case, Model, draw_breather
 from pendula.own_cases import answers
 from pendula.problem import Problem
 
@@ -29,10 +29,3 @@ def test_the_page_and_the_figure_say_what_is_found(model, data, said):
     assert said in answers.localised(found)
     figure = draw_breather(found.assign(divergence_time=1.0))
     assert len(figure.axes) == (2 if "breather" in found else 0)
-
-
-def test_the_checks_of_a_case_hold_its_localised_state():
-    case = Case(model=CUBIC, initial={3: [1.5]}, half_width=6, end_time=1)
-    found = check(case)
-    assert int(found["breather"].sel(component="u").idxmax()) == 3
-    assert float(found["breather_growth"]) == 0.0

@@ -22,16 +22,18 @@ def bytes_of(folder):
 
 
 @pytest.fixture(scope="module")
-def drawn(tmp_path_factory):
+def drawn(made_once):
     """Return a folder with Fig 1, drawn by Snakemake's own executor beside a job that fails."""
-    folder = tmp_path_factory.mktemp("drawn")
-    settings = {"cases": {"wild": {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}}}
-    options = ("--executor", "local", "--cores", "1", "--keep-going")
-    targets = "results/trajectories/wild.nc", "fig1"
-    result = snakemake(ROOT, folder, *options, *targets, settings=settings)
-    assert result.returncode == 1
-    (folder / "said.txt").write_text(result.stderr)
-    return folder
+
+    def make(folder):
+        settings = {"cases": {"wild": {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}}}
+        options = ("--executor", "local", "--cores", "1", "--keep-going")
+        targets = "results/trajectories/wild.nc", "fig1"
+        result = snakemake(ROOT, folder, *options, *targets, settings=settings)
+        assert result.returncode == 1
+        (folder / "said.txt").write_text(result.stderr)
+
+    return made_once("drawn", make)
 
 
 def test_cores_and_the_executor_change_no_byte(drawn, full_run):

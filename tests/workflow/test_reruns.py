@@ -5,10 +5,8 @@ overlap. Which files a job depends on is asked of its record, in tests/test_proj
 """
 
 import os
-import subprocess
-import sys
 
-from helpers import change, edit, planned, python_path
+from helpers import change, edit, planned
 from pendula.studies.theory.settings import GROUPS
 
 SIMULATIONS = {"trajectory", "measure_solvers", "sweep", "sweep_by_second_solver"}
@@ -60,27 +58,3 @@ def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(fin
     for path in (finished / "results/figures").glob("*.nc"):
         os.utime(path)
     assert planned(clone, finished) == {}
-
-
-DRIFT = """
-from pendula import Case, simulate
-case = Case(omega=8, half_width=10, initial={0: [1, 0.1]}, end_time=1, solver="crank_nicolson")
-run = simulate(case)
-print(float(abs(run["energy"] - run["energy"][0]).max()))
-"""
-
-
-def test_an_edit_of_the_equations_reaches_the_numbers(clone):
-    """A stale cache of compiled kernels would give the old numbers."""
-
-    def drift():
-        environment = {**os.environ, "PYTHONPATH": python_path(clone)}
-        command = [sys.executable, "-c", DRIFT]
-        done = subprocess.run(command, env=environment, capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
-        return float(done.stdout)
-
-    before = drift()
-    equations = clone / "scripts/pendula/models/amplitudes.py"
-    edit(equations, "+ 0.5 * abs2(u) * u", "+ 0.25 * abs2(u) * u")
-    assert before < 1e-4 < 1e-3 < drift()

@@ -64,13 +64,13 @@ def values_at(given: Any, half_width: int) -> float | list[float]:
     `given` is a number, a list or an array of one for each site, or a function of the array of
     sites that returns either. Raises ValueError with what is wrong, to stand behind its name.
     """
-    sites = np.arange(-half_width, half_width + 1)
+    sites = range(-half_width, half_width + 1)
     if callable(given):
-        given = _called(given, sites)
+        given = _called(given, np.array(sites))
     values = _as_array(given)
-    if values.shape not in ((), sites.shape):
+    if values.shape not in ((), (len(sites),)):
         size = " x ".join(map(str, values.shape))
-        raise ValueError(f"has {size} values for {sites.size} sites")
+        raise ValueError(f"has {size} values for {len(sites)} sites")
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
         where = f" at site {sites[wrong[0]]}" if values.ndim else ""
