@@ -2,9 +2,14 @@
 
 import numpy as np
 import pytest
-from latticode import ConfigurationError, Model
+from latticode import ConfigurationError, Model, save, survey
+from latticode.drawing import style
 from pendula import Case, check, simulate
 from pendula.configuration.messages import load
+from pendula.own_cases.page import write_report, write_table
+from pendula.own_cases.surveys import draw_survey, gather_survey
+
+KINDS = "png", "pdf", "nc", "json"
 
 AMPLITUDES = """from latticode import abs2
 from pendula.models.amplitudes import i_dt
@@ -38,6 +43,25 @@ def test_a_case_has_the_constants_of_the_paper_or_the_parameters_of_a_model():
     for case, told in (
         ({"model": model, "initial": {0: [1]}, "omega": 1}, "omega: belongs to the paper's"),
         ({"omega": 1, "parameters": {"a": 1}}, "parameters: belong to a model of your own"),
+        ({"model": model, "initial": {0: [1]}, "omgea": 1}, "known are model, parameters"),
+        ({"model": model, "initial": {0: [1]}, "half_wdith": 1}, "mean 'half_width'"),
     ):
         with pytest.raises(ConfigurationError, match=told):
             load({"cases": {"mine": case}})
+
+
+def test_the_page_on_a_lattice_of_ones_own_has_no_word_of_the_paper(tmp_path):
+    model = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * u)
+    own = Case(model=model, half_width=2, initial={0: [1]}, end_time=1)
+    paper = Case(omega=-4, half_width=2, end_time=1)
+    for case, axis, words in ((own, "c", "own equations"), (paper, "omega", "Phys. Lett. A")):
+        folder = tmp_path / axis
+        made = survey(case, {axis: [1, 2]}, keep=["final_l2"], name="map")
+        save(folder / "surveys/map.nc", made)
+        write_table(folder / "surveys/map.nc", folder / "own/tables/surveys/map.csv")
+        drawn, stem = gather_survey(made), folder / "own/surveys/map"
+        style.save(draw_survey(drawn), drawn, *(f"{stem}.{kind}" for kind in KINDS))
+        write_report(str(folder / "own.html"), [], {}, {"map": "mine"}, [])
+        page = (folder / "own.html").read_text(encoding="utf-8")
+        assert words in page and 'href="own/tables/surveys/map.csv"' in page
+        assert ("Phys. Lett. A" in page) == (case is paper)

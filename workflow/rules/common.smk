@@ -45,7 +45,7 @@ from requests_of_slurm import never_started, partitions_of_slurm
 from benchmarks.problems import REGIMES
 from pendula import __version__
 from pendula.archive.contents import code_files
-from latticode.configuration.files import ConfigurationError
+from latticode.configuration.files import ConfigurationError, read_entries
 from latticode.configuration.values import Steps
 from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load, require
@@ -53,11 +53,15 @@ from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from latticode.simulation.problem import name_window
 from pendula.problem import MODELS, Constants
+from latticode.kernels import DISABLED
 from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
 from pendula.sources import SCRIPTS
 from pendula.studies import files_of_part
 from pendula.studies.certified.norm import NotDefiniteError, find_form
 from pendula.studies.theory.settings import GROUPS, PROVED
+
+if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+    stop(DISABLED)
 
 # By these every case of the paper is integrated, the paper's own solvers first.
 ALL_SOLVERS = ["ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor"]
@@ -70,10 +74,15 @@ CONFIG_FILES = [f"{PROJECT}/config/{name}.yaml" for name in ("config", *STUDIES)
 try:
     # Options of a single call, by --config alone: the baseline to compare with, whether any bits
     # will do, what of a run to accept, and in how many parts to make surveys. In a file they would send a run's results elsewhere.
-    given = dict(workflow.config_settings.config)
-    OPTIONS = {name: given.pop(name, None) for name in ("baseline", "bits", "accept", "chunks")}
+    OPTIONS = {
+        name: workflow.config_settings.config.get(name)
+        for name in ("baseline", "bits", "accept", "chunks")
+    }
     for name in OPTIONS:
         config.pop(name, None)
+    # Snakemake itself takes the last of two equal keys here too, and 010 for ten
+    entries = workflow.config_settings.config_args or ()
+    given = read_entries(one for one in entries if one.partition("=")[0] not in OPTIONS)
     config.update(gather([*CONFIG_FILES, *workflow.overwrite_configfiles], given))
     SETTINGS = load(config)
     require(SETTINGS, PAPER_CASES, PAPER_SWEEPS, ALL_SOLVERS)
@@ -240,7 +249,9 @@ def some_own_files(wildcards):
     of_sweep = [*FIGURE_KINDS, "checks.nc"]
     of_case = [*of_sweep, *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
     of_models = [case for case in OWN_CASES if SETTINGS.cases[case].model not in MODELS]
+    made = {"trajectories": OWN_CASES, "sweeps": OWN_SWEEPS, "surveys": OWN_SURVEYS}
     return [
+        *(f"<results>/own/tables/{kind}/{one}.csv" for kind in made for one in made[kind]),
         *datasets("trajectories", *OWN_CASES),
         *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),
         *expand("<results>/own/cases/{case}.breather.{kind}", case=of_models, kind=FIGURE_KINDS),

@@ -61,6 +61,18 @@ use rule job as own_sweep_figure with:
         given=lambda wildcards: drawn_windows(wildcards.sweep),
 
 
+use rule job as own_table with:
+    "Norms, or what a survey keeps, as CSV: results/own/tables/{kind}/{name}.csv"
+    input:
+        data="<results>/{kind}/{name}.nc",
+    output:
+        table="<results>/own/tables/{kind,trajectories|sweeps|surveys}/{name}.csv",
+    pathvars:
+        made="own/tables/{kind}/{name}",
+    params:
+        call=function("pendula.own_cases.page.write_table"),
+
+
 use rule job as own with:
     "A report of the cases and sweeps in your --configfile: results/own_report.html"
     input:

@@ -250,11 +250,11 @@ def survey(
     (('c', 'component'), [1.5, 1.5, 1.5])
     """
     require(case, cases.Case, CASE)
-    kept = list(keep)
+    kept = [keep] if isinstance(keep, str) or callable(keep) else list(keep)
     asked = {
         "case": name,
         "axes": {axis: _listed(values) for axis, values in (axes or {}).items()},
-        "members": None if members is None else dict(members),
+        "members": dict(members) if isinstance(members, Mapping) else members,
         "keep": [one for one in kept if not callable(one)] or ["max_l2"],
         "window": window and tuple(window),
     }

@@ -11,10 +11,11 @@ from latticode.configuration import cases
 from latticode.configuration.cases import Initial
 from latticode.configuration.cost import Cost
 from latticode.configuration.files import OF_MODELS
+from latticode.configuration.messages import lines_of
 from latticode.configuration.values import Number, Positive, faults
 from latticode.equations.model import Model
 from latticode.simulation.feasibility import Obstacle
-from pydantic import Field, SerializeAsAny, WrapValidator, model_validator
+from pydantic import Field, SerializeAsAny, ValidationError, WrapValidator, model_validator
 
 from pendula.feasibility import find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
@@ -150,7 +151,13 @@ def of_its_kind(raw: dict) -> type[cases.Case]:
 
 def _validated(value: Any, handler) -> cases.Case:
     kind = of_its_kind(value) if isinstance(value, dict) else Case
-    return handler(value) if kind is Case else kind.model_validate(value)
+    if kind is Case:
+        return handler(value)
+    try:
+        return kind.model_validate(value)
+    except ValidationError as error:  # of keys that are no keys of the paper's cases
+        lines = lines_of(error, ("cases", "case"))
+        raise faults([line.partition(": ")[::2] for line in lines]) from None
 
 
 AnyCase = Annotated[SerializeAsAny[Case], WrapValidator(_validated)]

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from math import inf
 from typing import Annotated, Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import (
     BeforeValidator,
     Field,
@@ -86,12 +87,16 @@ def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
 def sites_of(given: Any) -> Any:
     """Return initial data by the number of their site; refuse a site that stands twice."""
     if not isinstance(given, Mapping):
-        raise fault(f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}")
+        text = f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}"
+        if np.iterable(given) and not isinstance(given, str):
+            text += "; of an array a: {n: [a[n + M]] for n in range(-M, M + 1)}, M the half_width"
+        raise fault(text)
     found: dict = {}
     for key, values in given.items():
         site = as_whole(key)
         if site in found and len(found) < len(given):
             raise fault(f"the site {site} stands twice, as a number and as a word")
+        values = values.tolist() if isinstance(values, np.ndarray) else values
         if not isinstance(values, list | tuple):
             raise fault(f"site {site} has {shown(values)}; give a list of a value for each field")
         found[site] = values
@@ -143,7 +148,7 @@ class Case(Model):
     @property
     def equations(self) -> str:
         """What the case is of, in words."""
-        return f"the model {self.model.name}"
+        return "the model" if self.model.name == "model" else f"the model {self.model.name}"
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -153,7 +158,8 @@ class Case(Model):
     @property
     def solver_names(self) -> list[str]:
         """The solvers that take the equations."""
-        return [*solver_names(self.model), "auto"]
+        found = solver_names(self.model)
+        return [*found, "auto"] if "taylor" in found else found
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:
@@ -167,7 +173,9 @@ class Case(Model):
             yield "half_width", text
         for name in self.parameters.keys() - known.keys():
             near = difflib.get_close_matches(name, known, 1)
-            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+            hint = (
+                f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known) or 'none'}"
+            )
             yield f"parameters.{name}", f"is no parameter of {self.model.name}; {hint}"
         yield from self.faults_of_parameters(self.half_width)
 

@@ -130,7 +130,7 @@ def _solver_seconds(solver: Mapping, problem: Mapping, needs: Demand, outputs: f
     return seconds + evaluations * (EVALUATED["seconds"] + EVALUATED["site_seconds"] * pairs)
 
 
-TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
+TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13, "ode45": 1e-12}
 """The tolerances of a second run, by which the first is checked."""
 OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
 """The solver of tangent vectors."""

@@ -7,7 +7,7 @@ Here each is a fault with its place. All else is read as YAML 1.1 or JSON, as Sn
 import json
 import os
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +63,27 @@ def read(path: Path | str) -> dict:
     if faults:
         raise list_faults(faults, str(path))
     return found
+
+
+def read_entries(entries: Iterable[str]) -> dict:
+    """Return what entries "name=value" of a command line hold, each value read as a file is."""
+    found: dict = {}
+    faults = []
+    for entry in entries:
+        name, _, text = entry.partition("=")
+        value, wrong = parse(text.strip("'\""))  # quotes that a shell left
+        faults += [_of_entry(name, text) for text in wrong]
+        faults += [f"{name}: is given twice"] if name in found else []
+        found[name] = value
+    if faults:
+        raise list_faults(faults, "--config")
+    return found
+
+
+def _of_entry(name: str, text: str) -> str:
+    """Return a fault of the value of an entry behind the whole path of its key."""
+    place, _, what = text.removeprefix("line 1: ").rpartition(": ")
+    return f"{name}.{place}: {what}" if place else f"{name}: {what}"
 
 
 def parse(text: str) -> tuple[Any, list[str]]:

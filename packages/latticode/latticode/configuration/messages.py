@@ -60,14 +60,20 @@ def in_words(
     root: type[BaseModel] = Configuration,
 ) -> ConfigurationError:
     """Return the error that lists every fault of `what`, which stands at `place` in a `root`."""
+    return list_faults(lines_of(error, place, root), what)
+
+
+def lines_of(
+    error: ValidationError, place: tuple = (), root: type[BaseModel] = Configuration
+) -> list[str]:
+    """Return each fault in words, behind its path from `place` on, where all stands in a `root`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
-    lines = [  # a line of a user's file, which is quoted below an error, belongs to it
+    return [  # a line of a user's file, which is quoted below an error, belongs to it
         line.removeprefix(inside)
         for fault in faults
         for line in re.split(r"\n(?! )", _describe(fault, root))
     ]
-    return list_faults(lines, what)
 
 
 def _describe(fault: dict, root: type[BaseModel]) -> str:

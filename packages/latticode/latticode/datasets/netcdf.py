@@ -19,6 +19,7 @@ import netCDF4
 import numpy as np
 
 from . import DatasetError, complete_or_absent, not_written
+from .csv_tables import write_csv
 from .registry import WAYS, complete, describe
 
 MARK = b"\nSHA-256 of all bytes before this line: "
@@ -87,7 +88,9 @@ def _attributes(name: str, variable: Variable) -> dict[str, Any]:
 
 
 def save(path: str | Path, dataset) -> None:
-    """Write an xarray.Dataset as `write` does."""
+    """Write an xarray.Dataset as `write` does, or as a table where the path ends in .csv."""
+    if str(path).endswith(".csv"):
+        return write_csv(path, dataset)
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
     for name, variable in stated.variables.items():
         about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}

@@ -180,6 +180,8 @@ class Model:
 
     def _rates_of(self, returned: Any) -> tuple[Node, ...]:
         """Return the rates of all rows from what `i_dt` or `d2_dt2` returned."""
+        if returned is None:
+            raise ModelError(f"{self.name} returns nothing: its function needs a return")
         found = returned if isinstance(returned, tuple | list) else (returned,)
         found = [Value.of(one) for one in found]
         if len(found) != len(self.fields):
@@ -306,6 +308,9 @@ class _Parameters:
             raise ModelError(f"there is no parameter {name!r}{hint}")
         return Value(node("parameter", name, 0))
 
+    def __getitem__(self, name: Any):
+        raise ModelError(f"write p.{name} for the parameter {name!r}")
+
 
 @cache
 def _of_json(text: str) -> Model:
@@ -332,6 +337,8 @@ def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
 
     Raises ModelError with the first that is no valid name, and why.
     """
+    if not isinstance(given, Iterable):
+        raise ModelError(f"{model}: {kind} is {given!r}; give names, such as ('u',)")
     found = tuple(given)
     for place, name in enumerate(found):
         why = None

@@ -22,6 +22,12 @@ from .graph import (
 
 HIGHEST_POWER = 16
 """Whole powers up to this one are products; others are exponentials of a logarithm."""
+KNOWN = "exp", "log", "sqrt", "sin", "cos", "abs2", "conj"
+"""The functions of fields and parameters."""
+ARRAYS = (
+    "a field is its value at one site, and no array of all; neighbours are u.left, u.right and "
+    "shift(u, m), and a value for each site is a parameter"
+)
 LONGEST_SHIFT = 7
 """How far along the chain an equation may look: within the next block of a vector."""
 
@@ -45,6 +51,8 @@ class Value:
             return x
         if isinstance(x, int | float | complex | np.number) and not isinstance(x, bool):
             return Value(number(complex(x).real), number(complex(x).imag))
+        if isinstance(x, np.ndarray):
+            raise ModelError(ARRAYS)
         raise ModelError(f"{type(x).__name__} cannot be computed with; give numbers and parameters")
 
     @property
@@ -140,16 +148,31 @@ class Value:
         if rule is None or method != "__call__":
             if ufunc.__name__ == "absolute":
                 return abs(self)
-            raise ModelError(f"{ufunc.__name__} of a field or a parameter has no rule")
+            text = f"{ufunc.__name__} of a field or a parameter has no rule"
+            raise ModelError(f"{text}; write it with {', '.join(KNOWN)}")
         if ufunc.__name__ == "power" and isinstance(operands[0], Value):
             return Value.__pow__(*operands)
         return rule(*map(Value.of, operands))
 
     def _refuse(self, *_):
-        raise ModelError("a number, a comparison or a branch is taken from a symbol")
+        raise ModelError("a comparison or a branch is taken from a symbol")
 
-    __bool__ = __float__ = __complex__ = __int__ = __index__ = __iter__ = __len__ = _refuse
-    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = __getitem__ = _refuse
+    def _refuse_number(self, *_):
+        text = "a number is taken from a symbol; the functions of latticode take symbols"
+        raise ModelError(f"{text}: {', '.join(KNOWN)}")
+
+    def _refuse_sites(self, *_, **__):
+        raise ModelError(ARRAYS)
+
+    __bool__ = __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
+    __float__ = __complex__ = __int__ = __index__ = _refuse_number
+    __iter__ = __len__ = __getitem__ = __array__ = _refuse_sites
+
+    def __getattr__(self, name: str):
+        if name.startswith("__"):  # what Python and NumPy look for
+            raise AttributeError(name)
+        text = "a field has .real, .imag, .left and .right; d2_dt2(p, x, v) is given velocities"
+        raise ModelError(f"there is no .{name}: {text}")
 
     def __abs__(self):
         raise ModelError("abs has no rule; use abs2(u), the squared modulus")

@@ -5,6 +5,7 @@ has the rate exp(s) s', 1 / s has -s' / s^2, and so on. So it is carried along w
 if it were one more. At the beginning of each step it is computed from its argument.
 """
 
+from functools import cache
 from typing import NamedTuple
 
 from latticode.equations.graph import (
@@ -90,6 +91,20 @@ KINDS = {
 }  # fmt: skip
 """The functions that are carried along: of each the kind, and its row among those of the kind."""
 ROWS = {"turn": 2, "exp": 1, "inverse": 1, "log": 2, "sqrt": 2}
+
+
+@cache
+def has_series(rates: tuple[Node, ...]) -> bool:
+    """Return whether the functions of the fields can be carried along.
+
+    Those of a difference of neighbours cannot where the rates of these hold such functions too, as
+    in first-order equations of phases: the function would need the rates of ever farther sites.
+    """
+    try:
+        with_carried(list(rates), frozenset())
+    except ModelError:
+        return False
+    return True
 
 
 def with_carried(

@@ -3,3 +3,6 @@
 `compiled` makes them, `cache` keeps them on disk, and `sources` names them by their text. `simd`
 has vectors of eight doubles; `inside_numba` is all that uses private parts of numba.
 """
+
+DISABLED = "NUMBA_DISABLE_JIT is set, and kernels cannot run uncompiled: unset it"
+"""What is said where numba is told to compile nothing."""

@@ -25,7 +25,11 @@ from pathlib import Path
 
 import numba
 
+from . import DISABLED
 from .cache import folder_of, kept_in
+
+if numba.config.DISABLE_JIT:
+    raise RuntimeError(DISABLED)
 
 TESTED = tuple(f"0.{minor}" for minor in range(61, 69))
 """Versions of numba whose private parts are those that `inside_numba` uses."""
@@ -80,9 +84,6 @@ def inlined_by_llvm(function: Callable) -> Callable:
 
 
 def _compiled(function: Callable, root: Path | None = None, **options) -> Callable:
-    if numba.config.DISABLE_JIT:
-        function.py_func = function  # by which name a compiled function has it too
-        return function
     if not root:
         function.__qualname__ += f"_{secrets.token_hex(8)}"
     return make_kernel(function, root, **options)

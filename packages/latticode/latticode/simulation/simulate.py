@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.integrators import DONE, FAULTS, Outcome
+from latticode.integrators import DONE, FAULTS, NOT_FINITE, Outcome
 from latticode.measures.difference import norm_difference
 
 from .feasibility import find_fault
@@ -18,6 +18,13 @@ from .systems import integration_of
 
 FINEST, REFINEMENT = 1e-15, 1e-2
 """The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
+
+
+SINGULAR = (
+    ": a divisor, or the argument of a logarithm, a root or a power, is zero or negative at some"
+    " site"
+)
+"""Why a state that was finite at the start is so no longer."""
 
 
 class IntegrationError(RuntimeError):
@@ -100,7 +107,9 @@ def integrate(
     work = method.room_for(system, y)
     outcome = call(method.run, system, y, times, controls, work, record)
     if outcome.status != DONE:
-        raise _stopped(problem, model.slow(problem, outcome.time), FAULTS[outcome.status])
+        at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
+        why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
+        raise _stopped(problem, model.slow(problem, outcome.time), why)
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
         if not np.isfinite(values).all():
             raise _stopped(problem, problem.end_time, "the state, its norms or its energy overflow")

@@ -59,6 +59,8 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
             "not a number or a list of one for each",
         ),
         ("initial: {0: [1]}, parameters: {gamma: .inf}", "gamma: is inf, which is not finite"),
+        ("initial: [0, 0, 1, 0, 0]", "{n: [a[n + M]] for n in range(-M, M + 1)}"),
+        ("initial: {0: 1}", "site 0 has 1; give a list of a value for each field"),
         ("initial: {0: [1, 2]}", "site 0 has 2 values; give 1, [u]"),
         ("initial: {0: [1]}, omega: 1", "omega: is not a known key; known are model, parameters"),
         ("initial: {0: [1]}, half_width: 2, parameters: {gamma: [1, 2]}", "2 values for 5 sites"),
@@ -79,7 +81,15 @@ def test_faults_of_a_case_are_told_by_key(configured, keys, message):
 @pytest.mark.parametrize(
     ("statement", "message"),
     [
-        ("import numpy; return numpy.tanh(u)", "tanh of a field or a parameter has no rule"),
+        ("import numpy; return numpy.tanh(u)", "tanh of a field or a parameter has no rule; write"),
+        ("import numpy; return numpy.angle(u)", "a field is its value at one site"),
+        ("import numpy; return numpy.roll(u, 1)", "neighbours are u.left, u.right"),
+        ("import numpy; return numpy.arange(5) * u", "a value for each site is a parameter"),
+        ("return u[1] - u", "a field is its value at one site"),
+        ("import math; return math.exp(abs2(u)) * u", "the functions of latticode take symbols"),
+        ("return p['gamma'] * u", "write p.gamma"),
+        ("return u - u.dt", "there is no .dt: a field has .real"),
+        ("u * 2", "returns nothing"),
         ("return u if p.gamma > 0 else 2 * u", "a comparison or a branch is taken from a symbol"),
         ("return abs(u) * u", "abs has no rule; use abs2(u)"),
         ("import numpy; return numpy.abs(u) * u", "abs has no rule; use abs2(u)"),
@@ -116,6 +126,7 @@ def case(**keys):
         ("", {}, "'' in fields is no name in Python"),
         ("u, v", {}, "write fields = ('u', 'v')"),
         ((), {}, "fields is empty"),
+        (2, {}, "fields is 2; give names"),
     ],
 )
 def test_names_that_cannot_stand_in_equations_are_refused(fields, parameters, message):
