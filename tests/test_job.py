@@ -79,46 +79,6 @@ def test_a_log_on_a_full_disk_hides_no_message(tmp_path):
     assert job.returncode == 1 and screen == "failed: a.nc is damaged\n"
 
 
-CRASH = """
-import os, signal, sys, threading
-from typing import NamedTuple
-import numba
-
-class Outcome(NamedTuple):
-    value: float
-
-@numba.njit(nogil=True)
-def run(flag, total):
-    total[0] = 0.0
-    while flag[0] == 0:  # read again every time: for LLVM, the other array may be the same
-        total[0] += 1.0
-    return Outcome(total[0])
-
-import numpy as np
-from latticode.simulation.interrupts import interruptible
-flag, total = np.zeros(1), np.zeros(1)
-run(np.ones(1), total)
-signal.signal(signal.SIGINT, signal.default_int_handler)
-
-def press():
-    os.kill(os.getpid(), signal.SIGINT)
-    flag[0] = 1.0
-
-threading.Timer(0.1, press).start()
-interruptible(lambda stop: run(flag, total))
-"""
-
-
-def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple():
-    """It kills Python if called as it is: numba makes the tuple by a call of Python, which hears an
-    interrupt, and does not look whether the call worked. In a thread of its own, as all runs are, a
-    kernel returns in peace.
-    """
-    env = {**os.environ, "PYTHONPATH": python_path()}
-    done = subprocess.run([sys.executable, "-c", CRASH], capture_output=True, text=True, env=env)
-    assert done.returncode == -signal.SIGINT, done.stderr
-
-
 class Named(dict):
     """Names with values, as Snakemake hands them to a script."""
 

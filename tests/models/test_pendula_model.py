@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from latticode.equations.ends import DIRICHLET
-from latticode.kernels.compiled import kernel
-from latticode.kernels.simd import LANES, load, store
 from latticode.simulation.lattice import Reduction
 from latticode.simulation.simulate import simulate
 from on_pendula import TIGHT, final, pendula, slope, start, undriven_energy
@@ -14,36 +12,10 @@ from pendula.models.pendula import (
     at_time,
     frequency,
     make_pendula,
-    sine_and_cosine,
 )
 from scipy.integrate import solve_ivp
 
 BOUNDARIES = ("dirichlet", "free", "periodic")
-
-
-@kernel
-def turn_numbers(x, s, c):
-    for i in range(x.size):
-        s[i], c[i] = sine_and_cosine(x[i])
-
-
-@kernel
-def turn_vectors(x, s, c):
-    for i in range(0, x.size, LANES):
-        sine, cosine = sine_and_cosine(load(x, i))
-        store(s, i, sine)
-        store(c, i, cosine)
-
-
-@pytest.mark.parametrize("reach", [0.1, 10.0, 3000.0])
-def test_sine_and_cosine_of_numbers_and_vectors(reach):
-    x = np.concatenate([np.linspace(-reach, reach, 4000), np.arange(-12, 12) * (np.pi / 4)])
-    (s, c), (vs, vc) = np.empty((2, x.size)), np.empty((2, x.size))
-    turn_numbers(x, s, c)
-    turn_vectors(x, vs, vc)
-    assert np.array_equal(s, vs) and np.array_equal(c, vc)
-    np.testing.assert_allclose(s, np.sin(x), rtol=0, atol=3e-16)
-    np.testing.assert_allclose(c, np.cos(x), rtol=0, atol=3e-16)
 
 
 @pytest.mark.parametrize("t", [0.0, 3.7, 1234.5, 98765.4321, 1.28e6 + 1 / 3])

@@ -1,0 +1,114 @@
+"""The record of the code behind a function: which files it has, and what of them counts."""
+
+import ast
+import io
+import tokenize
+
+import pytest
+from latticode.kernels import sources
+
+MODULES = sorted((sources.ROOTS["latticode"] / "latticode").rglob("*.py"))
+
+
+def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
+    names = ("__init__.py", "section.py", "compute.py", "section.html.j2", "shared.css")
+    init, section, compute, template, style = paths = [tmp_path / name for name in names]
+    for path in paths:
+        path.touch()
+    assert sources.attached_to([init, section]) == [template, style]
+    assert sources.attached_to([init, compute]) == [style]
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        *("import mine.drawing.style", "from mine.drawing import style"),
+        *("from mine.drawing.style import styled", "from ..drawing import style"),
+        *("from ..drawing.style import styled", "def later():\n    from ..drawing import style"),
+    ],
+)
+def test_a_record_follows_every_kind_of_import(tmp_path, monkeypatch, statement):
+    monkeypatch.setitem(sources.ROOTS, "mine", tmp_path)
+    here, room = tmp_path / "mine/studies/draw.py", tmp_path / "mine/drawing"
+    room.mkdir(parents=True)
+    here.parent.mkdir()
+    for path in (room / "__init__.py", room / "style.py", room / "other.py"):
+        path.touch()
+    here.write_text(statement)
+    assert sources.modules_of(here) == [room / "__init__.py", room / "style.py", here]
+
+
+def imports_in(tree) -> list[str]:
+    kinds = ast.Import, ast.ImportFrom
+    return sorted(ast.dump(node) for node in sources._statements(tree) if isinstance(node, kinds))
+
+
+def test_a_record_has_the_imports_that_python_finds():
+    """Not everything is parsed, so that what is left out must hold no import."""
+    sizes = []
+    for module in MODULES:
+        text = module.read_text(encoding="utf-8")
+        trees = sources._tree_of(text), ast.parse(text)
+        assert imports_in(trees[0]) == imports_in(trees[1]), module
+        sizes.append([sum(1 for _ in sources._statements(tree)) for tree in trees])
+    read, whole = map(sum, zip(*sizes, strict=True))
+    assert len(sizes) > 70 and read < 0.2 * whole
+
+
+LAYOUT = {tokenize.NL, tokenize.COMMENT, tokenize.INDENT, tokenize.DEDENT, tokenize.NEWLINE}
+
+
+def tokens_of(text: str) -> list[str]:
+    """Return what Python makes of a module, without comments, layout and statements of strings."""
+    found = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    found = [one for one in found if one.type not in LAYOUT - {tokenize.NEWLINE}]
+    ends = [True, *(one.type == tokenize.NEWLINE for one in found), True]
+    alone = [ends[i] and ends[i + 2] for i in range(len(found))]
+    pairs = zip(found, alone, strict=True)
+    kept = [one for one, only in pairs if not (only and one.type == tokenize.STRING)]
+    return [one.string for one in kept if one.type != tokenize.NEWLINE]
+
+
+def test_what_is_left_out_of_the_hash_of_code_is_no_code():
+    for module in MODULES:
+        text = module.read_text(encoding="utf-8")
+        assert tokens_of(sources.bare(text)) == tokens_of(text), module
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ('def f():\n    """Say."""\n    return 1\n', True),
+        ("def f():\n    # why\n\n    return 1  # one\n", True),
+        ("def f():\n    return 2\n", False),
+        ("def f():\n    return '# 1'\n", False),
+        ('def f():\n    return """1"""\n', False),
+        ("def f():\n  return 1\n", False),
+    ],
+)
+def test_comments_and_docstrings_do_not_count(text, same):
+    assert (sources.bare(text) == sources.bare("def f():\n    return 1\n")) is same
+
+
+def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monkeypatch):
+    monkeypatch.setitem(sources.ROOTS, "mine", tmp_path)
+    page = tmp_path / "mine/page"
+    page.mkdir(parents=True)
+    (tmp_path / "mine/other.py").write_text("X = 1\n")
+    (page / "page.j2").write_text("words")
+    (page / "__init__.py").write_text("from mine import other\n")
+
+    def digest():
+        for one in (sources.digest_of_code, sources._digest_of_bare, sources.digest_of,
+                    sources._versions, sources._imports_of, sources._beside):  # fmt: skip
+            one.cache_clear()
+        return sources.digest_of_code(page / "__init__.py")
+
+    found = [digest()]
+    (tmp_path / "mine/other.py").write_text("X = 2\n")
+    found.append(digest())
+    (page / "page.j2").write_text("other words")
+    found.append(digest())
+    monkeypatch.setattr(sources, "version", lambda name: "0")
+    found.append(digest())
+    assert len(set(found)) == 4
