@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from helpers import ROOT
-from latticode.configuration.cost import EXPLICIT, Cost, find_excess, refusal, steps_of
+from latticode.configuration.cost import EXPLICIT, find_excess, steps_of
 from latticode.configuration.files import ConfigurationError
 from latticode.datasets.netcdf import read
 from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs, with_checks
@@ -15,7 +15,6 @@ SPEED = ROOT / "tests/baseline/speed"
 FACTOR = 3.0
 """An estimate is wrong by less: machines differ as much."""
 SHORT_STEPS = {"name": "crank_nicolson", "step": 1e-9, "tolerance": 1e-13, "iterations": 50}
-MORE = "more than a million"
 LIMITS = {"hours": 1.0, "gigabytes": 8.0}
 
 
@@ -127,24 +126,3 @@ def test_checks_take_a_second_run_and_a_tangent_vector_and_auto_several_runs():
     assert auto == pytest.approx(sum(runs))
     pendula = problem(model="pendula", mu=0.1)
     assert estimate(pendula).seconds < with_checks(pendula).seconds
-
-
-@pytest.mark.parametrize(
-    ("cost", "words"),
-    [
-        (Cost(0.3, 1e3), "less than a second and 1 MB of memory"),
-        (Cost(90, 2.1e9), "about 2 minutes and 2.1 GB of memory"),
-        (Cost(5e4, 1.5e13), "about 14 hours and 15 TB of memory"),
-        (Cost(4e5, 0), "about 5 days and 1 MB of memory"),
-        (Cost(1e30, float("inf")), f"{MORE} years and {MORE} terabytes of memory"),
-        (Cost(float("inf"), 1e30), f"{MORE} years and {MORE} terabytes of memory"),
-    ],
-)
-def test_costs_are_said_in_words(cost, words):
-    assert str(cost) == words
-
-
-def test_a_little_too_much_memory_is_not_printed_as_what_is_allowed():
-    said = refusal(Cost(1.0, 8.01e9), LIMITS)
-    assert "a little over 8 GB of memory, and limits.gigabytes allows 8 GB;" in said
-    assert "about 1 second and 9 GB of memory" in refusal(Cost(1.0, 9e9), LIMITS)

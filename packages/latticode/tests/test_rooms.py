@@ -1,13 +1,9 @@
 """The library is built as its README says: who may import whom, and how large it may be."""
 
-from collections.abc import Iterator
-from functools import cache
-from pathlib import Path
-
 from latticode.kernels import sources
+from rooms import Rooms
 
 LIBRARY = sources.ROOTS["latticode"] / "latticode"
-MODULES = sorted(path.relative_to(LIBRARY) for path in LIBRARY.rglob("*.py"))
 STOREYS = (
     ("notebook",),
     ("drawing", "checks"),
@@ -28,34 +24,13 @@ FOR_ALL = [
 MOST_ENTRIES = 13
 
 
-def room_of(module: Path) -> str:
-    return module.parts[0].removesuffix(".py")
-
-
-@cache
-def imports_of(module: Path) -> list[Path]:
-    files = sources._imports_of(LIBRARY / module)
-    return [file.relative_to(LIBRARY) for file in files if file.is_relative_to(LIBRARY)]
-
-
-def storey_of(room: str) -> int:
-    return next(i for i, rooms in enumerate(STOREYS) if room in rooms)
-
-
-def imports_between_rooms() -> Iterator[tuple[str, str, str]]:
-    """Yield the room that imports, the room that it imports from, and the import in words."""
-    for module in MODULES:
-        for imported in imports_of(module):
-            rooms = room_of(module), room_of(imported)
-            if "__init__" not in rooms and rooms[0] != rooms[1]:
-                yield *rooms, f"{module} imports {imported}"
+ROOMS = Rooms(LIBRARY, STOREYS)
+MODULES = ROOMS.modules
 
 
 def test_an_import_points_down():
-    found = list(imports_between_rooms())
-    assert len(found) > 60
-    wrong = [told for room, other, told in found if storey_of(other) < storey_of(room)]
-    assert [told for told in wrong if not told.endswith(tuple(FOR_ALL))] == []
+    assert len(ROOMS.between()) > 60
+    assert [pair for pair in ROOMS.upwards() if pair[1] not in FOR_ALL] == []
 
 
 def test_nothing_is_imported_from_a_program_that_uses_the_library():
@@ -78,5 +53,4 @@ def test_a_folder_can_be_seen_at_one_glance():
 
 def test_the_library_stays_small():
     """More than that nobody keeps in mind: merge what is read together before adding a part."""
-    lines = sum(len((LIBRARY / module).read_text().splitlines()) for module in MODULES)
-    assert lines <= 13_500
+    assert ROOMS.lines(MODULES) <= 13_500

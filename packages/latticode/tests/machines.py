@@ -3,7 +3,7 @@
 NumPy, OpenBLAS, numba and the C library take the fastest code that they hold for a processor, and
 fused or wider operations round in another order.
 
-    python tests/machines.py generic snakemake --cores 1
+    python packages/latticode/tests/machines.py generic snakemake --cores 1
 
 runs a command on such a machine; without arguments it prints those that can be played here, each
 after the number of its cores.
