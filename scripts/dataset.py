@@ -1,15 +1,22 @@
 """A Snakemake job that computes datasets: its function is given what it takes, and returns them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 from inspect import isgenerator, signature
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pendula.names  # noqa: F401, so that datasets have the paper's words
 from job import arguments, called, datasets_in, name_of, run, step
-from latticode.datasets.netcdf import read, save, write
+from latticode.datasets.netcdf import Variable, read, save, write
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
+from latticode.datasets.trajectories import Contents
+from latticode.simulation.runs import Make, joined, run_part
 from pendula.problem import Problem, by_name
+
+STEPS = 20
+"""How often the log of a job that makes many runs says how many are done."""
 
 
 def make(snakemake) -> None:
@@ -18,6 +25,9 @@ def make(snakemake) -> None:
     This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. Each
     dataset states what the function was given, where the function does not state it already. A
     function that takes `step` is told by it how to say how far it is.
+
+    A function that takes `run` makes many runs by it. They are all made here, or read from the
+    input `parts`. A job with the parameter `part`, such as [2, 8], makes and writes this part.
     """
     (function,) = called(snakemake)
     files = {name: datasets_in(value) for name, value in arguments(snakemake).items()}
@@ -26,7 +36,12 @@ def make(snakemake) -> None:
     names = [name_of(path) for paths in files.values() for path in paths]
     if "step" in signature(function).parameters:
         given.setdefault("step", step)
-    made = function(**given)
+    if "run" in signature(function).parameters:
+        given["run"] = partial(run_or_read, snakemake)
+    try:
+        made = function(**given)
+    except PartIsMade as part:
+        return write(snakemake.output[0], *part_contents(*part.args))
     for path, contents in zip(snakemake.output, made if isgenerator(made) else [made], strict=True):
         told = of_output(path, plain)
         if isinstance(contents, tuple):
@@ -36,6 +51,40 @@ def make(snakemake) -> None:
         else:
             said = stated(told, map(str, contents.variables), names, function)
             save(path, contents.assign_attrs({**contents.attrs, **(said | own(contents.attrs))}))
+
+
+class PartIsMade(BaseException):
+    """A function has made the part of its runs that its job is about, and need not go on."""
+
+
+def run_or_read(snakemake, problems: Sequence[Problem], make: Make) -> dict[str, np.ndarray]:
+    """Return what is kept of many runs, and end the function if only a part of them is made."""
+
+    def tell(done: int, count: int) -> None:
+        if done % max(1, count // STEPS) == 0:
+            step(f"{done} of {count} runs done")
+
+    if files := snakemake.input.get("parts"):
+        return joined(map(arrays_of, files))
+    if part := snakemake.params.get("part"):
+        raise PartIsMade(run_part(problems, make, *part, tell))
+    return run_part(problems, make, progress=tell)
+
+
+def part_contents(found: Mapping[str, np.ndarray]) -> Contents:
+    """Return the contents of the dataset of a part."""
+    variables = {
+        name: Variable(
+            ("run", *(f"{name}_{axis}" for axis in range(1, values.ndim))), values, "of each run"
+        )
+        for name, values in found.items()
+    }
+    return variables, {"title": "A part of many runs"}
+
+
+def arrays_of(path: str) -> dict[str, np.ndarray]:
+    """Return what the dataset of a part holds."""
+    return {str(name): one.values for name, one in read(path).data_vars.items()}
 
 
 def own(attributes: Mapping[str, Any]) -> dict[str, Any]:

@@ -95,8 +95,9 @@ class _Tee:
             stream.flush()
 
 
-NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed")
-"""What is for Snakemake alone, as hashes and the kernels that a job waits for, or holds others."""
+NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed", "parts", "part")
+"""What is for Snakemake or a script alone, as hashes and the kernels that a job waits for, or
+holds others."""
 
 
 def arguments(snakemake) -> dict[str, Any]:

@@ -57,3 +57,21 @@ rule figure:
         "Drawing {output[0]}"
     script:
         "../../scripts/figure.py"
+
+
+# Many runs are made in parts if --config chunks= asks for it: by jobs that fill the cores here and the nodes
+# of a cluster. A part that is there is not made again; the number of parts changes no bit.
+
+
+use rule dataset as part with:
+    "A part of the runs of a dataset: results/{whole}.parts/{part}-of-{parts}.nc"
+    input:
+        kernels=lambda wildcards: given_to(wildcards.whole)[1],
+    pathvars:
+        made="{whole}.parts/{part,[0-9]+}-of-{parts,[0-9]+}",
+    resources:
+        **asked(cost_of_part),
+    params:
+        call=lambda wildcards: given_to(wildcards.whole)[0]["call"],
+        given=lambda wildcards: given_to(wildcards.whole)[0],
+        part=lambda wildcards: [int(wildcards.part), int(wildcards.parts)],

@@ -31,6 +31,7 @@ use rule dataset as measure_sensitivity with:
     "Share of runs that spread, by the size of a random change of the data"
     input:
         kernels=kernels("taylor"),
+        parts=parts_of("{size}breathers/sensitivity"),
     pathvars:
         made="<size>breathers/sensitivity",
     params:
@@ -45,6 +46,7 @@ use rule dataset as map_fates with:
     "What becomes of data on one pair: they disperse, stay, move or spread"
     input:
         kernels=kernels("taylor"),
+        parts=parts_of("{size}breathers/fates"),
     pathvars:
         made="<size>breathers/fates",
     params:

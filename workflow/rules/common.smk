@@ -7,6 +7,7 @@ import os
 import sys
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 from snakemake.logging import logger
 
@@ -45,6 +46,7 @@ from requests_of_slurm import never_started, partitions_of_slurm
 from benchmarks.problems import REGIMES
 from pendula import __version__
 from pendula.archive.contents import code_files
+from latticode.configuration.cost import Cost
 from latticode.configuration.files import ConfigurationError, read_entries
 from latticode.configuration.values import Steps
 from pendula.configuration.files import gather
@@ -262,18 +264,63 @@ def some_own_files(wildcards):
     ]
 
 
-# --- Parts of surveys ------------------------------------------------------------------------------
+# --- Parts of many runs ----------------------------------------------------------------------------
 
 
-def parts_of(survey):
-    """Return the files of all parts of a survey, as many as it asks for or else as there are cores."""
-    count = chunks_of(survey)
-    return datasets(f"surveys/{survey}.parts", *(f"{part}-of-{count}" for part in range(count)))
+def parts_of(whole):
+    """Return a function of the wildcards that names the files of all parts of a dataset.
+
+    They are none if all of its runs are made in one job.
+    """
+
+    def files(wildcards):
+        name = whole.format(**dict(wildcards.items()))
+        count = chunks_of(name)
+        return [
+            f"<results>/{name}.parts/{n}-of-{count}.nc" for n in range(count if count > 1 else 0)
+        ]
+
+    return files
 
 
-def chunks_of(survey):
-    """Return the number of parts of a survey: of the command line, of the survey, or of the cores."""
-    asked_for = OPTIONS["chunks"] or SETTINGS.surveys[survey].chunks
+def chunks_of(whole):
+    """Return the number of parts of a dataset: of the command line, or of those that are there.
+
+    A survey of one's own may ask for a number, and otherwise has as many parts as there are cores.
+    """
+    folder, _, name = whole.partition("/")
+    own = SETTINGS.surveys[name] if folder == "surveys" else None
+    there = sorted(Path(f"results/{whole}.parts").glob("0-of-*.nc"))
     cores = workflow.resource_settings.cores
-    runs = math.prod(SETTINGS.surveys[survey].plan.shape)
-    return min(runs, int(asked_for or (cores if isinstance(cores, int) else 1)))
+    if asked_for := OPTIONS["chunks"] or (own and own.chunks):
+        count = int(asked_for)
+    elif there:
+        count = int(there[0].stem.removeprefix("0-of-"))
+    else:
+        count = cores if own and isinstance(cores, int) else 1
+    return min(count, math.prod(own.plan.shape)) if own else count
+
+
+@cache
+def given_to(whole):
+    """Return what the job of a dataset is given, and the kernels that it waits for."""
+    path = f"results/{whole}.nc"
+    maker = next(one for one in workflow.rules if one.name != "part" and one.is_producer(path))
+    wildcards = SimpleNamespace(**maker.get_wildcards(path))
+
+    def of_job(value):
+        if callable(value):
+            return value(wildcards)
+        return value.format(**vars(wildcards)) if isinstance(value, str) else value
+
+    kernels, params = (dict(one.items()) for one in (maker.input, maker.params))
+    given = {name: of_job(value) for name, value in params.items()}
+    return {**given, **given.pop("given", {})}, of_job(kernels.get("kernels", []))
+
+
+def cost_of_part(wildcards):
+    """Return what a part of a dataset takes, by an estimate or, of a longer study, an hour."""
+    folder, _, name = wildcards.whole.partition("/")
+    if folder == "surveys":
+        return SETTINGS.cost_of_survey(name, int(wildcards.parts))
+    return Cost(3600 / SPARE if folder == "long" else 0.0, 0.0)

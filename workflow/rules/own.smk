@@ -88,34 +88,17 @@ use rule job as own with:
         surveys={survey: SETTINGS.surveys[survey].case for survey in OWN_SURVEYS},
 
 
-# A survey is made in parts, which fill the cores here and the nodes of a cluster. A part that is there is
-# not made again; the number of parts changes no bit.
-
-
-use rule dataset as survey_part with:
-    "A part of a survey of your own: results/surveys/{survey}.parts/{part}-of-{parts}.nc"
-    input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.surveyed_problem(wildcards.survey)),
-    pathvars:
-        made="surveys/<own_survey>.parts/{part,[0-9]+}-of-{parts,[0-9]+}",
-    resources:
-        **asked(lambda wildcards: SETTINGS.cost_of_survey(wildcards.survey, int(wildcards.parts))),
-    params:
-        call=function("pendula.own_cases.surveys.measure_part"),
-        problem=lambda wildcards: SETTINGS.surveyed_problem(wildcards.survey),
-        survey=lambda wildcards: SETTINGS.plain_survey(wildcards.survey),
-        part=lambda wildcards: int(wildcards.part),
-        parts=lambda wildcards: int(wildcards.parts),
-
-
 use rule dataset as survey with:
     "A survey of your own: results/surveys/{survey}.nc"
     input:
-        made=lambda wildcards: parts_of(wildcards.survey),
+        kernels=lambda wildcards: kernels_of(SETTINGS.surveyed_problem(wildcards.survey)),
+        parts=parts_of("surveys/{survey}"),
     pathvars:
         made="surveys/<own_survey>",
+    resources:
+        **asked(lambda wildcards: SETTINGS.cost_of_survey(wildcards.survey)),
     params:
-        call=function("pendula.own_cases.surveys.join_parts"),
+        call=function("pendula.own_cases.surveys.make_survey"),
         name="{survey}",
         problem=lambda wildcards: SETTINGS.surveyed_problem(wildcards.survey),
         survey=lambda wildcards: SETTINGS.plain_survey(wildcards.survey),

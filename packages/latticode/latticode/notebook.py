@@ -10,6 +10,7 @@ asked for; DatasetError, where a file cannot be read or written.
 """
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 
 import xarray as xr
 from pydantic import ValidationError
@@ -27,6 +28,7 @@ from latticode.datasets.trajectories import final_state, sweep_contents, traject
 from latticode.simulation import simulate as simulation
 from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
+from latticode.simulation.runs import run_all
 
 __all__ = [
     "Case",
@@ -233,7 +235,7 @@ def survey(
     keep: "max_l2", "max_linf", "mean_l2", "mean_linf" over the `window` of time, "final_l2",
         "final_linf" of each field; "exponent" of time with which the power grows in the window;
         "divergence", the time at which a run by another method differs; or a function of the
-        trajectory of a run, kept under its own name.
+        problem of a run and its trajectory, kept under its own name: a number or an array.
     cores: how many runs are made side by side; it changes no bit.
 
     Returns a dataset whose dimensions are the axes, "member", and "component" for what each field
@@ -263,7 +265,7 @@ def survey(
     _announce(settings.cost_of_survey(name))
     plan = settings.surveys[name].plan._replace(keep=tuple(kept))
     problem = case.kind.of(settings.surveyed_problem(name))
-    found = survey_runs.run_survey(problem, plan, cores)
+    found = survey_runs.run_survey(problem, plan, partial(run_all, cores=cores))
     return as_xarray(*survey_contents(name, problem, plan, found))
 
 

@@ -1,23 +1,23 @@
-"""Surveys of a user's cases as jobs: their parts, what all of them hold, and a figure."""
+"""Surveys of a user's cases as jobs, and a figure."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from latticode.datasets.netcdf import Variable
 from latticode.datasets.surveys import survey_contents
 from latticode.datasets.trajectories import Contents
 from latticode.drawing import style
 from latticode.measures.confidence import mean_limits
+from latticode.simulation.runs import Run
 from latticode.simulation.survey import Members, Survey
-from latticode.simulation.survey_runs import joined, run_part
+from latticode.simulation.survey_runs import run_survey
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.problem import Problem
 
-MOST_PANELS, OFTEN = 4, 1000
+MOST_PANELS = 4
 WORDS = {
     "line": "against {x}",
     "map": "over {x} and {y}",
@@ -31,31 +31,10 @@ def plan_of(survey: Mapping[str, Any]) -> Survey:
     return Survey(survey["axes"], tuple(survey["keep"]), survey["window"], members)
 
 
-def measure_part(
-    problem: Problem, survey: Mapping[str, Any], part: int, parts: int, step: Callable
-) -> Contents:
-    """Return one part of a survey: what is kept of each of its runs."""
-
-    def tell(done: int, count: int) -> None:
-        if done % OFTEN == 0:
-            step(f"{done} of {count} runs done")
-
-    found = run_part(problem, plan_of(survey), part, parts, tell)
-    variables = {
-        name: Variable(("run", "component")[: values.ndim], values, f"{name} of each run")
-        for name, values in found.items()
-    }
-    return variables, {"title": f"Part {part} of {parts} of a survey"}
-
-
-def join_parts(
-    name: str, problem: Problem, survey: Mapping[str, Any], made: Mapping[str, xr.Dataset]
-) -> Contents:
-    """Return the dataset of a survey from its parts, by their names "0-of-4" and so on."""
-    ordered = sorted(made, key=lambda part: int(part.partition("-")[0]))
-    values = [{kept: made[part][kept].values for kept in made[part].data_vars} for part in ordered]
+def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run) -> Contents:
+    """Return the dataset of a survey."""
     plan = plan_of(survey)
-    return survey_contents(name, problem, plan, joined(plan, values))
+    return survey_contents(name, problem, plan, run_survey(problem, plan, run))
 
 
 # --- The figure -----------------------------------------------------------------------------------

@@ -82,20 +82,21 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 )  # fmt: skip
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
-    assert fates.fates_of([problem]).tolist() == [expected]
-    assert sensitivity.has_spread(problem, simulate(problem)) is (expected == SPREADS)
+    assert fates.keep_fate(problem) == {"fate": expected}
+    share = sensitivity.shares(problem, [0.0], 2, 1).value
+    assert share.tolist() == [float(expected == SPREADS)]
 
 
 def test_a_map_of_phases_turns_b_alone():
     """At phase 0 the data are real: those of the other map."""
     problem = pair_problem(-4.0, 1.0, 1.0, 20.0)
     amplitudes, phases = np.array([1.0, 3.0, 4.0]), np.pi * np.array([-0.5, 0.0, 0.5])
-    found = fates.map_of_phases(problem, amplitudes, phases, 0.2)
-    assert found.shape == (3, 3) and len(set(found.ravel().tolist())) > 1
+    _, found = fates.run_maps({-4.0: problem}, amplitudes[:1], amplitudes, phases, 0.2)
+    assert found.shape == (1, 3, 3) and len(set(found.ravel().tolist())) > 1
     for row, a in enumerate(amplitudes):
         for column, b in enumerate((-0.2j * a, 0.2 * a, 0.2j * a)):
-            alone = fates.fates_of([fates.on_one_pair(problem, a, b)])
-            assert found[row, column] == alone[0]
+            alone = fates.keep_fate(problem.changed(initial=[[a], [b]]))
+            assert found[0, row, column] == alone["fate"]
 
 
 # --- Shares of an area, and maps beside a finer one -----------------------------------------------

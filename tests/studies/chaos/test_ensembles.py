@@ -1,30 +1,38 @@
 """Ensembles: members are runs with draws of their own."""
 
 import numpy as np
+from latticode.simulation.ensembles import draw_members
+from latticode.simulation.runs import run_all
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import pair_l2, pair_linf
-from pendula.studies.chaos.ensembles import run_members, sweep_members
+from pendula.studies.chaos.ensembles import draw_swept, run_ensembles
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
+WINDOWS = [(0.5, 1.0)]
 PROBLEM = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.5, solver=SOLVER)
 
 
 def test_without_perturbation_every_member_is_the_run_itself():
     run = simulate(PROBLEM)
-    found = run_members(PROBLEM, 0.0, 2, 0, "even")
-    np.testing.assert_array_equal(found, [[pair_l2(run)] * 2, [pair_linf(run)] * 2])
+    found, _ = run_ensembles(draw_members(PROBLEM, 0.0, 2, 0), [], WINDOWS, run_all)
+    np.testing.assert_array_equal(found["l2"], [pair_l2(run)] * 2)
+    np.testing.assert_array_equal(found["linf"], [pair_linf(run)] * 2)
 
 
 def test_members_differ_by_seed_and_kind_and_are_the_same_again():
     drawn = [(5, "even"), (5, "even"), (6, "even"), (5, "uneven")]
-    one, again, *others = (run_members(PROBLEM, 1e-3, 2, *each)[0] for each in drawn)
-    np.testing.assert_array_equal(one, again)
-    assert len(np.unique([one[:, 2, -1], *(other[:, 2, -1] for other in others)])) == 6
+    each = [one for given in drawn for one in draw_members(PROBLEM, 1e-3, 2, *given)]
+    found = run_ensembles(each, [], WINDOWS, run_all)[0]["l2"]
+    np.testing.assert_array_equal(found[:2], found[2:4])
+    assert len(np.unique(found[2:, 2, -1])) == 6
 
 
 def test_half_widths_have_draws_of_their_own():
     long = PROBLEM.changed(end_time=1.0)  # before the ends matter
-    swept = sweep_members(long, [12, 13], [(0.5, 1.0)], 1e-3, 3, 0, "even")
-    assert swept.shape == (2, 3, 2, 3, 2, 1)
-    assert not np.allclose(swept[:, :, 0], swept[:, :, 1], rtol=1e-9)
+    drawn = draw_swept(long, [12, 13], 1e-3, 3, 0, "even")
+    _, swept = run_ensembles([PROBLEM], drawn, WINDOWS, run_all)
+    assert swept["l2"].shape == (6, 3, 2, 1) and [m.half_width for m in drawn[2:4]] == [12, 13]
+    assert not np.allclose(swept["l2"][:3], swept["l2"][3:], rtol=1e-9)
+    alone = simulate(drawn[4], energy=False)
+    np.testing.assert_array_equal(swept["l2"][4, :, 0, 0], pair_l2(alone)[:, 1:].max(axis=1))

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from latticode.simulation.problem import Problem
-from latticode.simulation.survey import CHAINS, NORMS, STATISTICS, Survey
+from latticode.simulation.survey import CHAINS, OF_FIELDS, Survey, names_of_axis
 from latticode.simulation.systems import integration_of
 
 from .netcdf import Variable
@@ -27,23 +27,27 @@ def survey_contents(
     name: str, problem: Problem, survey: Survey, values: Mapping[str, np.ndarray]
 ) -> Contents:
     """Return the contents of the dataset on a survey of `problem`."""
-    dimensions = [_plain(axis) for axis in survey.axes]
-    variables = {
-        dimension: _axis(axis, dimension, given, problem.model.fields)
-        for (axis, given), dimension in zip(survey.axes.items(), dimensions, strict=True)
-    }
+    axes = {axis: names_of_axis(axis) for axis in survey.axes}
+    dimensions = [_plain(names[0]) for names in axes.values()]
+    variables = {}
+    for (axis, names), dimension in zip(axes.items(), dimensions, strict=True):
+        given = survey.axes[axis]
+        columns = [given] if len(names) == 1 else zip(*given, strict=True)
+        for name, column in zip(names, columns, strict=True):
+            variables[_plain(name)] = _axis(name, dimension, column, problem.model.fields)
     if survey.members:
         dimensions.append("member")
         variables["member"] = Variable(("member",), np.arange(survey.members.count))
     model = integration_of(problem)
     variables["component"] = Variable(("component",), list(model.components), model.words.component)
     for kept, found in values.items():
-        fields = ("component",) if found.ndim > len(dimensions) else ()
-        units = model.words.units if fields else "1"
+        more = found.ndim - len(dimensions)
+        fields = ("component",) if kept in OF_FIELDS else tuple(f"{kept}_{n}" for n in range(more))
+        units = model.words.units if kept in OF_FIELDS else "1"
         variables[kept] = Variable((*dimensions, *fields), found, _long_name(kept), units)
     about = describe_run(name, problem, problem.solver)
-    for axis in survey.axes:
-        about.pop(axis, None)
+    for names in axes.values():
+        about = {key: value for key, value in about.items() if key not in names}
     drawn = survey.members._asdict() if survey.members else {}
     said = {f"members_{key}": value for key, value in drawn.items()}
     window = {} if survey.window is None else {"window": list(survey.window)}
@@ -72,6 +76,6 @@ def _long_name(kept: str) -> str:
     statistic, _, norm = kept.partition("_")
     if kept in CHAINS:
         return ABOUT[kept]
-    if statistic in STATISTICS and norm in NORMS:
+    if kept in OF_FIELDS:
         return ABOUT[statistic].format(norm=NAMES[norm])
     return f"what the function {kept} returns"

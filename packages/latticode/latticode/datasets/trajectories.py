@@ -1,6 +1,6 @@
 """Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from latticode.simulation.integration import Words
 from latticode.simulation.problem import Problem, name_window
 from latticode.simulation.simulate import Trajectory
-from latticode.simulation.sweep import STATISTICS, Sweep
+from latticode.simulation.sweep import STATISTICS
 from latticode.simulation.systems import integration_of
 
 from .netcdf import Variable
@@ -29,7 +29,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
         variables |= _conserved(trajectory)
     attributes = describe_run(name, problem, trajectory.solver)
     title = f"{words.measured} of {name} against time, by {trajectory.solver['name']}"
-    return variables, {"title": title, **attributes, **count_work([trajectory.outcome])}
+    return variables, {"title": title, **attributes, **count_work(trajectory.outcome[-3:])}
 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
@@ -90,7 +90,7 @@ def sweep_contents(
     problem: Problem,
     half_widths: Iterable[int],
     windows: Iterable[tuple[float, float]],
-    sweep: Sweep,
+    sweep: Mapping[str, np.ndarray],
 ) -> Contents:
     """Return the contents of the dataset on a sweep of `problem` over half-widths."""
     axes, model = ("half_width", "quantity", "statistic", "window"), integration_of(problem)
@@ -99,34 +99,16 @@ def sweep_contents(
         "quantity": Variable(("quantity",), [*model.components, "pair"]),
         "statistic": Variable(("statistic",), list(STATISTICS)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
-        "l2": _norm("l2", axes, sweep.l2, model.words),
-        "linf": _norm("linf", axes, sweep.linf, model.words),
+        "l2": _norm("l2", axes, sweep["l2"], model.words),
+        "linf": _norm("linf", axes, sweep["linf"], model.words),
     }
     attributes = describe_run(name, problem, problem.solver)
     del attributes["half_width"]
     title = f"Norms of {name} against the half-width, by {problem.solver['name']}"
-    return variables, {"title": title, **attributes, **count_work(sweep.outcomes)}
+    return variables, {"title": title, **attributes, **count_work(sweep["work"])}
 
 
-def side_by_side(arrays: Sequence[np.ndarray], axis: int) -> np.ndarray:
-    """Return arrays on chains of any lengths as one array, with NaN beyond the ends of the shorter.
-
-    `axis` is that of the sites, whose middle is site 0; the first axis of the result is new.
-    """
-    longest = max(one.shape[axis] for one in arrays)
-
-    def padded(one: np.ndarray) -> np.ndarray:
-        beyond = [(0, 0)] * one.ndim
-        beyond[axis] = ((longest - one.shape[axis]) // 2,) * 2
-        return np.pad(one, beyond, constant_values=np.nan)
-
-    return np.stack([padded(one) for one in arrays])
-
-
-def count_work(outcomes: list) -> dict[str, int]:
-    """Return the work of one run, or of many, as attributes."""
-    return {
-        "steps": sum(outcome.steps for outcome in outcomes),
-        "rejected_steps": sum(outcome.rejected for outcome in outcomes),
-        "right_hand_sides": sum(outcome.evaluations for outcome in outcomes),
-    }
+def count_work(counts: Sequence) -> dict[str, int]:
+    """Return the work of one run (3,), or of many (run, 3), as attributes."""
+    names = "steps", "rejected_steps", "right_hand_sides"
+    return dict(zip(names, np.reshape(counts, (-1, 3)).sum(axis=0).tolist(), strict=True))

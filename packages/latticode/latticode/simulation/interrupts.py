@@ -7,6 +7,7 @@ wait is interrupted, the caller raises a flag, which the kernels read at every s
 has written by then is dropped, so that nobody sees half of a result.
 
 A thread that has done a run waits for the next one: to start one takes as long as a short run.
+To hand over a run costs time too: who makes many runs hands over a function that makes them all.
 """
 
 import os
@@ -35,6 +36,7 @@ class _Worker:
 
     def _work(self) -> None:
         while task := self.runs.get():
+            _here.stop = task[1][-1]
             end = _end_of(*task)
             del task  # arrays of a run that is over
             self.ends.put(end)
@@ -48,6 +50,8 @@ def _end_of(run: Callable, arguments: tuple) -> tuple[Any, BaseException | None]
         return None, fault
 
 
+_here = threading.local()
+"""In a worker: the flag of the run that it does."""
 _idle: list[_Worker] = []
 """Workers that wait for a run. A fork has none of the threads of its parent."""
 if hasattr(os, "register_at_fork"):  # Windows has no forks
@@ -57,12 +61,18 @@ if hasattr(os, "register_at_fork"):  # Windows has no forks
 def interruptible(run: Callable, *arguments) -> Any:
     """Return run(*arguments, stop), a run that ends when the flag `stop` is raised.
 
-    `stop` is an array of one boolean; `run` releases the GIL and reads the flag at every step.
-    Raises whatever the run raises, and KeyboardInterrupt if the caller is interrupted meanwhile, or
-    if it is one of many threads and the main thread is interrupted.
+    `stop` is an array of one boolean; `run` releases the GIL and reads the flag at every step, or
+    calls this function for such runs, which share its thread and flag. Raises whatever the run
+    raises, and KeyboardInterrupt if the caller is interrupted meanwhile, or if it is one of many
+    threads and the main thread is interrupted.
     """
-    stop = np.zeros(1, np.bool_)
-    worker = None
+    stop = getattr(_here, "stop", None)
+    if stop is not None:
+        result = run(*arguments, stop)
+        if stop[0]:
+            raise KeyboardInterrupt
+        return result
+    stop, worker = np.zeros(1, np.bool_), None
     try:
         worker = _take()
         worker.runs.put((run, (*arguments, stop)))

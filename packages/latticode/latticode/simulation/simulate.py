@@ -1,6 +1,6 @@
 """From a problem to its trajectory: by one run, or by runs at ever finer tolerance."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -65,7 +65,7 @@ def simulate(
         return _simulate_to_error(problem, reduction)
     if reduction is None:
         reduction = integration_of(problem).find_reduction(problem)
-    times, record, y, outcome = integrate(problem, reduction, interruptible, energy)
+    times, record, y, outcome = integrate(problem, reduction, energy)
     both = Reduction(even=False, synchronised=reduction.synchronised)
     return Trajectory(
         tau=times,
@@ -78,12 +78,10 @@ def simulate(
 
 
 def integrate(
-    problem: Problem, reduction: Reduction, call: Callable, energy: bool = True
+    problem: Problem, reduction: Reduction, energy: bool = True
 ) -> tuple[np.ndarray, Any, np.ndarray, Outcome]:
     """Return times, observables of the part that `reduction` leaves, its final state, the outcome.
 
-    `call` is `interruptible`. Who makes very many short runs calls them all by that once, since a
-    thread costs as much as such a run, and hands on here a function that calls a kernel at once.
     Raises IntegrationError as `simulate` does.
     """
     model = integration_of(problem)
@@ -105,7 +103,7 @@ def integrate(
     )
     system = model.system(problem, reduction)
     work = method.room_for(system, y)
-    outcome = call(method.run, system, y, times, controls, work, record)
+    outcome = interruptible(method.run, system, y, times, controls, work, record)
     if outcome.status != DONE:
         at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
         why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"

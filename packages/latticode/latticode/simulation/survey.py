@@ -1,11 +1,13 @@
 """Many runs of one problem: over axes of its values, and for members of an ensemble.
 
 An axis names what it changes: a parameter of the model ("omega"), "half_width", "end_time", or the
-initial value of a field at a site ("initial.0.1": site 0, the second field). Runs are numbered, the
+initial value of a field at a site ("initial.0.1": site 0, the second field). Names with commas
+between them vary together, and each value of their axis has as many numbers. Runs are numbered, the
 last axis first and members fastest, and each depends on its number alone. `survey_runs` makes them.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,9 +16,10 @@ from .ensembles import PERTURBATIONS
 from .problem import Problem
 
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")
+OF_FIELDS = tuple(f"{statistic}_{norm}" for statistic in STATISTICS for norm in NORMS)
 CHAINS = ("exponent", "divergence")
-"""Names of what is one number for the whole chain; all others are one for each field."""
-NAMES = (*(f"{statistic}_{norm}" for statistic in STATISTICS for norm in NORMS), *CHAINS)
+"""Names of what is one number for each field, and of what is one for the whole chain."""
+NAMES = (*OF_FIELDS, *CHAINS)
 """What can be kept of a run by name."""
 
 
@@ -33,7 +36,8 @@ class Survey(NamedTuple):
     """Which runs are made of a problem, and what is kept of each."""
 
     axes: Mapping[str, Sequence]
-    keep: tuple[str | Callable[..., float], ...] = ("max_l2",)
+    keep: tuple[str | Callable[..., Any], ...] = ("max_l2",)
+    """Names, and functions that take the problem of a run and its trajectory."""
     window: tuple[float, float] | None = None
     """The span of time, both ends included, of maxima, means and exponents; None is the whole."""
     members: Members | None = None
@@ -45,24 +49,44 @@ class Survey(NamedTuple):
         return (*sizes, self.members.count) if self.members else sizes
 
 
-def problem_at(problem: Problem, survey: Survey, number: int) -> Problem:
-    """Return the problem of one run."""
-    place = np.unravel_index(number, survey.shape) if survey.shape else ()
-    values = {name: axis[i] for (name, axis), i in zip(survey.axes.items(), place, strict=False)}
-    changes: dict[str, Any] = {"snapshot_every": 0}
-    initial = None
-    for name, value in values.items():
-        if name.startswith("initial."):
-            initial = np.array(problem.initial) if initial is None else initial
-            site, field = map(int, name.split(".")[1:])
-            initial[field, initial.shape[1] // 2 + site] = value
-        else:
-            changes[name] = value
-    if survey.members:
-        data = problem.initial if initial is None else initial
-        rng = np.random.default_rng([survey.members.seed, number])
-        initial = PERTURBATIONS[survey.members.kind](data, survey.members.size, rng)
-    return problem.changed(**changes, **({} if initial is None else {"initial": initial}))
+class Surveyed(Sequence):
+    """The problems of the runs of a survey, each of which is made when it is asked for.
+
+    They keep moduli as the first one does.
+    """
+
+    def __init__(self, problem: Problem, survey: Survey):
+        self.problem, self.survey = problem, survey
+        self.shape, self.names = survey.shape, [names_of_axis(axis) for axis in survey.axes]
+
+    def __len__(self) -> int:
+        return prod(self.shape)
+
+    def __getitem__(self, number: int) -> Problem:
+        if not 0 <= number < len(self):
+            raise IndexError(f"there is no run {number}")
+        place = np.unravel_index(number, self.shape) if self.shape else ()
+        values: dict[str, Any] = {}
+        for names, axis, i in zip(self.names, self.survey.axes.values(), place, strict=False):
+            values |= zip(names, axis[i] if len(names) > 1 else [axis[i]], strict=True)
+        changes, initial = {}, None
+        for name, value in values.items():
+            if name.startswith("initial."):
+                initial = np.array(self.problem.initial) if initial is None else initial
+                site, field = map(int, name.split(".")[1:])
+                initial[field, initial.shape[1] // 2 + site] = value
+            else:
+                changes[name] = value
+        if members := self.survey.members:
+            data = self.problem.initial if initial is None else initial
+            rng = np.random.default_rng([members.seed, number])
+            initial = PERTURBATIONS[members.kind](data, members.size, rng)
+        return self.problem.changed(**changes, **({} if initial is None else {"initial": initial}))
+
+
+def names_of_axis(axis: str) -> list[str]:
+    """Return what varies along an axis."""
+    return [name.strip() for name in axis.split(",")]
 
 
 def names_of(survey: Survey) -> list[str]:

@@ -1,13 +1,13 @@
 """A case repeated over half-widths, its norms reduced to maxima and means over windows."""
 
-from collections.abc import Callable, Iterable
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.problem import Problem
 
+from .runs import Run, run_all
 from .simulate import Trajectory, simulate
 from .systems import site_dependent
 
@@ -17,41 +17,43 @@ REACHED = 1e-20
 """The power at an end of the chain, over the largest of a site, from which on the end counts. What
 an end changes of a norm is of this part: it is far below rounding."""
 
-
-class Sweep(NamedTuple):
-    """Statistics of shape (half_width, quantity, statistic, window), and the runs' outcomes."""
-
-    l2: np.ndarray
-    linf: np.ndarray
-    outcomes: list
+Window = tuple[float, float]
 
 
 def sweep(
-    problem: Problem,
-    half_widths: Iterable[int],
-    windows: list[tuple[float, float]],
-    progress: Callable[[str], None] = lambda message: None,
-) -> Sweep:
-    """Integrate `problem` on chains of each half-width.
+    problem: Problem, half_widths: Sequence[int], windows: Sequence[Window], run: Run = run_all
+) -> dict[str, np.ndarray]:
+    """Integrate `problem` on chains of each half-width; return what `windowed` keeps of each.
 
     Where a run ends before anything has come to the ends of its chain, longer chains do the same,
     and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
-    alike = not site_dependent(problem)
-    l2, linf, outcomes = [], [], []
-    half_widths, enough, inside = list(half_widths), np.inf, None
-    for done, half_width in enumerate(half_widths, 1):
-        trajectory = inside
-        if half_width < enough:
-            own = problem.changed(half_width=half_width, snapshot_every=0)
-            trajectory = simulate(own, energy=False)
-            if alike and _is_inside(trajectory):
-                enough, inside = half_width, trajectory
-        l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
-        linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))
-        outcomes.append(trajectory.outcome)
-        progress(f"half-width {half_width} done ({done} of {len(half_widths)})")
-    return Sweep(np.array(l2), np.array(linf), outcomes)
+    problem = problem.changed(snapshot_every=0)
+    alike, enough, inside = not site_dependent(problem), np.inf, None
+
+    def make(one: Problem) -> dict[str, np.ndarray]:
+        nonlocal enough, inside
+        if one.half_width >= enough:
+            return inside
+        trajectory = simulate(one, energy=False)
+        found = windowed(trajectory, windows)
+        if alike and _is_inside(trajectory):
+            enough, inside = one.half_width, found
+        return found
+
+    return run([problem.changed(half_width=width) for width in half_widths], make)
+
+
+def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.ndarray]:
+    """Return the statistics "l2" and "linf", (quantity, statistic, window), and the "work".
+
+    This is the numbers of steps, of rejected ones, and of evaluations.
+    """
+    return {
+        "l2": _over_windows(trajectory.tau, pair_l2(trajectory), windows),
+        "linf": _over_windows(trajectory.tau, pair_linf(trajectory), windows),
+        "work": np.array(trajectory.outcome[-3:]),
+    }
 
 
 def _is_inside(trajectory: Trajectory) -> bool:
@@ -70,14 +72,14 @@ def pair_linf(trajectory: Trajectory) -> np.ndarray:
     return np.array([*trajectory.linf, np.maximum.reduce(trajectory.linf)])
 
 
-def _over_windows(tau: np.ndarray, series: np.ndarray, windows) -> np.ndarray:
+def _over_windows(tau: np.ndarray, series: np.ndarray, windows: Sequence[Window]) -> np.ndarray:
     """Return (quantity, statistic, window)."""
     inside = [series[:, within(tau, window)] for window in windows]
     statistics = [[one.max(axis=1) for one in inside], [mean_of(one) for one in inside]]
     return np.array(statistics).transpose(2, 0, 1)
 
 
-def within(tau: np.ndarray, window: tuple[float, float]) -> np.ndarray:
+def within(tau: np.ndarray, window: Window) -> np.ndarray:
     """Return which of the times lie in a window, which includes both its ends."""
     start, end = window
     return (tau >= start - 1e-9) & (tau <= end + 1e-9)

@@ -1,5 +1,7 @@
 """Surveys: each run is the one that is made alone, in any number of parts, and says what it is."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -8,9 +10,10 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.surveys import survey_contents
 from latticode.simulation import survey_runs
 from latticode.simulation.problem import on_sites
+from latticode.simulation.runs import joined, run_all, run_part
 from latticode.simulation.simulate import simulate
-from latticode.simulation.survey import Members, Survey, problem_at
-from latticode.simulation.survey_runs import joined, run_part, run_survey
+from latticode.simulation.survey import Members, Survey, Surveyed
+from latticode.simulation.survey_runs import run_survey
 
 AXES = {"omega": [-4.0, 0.0, 3.0], "initial.0.0": [1.0, 2.0 + 0.5j]}
 
@@ -27,21 +30,25 @@ def test_a_run_of_a_survey_is_the_one_that_is_made_alone():
     np.testing.assert_array_equal(found["final_l2"][1, 1], alone.l2[:, -1])
 
 
-@pytest.mark.parametrize("parts", [2, 5, 24])
+@pytest.mark.parametrize("parts", [2, 5, 24, 30])
 def test_the_bits_do_not_depend_on_the_number_of_parts(parts):
     problem = dimers()
     survey = Survey(AXES, ("max_l2",), members=Members(count=4, size=0.1, seed=3))
     whole = run_survey(problem, survey)["max_l2"]
-    made = joined(survey, [run_part(problem, survey, part, parts) for part in range(parts)])
-    np.testing.assert_array_equal(made["max_l2"], whole)
+
+    def in_parts(problems, make):
+        return joined([run_part(problems, make, part, parts) for part in range(parts)])
+
+    np.testing.assert_array_equal(run_survey(problem, survey, in_parts)["max_l2"], whole)
     assert whole.shape == (3, 2, 4, 2) and np.unique(whole[0, 0, :, 0]).size == 4
 
 
 @pytest.mark.parametrize("cores", [1, 3])
 def test_cores_change_no_bit_and_an_interrupt_ends_all_of_them(cores, monkeypatch):
     problem, survey = dimers(), Survey(AXES, members=Members(count=5, size=0.1, seed=3))
-    whole = joined(survey, [run_part(problem, survey)])["max_l2"]
-    np.testing.assert_array_equal(run_survey(problem, survey, cores)["max_l2"], whole)
+    whole = run_survey(problem, survey, run_part)["max_l2"]
+    run = partial(run_all, cores=cores)
+    np.testing.assert_array_equal(run_survey(problem, survey, run)["max_l2"], whole)
 
     made = []
 
@@ -53,13 +60,13 @@ def test_cores_change_no_bit_and_an_interrupt_ends_all_of_them(cores, monkeypatc
 
     monkeypatch.setattr(survey_runs, "simulate", lambda problem, energy: interrupted(problem))
     with pytest.raises(KeyboardInterrupt):
-        run_survey(problem, survey, cores)
+        run_survey(problem, survey, run)
     assert len(made) < 30  # of all runs, which would be made if nothing ended them
 
 
 def test_members_are_small_changes_of_the_data():
     problem, survey = dimers(), Survey({}, members=Members(count=50, size=1e-3, seed=1))
-    drawn = np.array([problem_at(problem, survey, n).initial for n in range(50)])
+    drawn = np.array([one.initial for one in Surveyed(problem, survey)])
     relative = np.abs(drawn / problem.initial - 1.0)
     assert 0.5e-3 < relative.mean() < 2e-3
 
@@ -78,11 +85,39 @@ def test_an_exponent_is_that_of_the_power():
 
 
 def test_a_function_of_the_users_is_kept_by_its_name():
-    def last(run):
-        return run.l2[0, -1]
+    def late(problem, run):
+        assert problem.parameters["omega"] == 1.0
+        return run.l2[0, -2:]
 
-    found = run_survey(dimers(), Survey({"omega": [1.0]}, (last, "final_l2")))
-    assert found["last"][0] == found["final_l2"][0, 0]
+    survey = Survey({"omega": [1.0]}, (late, "final_l2"))
+    found = run_survey(dimers(), survey)
+    assert found["late"].shape == (1, 2) and found["late"][0, 1] == found["final_l2"][0, 0]
+    data = as_xarray(*survey_contents("own", dimers(), survey, found))
+    assert data["late"].dims == ("omega", "late_0")
+
+
+def test_values_of_unlike_shapes_have_nan_behind_the_shorter():
+    problems = [dimers(end_time=end) for end in (1.0, 2.0, 1.0)]
+
+    def make(one):
+        return {"l2": simulate(one).l2[0], "count": 1}
+
+    whole, again = (
+        joined([run_part(problems, make, part, parts) for part in range(parts)]) for parts in (1, 2)
+    )
+    assert np.isnan(whole["l2"][:, -1]).tolist() == [True, False, True]
+    assert whole["count"].tolist() == [1, 1, 1] and whole["count"].dtype.kind == "i"
+    np.testing.assert_array_equal(again["l2"], whole["l2"])
+
+
+def test_the_names_of_one_axis_vary_together():
+    survey = Survey({"omega, initial.0.1": [(1.0, 0.5), (2.0, 0.25)], "gamma": [0.0, 0.5]})
+    found = run_survey(dimers(), survey)["max_l2"]
+    alone = dimers(gamma=0.5).changed(omega=2.0, initial=on_sites({0: (1.0, 0.25)}))
+    np.testing.assert_array_equal(found[1, 1], simulate(alone).l2.max(axis=1))
+    data = as_xarray(*survey_contents("pairs", dimers(), survey, {"max_l2": found}))
+    assert data["max_l2"].dims == ("omega", "gamma", "component")
+    assert data["initial_0_1"].dims == ("omega",)
 
 
 def test_a_run_that_cannot_end_is_nan_and_the_others_are_numbers():
@@ -102,7 +137,7 @@ def test_a_run_that_cannot_end_is_nan_and_the_others_are_numbers():
 )
 def test_what_cannot_be_done_is_said_before_any_run(axes, keep, told):
     with pytest.raises(ValueError, match=told):
-        run_part(dimers(), Survey(axes, keep))
+        run_survey(dimers(), Survey(axes, keep))
 
 
 def test_a_survey_as_a_dataset_has_its_axes_as_dimensions():

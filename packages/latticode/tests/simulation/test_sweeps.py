@@ -32,17 +32,18 @@ def test_maxima_are_those_of_the_trajectory_over_the_whole_window(swept, run, wi
     inside = slice(first, last + 1)
     pair = np.hypot(run.l2[0], run.l2[1])[inside]
     np.testing.assert_allclose(
-        swept.l2[1, :, 0, window], [*run.l2[:, inside].max(axis=1), pair.max()], rtol=1e-14
+        swept["l2"][1, :, 0, window], [*run.l2[:, inside].max(axis=1), pair.max()], rtol=1e-14
     )
     np.testing.assert_allclose(
-        swept.linf[1, :, 0, window], [*run.linf[:, inside].max(axis=1), run.linf[:, inside].max()]
+        swept["linf"][1, :, 0, window],
+        [*run.linf[:, inside].max(axis=1), run.linf[:, inside].max()],
     )
 
 
 def test_means_are_integrals_over_the_window(swept, run):
     inside = slice(40, 81)
     integral = np.trapezoid(run.l2[:, inside], run.tau[inside], axis=1)
-    np.testing.assert_allclose(swept.l2[1, :2, 1, 0], integral, rtol=1e-12)
+    np.testing.assert_allclose(swept["l2"][1, :2, 1, 0], integral, rtol=1e-12)
 
 
 def test_a_chain_that_nothing_crosses_stands_for_longer_ones(monkeypatch):
@@ -55,8 +56,8 @@ def test_a_chain_that_nothing_crosses_stands_for_longer_ones(monkeypatch):
     monkeypatch.setattr("latticode.simulation.sweep.simulate", follow)
     swept = sweep(PROBLEM, [8, 25, 40, 12, 30], WINDOWS)
     assert followed == [8, 25, 12]  # by tau = 3 the data have come to M = 12, and to M = 25 not
-    for part in (swept.l2, swept.linf):
+    for part in (swept["l2"], swept["linf"]):
         np.testing.assert_array_equal(part[2], part[1])
         np.testing.assert_array_equal(part[4], part[1])
         assert (part[3] != part[1]).any()
-    assert sweep(PROBLEM, [40], WINDOWS).l2.tolist() == swept.l2[2:3].tolist()
+    assert sweep(PROBLEM, [40], WINDOWS)["l2"].tolist() == swept["l2"][2:3].tolist()

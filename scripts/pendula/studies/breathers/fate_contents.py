@@ -6,10 +6,11 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
+from latticode.simulation.runs import Run, run_all
 
 from pendula.problem import Problem
 
-from .fates import FATES, fates_of, map_of_amplitudes, map_of_phases, shares_of_area
+from .fates import FATES, keep_fate, run_maps, shares_of_area
 
 PLANES = ("amplitudes", "phases")
 
@@ -17,22 +18,22 @@ PLANES = ("amplitudes", "phases")
 def map_fates(
     problems: Mapping[float, Problem], case_problems: Mapping[str, Problem],
     amplitudes: Iterable[float], turned: Iterable[float], phases: Iterable[float], ratio: float,
+    run: Run = run_all,
 ) -> Contents:  # fmt: skip
-    """Return the fate of the data at each detuning.
+    """Return the fate of the data at each detuning, as `run_maps` finds it.
 
-    `problems` are by detuning, `case_problems` those of the paper, with data of their own. The
-    first map is over `amplitudes`, those of A_0 and of B_0, the second one over A_0 from `turned`
-    and the phase of B_0, with |B_0| = `ratio` A_0.
+    `problems` are by detuning, `case_problems` those of the paper, with data of their own.
     """
     amplitudes, turned, phases = (np.array(one) for one in (amplitudes, turned, phases))
-    first = [map_of_amplitudes(one, amplitudes) for one in problems.values()]
-    second = [map_of_phases(one, turned, phases, ratio) for one in problems.values()]
+    first, second = run_maps(problems, amplitudes, turned, phases, ratio, run)
     variables = {
         "omega": Variable(("omega",), np.array(list(problems))),
         "a0": Variable(("a0",), amplitudes, "initial amplitude A_0 of the centre"),
         "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
         "turned_a0": Variable(
-            ("turned_a0",), turned, "initial amplitude A_0 of the centre, B_0 turned in phase"
+            ("turned_a0",),
+            np.array(turned),
+            "initial amplitude A_0 of the centre, B_0 turned in phase",
         ),
         "phase": Variable(("phase",), phases, "initial phase of B_0 beside A_0", "rad"),
         "fate": _fates(("omega", "a0", "b0"), first, "fate of the data"),
@@ -55,7 +56,7 @@ def _fates(dimensions: tuple[str, ...], values, words: str) -> Variable:
     return Variable(dimensions, np.array(values, dtype=np.int8), words, attributes=about)
 
 
-def _shares(first: list[np.ndarray], second: list[np.ndarray]) -> dict[str, Variable]:
+def _shares(first: np.ndarray, second: np.ndarray) -> dict[str, Variable]:
     """Return the share of each fate in the area of each map."""
     found = np.array([
         [shares_of_area(one, mirrored=plane == "amplitudes") for one in maps]
@@ -76,11 +77,12 @@ def _of_cases(cases: Mapping[str, Problem]) -> dict[str, Variable]:
     omegas = [one.constants.omega for one in cases.values()]
     centres = [one.initial[:, one.initial.shape[1] // 2].real for one in cases.values()]
     a0, b0 = np.transpose(centres)
+    fates = [keep_fate(one)["fate"] for one in cases.values()]
     along = ("case",)
     return {
         "case": Variable(along, list(cases)),
         "case_omega": Variable(along, omegas, "detuning Omega of the case"),
         "case_a0": Variable(along, a0, "A_0 of the case"),
         "case_b0": Variable(along, b0, "B_0 of the case"),
-        "case_fate": _fates(along, fates_of(cases.values()), "fate of the data of the case"),
+        "case_fate": _fates(along, fates, "fate of the data of the case"),
     }

@@ -20,14 +20,15 @@ factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B keep theirs. Wh
 no wave has a bound, and all growth counts.
 """
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 
 import numpy as np
 from latticode.measures.confidence import Limits, share_limits
 from latticode.numerics.elementary import complex_of, cos, sin
-from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import find_reduction, unpack
+from latticode.simulation.runs import Run, run_all
 from latticode.simulation.simulate import integrate
+from latticode.simulation.survey import Survey, Surveyed
 
 from pendula.problem import Constants, Problem
 
@@ -100,49 +101,37 @@ def fate_of(problem: Problem, final: np.ndarray) -> int:
     return SPREADS if power.sum() > most else DISPERSES
 
 
-def fates_of(problems: Iterable[Problem]) -> np.ndarray:
-    """Return the fates of the data of many problems, (problem,).
-
-    All run in one thread, since a thread takes as long as a tenth of a run.
-    """
-
-    def run(one: Problem, stop: np.ndarray) -> int:
-        reduction = find_reduction(one.amplitudes)
-        _, _, y, _ = integrate(one, reduction, lambda run, *given: run(*given, stop))
-        return fate_of(one, unpack(y, reduction))
-
-    def run_all(stop: np.ndarray) -> list[int]:
-        return [run(one, stop) for one in problems if not stop[0]]
-
-    return np.array(interruptible(run_all))
+def keep_fate(problem: Problem) -> dict[str, int]:
+    """Run a problem, and return the fate of its data, which is all that is kept."""
+    reduction = find_reduction(problem.amplitudes)
+    _, _, y, _ = integrate(problem, reduction)
+    return {"fate": fate_of(problem, unpack(y, reduction))}
 
 
-def on_one_pair(problem: Problem, a: complex, b: complex) -> Problem:
-    """Return the problem with other data, (A_0, B_0) on the central pair."""
-    return problem.changed(initial=np.array([[a], [b]], complex))
+# --- Maps -----------------------------------------------------------------------------------------
 
 
-def map_of_amplitudes(problem: Problem, amplitudes: np.ndarray) -> np.ndarray:
-    """Return the fate of each real (A_0, B_0) from a list for both, as an array (A_0, B_0).
+def run_maps(
+    problems: Mapping[float, Problem], amplitudes: np.ndarray, turned: np.ndarray,
+    phases: np.ndarray, ratio: float, run: Run = run_all,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Return two maps of fates of data on the central pair, for the detuning of each problem.
 
-    Exchanging A and B changes no fate, so that one half mirrors the other.
+    The first map is over `amplitudes`, those of A_0 and of B_0: (omega, A_0, B_0). Exchanging A and
+    B changes no fate, so that one half of it is run. The second one is over A_0 from `turned` and
+    the phase of B_0, with |B_0| = `ratio` A_0: (omega, A_0, phase).
     """
     rows, columns = np.tril_indices(len(amplitudes))
-    data = zip(amplitudes[rows], amplitudes[columns], strict=True)
-    found = np.empty(2 * [len(amplitudes)], dtype=int)
-    fates = fates_of(on_one_pair(problem, a, b) for a, b in data)
-    found[rows, columns] = found[columns, rows] = fates
-    return found
-
-
-def map_of_phases(
-    problem: Problem, amplitudes: np.ndarray, phases: np.ndarray, ratio: float
-) -> np.ndarray:
-    """Return the fate of each A_0 with B_0 = ratio A_0 exp(i phase), as an array (A_0, phase)."""
-    sizes = ratio * amplitudes[:, None]
+    sizes = ratio * turned[:, None]
     others = complex_of(sizes * cos(phases), sizes * sin(phases))
-    data = zip(np.repeat(amplitudes, len(phases)), others.ravel(), strict=True)
-    return fates_of(on_one_pair(problem, a, b) for a, b in data).reshape(others.shape)
+    a = np.concatenate([amplitudes[rows], np.repeat(turned, len(phases))])
+    b = np.concatenate([amplitudes[columns], others.ravel()])
+    survey = Survey({"omega": list(problems), "initial.0.0, initial.0.1": np.stack([a, b], -1)})
+    on_one_pair = next(iter(problems.values())).changed(initial=np.ones((2, 1)))
+    fates = run(Surveyed(on_one_pair, survey), keep_fate)["fate"].reshape(survey.shape)
+    first = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=int)
+    first[:, rows, columns] = first[:, columns, rows] = fates[:, : rows.size]
+    return first, fates[:, rows.size :].reshape(-1, *others.shape)
 
 
 # --- Shares of an area ----------------------------------------------------------------------------

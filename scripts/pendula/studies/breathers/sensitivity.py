@@ -13,36 +13,35 @@ from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, share_limits
 from latticode.simulation.ensembles import draw_members
-from latticode.simulation.simulate import Trajectory, simulate
+from latticode.simulation.runs import Run, run_all
 
 from pendula.problem import Problem
 
-from .fates import SPREADS, fate_of
+from .fates import SPREADS, keep_fate
 
 
-def has_spread(problem: Problem, run: Trajectory) -> bool:
-    """Return whether a run of a problem has spread: neither stayed or moved, nor dispersed."""
-    return fate_of(problem, run.final) == SPREADS
-
-
-def shares(problem: Problem, sizes: Sequence[float], members: int, seed: int) -> Limits:
+def shares(
+    problem: Problem, sizes: Sequence[float], members: int, seed: int, run: Run = run_all
+) -> Limits:
     """Return the share that spreads for each relative size of the change, (size,)."""
     # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
-    found = []
-    for number, size in enumerate(sizes):
-        drawn = draw_members(at_the_end_alone, size, members, [seed, number])
-        spread = sum(has_spread(member, simulate(member)) for member in drawn)
-        found.append(share_limits(spread, members))
-    return Limits(*np.array(found).T)
+    drawn = [
+        one
+        for number, size in enumerate(sizes)
+        for one in draw_members(at_the_end_alone, size, members, [seed, number])
+    ]
+    spread = (run(drawn, keep_fate)["fate"] == SPREADS).reshape(len(sizes), members).sum(axis=1)
+    return Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
 
 
 def sensitivity_contents(
-    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int
-) -> Contents:
+    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
+    run: Run = run_all,
+) -> Contents:  # fmt: skip
     """Return the share that spreads by the size of a change."""
     share, by_size, said = (
-        shares(problem, sizes, members, seed),
+        shares(problem, sizes, members, seed, run),
         ("size",),
         "share of runs that spread",
     )

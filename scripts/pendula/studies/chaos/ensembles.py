@@ -13,8 +13,9 @@ from latticode.datasets.trajectories import Contents
 from latticode.measures.levels import bands, moments
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import name_window
+from latticode.simulation.runs import Run, run_all
 from latticode.simulation.simulate import simulate
-from latticode.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
+from latticode.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, windowed
 
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem, by_name
@@ -29,32 +30,44 @@ MOMENTS = {
 }
 
 
-def run_members(problem: Problem, size: float, members: int, seed: int, kind: str) -> np.ndarray:
-    """Return the norms l2 and l-infinity of each member, (norm, member, quantity, time)."""
-    drawn = draw_members(problem, size, members, seed, kind)
-    runs = [simulate(member, energy=False) for member in drawn]
-    return np.array([[norm(run) for run in runs] for norm in NORMS.values()])
-
-
-def sweep_members(
-    problem: Problem, half_widths, windows, size: float, members: int, seed: int, kind: str
-) -> np.ndarray:
-    """Return the swept l2 and l-infinity of each member, (norm, member, *shape of a Sweep).
+def draw_swept(
+    problem: Problem, half_widths, size: float, members: int, seed: int, kind: str
+) -> list[Problem]:
+    """Return the members of a sweep, all of one half-width and then of the next.
 
     Each half-width has draws of its own. The same data would give the same motion on all chains
     that are too long for the front, so that their means would not be independent of each other.
     """
-    columns = []
-    for half_width in half_widths:
-        drawn = draw_members(problem, size, members, [seed, half_width], kind)
-        runs = [sweep(member, [half_width], windows) for member in drawn]
-        columns.append([[getattr(run, norm) for run in runs] for norm in NORMS])
-    return np.concatenate(columns, axis=2)
+    own = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
+    return [m for one, seeds in own for m in draw_members(one, size, members, seeds, kind)]
+
+
+def run_ensembles(
+    cases: list[Problem], swept: list[Problem], windows, run: Run
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Return the norms l2 and l-infinity of cases, (run, quantity, time), and of sweeps.
+
+    Those of sweeps are statistics over windows, (run, quantity, statistic, window).
+    """
+    whole, shape = set(cases), (len(QUANTITIES), len(STATISTICS), len(windows))
+
+    def make(problem: Problem) -> dict[str, np.ndarray]:
+        made = simulate(problem, energy=False)
+        if problem in whole:
+            return {name: norm(made) for name, norm in NORMS.items()}
+        found = windowed(made, windows)
+        return {name: found[name].reshape(shape[0], -1) for name in NORMS}
+
+    found, first, size = run([*cases, *swept], make), len(cases), shape[1] * shape[2]
+    return (
+        {name: found[name][:first] for name in NORMS},
+        {name: found[name][first:, :, :size].reshape(-1, *shape) for name in NORMS},
+    )
 
 
 def measure_ensembles(
     problems: dict[str, Problem], members: int, swept: Mapping[str, Mapping], windows,
-    size: float, seed: int, kind: str,
+    size: float, seed: int, kind: str, run: Run = run_all,
 ) -> Contents:  # fmt: skip
     """Return quantile bands of the norms of cases, which may be none, and the moments of sweeps.
 
@@ -62,17 +75,24 @@ def measure_ensembles(
     """
     own = by_name({name: one["problem"] for name, one in swept.items()})
     shared, variables = describe_cases(own)[1], {}
+    drawn = [m for one in problems.values() for m in draw_members(one, size, members, seed, kind)]
+    drawn_swept = [
+        member
+        for name, one in swept.items()
+        for member in draw_swept(own[name], one["half_widths"], size, one["members"], seed, kind)
+    ]
+    of_cases, of_sweeps = run_ensembles(drawn, drawn_swept, windows, run)
     if problems:
         variables, shared = describe_cases(problems)
         shared |= {"members": members, "band_share": QUANTILES[-1] - QUANTILES[0]}
-        drawn = [run_members(one, size, members, seed, kind) for one in problems.values()]
         tau = next(iter(problems.values())).times
         variables["quantile"] = Variable(
             ("quantile",), np.array(QUANTILES), "quantile over the ensemble"
         )
         variables["quantity"] = Variable(("quantity",), list(QUANTITIES))
         variables["tau"] = Variable(("tau",), tau)
-        for name, norms in zip(NORMS, zip(*drawn, strict=True), strict=True):
+        for name, runs in of_cases.items():
+            norms = runs.reshape(len(problems), members, *runs.shape[1:])
             variables[name] = Variable(
                 ("case", "quantile", "quantity", "tau"),
                 np.array([bands(norm, QUANTILES) for norm in norms]),
@@ -80,26 +100,26 @@ def measure_ensembles(
             )
     about = {"ensemble": f"{kind} in n", "perturbation": size, "seed": seed}
     title = "Ensembles of the chaotic cases and sweeps, from almost equal data"
-    variables |= sweep_moments(own, swept, windows, size, seed, kind)
+    variables |= sweep_moments(swept, windows, of_sweeps)
     return variables, {"title": title, **shared, **about}
 
 
 def sweep_moments(
-    problems: dict[str, Problem], swept: Mapping[str, Mapping], windows,
-    size: float, seed: int, kind: str,
-) -> dict[str, Variable]:  # fmt: skip
-    """Return mean, deviation and standard error of every swept norm of each sweep by name.
+    swept: Mapping[str, Mapping], windows, found: Mapping[str, np.ndarray]
+) -> dict[str, Variable]:
+    """Return mean, deviation and standard error of every norm `found` of each sweep by name.
 
     They are NaN at the half-widths that another sweep has alone.
     """
     half_widths = sorted({width for one in swept.values() for width in one["half_widths"]})
     shape = (len(swept), len(half_widths), len(QUANTITIES), len(STATISTICS), len(windows))
     values = {(norm, key): np.full(shape, np.nan) for norm in NORMS for key in MOMENTS}
-    for i, (name, one) in enumerate(swept.items()):
-        widths, members = one["half_widths"], one["members"]
-        found = sweep_members(problems[name], widths, windows, size, members, seed, kind)
-        row = np.searchsorted(half_widths, widths)
-        for norm, numbers in zip(NORMS, found, strict=True):
+    done = 0
+    for i, one in enumerate(swept.values()):
+        row, members = np.searchsorted(half_widths, one["half_widths"]), one["members"]
+        own = slice(done, done := done + row.size * members)
+        for norm, runs in found.items():
+            numbers = runs[own].reshape(row.size, members, *shape[2:]).swapaxes(0, 1)
             for key, moment in moments(numbers).items():
                 values[norm, key][i, row] = moment
     grid = ("sweep", "half_width", "quantity", "statistic", "window")

@@ -13,6 +13,7 @@ from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, median_limits, share_limits
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import output_times
+from latticode.simulation.runs import Run, run_all
 from latticode.simulation.simulate import simulate
 
 from pendula.many_cases import describe_cases
@@ -23,17 +24,20 @@ SPAN = 10.0
 Pieces of a run start from the state alone."""
 
 
-def follow(problem: Problem) -> float:
-    """Return when the centre of a run first holds at most its share of P; infinite if never."""
+def follow(problem: Problem) -> dict[str, float]:
+    """Run a problem until its centre first holds at most its share of P; return this time.
+
+    It is infinite if the run ends before.
+    """
     spans = max(1, round(problem.end_time / SPAN))
     piece = problem.changed(end_time=problem.end_time / spans, snapshot_every=1)
     for done in range(spans):
         run = simulate(piece, energy=False)
         ended = np.flatnonzero(shares_alike(run.modulus))
         if ended.size:
-            return float(done * piece.end_time + run.tau[ended[0]])
+            return {"life": float(done * piece.end_time + run.tau[ended[0]])}
         piece = piece.changed(initial=run.final)
-    return np.inf
+    return {"life": np.inf}
 
 
 def shares_alike(modulus: np.ndarray) -> np.ndarray:
@@ -43,14 +47,6 @@ def shares_alike(modulus: np.ndarray) -> np.ndarray:
     """
     power = (modulus**2).sum(axis=0)
     return power[len(power) // 2] <= power.mean(axis=0)
-
-
-def lives_from(
-    problem: Problem, amplitude: float, ratio: float, size: float, members: int, seed: int
-) -> np.ndarray:
-    """Return the lives of an ensemble, (member,), from (A_0, B_0) = `amplitude` (1, `ratio`)."""
-    one = problem.changed(initial=np.array([[amplitude], [ratio * amplitude]], complex))
-    return np.array([follow(member) for member in draw_members(one, size, members, seed)])
 
 
 def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
@@ -64,16 +60,19 @@ def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
 
 
 def measure_lifetimes(
-    problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int
-) -> Contents:
+    problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int,
+    run: Run = run_all,
+) -> Contents:  # fmt: skip
     """Return the lives of `members` runs from each amplitude A_0 with B_0 = `ratio` A_0."""
-    lives = [lives_from(problem, a0, ratio, size, members, seed) for a0 in amplitudes]
+    starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
+    drawn = [one for start in starts for one in draw_members(start, size, members, seed)]
+    lives = run(drawn, follow)["life"].reshape(len(amplitudes), members)
     tau, over = output_times(problem.end_time, 0.5), ("start_amplitude",)
     variables = {
         "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
         "tau": Variable(("tau",), tau),
         "life": Variable(
-            (*over, "member"), np.array(lives), "time of the transition, infinite if after the end"
+            (*over, "member"), lives, "time of the transition, infinite if after the end"
         ),
         **_limits(
             "surviving", (*over, "tau"), [surviving(one, tau) for one in lives],

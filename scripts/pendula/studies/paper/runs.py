@@ -1,8 +1,9 @@
 """The runs that figures and claims rest on: a case by a solver, and a case on many chains."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from latticode.datasets.trajectories import Contents, sweep_contents, trajectory_contents
+from latticode.simulation.runs import Run
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import sweep
 
@@ -20,9 +21,8 @@ def run_case(name: str, problem: Problem) -> Contents:
 
 def run_sweep(
     name: str, problem: Problem, half_widths: Sequence[int],
-    windows: Sequence[tuple[float, float]], step: Callable[[str], None],
+    windows: Sequence[tuple[float, float]], run: Run,
 ) -> Contents:  # fmt: skip
     """Return the maxima and means of norms over `windows`, on chains of all `half_widths`."""
-    label = f"{name} ({problem.solver['name']})"
-    result = sweep(problem, half_widths, windows, lambda done: step(f"{label}: {done}"))
-    return sweep_contents(name, problem, half_widths, windows, result)
+    swept = sweep(problem, half_widths, windows, run)
+    return sweep_contents(name, problem, half_widths, windows, swept)

@@ -14,6 +14,7 @@ time from `settled` on, and only the members that had no passage by then.
 """
 
 from collections.abc import Sequence
+from functools import partial
 from math import ceil
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from latticode.measures.confidence import Limits, event_rate, share_limits
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import name_window
+from latticode.simulation.runs import Run, run_all, shaped
 from latticode.simulation.simulate import simulate
 
 from pendula.models.bounds import theorem_3_bound
@@ -56,19 +58,19 @@ def reduce_member(problem: Problem, window: tuple[float, float]) -> dict:
 
 def measure_sea(
     problem: Problem, mus: Sequence[float], window: tuple[float, float], size: float,
-    members: int, seed: int,
+    members: int, seed: int, run: Run = run_all,
 ) -> Contents:  # fmt: skip
     """Return what REDUCED names of members of the chain of amplitudes, mu = 0, and of pendula."""
     every = [LIMIT, *mus]
     drawn = draw_members(problem, size, members, seed)
-    rows = [[reduce_member(at_mu(one, mu), window) for one in drawn] for mu in every]
+    each = [at_mu(one, mu) for mu in every for one in drawn]
+    found = shaped(run(each, partial(reduce_member, window=window)), (len(every), members))
     variables = {
         "mu": Variable(("mu",), every),
         "modulus": Variable(("modulus",), 0.5 * (EDGES[1:] + EDGES[:-1])),
     }
     for name, (rest, words) in REDUCED.items():
-        values = np.array([[one[name] for one in row] for row in rows])
-        variables[name] = Variable(("mu", "member", *rest), values, words)
+        variables[name] = Variable(("mu", "member", *rest), found[name], words)
     title = f"The chaotic state of pendula and of amplitudes, over {name_window(window)}"
     about = {"title": f"{title}; mu = 0 stands for (4)", "omega": problem.constants.omega}
     return variables, about
@@ -117,14 +119,13 @@ def passed_by(times: np.ndarray, tau: np.ndarray) -> Limits:
 
 def measure_over_the_top(
     problem: Problem, mus: Sequence[float], per_period: int, size: float, members: int, seed: int,
-    settled: float,
+    settled: float, run: Run = run_all,
 ) -> Contents:  # fmt: skip
     """Return first passages of members of the case at each mu, chances by tau, and rates."""
     drawn = draw_members(problem, size, members, seed)
-    runs = [[passage(at_mu(one, mu), per_period) for one in drawn] for mu in mus]
-    times, angles, powers = (
-        np.array([[getattr(one, name) for one in row] for row in runs]) for name in Passage._fields
-    )
+    each = [at_mu(one, mu) for mu in mus for one in drawn]
+    found = run(each, lambda one: passage(one, per_period)._asdict())
+    times, angles, powers = shaped(found, (len(mus), members)).values()
     tau = np.arange(1.0, int(problem.end_time) + 1.0)
     over = ("mu", "member")
     variables = {

@@ -1,6 +1,7 @@
 """Ensembles of long runs on infinite chains as datasets."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -8,10 +9,11 @@ from latticode.datasets.registry import NAMES
 from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
 from latticode.numerics.draws import normal
+from latticode.simulation.runs import Run, shaped
 
 from pendula.problem import Problem
 
-from .active_sites import LongRun, run_long
+from .active_sites import run_long
 from .bulk import CELL, KINDS, NEIGHBOURS, REGIONS
 from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, REST, SITE_OF_FRONT, linear_front
 
@@ -36,38 +38,50 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
     return {"title": title, **shared, **ends, **ensemble}
 
 
+def members_of(
+    problems: list[Problem], members: int, perturbation: float, seed: int
+) -> list[Problem]:
+    """Return all members of each problem."""
+    return [member(one, perturbation, seed, n) for one in problems for n in range(members)]
+
+
 def spread_case(
     name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
-    step: Callable[[str], None],
+    run: Run,
 ) -> Contents:  # fmt: skip
     """Return the series of each problem and member."""
-    runs, ensemble = [], {"members": members, "perturbation": perturbation, "seed": seed}
-    for variant, problem in enumerate(problems):
-        runs.append([])
-        for number in range(members):
-            runs[-1].append(run_long(member(problem, perturbation, seed, number), rest))
-            step(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
+    ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
+    found = run(members_of(problems, **ensemble), partial(_series_of, rest=rest))
+    series = shaped(found, (len(problems), members))
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
-    return run_variables(problems, runs), attributes(title, name, problems, rest, **ensemble)
+    return run_variables(problems, series), attributes(title, name, problems, rest, **ensemble)
 
 
-def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[str, Variable]:
-    """Return the variables of `runs` [variant][member] of as many problems."""
-    first, predicted = runs[0][0], [linear_front(problem.constants) for problem in problems]
+def _series_of(problem: Problem, rest: float) -> dict[str, np.ndarray]:
+    """Return the series of a run, its cells as (piece, 2, cell): zero where no site moves."""
+    one = run_long(problem, rest)
+    most = one.cells[-1].shape[1]
+    cells = [np.pad(cell, ((0, 0), (0, most - cell.shape[1]))) for cell in one.cells]
+    return one._asdict() | {"cells": np.array(cells)}
+
+
+def run_variables(problems: list[Problem], series: Mapping[str, np.ndarray]) -> dict[str, Variable]:
+    """Return the variables of series (variant, member, ...) of as many problems."""
+    predicted = [linear_front(problem.constants) for problem in problems]
 
     def of_variants(values: list[float], long_name: str = "") -> Variable:
         return Variable(("variant",), np.array(values, float), long_name)
 
     def of_runs(name: str, axes: tuple, long_name: str = "") -> Variable:
-        values = np.array([[getattr(run, name) for run in members] for members in runs])
-        return Variable(("variant", "member", *axes), values, long_name)
+        return Variable(("variant", "member", *axes), series[name], long_name)
 
     both, look = "of A and B together", ("piece_tau",)
-    cells = np.array([_cells_of(members[0], runs) for members in runs])
+    cells = series["cells"][:, 0]
+    cells = np.nan_to_num(cells[..., ~np.isnan(cells).all(axis=(0, 1, 2))])
     of_cells = f"power, mean of {{}} over cells of {CELL} sites, in the first member"
     return {
-        "tau": Variable(("tau",), first.tau),
-        "piece_tau": Variable(("piece_tau",), first.piece_tau, PIECE_TAU),
+        "tau": Variable(("tau",), series["tau"][0, 0]),
+        "piece_tau": Variable(("piece_tau",), series["piece_tau"][0, 0], PIECE_TAU),
         "region": Variable(("region",), list(REGIONS), "region of the chain"),
         "kind": Variable(
             ("kind",), list(KINDS), "kind of quantity of a pair, with S = (A + B) / sqrt 2"
@@ -96,9 +110,3 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         "predicted_delay": of_variants([front.delay for front in predicted], DELAY),
         "predicted_rest": of_variants([front.rest for front in predicted], REST),
     }
-
-
-def _cells_of(run: LongRun, runs: list[list[LongRun]]) -> np.ndarray:
-    """Return the cells of a run as (piece, 2, cell), zero where there are no sites in motion."""
-    most = max(members[0].cells[-1].shape[1] for members in runs)
-    return np.array([np.pad(one, ((0, 0), (0, most - one.shape[1]))) for one in run.cells])

@@ -9,7 +9,7 @@ the second front. It is the first front's where lambda is positive up to there.
 The equations are those of `sums`, with S so small that its squares are lost in rounding errors.
 """
 
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -17,12 +17,13 @@ from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import mean_limits
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
+from latticode.simulation.runs import Run
 
 from pendula.problem import Problem
 
 from .active_sites import PIECE, advance, begin, is_even, piece_times, right_half, widen
 from .front import linear_front
-from .long_runs import attributes, member
+from .long_runs import attributes, members_of
 from .sums import in_sums
 
 SMALL = 1e-20
@@ -39,15 +40,13 @@ exponential growth that could be told from a power of tau: then no second front 
 
 def solve_transverse(
     name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
-    step: Callable[[str], None],
+    run: Run,
 ) -> Contents:  # fmt: skip
     """Return the exponents of small S over the velocity, and the speed at which it spreads."""
+    ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
     fronts = [linear_front(problem.constants).speed for problem in problems]
-    exponents = []
-    for problem, speed in zip(problems, fronts, strict=True):
-        drawn = [member(problem, perturbation, seed, number) for number in range(members)]
-        exponents.append([exponents_of(one, speed, rest) for one in drawn])
-        step(f"{name}: Omega = {problem.constants.omega:g} done")
+    found = run(members_of(problems, **ensemble), partial(exponents_of, rest=rest))
+    exponents = found["exponents"].reshape(len(problems), members, -1)
     means = mean_limits(np.swapaxes(exponents, 0, 1))
     least = 1.0 / (LATE * problems[0].end_time)
     crossings = mean_limits(np.transpose([
@@ -71,7 +70,6 @@ def solve_transverse(
             f"{limits}; NaN: no second front is predicted",
         ),
     }
-    ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
     title = "Growth of a small A + B on the infinite chain with A = -B"
     return variables, attributes(title, name, problems, rest, **ensemble)
 
@@ -81,9 +79,9 @@ def velocities() -> np.ndarray:
     return np.arange(VELOCITIES) / VELOCITIES
 
 
-def exponents_of(problem: Problem, front_speed: float, rest: float) -> np.ndarray:
+def exponents_of(problem: Problem, rest: float) -> dict[str, np.ndarray]:
     """Return the exponent of |S| at each velocity, (velocity,), from S = D at tau = 0."""
-    a, b = problem.initial
+    (a, b), front_speed = problem.initial, linear_front(problem.constants).speed
     even, rooms = is_even(problem.initial), {}
     own = in_sums(problem.changed(initial=0.5 * np.array([a - b, b - a])))
     own = own.changed(initial=np.array([SMALL * own.initial[1], own.initial[1]]))
@@ -102,7 +100,7 @@ def exponents_of(problem: Problem, front_speed: float, rest: float) -> np.ndarra
             nearby = [sizes[max(0, at - NEAR) : at + NEAR + 1].max() for at in places]
             logs.append(log(np.maximum(nearby, np.finfo(float).tiny) / largest) + grown)
     late = PIECE * np.arange(len(logs))
-    return np.array([lay_line(late, one).slope for one in np.transpose(logs)])
+    return {"exponents": np.array([lay_line(late, one).slope for one in np.transpose(logs)])}
 
 
 def crossing_of(exponents: np.ndarray, least: float) -> float:

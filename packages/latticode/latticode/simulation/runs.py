@@ -1,0 +1,96 @@
+"""Many runs in parts: what is made, a part of it, and all parts joined.
+
+What is kept of a run is reduced as soon as the run is over, so that the memory of many is that of
+their results. A part is every so many-th run, so that parts take alike long, and results have the
+same bits in any number of parts.
+"""
+
+import threading
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from typing import Any
+
+import numpy as np
+
+from .interrupts import interruptible
+from .problem import Problem
+
+Make = Callable[[Problem], Mapping[str, Any]]
+"""What makes the run of a problem and returns what is kept of it, by name."""
+Run = Callable[[Sequence[Problem], Make], dict[str, np.ndarray]]
+"""What makes the runs of problems, such as `run_all`, and returns what is kept, each (run, ...)."""
+
+
+def run_part(
+    problems: Sequence[Problem],
+    make: Make,
+    part: int = 0,
+    parts: int = 1,
+    progress: Callable[[int, int], None] = lambda done, count: None,
+) -> dict[str, np.ndarray]:
+    """Return what is kept of every `parts`-th run from number `part` on, each (run, ...).
+
+    `progress` is called with the number of runs that are done, and of all in the part. Where what
+    is kept has not the same shape of all runs, NaN fill it up.
+    """
+    numbers = range(part, len(problems), parts)
+    found: dict[str, list] = {}
+
+    def make_all(stop: np.ndarray) -> None:  # all in one thread: handing over takes time
+        for done, number in enumerate(numbers, 1):
+            for name, value in make(problems[number]).items():
+                found.setdefault(name, []).append(value)
+            progress(done, len(numbers))
+
+    interruptible(make_all)
+    return {name: stacked(values) for name, values in found.items()}
+
+
+def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Return what all parts hold in the order of the runs, each (run, ...)."""
+    parts, found = list(parts), {}
+    for name in parts[0]:
+        values = [part[name] for part in parts if name in part]  # more parts than runs: no values
+        rank, kind = max(one.ndim for one in values), np.result_type(*values)
+        values = [one.reshape(one.shape + (1,) * (rank - one.ndim)) for one in values]
+        rest = np.max([one.shape[1:] for one in values], axis=0).astype(int)
+        nothing = np.nan if kind.kind in "fc" else 0
+        whole = np.full((sum(map(len, values)), *rest), nothing, kind)
+        for number, one in enumerate(values):
+            whole[(slice(number, None, len(parts)), *map(slice, one.shape[1:]))] = one
+        found[name] = whole
+    return found
+
+
+def run_all(problems: Sequence[Problem], make: Make, cores: int = 1) -> dict[str, np.ndarray]:
+    """Return what is kept of all runs, each (run, ...), made in a part for each core.
+
+    Kernels run beside each other in threads. Ctrl-C ends all of them.
+    """
+    ended = threading.Event()
+
+    def go_on(done: int, count: int) -> None:
+        if ended.is_set():
+            raise KeyboardInterrupt
+
+    parts = max(1, min(cores, len(problems)))
+    with ThreadPoolExecutor(parts) as pool:
+        made = [pool.submit(run_part, problems, make, n, parts, go_on) for n in range(parts)]
+        try:
+            over, _ = wait(made, return_when=FIRST_EXCEPTION)
+        finally:
+            ended.set()
+        for part in over:  # what ended one is told, and not that it ended the others
+            part.result()
+        return joined([part.result() for part in made])
+
+
+def shaped(found: Mapping[str, np.ndarray], shape: Sequence[int]) -> dict[str, np.ndarray]:
+    """Return what is kept of runs (run, ...) with as many dimensions in place of the first."""
+    return {name: values.reshape(*shape, *values.shape[1:]) for name, values in found.items()}
+
+
+def stacked(values: Sequence[Any]) -> np.ndarray:
+    """Return values of runs as one array (run, ...), with NaN behind those of smaller shapes."""
+    arrays = [np.asarray(one) for one in values]
+    return joined([{"": one[None]} for one in arrays])[""]
