@@ -80,7 +80,7 @@ def plot(request, tmp_path_factory):
     with matplotlib.rc_context(USERS):
         figure = draw(xr.load_dataset(file))
         assert matplotlib.rcParams["font.size"] == 20
-        return Plot(request.param, figure, described(figure), file)
+        return Plot(request.param, figure, described(figure, read(file)), file)
 
 
 MORE_DIGITS = {
@@ -112,8 +112,7 @@ LEAST = 100
 def test_each_curve_names_the_rows_that_it_shows(plot):
     if plot.name == "growth_law":  # its curves are of fewer points
         return
-    shown = described(plot.figure, read(plot.file))
-    curves = [one for panel in shown["panels"] for one in panel.get("curves", ())]
+    curves = [one for panel in plot.shown["panels"] for one in panel.get("curves", ())]
     assert all(one.get("shows") for one in curves if one["points"] >= LEAST)
 
 
