@@ -12,11 +12,11 @@ __version__ = "1.0.0"
 
 _HOMES = {
     "pendula.notebook": (
-        *("Case", "simulate", "sweep", "check"),
+        *("Case", "simulate", "sweep", "survey", "check", "read"),
         *("draw_breather", "draw_norms", "draw_spacetime", "draw_sweep"),
     ),
-    "latticode.datasets.netcdf": ("read", "DatasetError"),
-    "latticode.equations.model": ("Model", "ModelError"),
+    "latticode.datasets.netcdf": ("save", "DatasetError"),
+    "latticode.equations.model": ("Model", "ModelError", "abs2", "lap"),
     "latticode.configuration.files": ("ConfigurationError",),
     "latticode.simulation.simulate": ("IntegrationError",),
 }

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 import xarray as xr
 from latticode import notebook
-from latticode.notebook import draw_breather
+from latticode.notebook import draw_breather, read, survey
 
 from pendula.configuration import cases
 from pendula.configuration.cases import takes_model
@@ -25,7 +25,9 @@ __all__ = [
     "draw_norms",
     "draw_spacetime",
     "draw_sweep",
+    "read",
     "simulate",
+    "survey",
     "sweep",
 ]
 
@@ -92,7 +94,7 @@ def simulate(case: Case, name: str = "case", hours: float | None = None):
 
     linf, l2 (component, tau): max_n |A_n| and sqrt(sum_n |A_n|^2); the same of B.
     energy (tau): the conserved H of equation (8).
-    modulus (component, site, snapshot): |A_n|, |B_n| at the times snapshot_tau (snapshot).
+    modulus (component, site, snapshot): |A_n|, |B_n| at the times `snapshot`, as snapshot_tau has.
     final (part, component, site): the amplitudes at end_time.
 
     Attributes: every parameter, the solver's controls and its work, `name` as "case". All but

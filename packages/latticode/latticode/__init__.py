@@ -14,10 +14,10 @@ _HOMES = {
         *("sin", "cos", "exp", "log", "sqrt"),
     ),
     "latticode.notebook": (
-        *("Case", "simulate", "sweep", "survey", "check"),
+        *("Case", "simulate", "sweep", "survey", "check", "read"),
         *("draw_breather", "draw_norms", "draw_spacetime", "draw_sweep"),
     ),
-    "latticode.datasets.netcdf": ("read", "save"),
+    "latticode.datasets.netcdf": ("save",),
     "latticode.datasets": ("DatasetError",),
     "latticode.configuration.files": ("ConfigurationError",),
     "latticode.simulation.simulate": ("IntegrationError",),

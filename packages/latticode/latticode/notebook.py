@@ -11,6 +11,7 @@ asked for; DatasetError, where a file cannot be read or written.
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from pathlib import Path
 
 import xarray as xr
 from pydantic import ValidationError
@@ -21,6 +22,7 @@ from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.messages import in_words, load
 from latticode.configuration.schema import Limits
 from latticode.configuration.solvers import with_controls
+from latticode.datasets import netcdf
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
 from latticode.datasets.surveys import survey_contents
@@ -37,6 +39,7 @@ __all__ = [
     "draw_norms",
     "draw_spacetime",
     "draw_sweep",
+    "read",
     "simulate",
     "survey",
     "sweep",
@@ -154,7 +157,7 @@ def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.D
 
     linf, l2 (component, tau): the largest modulus of a field on the chain, and the root of the sum
         of its squares.
-    modulus (component, site, snapshot): moduli at the times snapshot_tau (snapshot,).
+    modulus (component, site, snapshot): moduli at the times `snapshot`, as snapshot_tau has them.
     conserved (conserved_quantity, snapshot): what the model conserves, if it says so.
     final (part, component, site): the fields at end_time.
 
@@ -177,7 +180,25 @@ def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.D
     problem = case.kind.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
     variables, attributes = trajectory_contents(name, problem, trajectory)
-    return as_xarray(variables | final_state(problem, trajectory), attributes)
+    return timed(as_xarray(variables | final_state(problem, trajectory), attributes))
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """Return the dataset at `path` in memory, its snapshots by their times as in `simulate`.
+
+    Raises DatasetError where it is missing, damaged, or not what was written.
+    """
+    return timed(netcdf.read(path))
+
+
+def timed(data: xr.Dataset) -> xr.Dataset:
+    """Return a dataset whose snapshots, if it has any, are chosen by their times: sel(snapshot=20).
+
+    In files they are numbered, and `sel` would take a time for a number in silence.
+    """
+    if "snapshot_tau" not in data or data["snapshot_tau"].dims != ("snapshot",):
+        return data
+    return data.assign_coords(snapshot=data["snapshot_tau"].variable)
 
 
 def sweep(

@@ -9,7 +9,10 @@ from pathlib import Path
 import latticode
 import pytest
 from latticode import Case, ConfigurationError, Model, abs2, check, lap, notebook, simulate, sweep
+from latticode.datasets import netcdf
+from latticode.datasets.trajectories import trajectory_contents
 from latticode.drawing import runs, style
+from latticode.simulation.simulate import simulate as made
 
 LADDER = Model(
     fields=("u", "v"),
@@ -17,6 +20,7 @@ LADDER = Model(
     i_dt=lambda p, u, v: (lap(u) + p.c * v + abs2(u) * u, lap(v) + p.c * u + abs2(v) * v),
 )
 CASE = Case(model=LADDER, initial={0: [1, 0.5]}, half_width=4, end_time=2)
+PROBLEM = CASE.kind.of(CASE.shown_problem())
 
 
 @pytest.fixture(scope="module")
@@ -69,6 +73,17 @@ def test_the_examples_in_the_docstrings_run():
 def test_what_cannot_be_done_is_told_before_anything_runs(call, words, run):
     with pytest.raises(ConfigurationError, match=words):
         call(run)
+
+
+def test_snapshots_are_chosen_by_their_times(run, tmp_path):
+    latticode.save(tmp_path / "run.nc", run)
+    netcdf.write(tmp_path / "job.nc", *trajectory_contents("job", PROBLEM, made(PROBLEM)))
+    for found in (run, latticode.read(tmp_path / "run.nc"), latticode.read(tmp_path / "job.nc")):
+        chosen = found["modulus"].sel(snapshot=1.5)
+        assert (chosen == found["modulus"].isel(snapshot=60)).all() and chosen.ndim == 2
+        with pytest.raises(KeyError):
+            found["modulus"].sel(snapshot=20)
+    assert len(notebook.draw_spacetime(run).axes) >= 3
 
 
 def test_titles_and_captions_name_the_model_its_fields_and_the_data(run):

@@ -28,6 +28,7 @@ def positive(curve: xr.DataArray) -> xr.DataArray:
 def over_time(run: xr.Dataset) -> xr.Dataset:
     """Return the moduli of a trajectory over the times of its snapshots."""
     moduli = run[["modulus", "snapshot_tau"]].set_coords("snapshot_tau")
+    moduli = moduli.drop_vars("snapshot", errors="ignore")  # the same times, in a notebook
     return moduli.swap_dims(snapshot="snapshot_tau")
 
 
