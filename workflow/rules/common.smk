@@ -290,12 +290,12 @@ def chunks_of(whole):
     """
     folder, _, name = whole.partition("/")
     own = SETTINGS.surveys[name] if folder == "surveys" else None
-    there = sorted(Path(f"results/{whole}.parts").glob("0-of-*.nc"))
+    there = sorted(Path(f"results/{whole}.parts").glob("*-of-*.nc"))
     cores = workflow.resource_settings.cores
     if asked_for := OPTIONS["chunks"] or (own and own.chunks):
         count = int(asked_for)
     elif there:
-        count = int(there[0].stem.removeprefix("0-of-"))
+        count = int(there[0].stem.rpartition("-of-")[2])
     else:
         count = cores if own and isinstance(cores, int) else 1
     return min(count, math.prod(own.plan.shape)) if own else count

@@ -1,0 +1,50 @@
+"""Runs of the paper's studies in any number of parts have the same bits as in one."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+from latticode.simulation.runs import joined, run_part
+from pendula.studies.breathers.fates import run_maps
+from pendula.studies.chaos.ensembles import measure_ensembles
+from pendula.studies.paper.runs import run_sweep
+from pendula.studies.unbounded.long_runs import spread_case
+from problems import problem_of
+
+FAST = {"name": "dop853", "rtol": 1e-6, "atol": 1e-6}
+CASE = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.25, solver=FAST)
+ENDLESS = [CASE.changed(half_width=None, end_time=end, omega=0.5) for end in (40.0,)] * 2
+WINDOWS = [(1.0, 2.0)]
+
+
+def maps(run):
+    a, phases = np.array([1.0, 3.0]), np.array([0.5, 1.0])
+    return dict(zip("ab", run_maps({-4: CASE, 8: CASE}, a, a, phases, 0.2, run), strict=True))
+
+
+def ensembles(run):
+    swept = {"one": {"problem": CASE.plain(), "half_widths": [5, 8], "members": 2}}
+    return measure_ensembles({"a": CASE}, 3, swept, WINDOWS, 1e-3, 1, "even", run)[0]
+
+
+def sweeps(run):
+    """Of these chains all from M = 25 on stand for each other."""
+    return run_sweep("one", CASE, [4, 25, 30, 40, 6], WINDOWS, run)[0]
+
+
+def endless(run):
+    """The fronts of members differ, and so does the number of cells that each has."""
+    return spread_case("one", ENDLESS, 1e-20, 3, 0.5, 1, run)[0]
+
+
+def in_parts(count, problems, make):
+    return joined([run_part(problems, make, part, count) for part in range(count)])
+
+
+@pytest.mark.parametrize("study", [maps, ensembles, sweeps, endless])
+def test_the_number_of_parts_changes_no_bit(study):
+    whole, *others = (study(partial(in_parts, count)) for count in (1, 3, 8))
+    for name, variable in whole.items():
+        for other in others:
+            found, expected = (getattr(one, "values", one) for one in (other[name], variable))
+            np.testing.assert_array_equal(found, expected, err_msg=name)

@@ -1,0 +1,41 @@
+"""--config chunks= splits many runs into jobs: studies of the paper, and surveys of one's own."""
+
+import pytest
+from helpers import ROOT, planned, snakemake
+
+SENSITIVITY = {"sizes": [1.0e-3, 1.0e-1], "members": 2, "end_time": 5}
+SETTINGS = {"breathers": {"sensitivity": SENSITIVITY}}
+MADE = "results/breathers/sensitivity.nc"
+SURVEY = {"case": "fig3_small", "axes": {"omega": [-5, -4, -3]}}
+
+
+@pytest.mark.parametrize(
+    ("target", "datasets"), [("fates", 1), ("sensitivity", 1), ("unbounded", 6), ("fig5_left", 2)]
+)
+def test_chunks_split_the_runs_of_a_study_into_jobs(target, datasets, tmp_path):
+    jobs = planned(ROOT, tmp_path, target, "--config", "chunks=8")
+    assert jobs["part"] == 8 * datasets
+
+
+def test_a_survey_of_ones_own_has_no_more_parts_than_runs(tmp_path):
+    given = {"surveys": {"mine": SURVEY}}
+    split = planned(ROOT, tmp_path, "own", "--config", "chunks=8", settings=given)
+    assert split["part"] == 3
+    assert planned(ROOT, tmp_path, "own", "--cores", "2", settings=given)["part"] == 2
+
+
+def test_parts_change_no_bit_and_a_lost_part_is_made_again_alone(tmp_path):
+    def made(folder, *options):
+        folder.mkdir(exist_ok=True)
+        result = snakemake(ROOT, folder, MADE, *options, settings=SETTINGS)
+        assert result.returncode == 0, result.stderr
+        return (folder / MADE).read_bytes()
+
+    whole, split = tmp_path / "whole", tmp_path / "split"
+    assert made(split, "--config", "chunks=3") == made(whole)
+    assert not list(whole.glob("results/*/*.parts"))  # nobody has asked for any
+    assert planned(ROOT, split, MADE, settings=SETTINGS) == {}  # as many parts as are there
+    (split / MADE).unlink()
+    (split / "results/breathers/sensitivity.parts/0-of-3.nc").unlink()
+    again = planned(ROOT, split, MADE, settings=SETTINGS)
+    assert again == {"part": 1, "measure_sensitivity": 1}
