@@ -27,7 +27,7 @@ def make(snakemake) -> None:
     function that takes `step` is told by it how to say how far it is.
 
     A function that takes `run` makes many runs by it. They are all made here, or read from the
-    input `parts`. A job with the parameter `part`, such as [2, 8], makes and writes this part.
+    input `chunks`. A job with the parameter `chunk`, such as [2, 8], makes and writes this part.
     """
     (function,) = called(snakemake)
     files = {name: datasets_in(value) for name, value in arguments(snakemake).items()}
@@ -37,7 +37,7 @@ def make(snakemake) -> None:
     if "step" in signature(function).parameters:
         given.setdefault("step", step)
     if "run" in signature(function).parameters:
-        given["run"] = partial(run_or_read, snakemake)
+        given.setdefault("run", partial(run_or_read, snakemake))
     try:
         made = function(**given)
     except PartIsMade as part:
@@ -64,9 +64,9 @@ def run_or_read(snakemake, problems: Sequence[Problem], make: Make) -> dict[str,
         if done % max(1, count // STEPS) == 0:
             step(f"{done} of {count} runs done")
 
-    if files := snakemake.input.get("parts"):
+    if files := snakemake.input.get("chunks"):
         return joined(map(arrays_of, files))
-    if part := snakemake.params.get("part"):
+    if part := snakemake.params.get("chunk"):
         raise PartIsMade(run_part(problems, make, *part, tell))
     return run_part(problems, make, progress=tell)
 

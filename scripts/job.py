@@ -95,7 +95,7 @@ class _Tee:
             stream.flush()
 
 
-NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed", "parts", "part")
+NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed", "chunks", "chunk")
 """What is for Snakemake or a script alone, as hashes and the kernels that a job waits for, or
 holds others."""
 

@@ -74,4 +74,4 @@ use rule dataset as part with:
     params:
         call=lambda wildcards: given_to(wildcards.whole)[0]["call"],
         given=lambda wildcards: given_to(wildcards.whole)[0],
-        part=lambda wildcards: [int(wildcards.part), int(wildcards.parts)],
+        chunk=lambda wildcards: [int(wildcards.part), int(wildcards.parts)],

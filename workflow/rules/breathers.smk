@@ -31,7 +31,7 @@ use rule dataset as measure_sensitivity with:
     "Share of runs that spread, by the size of a random change of the data"
     input:
         kernels=kernels("taylor"),
-        parts=parts_of("{size}breathers/sensitivity"),
+        chunks=parts_of("{size}breathers/sensitivity"),
     pathvars:
         made="<size>breathers/sensitivity",
     params:
@@ -46,7 +46,7 @@ use rule dataset as map_fates with:
     "What becomes of data on one pair: they disperse, stay, move or spread"
     input:
         kernels=kernels("taylor"),
-        parts=parts_of("{size}breathers/fates"),
+        chunks=parts_of("{size}breathers/fates"),
     pathvars:
         made="<size>breathers/fates",
     params:

@@ -28,7 +28,7 @@ use rule dataset as measure_ensembles with:
     "Chaotic cases and sweeps from data that differ in their last digits"
     input:
         kernels=lambda wildcards: kernels(solver_of_members(wildcards.kind)),
-        parts=parts_of("checks/ensembles{kind}"),
+        chunks=parts_of("checks/ensembles{kind}"),
     pathvars:
         made="checks/ensembles{kind,|_uneven|_second|_finer}",
     params:
@@ -49,7 +49,7 @@ use rule dataset as measure_members with:
     "Ensembles of every case, reduced to the numbers that sentences of the paper are about"
     input:
         kernels=kernels("taylor"),
-        parts=parts_of("checks/members"),
+        chunks=parts_of("checks/members"),
     pathvars:
         made="checks/members",
     params:
@@ -67,7 +67,7 @@ use rule dataset as measure_lifetimes with:
     "Ensembles that show how long the central pair stays excited, by its initial amplitude"
     input:
         kernels=kernels("taylor"),
-        parts=parts_of("checks/lifetimes"),
+        chunks=parts_of("checks/lifetimes"),
     pathvars:
         made="checks/lifetimes",
     params:

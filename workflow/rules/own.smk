@@ -92,7 +92,7 @@ use rule dataset as survey with:
     "A survey of your own: results/surveys/{survey}.nc"
     input:
         kernels=lambda wildcards: kernels_of(SETTINGS.surveyed_problem(wildcards.survey)),
-        parts=parts_of("surveys/{survey}"),
+        chunks=parts_of("surveys/{survey}"),
     pathvars:
         made="surveys/<own_survey>",
     resources:

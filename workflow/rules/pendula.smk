@@ -33,7 +33,7 @@ use rule dataset as measure_sea with:
     "The state that fills the chain, of pendula beside that of the amplitudes"
     input:
         kernels=kernels("taylor"),
-        parts=parts_of("{size}pendula/sea"),
+        chunks=parts_of("{size}pendula/sea"),
     pathvars:
         made="<size>pendula/sea",
     params:
@@ -47,7 +47,7 @@ use rule dataset as measure_over_the_top with:
     "When pendula go over the top, with what chance, and how far they turn then"
     input:
         kernels=kernels("taylor"),
-        parts=parts_of("{size}pendula/over_the_top"),
+        chunks=parts_of("{size}pendula/over_the_top"),
     pathvars:
         made="<size>pendula/over_the_top",
     params:

@@ -43,7 +43,7 @@ use rule dataset as sweep with:
     "A sweep by its own solver: results/sweeps/{sweep}.nc"
     input:
         kernels=lambda wildcards: kernels_of(SETTINGS.swept_problem(wildcards.sweep)),
-        parts=parts_of("sweeps/{sweep}"),
+        chunks=parts_of("sweeps/{sweep}"),
     pathvars:
         made="sweeps/<any_sweep>",
     resources:
@@ -61,7 +61,7 @@ use rule sweep as sweep_by_second_solver with:
     "A sweep of the paper by its second solver: results/sweeps/{sweep}.crank_nicolson.nc"
     input:
         kernels=kernels("crank_nicolson"),
-        parts=parts_of("sweeps/{sweep}.crank_nicolson"),
+        chunks=parts_of("sweeps/{sweep}.crank_nicolson"),
     pathvars:
         made="sweeps/<paper_sweep>.crank_nicolson",
     params:

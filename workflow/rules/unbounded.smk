@@ -16,7 +16,7 @@ rule unbounded:
 use rule dataset as spread with:
     "An ensemble on the infinite chain: results/unbounded/{study}.nc"
     input:
-        parts=parts_of("{size}unbounded/{study}"),
+        chunks=parts_of("{size}unbounded/{study}"),
     pathvars:
         made=f"<size>unbounded/{{study,{one_of(UNBOUNDED.names)}}}",
     params:
