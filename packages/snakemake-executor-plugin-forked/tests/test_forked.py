@@ -4,17 +4,17 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from starting import Run
 
 if sys.platform != "linux":
     pytest.skip("only Linux forks safely; to have it run: run it on Linux", allow_module_level=True)
 
 ROUNDABOUT = Path(sys.executable).parent / "../bin" / Path(sys.executable).name
-COMMAND = (ROUNDABOUT, "-m", "snakemake", "--cores", "2", "--rerun-incomplete", "--executor")
+OPTIONS = ("--cores", "2", "--rerun-incomplete", "--executor")
 THREADED = "import threading as t, time; t.Thread(target=time.sleep, args=[9]).start()"
 
 
@@ -33,21 +33,11 @@ def run(folder, *targets, modules="json", executor="forked", meanwhile=None, pat
     Each of its processes has the pipe that is read here to the end: none is left when this returns.
     """
     chosen = ["--forked-modules", modules] if executor == "forked" else []
-    process = subprocess.Popen(
-        [*COMMAND, executor, *chosen, *targets],
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-        env={**os.environ, "PYTHONPATH": str(folder.parent)} if path else None,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )
+    variables = {**os.environ, **({"PYTHONPATH": str(folder.parent)} if path else {})}
+    process = Run(ROUNDABOUT, folder, [*OPTIONS, executor, *chosen, *targets], variables)
     if meanwhile:
         meanwhile(process)
-    said = process.communicate(timeout=600)[0]
-    return process.returncode, said
+    return process.end()
 
 
 def hear(process, words, times=1):
