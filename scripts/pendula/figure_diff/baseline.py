@@ -9,7 +9,7 @@ import platform
 import re
 import zlib
 from collections.abc import Iterable, Mapping
-from functools import cache, cached_property
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -145,12 +145,7 @@ class Comparison:
 
     def _compare(self, name: str, new: Path, kept: Path, accepted: Any) -> tuple[Status, str]:
         if name.endswith(".nc"):
-            known = kept if is_kept(name) else None
-            found = compare_datasets.compare(name, new, accepted, known, self.chaos)
-            if found[0] != Status.BEYOND or not name.startswith(FIGURES):
-                return found
-            fault = compare_datasets.fault_of_copies(kept, new, self.sources)
-            return (Status.DIFFERENT, fault) if fault else found
+            return compare_datasets.compare(name, new, accepted, kept, self.chaos)
         found = compare_shown.hash_of(name, new.read_bytes())
         same = found == accepted
         if name.startswith(FIGURES) and name.endswith(PICTURES):
@@ -168,13 +163,6 @@ class Comparison:
         follows = Status.BEYOND in datasets.values() and has_words
         status = Status.BEYOND if follows else Status.DIFFERENT
         return status, "is not the accepted one, of which the baseline keeps the hash alone"
-
-    @cached_property
-    def sources(self) -> compare_datasets.Sources:
-        """The datasets that rest on chaos, which come before those of figures."""
-        chaotic = [name for name, found in self.found.items() if found.status == Status.BEYOND]
-        names = [n for n in chaotic if n.endswith(".nc") and not n.startswith(FIGURES)]
-        return compare_datasets.sources(names, self.folder, self.made)
 
     def _beside(self, name: str, kind: str) -> Status:
         """Return the status of the file of another kind beside this one."""

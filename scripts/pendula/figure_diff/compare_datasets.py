@@ -4,25 +4,19 @@ Words, coordinates, attributes, types and shapes must be equal, and numbers agre
 Those that rest on chaos are beyond comparison, but obey its limits and the laws of `laws`.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
-from itertools import islice
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import netCDF4
 import xarray as xr
 from latticode.datasets.netcdf import LENGTH, MARK, DatasetError, read
-from latticode.drawing.shown_data import Rows
 
 from . import Status, hashes, laws, values
 from .chaos import Chaos, are_coordinates
 
 WORK = ("steps", "rejected_steps", "right_hand_sides")
 """Attributes that count what a solver did: they follow every rounding, also of a regular run."""
-
-
-Sources = Mapping[str, tuple[Rows, ...]]
-"""The rows of datasets from which figures are made: accepted, and new."""
 
 
 class Unlike(NamedTuple):
@@ -58,16 +52,6 @@ def compare(
         count = sum(each.beyond for each in found)
         return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
     return Status.WITHIN, "; ".join([each.says for each in found][:3])
-
-
-def sources(names: Iterable[str], *folders: Path) -> Sources:
-    """Return the rows of datasets in two folders, by the names of the datasets."""
-    return {name: tuple(Rows(read(folder / name)) for folder in folders) for name in names}
-
-
-def fault_of_copies(kept: Path, made: Path, sources: Sources) -> str:
-    """Return which rows of a figure's dataset are no longer those of its sources, or nothing."""
-    return "; ".join(islice(laws.copied(read(kept), read(made), sources), 3))
 
 
 def fault_of_form(path: Path) -> str:

@@ -1,17 +1,15 @@
-"""Laws that hold between the numbers of a dataset, also of a chaotic one, and between datasets.
+"""Laws that hold between the numbers of a dataset, also of a chaotic one.
 
 A law that the accepted run obeys holds in every right run: a bound stays above what it bounds, what
-only grows goes on growing, norms are those of the moduli beside them, a figure shows the dataset
-that it is made of. A jump in time is larger than any step of the accepted run.
+only grows goes on growing. A jump in time is larger than any step of the accepted run.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import product
 
 import numpy as np
 import xarray as xr
-from latticode.drawing.shown_data import Rows
 
 from .values import rows
 
@@ -34,7 +32,7 @@ _GROWS = re.compile("so_far|passed|turns")
 def broken(was: xr.Dataset, now: xr.Dataset) -> list[str]:
     """Return in words the laws that the accepted run obeys and the new one does not."""
     obeyed = dict(_laws(was))
-    return [law for law, holds in _laws(now) if not holds and obeyed.get(law)] + _jumps(was, now)
+    return [law for law, holds in _laws(now) if not holds and obeyed.get(law)] + [*_jumps(was, now)]
 
 
 def _laws(data: xr.Dataset) -> Iterator[tuple[str, bool]]:
@@ -51,59 +49,24 @@ def _laws(data: xr.Dataset) -> Iterator[tuple[str, bool]]:
             steps = np.diff(variable.values, axis=variable.get_axis_num(dim))
             grows = not (steps < -ROUNDED * _largest(variable.values)).any()
             yield f"{key} does not only grow along {dim}", grows
-    if {"modulus", "snapshot_tau", "linf", "l2"} <= floats.keys() and "site" in data.dims:
-        yield from _norms(data)
 
 
 def _below(less: xr.Variable, more: xr.Variable) -> bool:
     return not (less.values > more.values + ROUNDED * _largest(less.values)).any()
 
 
-def _norms(data: xr.Dataset) -> Iterator[tuple[str, bool]]:
-    """Yield whether the norms at the snapshots are those of the moduli."""
-    at = data["snapshot_tau"].values
-    moduli = data["modulus"].transpose("component", "snapshot", "site").values
-    for key, found in {"linf": moduli.max(-1), "l2": np.sqrt((moduli**2).sum(-1))}.items():
-        norms = data[key].transpose("component", "tau")
-        here = np.abs(data["tau"].values[:, None] - at).argmin(axis=0)
-        apart = abs(norms.values[:, here] - found).max()
-        yield f"{key} is not that of the moduli", apart <= ROUNDED * found.max()
-
-
-def _jumps(was: xr.Dataset, now: xr.Dataset) -> list[str]:
-    said = []
+def _jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
     for key, variable in was.variables.items():
-        times = [
-            d for d in ("tau", "snapshot", "snapshot_tau") if variable.sizes.get(d, 0) >= FEWEST
-        ]
+        times = [dim for dim in TIMES if variable.sizes.get(dim, 0) >= FEWEST]
         for dim in times if variable.dtype.kind == "f" else ():
-            before, after = (
-                abs(np.diff(d[key].values, axis=variable.get_axis_num(dim))) for d in (was, now)
-            )
+            axis, rounded = variable.get_axis_num(dim), ROUNDED * _largest(variable.values)
+            steps = [abs(np.diff(data[key].values, axis=axis)) for data in (was, now)]
             for row in rows(variable, was):
-                steps = _largest(before[row]), _largest(after[row])
-                if steps[1] > STEP * steps[0] + ROUNDED * _largest(variable.values):
-                    said.append(f"{key} jumps along {dim}")
+                before, after = (_largest(each[row]) for each in steps)
+                if after > STEP * before + rounded:
+                    yield f"{key} jumps along {dim}"
                     break
-    return said
 
 
 def _largest(values: np.ndarray) -> float:
     return float(np.fmax.reduce(abs(values), axis=None, initial=0.0))
-
-
-def copied(
-    was: xr.Dataset, now: xr.Dataset, sources: Mapping[str, tuple[Rows, ...]]
-) -> Iterator[str]:
-    """Yield the rows that the accepted dataset has from a source, and the new one has not.
-
-    `sources` are the rows of other datasets, by name: accepted, and new.
-    """
-    for key, variable in was.variables.items():
-        if variable.dtype.kind != "f" or not variable.ndim or variable.shape[-1] < FEWEST:
-            continue
-        for place in np.ndindex(variable.shape[:-1]):
-            for name, (old, new) in sources.items():
-                whence = old.name(variable.values[place])
-                if whence and new.name(now[key].values[place]) != whence:
-                    yield f"{key} is not {whence} of {name}"
