@@ -14,6 +14,7 @@ from .runs import Run, run_all, shaped
 from .simulate import IntegrationError, Trajectory, simulate
 from .survey import CHAINS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
 from .sweep import mean_of, within
+from .systems import integration_of
 
 
 def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str, np.ndarray]:
@@ -76,6 +77,8 @@ def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
 def _divergence(problem: Problem, run: Trajectory) -> float:
     """Return the first time at which a run by another method differs by the visible part."""
     other = "dop853" if problem.solver["name"] in ("taylor", "auto") else "taylor"
+    if other not in integration_of(problem).solvers:
+        other = "ode45"
     try:
         again = simulate(
             problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), energy=False

@@ -55,6 +55,13 @@ for names in sys.argv[1:]:
 """
 
 
+def test_a_run_without_compilation_is_refused_by_name():
+    disabled = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    command = [sys.executable, "-c", "from latticode.integrators import taylor"]
+    said = subprocess.run(command, env=disabled, capture_output=True, text=True).stderr
+    assert "RuntimeError: NUMBA_DISABLE_JIT is set" in said
+
+
 @pytest.fixture(params=["ours", "numba alone"])
 def python(request, tmp_path):
     """Return a function: what a new Python says that finds a copy of the library, and each way."""
