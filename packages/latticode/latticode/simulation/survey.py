@@ -6,6 +6,7 @@ between them vary together, and each value of their axis has as many numbers. Ru
 last axis first and members fastest, and each depends on its number alone. `survey_runs` makes them.
 """
 
+import inspect
 from collections.abc import Callable, Collection, Mapping, Sequence
 from math import prod
 from typing import Any, NamedTuple
@@ -94,7 +95,20 @@ def names_of(survey: Survey) -> list[str]:
     for kept in survey.keep:
         if not callable(kept) and kept not in NAMES:
             raise ValueError(f"keep: there is no {kept!r}; there are {', '.join(NAMES)}")
+        if callable(kept) and (fault := _fault_of_function(kept)):
+            raise ValueError(f"keep: {fault}")
     return [kept if isinstance(kept, str) else kept.__name__ for kept in survey.keep]
+
+
+def _fault_of_function(kept: Callable) -> str | None:
+    name = getattr(kept, "__name__", "")
+    if not name.isidentifier():
+        return "a function is kept under its name, and this one has none: make it by def"
+    try:
+        inspect.signature(kept).bind(None, None)
+    except TypeError:
+        return f"{name} must take (problem, run)"
+    return None
 
 
 def fault_of_axis(

@@ -133,6 +133,8 @@ def test_a_run_that_cannot_end_is_nan_and_the_others_are_numbers():
         ({"initial.1.0": [1.0]}, ("max_l2",), "has no initial value: the sites 0 do"),
         ({"initial.0.2": [1.0]}, ("max_l2",), r"in the fields 0\.\.1"),
         ({"omega": [1.0]}, ("max_l3",), "keep: there is no 'max_l3'; there are max_l2"),
+        ({"omega": [1.0]}, (lambda problem, run: 1.0,), "has none: make it by def"),
+        ({"omega": [1.0]}, (abs,), r"keep: abs must take \(problem, run\)"),
     ],
 )
 def test_what_cannot_be_done_is_said_before_any_run(axes, keep, told):
