@@ -46,8 +46,9 @@ PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
 """Entries of a description whose numbers follow the data."""
 
 LOOSE, FEW, LARGE = 0.4, 0.01, 10.0
-"""How far such a place may follow chaos, as a part of the larger end, and a number of points; how
-many times larger than one, or than it was, a measured number may be."""
+"""How far down such a place may follow chaos, as a part of the larger end, and a number of points;
+how many times larger than one, or than it was, a measured number may be. Upwards a place may follow
+by as much as the larger end, because one long error bar doubles an axis."""
 
 TURNS = re.compile(r";\s+it turns\s[^-]*?(?=\n- |\n\n|\Z)")
 """Which verdicts a cut-off turns, in the table of claims: this follows measured numbers."""
@@ -156,7 +157,7 @@ def _is_near(path: tuple, was: float, now: float, whole: Any) -> bool:
     if "y" in path and _entry(whole, path[:2])["y"].get("scale") == "log":
         return 1 / values.SCATTER <= now / was <= values.SCATTER
     largest = max(map(abs, beside if isinstance(beside, list) else [was]))
-    return abs(now - was) <= LOOSE * largest
+    return -LOOSE * largest <= now - was <= largest
 
 
 def _entry(whole: Any, path: tuple) -> Any:

@@ -24,13 +24,16 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )
-from pendula.ledger.cutoff import once
+from pendula.ledger.cutoff import Cutoff, once
 from pendula.many_cases import constants_of
 from pendula.models.bounds import theorem_2_constants
 
 from .claims import LEVEL
 
 SECTION = 5
+SAME = Cutoff(
+    0.9973, "three standard errors, which the means of one law exceed a few times in a thousand"
+)
 NEEDS = checks("ensembles", "ensembles_uneven")
 TEXT_5, TEXT_6 = "[10, 50]", "[10, 70]"
 """The windows of the maxima in the text."""
@@ -58,7 +61,8 @@ class Means(NamedTuple):
 
     def level_from(self, least: int) -> float:
         """Return the half-width from which at least so many means are the same."""
-        return levelling_of_means(self.half_width, self.mean, self.error, self.apart, least)
+        noise = student(2 * (self.members - 1), SAME.value)
+        return levelling_of_means(self.half_width, self.mean, self.error, noise, least)
 
 
 @once

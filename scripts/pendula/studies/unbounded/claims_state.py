@@ -12,6 +12,7 @@ from pendula.ledger.changes import repeat, roll, scale, take
 from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
 from pendula.ledger.criterion import (
     AllOf,
+    AtLeast,
     AtMost,
     Below,
     Finding,
@@ -224,16 +225,17 @@ def unbounded_equilibrium(run, thermal) -> Finding:
         "largest": max(one.value for one in ratios),
         "at_least": min(one.low for one in ratios),
         "at_most": max(one.high for one in ratios),
-        "least_between": min(one.value for one in between),
-        "largest_between": max(one.value for one in between),
+        "between_at_most": min(one.high for one in between),
+        "between_at_least": max(one.low for one in between),
         "least_change": change.min(),
         "largest_change": change.max(),
     }
     says = "confidence interval of P behind the second front over thermal P"
+    alone_says = "P between the fronts over that of the thermal state with A = -B"
     criterion = AllOf(
         Near(1.0, CHANGE, "at_least", "at_most", says=says),
-        Near(1.0, CHANGE, "least_between", "largest_between",
-             says="P between the fronts over that of the thermal state with A = -B"),
+        AtLeast(1.0 - CHANGE.value, "between_at_most", says=f"upper limit of {alone_says}"),
+        AtMost(1.0 + CHANGE.value, "between_at_least", says=f"lower limit of {alone_says}"),
         Near(1.0, CHANGE, "least_change", "largest_change",
              says="P in the last quarter of the run over the third"),
     )  # fmt: skip
