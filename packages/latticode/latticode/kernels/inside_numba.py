@@ -27,7 +27,7 @@ What this rests upon, all of it private to numba:
   `_finalize_final_module`, and `_reduce` and `_rebuild` turn a result into bytes and back;
 - the flag `no_compile` asks for no machine code, and `_nrt` switches the counting of references;
 
-When numba is upgraded, tests/test_inside_numba.py fails until its version stands in
+When numba is upgraded, tests/kernels/test_inside_numba.py fails until its version stands in
 `compiled.TESTED`. Put it there, run that module and tests/test_same_bits.py, and mend what breaks.
 """
 

@@ -32,8 +32,8 @@ What it rests upon: `numba.extending`, `numba.types`, and of `numba.core.cgutils
 extending numba uses. Besides, arrays must be contiguous with the last index fastest, and nothing
 checks bounds. `llvmlite.ir` is public, but it follows LLVM: `bitcast` to a typed pointer before a
 load or a store is a habit of LLVM before opaque pointers. After an upgrade of numba the tests in
-tests/test_simd.py name the operation that broke, and tests/test_same_bits.py finds a changed order
-of operations.
+tests/kernels/test_simd.py name the operation that broke, and tests/test_same_bits.py finds a
+changed order of operations.
 """
 
 import operator
