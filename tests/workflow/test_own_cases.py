@@ -89,7 +89,7 @@ def test_sweeps_are_enough(tmp_path):
     """And so are cases: docs/own_cases.md has no sweep."""
     sweeps = {"sweeps": {"mine": SETTINGS["sweeps"]["mine"]}}
     jobs = planned(ROOT, tmp_path, "own", settings=sweeps)
-    assert jobs.keys() == {"compile_solver", "sweep", "own_sweep_figure", "own"}
+    assert jobs.keys() == {"compile_solver", "sweep", "own_sweep_figure", "own_table", "own"}
 
 
 def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, changed):
@@ -97,7 +97,7 @@ def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, chan
     changed["cases"]["fig5"]["omega"] = 7.5
     assert planned(ROOT, made, "own", settings=changed) == {
         "trajectory": 2, "own_checks": 2, "own_figures": 2, "sweep": 1, "own_sweep_figure": 1,
-        "own": 1,
+        "own_table": 3, "own": 1,
     }  # fmt: skip
 
 
