@@ -152,7 +152,7 @@ def _judge(path: tuple, was: Any, now: Any, whole: Any, datasets: Known) -> Stat
 def _is_near(path: tuple, was: float, now: float, whole: Any) -> bool:
     """Return whether a limit or an end of a curve follows chaos, on the scale of its axis."""
     if path[-1] == "points":  # gaps in a logarithm, or a state that has just formed
-        return abs(now - was) <= max(1.0, FEW * was)
+        return abs(now - was) <= max(2.0, FEW * was)  # two in the outline of a band
     beside = _entry(whole, path[:-1])
     if "y" in path and _entry(whole, path[:2])["y"].get("scale") == "log":
         return 1 / values.SCATTER <= now / was <= values.SCATTER
