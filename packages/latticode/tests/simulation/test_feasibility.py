@@ -39,7 +39,7 @@ REFUSED = [
     ("dop853", {"rtol": np.nan}, {"rtol": 1e-15, "atol": 1e-15}, "not both numbers"),
     ("dop853", {"atol": -0.5, "rtol": 1.0}, {"atol": 0.5, "rtol": 1.0}, "not both numbers"),
     ("ode45", {"rtol": 0.0}, {"rtol": 1e-9}, "ode45 must be positive"),
-    ("dop853", {"size": 1e-30, "atol": 1e-20}, {"size": 1e-19, "atol": 1e-20}, "smaller than the"),
+    ("dop853", {"size": 2e-21, "atol": 1e-20}, {"size": 1e-20, "atol": 1e-20}, "smaller than the"),
     ("taylor", {"size": 1e-170, "atol": 1e-190}, {"size": 1e-145, "atol": 1e-157}, "squares"),
     ("dop853", {"size": 1e-145, "atol": 1e-157}, {}, "square of the absolute tolerance"),
     ("dop853", {"size": 1e5}, {"size": 1e3}, "radians"),
