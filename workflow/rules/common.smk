@@ -74,8 +74,8 @@ COMPILED = [*ALL_SOLVERS, "ode45_real"]  # with ode45 as it is for real unknowns
 # of two equal keys in silence, and merges initial data.
 CONFIG_FILES = [f"{PROJECT}/config/{name}.yaml" for name in ("config", *STUDIES)]
 try:
-    # Options of a single call, by --config alone: the baseline to compare with, whether any bits
-    # will do, what of a run to accept, and in how many parts to make surveys. In a file they would send a run's results elsewhere.
+    # Options of a single call, by --config alone: the baseline to compare with, whether any bits will do,
+    # what of a run to accept, in how many parts to make many runs. In a file they would send results elsewhere.
     OPTIONS = {
         name: workflow.config_settings.config.get(name)
         for name in ("baseline", "bits", "accept", "chunks")
@@ -90,6 +90,8 @@ try:
     require(SETTINGS, PAPER_CASES, PAPER_SWEEPS, ALL_SOLVERS)
 except ConfigurationError as error:
     stop(error)
+if not str(OPTIONS["chunks"] or 1).isdecimal() or OPTIONS["chunks"] == 0:
+    stop(f"--config chunks={OPTIONS['chunks']}: give a whole number of jobs, as in chunks=8")
 if workflow.is_main_process:
     for sentence in SETTINGS.long_runs():
         logger.info(sentence)

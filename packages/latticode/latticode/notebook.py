@@ -247,6 +247,7 @@ def survey(
     name: str = "survey",
     hours: float | None = None,
     cores: int = 1,
+    together: Mapping[str, Iterable] | None = None,
 ) -> xr.Dataset:
     """Make many runs of a case and keep a few numbers of each.
 
@@ -258,6 +259,7 @@ def survey(
         "divergence", the time at which a run by another method differs; or a function of the
         problem of a run and its trajectory, kept under its own name: a number or an array.
     cores: how many runs are made side by side; it changes no bit.
+    together: what varies along one more axis, all names from one value to the next.
 
     Returns a dataset whose dimensions are the axes, "member", and "component" for what each field
     has. A run that cannot be made to its end has NaN.
@@ -277,6 +279,7 @@ def survey(
     asked = {
         "case": name,
         "axes": {axis: _listed(values) for axis, values in (axes or {}).items()},
+        "together": {axis: _listed(values) for axis, values in (together or {}).items()},
         "members": dict(members) if isinstance(members, Mapping) else members,
         "keep": [one for one in kept if not callable(one)] or ["max_l2"],
         "window": window and tuple(window),

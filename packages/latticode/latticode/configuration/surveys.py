@@ -1,5 +1,6 @@
 """A survey as people write it: its case, axes, members, what is kept, and in how many parts."""
 
+from collections.abc import Iterator
 from math import prod
 from typing import Annotated, Any
 
@@ -26,6 +27,8 @@ from .values import (
 )
 
 MOST_RUNS = 10_000_000
+MOST_CHECKED = 1000
+"""Of an axis with more values only the ends are checked before the runs."""
 
 
 class Grid(Model):
@@ -54,7 +57,8 @@ def _one_of(known) -> BeforeValidator:
     return BeforeValidator(check)
 
 
-Axis = Annotated[list[Complex], BeforeValidator(_as_axis), Field(min_length=1), Distinct]
+Column = Annotated[list[Complex], BeforeValidator(_as_axis), Field(min_length=1)]
+Axis = Annotated[Column, Distinct]
 Kept = Annotated[str, _one_of(survey.NAMES)]
 
 
@@ -72,6 +76,8 @@ class Survey(Model):
 
     case: Name
     axes: dict[str, Axis] = {}
+    together: dict[str, Column] = {}
+    """What varies along one more axis, the last: all at once, from one value to the next."""
     members: Members | None = None
     keep: Annotated[list[Kept], Field(min_length=1), Distinct] = ["max_l2"]
     window: Window | None = None
@@ -79,8 +85,13 @@ class Survey(Model):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Survey":
+        if len({len(values) for values in self.together.values()}) > 1:
+            counts = ", ".join(f"{len(values)} of {name}" for name, values in self.together.items())
+            raise faults([("together", f"has {counts}; give as many values of each")])
         found, runs = [], prod(self.plan.shape)
-        if not (self.axes or self.members):
+        if twice := self.axes.keys() & self.together.keys():
+            found.append(("together", f"varies {min(twice)}, which is an axis of its own"))
+        if not (self.axes or self.together or self.members):
             found.append(("axes", "is empty, and there are no members: give what is varied"))
         if runs > MOST_RUNS:
             found.append(("axes", f"make {runs} runs; a survey may have {MOST_RUNS}"))
@@ -94,19 +105,29 @@ class Survey(Model):
     @property
     def plan(self) -> survey.Survey:
         """The survey as the simulation takes it, its numbers real or whole where they are such."""
-        axes = {name: [_plain(name, z) for z in values] for name, values in self.axes.items()}
+        columns = self._columns()
+        axes = {name: columns[name] for name in self.axes}
+        if rows := [columns[name] for name in self.together]:
+            values = list(zip(*rows, strict=True)) if len(rows) > 1 else rows[0]
+            axes[", ".join(self.together)] = values
         members = self.members and survey.Members(**self.members.model_dump())
         return survey.Survey(axes, tuple(self.keep), self.window, members)
+
+    def _columns(self) -> dict[str, list]:
+        """Return the values of all that varies, by name."""
+        given = {**self.axes, **self.together}
+        return {name: [_plain(name, z) for z in values] for name, values in given.items()}
 
     def faults_of(self, case: Case) -> list[tuple[str, str]]:
         """Return what keeps the survey from being made of a case, and under which key."""
         found = []
-        for name in self.axes:
-            text = survey.fault_of_axis(name, case.varied, case.initial, len(case.fields))
-            found += [("axes", text)] if text else []
+        for key, names in (("axes", self.axes), ("together", self.together)):
+            for name in names:
+                text = survey.fault_of_axis(name, case.varied, case.initial, len(case.fields))
+                found += [(key, text)] if text else []
         if found:
             return found
-        for point in self.corners():
+        for point in [*self.corners(), *self._values_one_by_one()]:
             try:
                 case.at(point)
             except ValidationError as error:
@@ -115,7 +136,7 @@ class Survey(Model):
                 at = ", ".join(f"{name} = {value:g}" for name, value in point.items())
                 lines = str(in_words(error, "")).splitlines()[1:]
                 return [("axes", f"at {at}, {line.strip()}") for line in lines]
-        span = min([case.end_time, *self.plan.axes.get("end_time", ())])
+        span = min(self._columns().get("end_time", [case.end_time]))
         if self.window and self.window[1] > span + 1e-9:
             text = f"ends at {self.window[1]:g}, after the shortest run, which ends at {span:g}"
             found.append(("window", text))
@@ -123,8 +144,21 @@ class Survey(Model):
 
     def corners(self) -> list[dict[str, Any]]:
         """Return the first and the last value of all axes together: runs that are checked."""
-        axes = self.plan.axes
-        return [{name: values[end] for name, values in axes.items()} for end in (0, -1)]
+        columns = self._columns()
+        return [{name: values[end] for name, values in columns.items()} for end in (0, -1)]
+
+    def _values_one_by_one(self) -> Iterator[dict[str, Any]]:
+        """Yield each value but the ends of each axis, at the first values of the others."""
+        columns = self._columns()
+        first = {name: values[0] for name, values in columns.items()}
+        for name in self.axes:
+            if len(columns[name]) <= MOST_CHECKED:
+                yield from ({**first, name: value} for value in columns[name][1:-1])
+        if self.together:
+            rows = list(zip(*(columns[name] for name in self.together), strict=True))[1:-1]
+            yield from (
+                first | dict(zip(self.together, row, strict=True)) for row in rows[:MOST_CHECKED]
+            )
 
 
 def _plain(name: str, value: complex) -> Any:

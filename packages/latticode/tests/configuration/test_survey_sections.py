@@ -26,6 +26,13 @@ def test_a_survey_is_read_with_its_grids_and_whole_numbers():
     assert part.seconds == pytest.approx(whole.seconds / 10)
 
 
+def test_what_varies_together_is_the_last_axis():
+    plan = loaded(axes={"half_width": [2, 4]}, together={"c": [1, 1], "initial.0.0": [1, "2j"]})
+    plan = plan.surveys["map"].plan
+    assert plan.axes == {"half_width": [2, 4], "c, initial.0.0": [(1.0, 1.0), (1.0, 2j)]}
+    assert loaded(together={"c": [1, 2]}).surveys["map"].plan.axes == {"c": [1.0, 2.0]}
+
+
 @pytest.mark.parametrize(
     ("survey", "told"),
     [
@@ -38,6 +45,11 @@ def test_a_survey_is_read_with_its_grids_and_whole_numbers():
         ({"axes": {"c": [1, 1.0]}}, "the same value stands twice"),
         ({"axes": {"c": {"first": 0, "last": 1, "points": 1}}}, "it must be at least 2"),
         ({"axes": {"half_width": [0, 3]}}, "surveys.map.axes: at half_width = 0"),
+        ({"axes": {"half_width": [1, 0, 3]}}, "surveys.map.axes: at half_width = 0"),
+        ({"together": {"c": [1, 1, 1], "half_width": [3, 0, 4]}}, "axes: at c = 1, half_width = 0"),
+        ({"together": {"c": [1], "half_width": [1, 2]}}, "together: has 1 of c, 2 of half_width"),
+        ({"axes": {"c": [1]}, "together": {"c": [1]}}, "together: varies c, which is an axis"),
+        ({"together": {"d": [1]}}, "surveys.map.together: 'd' names nothing to change"),
         ({"axes": {"end_time": [1, 1.01]}}, "at end_time = 1.01, end_time: 1.01 is not a whole"),
         ({"axes": {"c": [1]}, "keep": ["max_l3"]}, "keep.0: is 'max_l3'; give one of max_l2"),
         ({"axes": {"c": [1]}, "window": [2, 1]}, r"\[2, 1\] does not run forward"),
