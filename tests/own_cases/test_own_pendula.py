@@ -30,7 +30,7 @@ def checks(run):
 
 def test_a_dataset_of_pendula_says_so_and_has_angles(run, tmp_path):
     written = as_the_workflow_writes(SWING, "case", tmp_path / "case.nc")
-    assert written.identical(run)
+    assert written.identical(run.drop_vars("snapshot"))
     assert run.attrs["model"] == "pendula" and run.attrs["mu"] == 0.1 and "energy" not in run
     assert list(run["component"].values) == ["x", "y"]
     assert list(run["part"].values) == ["angle", "velocity"]

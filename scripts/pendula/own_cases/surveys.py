@@ -1,6 +1,7 @@
 """Surveys of a user's cases as jobs, and a figure."""
 
 from collections.abc import Mapping
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -78,16 +79,17 @@ def draw_survey(data: xr.Dataset) -> Figure:
 def _draw_lines(axes: Axes, kept: xr.DataArray) -> None:
     dims = [name for name in kept.dims if name not in ("component", "member")]
     along = dims[0] if dims else "member"
-    for field in _fields_of(kept):
-        x = field[along].values
+    joined = {"ls": "none", "marker": "."} if along == "member" else {"marker": "."}
+    for number, field in enumerate(_fields_of(kept)):
+        x, look = field[along].values, {**joined, "color": style.colour_of(number)}
         if "member" in field.dims and along != "member":
             limits = [mean_limits(one) for one in field.transpose(along, "member").values]
             low, middle, high = np.array([(one.low, one.value, one.high) for one in limits]).T
-            axes.errorbar(x, middle, [middle - low, high - middle], marker=".", label=_label(field))
+            axes.errorbar(x, middle, [middle - low, high - middle], label=_label(field), **look)
         else:
-            axes.plot(x, field.values, marker=".", label=_label(field))
+            axes.plot(x, field.values, label=_label(field), **look)
     axes.set_xlabel(str(kept[along].attrs.get("long_name", along)))
-    axes.set_ylabel(kept.name)
+    axes.set_ylabel(_words(kept))
     if "component" in kept.dims and kept.sizes["component"] > 1:
         axes.legend()
 
@@ -103,13 +105,19 @@ def _draw_maps(figure: Figure, row: np.ndarray, kept: xr.DataArray) -> None:
         image = axes.pcolormesh(*places, shown.values.T, shading="nearest", cmap="viridis")
         axes.set_xlabel(str(shown[x].attrs.get("long_name", x)))
         axes.set_ylabel(str(shown[y].attrs.get("long_name", y)))
-        figure.colorbar(image, ax=axes, label=f"{kept.name} {_label(field)}".strip())
+        axes.set_title(_label(field))
+        figure.colorbar(image, ax=axes, label=_words(kept))
 
 
 def _fields_of(kept: xr.DataArray) -> list[xr.DataArray]:
     if "component" not in kept.dims:
         return [kept]
     return [kept.sel(component=name) for name in kept["component"].values]
+
+
+def _words(kept: xr.DataArray) -> str:
+    words = str(kept.attrs["long_name"]).replace("l-infinity", "ℓ∞").replace("l2", "ℓ²")
+    return fill(words, 28)
 
 
 def _label(field: xr.DataArray) -> str:

@@ -33,8 +33,8 @@ def survey_contents(
     for (axis, names), dimension in zip(axes.items(), dimensions, strict=True):
         given = survey.axes[axis]
         columns = [given] if len(names) == 1 else zip(*given, strict=True)
-        for name, column in zip(names, columns, strict=True):
-            variables[_plain(name)] = _axis(name, dimension, column, problem.model.fields)
+        for one, column in zip(names, columns, strict=True):
+            variables[_plain(one)] = _axis(one, dimension, column, problem.model.fields)
     if survey.members:
         dimensions.append("member")
         variables["member"] = Variable(("member",), np.arange(survey.members.count))

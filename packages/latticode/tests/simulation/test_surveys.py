@@ -147,6 +147,7 @@ def test_a_survey_as_a_dataset_has_its_axes_as_dimensions():
     data = as_xarray(*survey_contents("map", problem, survey, run_survey(problem, survey)))
     assert isinstance(data, xr.Dataset)
     assert data["max_l2"].dims == ("omega", "initial_0_0", "component")
+    assert (data.attrs["title"], data.attrs["case"]) == ("The survey map", "map")
     assert data["exponent"].dims == ("omega", "initial_0_0")
     assert data["initial_0_0"].values.tolist() == ["(1+0j)", "(2+0.5j)"]
     assert data["max_l2"].attrs["long_name"].startswith("largest l2 norm")
