@@ -32,7 +32,9 @@ from .claims import LEVEL
 
 SECTION = 5
 SAME = Cutoff(
-    0.9973, "three standard errors, which the means of one law exceed a few times in a thousand"
+    0.9973,
+    "three standard errors, which the means of one law exceed a few times in a thousand",
+    1.0,
 )
 NEEDS = checks("ensembles", "ensembles_uneven")
 TEXT_5, TEXT_6 = "[10, 50]", "[10, 70]"
