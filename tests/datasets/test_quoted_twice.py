@@ -12,14 +12,16 @@ KEYS = {"case", "sweep"}
 
 
 def test_no_quantity_of_a_run_differs_between_two_of_its_datasets(full_run):
-    """A quantity is a name, a long name and dimensions; two ensembles share none."""
+    """A quantity is a name, a long name and dimensions; ensembles by two solvers share none."""
     held = {}
     for path in [path for one in FOLDERS for path in (full_run / "results" / one).glob("*.nc")]:
         data = read(path)
         for name, variable in data.data_vars.items():
             if KEYS & set(variable.dims):
                 quantity = name, variable.attrs.get("long_name"), frozenset(variable.dims)
-                held.setdefault(quantity, []).append((path, data.attrs.get("ensemble"), variable))
+                drawn = data.attrs.get("ensemble")
+                drawn = drawn and (drawn, data.attrs["solver"], data.attrs.get("solver_step"))
+                held.setdefault(quantity, []).append((path, drawn, variable))
     differing = []
     for (name, *_), holders in held.items():
         for (one, ensemble, a), (other, another, b) in combinations(holders, 2):

@@ -4,7 +4,7 @@ NOT_DECIDING = ("not_shown", "short_chart")  # but in the article
 RESTS_ON = {  # by part: the datasets that its claims rest on
     "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
     "solvers": [
-        *(*SWEEPS, *SECOND_SWEEPS),
+        *(*datasets("sweeps", "fig5_left", "fig6_left"), *SECOND_SWEEPS),
         *checks("cases", "lyapunov", "members", "solvers"),
         *checks("ensembles", "ensembles_second", "ensembles_finer"),
     ],
