@@ -24,7 +24,7 @@ from pendula.notebook import Case
 from .cost import noisy_chain
 
 WRITTEN = Path(__file__).with_name("scale.json")
-MAP = {"omega": np.linspace(-6, 6, 100), "initial.0.0": np.linspace(0.1, 2.0, 20)}
+MAP = {"omega": np.linspace(-6, 6, 1000), "initial.0.0": np.linspace(0.1, 2.0, 100)}
 HALF_CHAIN, END_TIME = 500_000, 10.0
 
 
