@@ -5,4 +5,4 @@ has vectors of eight doubles; `inside_numba` is all that uses private parts of n
 """
 
 DISABLED = "NUMBA_DISABLE_JIT is set, and kernels cannot run uncompiled: unset it"
-"""What is said where numba is told to compile nothing."""
+"""The message where NUMBA_DISABLE_JIT switches compilation off."""

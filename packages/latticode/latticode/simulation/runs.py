@@ -80,7 +80,7 @@ def run_all(problems: Sequence[Problem], make: Make, cores: int = 1) -> dict[str
             over, _ = wait(made, return_when=FIRST_EXCEPTION)
         finally:
             ended.set()
-        for part in over:  # what ended one is told, and not that it ended the others
+        for part in over:  # raise the error of the part that failed, not that of parts it ended
             part.result()
         return joined([part.result() for part in made])
 
