@@ -107,7 +107,8 @@ class KernelCache:
     def load_overload(self, signature, target_context) -> CompileResult | None:
         """Return the machine code for these types of arguments, or None where there is none."""
         target_context.refresh()
-        kept = self._files.load(signature, target_context.codegen().magic_tuple())
+        magic = target_context.codegen().magic_tuple()
+        kept = self._files.load(signature, *_named_tuples(signature), magic)
         try:
             return None if kept is None else self.restore(target_context, kept)
         except Exception:  # whatever unpickling raises: this is nothing that this numba kept
@@ -121,7 +122,20 @@ class KernelCache:
     def save_overload(self, signature, data: CompileResult) -> None:
         """Keep machine code, unless it holds addresses of this process, as of a large array."""
         if not data.library.has_dynamic_globals:
-            self._files.save(dumps(data._reduce()), signature, data.codegen.magic_tuple())
+            key = (signature, *_named_tuples(signature), data.codegen.magic_tuple())
+            self._files.save(dumps(data._reduce()), *key)
+
+
+def _named_tuples(kinds) -> list[str]:
+    """Return what numba's words for types leave out of named tuples, at any depth: where the class
+    is defined, and its fields. Without them (x, y) and (y, x) of one name would share code."""
+    found = []
+    for kind in kinds:
+        if isinstance(kind, types.BaseNamedTuple):
+            made = kind.instance_class
+            found.append(f"{made.__module__}.{made.__qualname__}({', '.join(kind.fields)})")
+        found += _named_tuples(kind) if isinstance(kind, types.BaseTuple) else []
+    return found
 
 
 class PartCache(KernelCache):

@@ -6,6 +6,7 @@ import shutil
 import sys
 import time
 from importlib.util import module_from_spec, spec_from_file_location
+from types import ModuleType
 
 import pytest
 from latticode.kernels import cache as kernel_cache
@@ -49,6 +50,28 @@ def test_each_type_of_argument_has_a_file_of_its_own(module, kept):
     third = compile_anew(module, kept)
     assert (third(3), third(2.5), found(third)) == (6, 5.0, 2)
     assert len(list(kept.rglob("*.kernel"))) == len(list(kept.rglob("*.*"))) == 2
+
+
+CHAIN = """
+from typing import NamedTuple
+
+class Chain(NamedTuple):
+    {}: float
+    {}: float
+"""
+
+
+@pytest.mark.parametrize("fields", [("charge", "mass"), ("mass", "charge")])
+def test_named_tuples_of_one_name_share_no_code(module, kept, monkeypatch, fields):
+    """They may differ in the order of their fields, or only in the module of their class."""
+    module.write_text("def double(x):\n    return x[0].mass - x[0].charge, x[0]\n")
+    for name, order in ("first", ("mass", "charge")), ("second", fields):
+        monkeypatch.setitem(sys.modules, name, made := ModuleType(name))
+        exec(CHAIN.format(*order), made.__dict__)
+        compiled = compile_anew(module, kept)
+        chain = made.Chain(mass=3.0, charge=1.0)
+        difference, same = compiled((chain,))
+        assert difference == 2.0 and type(same) is made.Chain and found(compiled) == 0
 
 
 def test_a_copied_project_with_new_time_stamps_finds_its_kernels(module, kept):
