@@ -62,6 +62,30 @@ def test_a_run_asks_for_what_it_is_estimated_to_take_and_for_more_when_tried_aga
     assert len(rules) == 5
 
 
+PLANNED = """
+include: "{project}/Snakefile"
+def tell():
+    for job in workflow.dag.jobs:
+        print(job.rule.name, job.resources.mem_mb, job.resources.runtime)
+atexit.register(tell)
+"""
+
+
+def test_what_the_user_sets_for_a_rule_wins_and_leaves_others_as_they_were(tmp_path):
+    """This is a plan: .ci/slurm shows that Slurm gets such requests. Where a profile has such a
+    setting too, Snakemake takes that of the command line alone."""
+    (tmp_path / "Snakefile").write_text(PLANNED.format(project=ROOT))
+    (tmp_path / "slurm").mkdir()
+    plain = {key: value for key, value in PROFILE.items() if "slurm" not in f"{key} {value}"}
+    (tmp_path / "slurm/profile.yaml").write_text(yaml.safe_dump(plain))
+    command = ["", "-m", "snakemake", "--dry-run", "--workflow-profile", "slurm"]
+    wish = ["--set-resources", "trajectory:mem_mb=4000", "map_fates:runtime=300", "--"]
+    targets = ["results/trajectories/fig4_small.nc", "fates", "sensitivity"]
+    said = run_ready([*command, *wish, *targets], tmp_path)
+    for asked in ("trajectory 4000 16", "map_fates 1000 300", "measure_sensitivity 1000 75"):
+        assert f"\n{asked}\n" in f"\n{said.stdout}", said.stderr
+
+
 SINFO = "short*|2:00:00\nlong|2-00:00:30\nfree|infinite\nshort*|2:00:00\nbrief|30:00\n"
 """As sinfo lists four partitions, one in two rows since its nodes differ."""
 

@@ -34,6 +34,8 @@ use rule dataset as measure_sensitivity with:
         chunks=parts_of("{size}breathers/sensitivity"),
     pathvars:
         made="<size>breathers/sensitivity",
+    resources:
+        **asked(cost_of_study),
     params:
         **values_of(BREATHERS.sensitivity, "sizes", "seed"),
         call=function("pendula.studies.breathers.sensitivity.sensitivity_contents"),
@@ -49,6 +51,8 @@ use rule dataset as map_fates with:
         chunks=parts_of("{size}breathers/fates"),
     pathvars:
         made="<size>breathers/fates",
+    resources:
+        **asked(cost_of_study),
     params:
         call=function("pendula.studies.breathers.fate_contents.map_fates"),
         problems={

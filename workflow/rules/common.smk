@@ -325,4 +325,4 @@ def cost_of_part(wildcards):
     folder, _, name = wildcards.whole.partition("/")
     if folder == "surveys":
         return SETTINGS.cost_of_survey(name, int(wildcards.parts))
-    return Cost(3600 / SPARE if folder == "long" else 0.0, 0.0)
+    return LONG if folder == "long" else Cost(0.0, 0.0)

@@ -36,6 +36,8 @@ use rule dataset as measure_sea with:
         chunks=parts_of("{size}pendula/sea"),
     pathvars:
         made="<size>pendula/sea",
+    resources:
+        **asked(cost_of_study),
     params:
         **values_of(SEA, "window", "size", "seed"),
         call=function("pendula.studies.pendula.chaotic_state.measure_sea"),
@@ -50,6 +52,8 @@ use rule dataset as measure_over_the_top with:
         chunks=parts_of("{size}pendula/over_the_top"),
     pathvars:
         made="<size>pendula/over_the_top",
+    resources:
+        **asked(cost_of_study),
     params:
         **values_of(OVER_THE_TOP, "mus", "per_period", "size", "seed", "settled"),
         call=function("pendula.studies.pendula.chaotic_state.measure_over_the_top"),

@@ -17,6 +17,8 @@ use rule dataset as reference_case with:
         made=r"reference/<paper_case>{numbers,(\.double)?}",
     conda:
         "../envs/reference.yaml"
+    resources:
+        **asked(lambda wildcards: LONG),
     params:
         call=function("pendula.studies.reference.verified_run.reference_contents"),
         name="{case}",

@@ -19,6 +19,8 @@ use rule dataset as spread with:
         chunks=parts_of("{size}unbounded/{study}"),
     pathvars:
         made=f"<size>unbounded/{{study,{one_of(UNBOUNDED.names)}}}",
+    resources:
+        **asked(cost_of_study),
     params:
         **values_of(UNBOUNDED, "perturbation", "seed"),
         call=lambda wildcards: TRANSVERSE if wildcards.study == "transverse" else SPREAD,
