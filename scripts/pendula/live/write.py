@@ -15,16 +15,19 @@ import xarray as xr
 import yaml
 from latticode.datasets import complete_or_absent
 from latticode.datasets.netcdf import read
+from latticode.equations.ends import DIRICHLET, MIRROR
 from latticode.integrators import FAULTS
+from latticode.kernels.webassembly import webassembly
 from latticode.measures.difference import VISIBLE
+from latticode.simulation.integration import Solver
+from latticode.simulation.observables import blank_record
 from latticode.simulation.problem import read_initial
 from markupsafe import Markup
 
+from pendula.models.amplitudes import Chain
 from pendula.models.solvers import SOLVERS
 from pendula.report import page
 from pendula.report.words import case_of
-
-from .webassembly import webassembly
 
 HERE = Path(__file__).parent
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
@@ -85,11 +88,20 @@ def _solver(about: Mapping[str, Any]) -> dict[str, Any]:
     name, controls = str(about["solver"]), SOLVERS[str(about["solver"])].controls
     solver = {"name": name, **{one: float(about[f"solver_{one}"]) for one in controls}}
     return {
-        "code": _text(webassembly(name)),
+        "code": _text(_code_of(SOLVERS[name])),
         "controls": [solver[one] for one in controls],
         "named": yaml.safe_dump(solver, default_flow_style=True).strip(),
         "work": SOLVERS[name].work,
     }
+
+
+def _code_of(solver: Solver) -> bytes:
+    """Return the WebAssembly of a solver of (4) on half a chain; its sizes are arguments of it."""
+    y = np.zeros((4, 4))
+    chain = Chain(1.0, 1.0, 0.0, MIRROR, DIRICHLET)
+    controls, record = (0.0,) * len(solver.controls), blank_record(2, 2, 2, 1)
+    work, stop = solver.room_for(None, y), np.zeros(1, np.bool_)
+    return webassembly(solver.run, chain, y, np.zeros(2), controls, work, record, stop)
 
 
 def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The compiled solvers as WebAssembly: the code that a browser runs is that of the project.
+"""Kernels as WebAssembly: a browser runs the code that was compiled for this machine.
 
 numba writes a kernel as LLVM's intermediate code, and LLVM makes WebAssembly of it, whose
 operations are those of IEEE, unfused: so its bits are those of this machine.
@@ -13,16 +13,12 @@ the memory, whose first bytes are constants, and the start of a stack that grows
 """
 
 import re
+from typing import Any
 
 import numba
-import numpy as np
-from latticode.equations.ends import DIRICHLET, MIRROR
-from latticode.kernels.compiled import TESTED
-from latticode.simulation.observables import blank_record
 from llvmlite import binding
 
-from pendula.models.amplitudes import Chain
-from pendula.models.solvers import SOLVERS
+from .compiled import TESTED
 
 TRIPLE, FEATURES = "wasm32-unknown-unknown", "+simd128,+bulk-memory,+sign-ext"
 OPTIMISED = 3
@@ -39,24 +35,24 @@ class WebAssemblyError(RuntimeError):
     """A kernel that cannot be made WebAssembly; the message says what stands in the way."""
 
 
-def webassembly(solver: str) -> bytes:
-    """Return the module of a solver of the amplitudes, whose one function is called `run`.
+def webassembly(kernel, *arguments: Any) -> bytes:
+    """Return the module of a kernel for the types of `arguments`; its one function is `run`.
 
-    It takes what the kernel `run_<solver>` takes, as numba passes it: the address of the outcome,
-    that of a place for errors, then all numbers of the arguments. An array is passed as two zeros,
-    its number of elements, the bytes of one, its address, its shape and its strides in bytes.
-    Raises WebAssemblyError where numba's code rests on the size of pointers or counts references.
+    It takes the arguments as numba passes them: the address of the result, that of a place for
+    errors, then all numbers of the arguments. An array is passed as two zeros, its number of
+    elements, the bytes of one, its address, its shape and its strides in bytes. Raises
+    WebAssemblyError where numba's code rests on the size of pointers or counts references.
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TRIPLE).create_target_machine(
         opt=OPTIMISED, features=FEATURES
     )
-    module = binding.parse_assembly(_code_of(solver))
+    module = binding.parse_assembly(_code_of(kernel, arguments))
     functions = [one for one in module.functions if not one.is_declaration]
     for one in (*functions, *(one for one in module.global_variables if not one.is_declaration)):
         one.linkage = "internal"
-    (run,) = (one for one in functions if f"run_{solver}" in one.name)
+    (run,) = (one for one in functions if kernel.py_func.__name__ in one.name)
     run.linkage = "external"
     passes = binding.create_pass_builder(machine, binding.PipelineTuningOptions(OPTIMISED))
     passes.getModulePassManager().run(module, passes)
@@ -65,25 +61,17 @@ def webassembly(solver: str) -> bytes:
     return _exported(machine.emit_object(small), place)
 
 
-def _code_of(solver: str) -> str:
-    """Return the intermediate code of a solver and of all that it calls."""
-    method = SOLVERS[solver]
-    if not hasattr(method.run, "part"):
+def _code_of(kernel, arguments: tuple) -> str:
+    """Return the intermediate code of a kernel and of all that it calls."""
+    if not hasattr(kernel, "part"):
         raise WebAssemblyError(
-            "code of this numba counts references, which WebAssembly cannot; the page that"
-            f" computes needs numba {', '.join(TESTED)}, see environment.txt"
+            f"code of numba {numba.__version__} counts references, which WebAssembly cannot: take"
+            f" numba {' or '.join(TESTED)}"
         )
-    y = np.zeros((4, 4))
-    record = blank_record(2, 2, 2, 1)
-    given = (
-        Chain(1.0, 1.0, 0.0, MIRROR, DIRICHLET),
-        *(y, np.zeros(2), (0.0,) * len(method.controls)),
-        *(method.room_for(None, y), record, np.zeros(1, np.bool_)),
-    )
-    types = tuple(map(numba.typeof, given))
-    method.run.part.compile(types)
+    types = tuple(map(numba.typeof, arguments))
+    kernel.part.compile(types)
     # Nothing is left of Python's errors, whose texts name files of this machine.
-    code = method.run.part.inspect_llvm(types)
+    code = kernel.part.inspect_llvm(types)
     return re.sub(r"ptr @\.const\.picklebuf\.[\w.]+", "ptr null", code)
 
 

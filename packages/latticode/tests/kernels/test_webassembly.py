@@ -1,8 +1,9 @@
-"""What makes a module of a kernel; tests/browser runs it, and compares the bits."""
+"""What makes a module of a kernel; the tests of the replication run one in a browser."""
 
+import numpy as np
 import pytest
-from pendula.figure_diff.compare_shown import comparable
-from pendula.live.webassembly import WebAssemblyError, _for_small_pointers, webassembly
+from latticode.kernels.compiled import kernel
+from latticode.kernels.webassembly import WebAssemblyError, _for_small_pointers, webassembly
 
 STRUCTURE = "{ ptr, ptr, i64, double, [3 x i64] }"
 
@@ -18,13 +19,21 @@ def test_code_that_rests_on_the_size_of_a_pointer_is_refused(use):
         _for_small_pointers(f"  %b = {use.format(STRUCTURE)}\n", "e")
 
 
+@kernel
+def add_scaled(factor, y, out):
+    for i in range(y.size):
+        out[i] += factor * y[i]
+
+
 def test_a_module_is_whole_and_names_no_file_of_this_machine():
-    module = webassembly("taylor")
+    module = webassembly(add_scaled, 0.0, np.zeros(1), np.zeros(1))
     assert module.startswith(b"\0asm\1\0\0\0") and b"\3run\0" in module
     assert b".py" not in module
 
 
-def test_the_comparison_of_runs_leaves_out_the_code_for_a_processor():
-    pages = (b'{"code": "AA==", "marks": "%s"}' % marks for marks in (b"B", b"C"))
-    one, other = (comparable("live.html", page) for page in pages)
-    assert b"AA==" not in one and one != other
+def test_a_kernel_that_numba_compiled_in_its_own_way_is_refused():
+    class OfAnotherNumba:
+        py_func = add_scaled.py_func
+
+    with pytest.raises(WebAssemblyError, match=r"counts references, .* take numba"):
+        webassembly(OfAnotherNumba(), 0.0, np.zeros(1), np.zeros(1))
