@@ -6,6 +6,7 @@ holds on any machine, for chaotic data too, because data and picture are of the 
 
 from collections.abc import Iterator
 from itertools import permutations
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -14,12 +15,24 @@ FEWEST = 4
 """Rows with fewer numbers are not looked for: they are equal by chance."""
 
 
+class Place(NamedTuple):
+    """A row or plane of a dataset: its variable, and where it lies along each other dimension."""
+
+    key: str
+    along: tuple[tuple[str, int], ...]
+
+    def name_in(self, data: xr.Dataset) -> str:
+        """Return a name such as `l2 [small, A]`."""
+        labels = [_label(dimension, index, data) for dimension, index in self.along]
+        return f"{self.key} [{', '.join(labels)}]" if labels else self.key
+
+
 class Rows:
     """The names of the rows and planes of a dataset, by what they hold."""
 
     def __init__(self, data: xr.Dataset):
         self.data = data
-        self.known: dict[tuple, dict[bytes, str]] = {}
+        self.known: dict[tuple, dict[bytes, Place]] = {}
 
     def name(self, values: np.ndarray) -> str:
         """Return which row, first or last part of a row, or plane holds these values, if one does.
@@ -30,7 +43,8 @@ class Rows:
             return ""
         if values.shape not in self.known:
             self.known[values.shape] = dict(reversed([*_contents(self.data, values.shape)]))
-        return self.known[values.shape].get(_content(values), "")
+        place = self.known[values.shape].get(_content(values))
+        return place.name_in(self.data) if place else ""
 
     def of_curve(self, x: np.ndarray, y: np.ndarray) -> str:
         """Return what a curve shows, as in `l2 [small, A] over tau`."""
@@ -42,28 +56,28 @@ def _content(values: np.ndarray) -> bytes:
     return np.where(np.isnan(numbers), np.nan, numbers + 0.0).tobytes()  # no negative zero
 
 
-def _contents(data: xr.Dataset, shape: tuple[int, ...]) -> Iterator[tuple[bytes, str]]:
-    """Yield content and name of all that has this shape."""
+def _contents(data: xr.Dataset, shape: tuple[int, ...]) -> Iterator[tuple[bytes, Place]]:
+    """Yield content and place of all that has this shape."""
     for key, variable in data.variables.items():
         if variable.dtype.kind not in "fi":
             continue
         for axes in permutations(range(variable.ndim), len(shape)):
             if all(variable.shape[a] >= size for a, size in zip(axes, shape, strict=True)):
-                for name, values in _slices(str(key), variable, data, axes):
+                for place, values in _slices(str(key), variable, axes):
                     whole = values if len(shape) > 1 else values[np.isfinite(values)]
                     found = [values, whole, values[: shape[0]], values[-shape[0] :]]
-                    yield from ((_content(one), name) for one in found if one.shape == shape)
+                    yield from ((_content(one), place) for one in found if one.shape == shape)
 
 
 def _slices(
-    key: str, variable: xr.Variable, data: xr.Dataset, axes: tuple[int, ...]
-) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield name and values of each row or plane along these axes."""
+    key: str, variable: xr.Variable, axes: tuple[int, ...]
+) -> Iterator[tuple[Place, np.ndarray]]:
+    """Yield place and values of each row or plane along these axes."""
     others = [axis for axis in range(variable.ndim) if axis not in axes]
+    dimensions = [str(variable.dims[axis]) for axis in others]
     values = variable.values.transpose(*others, *axes)
-    for place in np.ndindex(values.shape[: len(others)]):
-        labels = [_label(variable.dims[a], i, data) for a, i in zip(others, place, strict=True)]
-        yield f"{key} [{', '.join(labels)}]" if labels else str(key), values[place]
+    for indices in np.ndindex(values.shape[: len(others)]):
+        yield Place(key, tuple(zip(dimensions, indices, strict=True))), values[indices]
 
 
 def _label(dimension: str, index: int, data: xr.Dataset) -> str:

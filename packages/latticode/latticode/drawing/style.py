@@ -21,6 +21,7 @@ from latticode.datasets.digest import fingerprint
 from latticode.datasets.netcdf import save as save_dataset
 
 from .description import as_text, describe
+from .light_fonts import light_fonts
 
 DPI = 300
 """The resolution of the PNG, in pixels per inch."""
@@ -182,6 +183,7 @@ def save(
         complete_or_absent(netcdf) as new_netcdf,
         complete_or_absent(description) as new_description,
     ):
+        _measure_less(figure)
         # not savefig, which draws everything once more to find out what it will draw
         figure.canvas.draw()
         text = as_text(describe(figure, data)) + "\n"
@@ -192,8 +194,20 @@ def save(
         imsave(new_png, pixels, dpi=figure.dpi, metadata=inside, format="png", pil_kwargs=quick)
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
-        FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})
+        with light_fonts():
+            FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})
         save_dataset(new_netcdf, data.assign_attrs(title=title))
+
+
+def _measure_less(figure: Figure) -> None:
+    """Leave out of the layout the sides of panels that have no ticks, since they reach no further.
+
+    To measure a side, matplotlib finds all ticks of its axis anew.
+    """
+    for axes in figure.axes:
+        for axis, first, second in ((axes.xaxis, "bottom", "top"), (axes.yaxis, "left", "right")):
+            if axis.get_ticks_position() == first:
+                axes.spines[second].set_in_layout(False)
 
 
 def _panels(figure: Figure) -> str:

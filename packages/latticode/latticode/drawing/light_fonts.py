@@ -1,0 +1,46 @@
+"""DejaVu Sans for a PDF: all letters, without the tables that it takes longest to cut down.
+
+For each PDF, matplotlib cuts a font down to the letters that the figure uses. Most of this time
+goes into the tables of ligatures and of marks on letters, of which the file then uses nothing.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from fontTools.ttLib import TTFont
+from matplotlib.font_manager import FontProperties, fontManager
+
+FAMILY, SLANTS = "DejaVu Sans", ("normal", "oblique")
+LEFT_OUT = ("GDEF", "GPOS", "GSUB")
+"""OpenType: classes, places and replacements of letters; letters that are drawn closer together
+when they meet are named in the older table "kern" too."""
+
+
+@contextmanager
+def light_fonts() -> Iterator[None]:
+    """Let matplotlib find such fonts in place of the whole ones, and the whole ones afterwards."""
+    wanted = [FontProperties(family=FAMILY, style=slant) for slant in SLANTS]
+    whole = [Path(fontManager.findfont(one)) for one in wanted]
+    before = list(fontManager.ttflist)
+    with TemporaryDirectory() as folder:
+        try:
+            for font in whole:
+                fontManager.addfont(_without_tables(font, Path(folder)))
+            # of fonts that suit equally well, matplotlib takes the first
+            fontManager.ttflist[:] = fontManager.ttflist[len(before) :] + before
+            yield
+        finally:
+            fontManager.addfont(whole[0])  # for then matplotlib forgets which fonts it has found
+            fontManager.ttflist[:] = before
+
+
+def _without_tables(font: Path, folder: Path) -> Path:
+    """Return a copy of a font in this folder without the tables that are left out."""
+    with TTFont(font, lazy=True, recalcBBoxes=False, recalcTimestamp=False) as opened:
+        for table in LEFT_OUT:
+            if table in opened:
+                del opened[table]
+        opened.save(folder / font.name, reorderTables=None)
+    return folder / font.name
