@@ -162,9 +162,9 @@ const linkOf = () => {
 let run, other, parted;
 const now = () => Number(byId("tau").value);
 const horizon = () => (isOfPaper() ? chosen().horizon : null);
-const say = (number) => {
+const say = (number, digits = 4) => {
   const small = number && Math.abs(number) < 1e-3;
-  return (small ? number.toExponential(2) : String(Number(number.toPrecision(4)))).replaceAll("-", "−");
+  return (small ? number.toExponential(2) : String(Number(number.toPrecision(digits)))).replaceAll("-", "−");
 };
 const line = (kind, ...points) => `<polyline class="${kind}" points="${points.join(" ")}"/>`;
 const label = (x, y, anchor, said) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${say(said)}</text>`;
@@ -247,7 +247,7 @@ const endOfLocalised = ({ modulus, sites, snapshots, tau, every }) => {
   };
   return tau.find((_, i) => i % every === 0 && isLeft(i / every)) ?? Infinity;
 };
-const until = (time) => (time < settings.end_time ? `until τ = ${say(time)}` : "to the end");
+const until = (time, digits) => (time < settings.end_time ? `until τ = ${say(time, digits)}` : "to the end");
 const tell = () => {
   const i = Math.round(((run.tau.length - 1) * now()) / settings.end_time);
   const norms = ["l2", "linf"].map((norm) => `${say(run[norm][0][i])} of A and ${say(run[norm][1][i])} of B`);
@@ -259,11 +259,11 @@ const tell = () => {
 const tellLocalised = () => (settings.half_width > 2 ? `The motion stays localised ${until(endOfLocalised(run))}.`
   : "On so short a chain no motion counts as localised.");
 const tellHorizon = () => {
-  if (!isOfPaper()) return "These settings are your own, and nothing is proved of their curves.";
-  const known = horizon() === null ? "at no known time" : until(horizon());
+  if (!isOfPaper()) return "There is no multiprecision reference for your own settings.";
+  const known = horizon() === null ? "at no known time" : until(horizon(), 5);
   const dashed = known.startsWith("until") ? " (the dashed line)" : "";
-  return `Horizon of ${chosen().title}: the printed line, by ode45, is within ${100 * data.visible} % of the norms `
-    + `of the multiprecision reference ${known}${dashed}.`;
+  return `Horizon of ${chosen().title}: the norms by ode45 are within ${100 * data.visible} % of the multiprecision reference `
+    + `${known}${dashed}.`;
 };
 // Return the first time at which the norms of two runs differ by the visible part of full scale.
 const partingOf = (one, two) => {
@@ -279,8 +279,8 @@ const perturb = () => {
   other = solve(changed, steps());
   parted = partingOf(run, other);
   const when = parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time";
-  return `With initial data larger by the factor 1 + ${size.toExponential(0)} (dashed curves) the norms differ `
-    + `by ${100 * data.visible} % of full scale ${when}.`;
+  return `If the initial data are multiplied by 1 + ${size.toExponential(0)} (dashed curves), the norms differ by `
+    + `${100 * data.visible} % of full scale ${when}.`;
 };
 
 // --- What a change of the settings, or of the time, changes ------------------------------------
