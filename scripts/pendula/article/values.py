@@ -24,7 +24,7 @@ LONG = f"{QUOTED}unbounded"
 FRAMED = ("fig2_large", "fig3_large", "fig4_small", "fig4_large")
 """The cases whose proofs are committed; a full run proves the others."""
 VERDICTS = {Verdict.CONFIRMED: "confirmed", Verdict.CAVEAT: "with a caveat",
-            Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "open"}  # fmt: skip
+            Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "undecided"}  # fmt: skip
 MARK = "†"
 """It follows each result of a long study, which a full run does not make again."""
 UPWARD = 1.05

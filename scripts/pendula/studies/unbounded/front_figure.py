@@ -92,5 +92,5 @@ def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
             omega, data[name] / thermal, limits.where(np.isfinite(limits)), label=label, **look
         )
     axes.set_ylim(bottom=0.6)
-    axes.set(xlabel=r"$\Omega$", ylabel="$P$ over thermal $P$")
+    axes.set(xlabel=r"$\Omega$", ylabel="power / thermal power")
     axes.legend(loc="lower left", handlelength=1.0)
