@@ -31,15 +31,15 @@ DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
 LONGEST = 46
 """A formula with more characters leaves no room for the rest of a title."""
 NORMS_CAPTION = (
-    "Norms of {fields} against τ: ℓ∞ on the left and ℓ² on the right. Where a run by another "
-    "method differs visibly, a dashed line marks the time and the other run is shown below."
+    "Norms of {fields} against τ: ℓ∞ on the left and ℓ² on the right. If a run by another method "
+    "differs visibly, a dashed line marks the time, and the other run is shown below."
 )
 SPACETIME_CAPTION = "Moduli of {fields} over time and sites, from left to right."
 BREATHER_CAPTION = (
-    "A localised state of these equations, continued from the site where the initial amplitudes "
-    "are largest (left), and its Floquet multipliers (right): it is unstable where one lies off "
-    "the circle. A steady state has exponents instead, and is unstable where one lies to the "
-    "right of zero."
+    "A localised state of these equations, continued from the site with the largest initial "
+    "amplitudes (left), and its Floquet multipliers (right): it is unstable if a multiplier lies "
+    "off the circle. A steady state has exponents instead, and is unstable if an exponent lies to "
+    "the right of zero."
 )
 SWEEP_CAPTION = (
     "Norms of {fields} against the half-width M: ℓ∞ on the left and ℓ² on the right. Filled marks "

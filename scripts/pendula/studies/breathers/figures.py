@@ -26,11 +26,12 @@ SAME_RUNS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "ratio", 
 PAPERS = "initial conditions of the paper"
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate")
 FATES_CAPTION = (
-    "What becomes of an excited central pair by τ = {end}: above by its amplitudes A₀ and B₀, "
-    "below by A₀ and the phase of B₀, at each Ω. A motion stays localised if the central "
-    "pair and its neighbours hold more than half of P at the end, and moves away if three others "
-    "do. Else it disperses if P is no larger than linear waves make it, and spreads if P is "
-    "larger. Circles mark the initial conditions of Figs 2 to 4, in the colour of their own fate."
+    "Fate of an excited central pair at τ = {end}, for each Ω: above by its amplitudes A₀ and B₀, "
+    "below by A₀ and the phase of B₀. A motion stays localised if the central pair and its "
+    "neighbours hold more than half of P at the end, and moves away if three other neighbouring "
+    "pairs do. Otherwise it disperses if P is no larger than linear waves can make it, and spreads "
+    "if P is larger. Circles mark the initial conditions of Figs 2 to 4, filled with the colour of "
+    "their fate."
 )
 
 

@@ -11,11 +11,11 @@ PAPERS_END = 50.0
 """The paper runs Fig 4 up to this time."""
 STROKES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 CAPTION = (
-    "When an excited central pair at Ω = {omega} loses its excess of power, by its initial "
-    "amplitude A₀, of {members} runs each with B₀ = {ratio} A₀. (a): share of runs in which it is "
-    "still excited at τ, with confidence intervals (bands), for amplitudes at which this time "
-    "differs from run to run. (b): median time of the transition. Dashed: the end of the runs of "
-    "Fig 4."
+    "Time of the transition at Ω = {omega}, when the central pair loses its excess of power: "
+    "{members} runs from each initial amplitude A₀, with B₀ = {ratio} A₀. (a): share of runs "
+    "before the transition against τ, with confidence intervals (bands), for amplitudes at which "
+    "its time varies from run to run. (b): median time of the transition. Dashed: the end of the "
+    "runs of Fig 4."
 )
 
 

@@ -34,12 +34,12 @@ def drifts(solvers, size: str) -> Finding:
             by_case.setdefault(case, []).append(measured[name] <= allowed)
     beyond = [case for case, kept in by_case.items() if not any(kept)]
     open_ = [case for case, kept in by_case.items() if any(kept) and not all(kept)]
-    words = [f"that of {named(beyond)} exceeds it by every reading"] if beyond else []
-    words += [f"the reading decides for {named(open_)}"] if open_ else []
-    said = f"the drift may be {ORDER.value:g} times that order; {', and '.join(words)}"
+    words = [f"it is larger by every definition in {named(beyond)}"] if beyond else []
+    words += [f"the definition decides in {named(open_)}"] if open_ else []
+    said = f"the drift may be {ORDER.value:g} times the stated one; {', and '.join(words)}"
     if (open_ and not beyond) or np.isnan([*measured.values()]).any():
         return undecided(measured, said)
-    about = "largest drift of H, by each reading of it, of the solver's unknowns, and of the time"
+    about = "largest drift of H, for each kind of drift, of unknowns and of time span"
     return judge(measured, AtMost(allowed, *measured, says=about), fails=said)
 
 

@@ -23,40 +23,40 @@ BAND = [0.05, 0.5, 0.95]
 MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
 NORMS_CAPTION = (
-    "Norms of A (red) and of B (blue) against τ: ℓ∞ on the left and ℓ² on the right, small "
-    "initial amplitudes above and large ones below. Wide pale lines below a run are its "
-    "multiprecision reference, where both agree to the end."
+    "Norms of A (red) and of B (blue) against τ: ℓ∞ on the left and ℓ² on the right, small initial "
+    "amplitudes above and large ones below. A wide pale line below a curve is the multiprecision "
+    "reference, where both agree to the end."
 )
 PARTS_CAPTION = (
     " A dashed line marks the time from which a run differs from its reference by "
-    f"{100 * VISIBLE:g} % of full scale. Below such a run stand the reference and, of a perturbed "
-    f"ensemble, the median and the band that contains {100 * (BAND[-1] - BAND[0]):g} % of the "
-    "runs."
+    f"{100 * VISIBLE:g} % of full scale. The rows below such a run show the reference, and the "
+    f"median and the band with {100 * (BAND[-1] - BAND[0]):g} % of the runs of a perturbed "
+    "ensemble."
 )
 SPACETIME_CAPTION = (
     "Moduli |Aₙ| (left) and |Bₙ| (right) over time and sites, small initial amplitudes above and "
-    "large ones below. From the dashed line on, the run differs from its multiprecision "
-    f"reference by {100 * VISIBLE:g} % of full scale."
+    "large ones below. After a dashed line the run differs from its multiprecision reference by "
+    f"{100 * VISIBLE:g} % of full scale."
 )
 SWEEPS_CAPTION = (
     "Norms of the pair (A, B) against the half-width M of the chain. Filled marks are maxima over "
     "the time window in the text of the paper, hollow marks are averages over the window in its "
     "caption. Bars are the mean and the standard deviation of a perturbed ensemble of a chaotic "
-    "case. Marks on chains whose ends the front does not reach come from the same motion and are "
-    "not independent samples."
+    "case. On chains whose ends the front does not reach, the motion is the same, so their marks "
+    "are not independent."
 )
 DRIFT_CAPTION = (
     "Largest change of the energy H up to each time, by solver, for each case. The dashed line is "
-    "the order of magnitude that the paper states. ode45 has complex unknowns, or (real) real and "
-    "imaginary parts. Crank and Nicolson's scheme does not conserve an energy of fourth degree; "
-    "that of Delfour, Fortin and Payre does."
+    "the order of magnitude that the paper states. ode45 integrates complex unknowns, or real ones "
+    "where marked (real). The scheme of Crank and Nicolson does not conserve a quartic energy; "
+    "the scheme of Delfour, Fortin and Payre does."
 )
 TRUST_CAPTION = (
-    "Largest error of the norms up to each time, relative to full scale, by solver. The dashed "
-    f"line is {100 * VISIBLE:g} %, where an error becomes visible. A mark on it shows when a "
-    "solver leaves the multiprecision reference; a curve that stays below has its mark at its "
-    "end. A case without a reference has an empty panel. The bound is proved for another curve, of "
-    "polynomials, whose error is not drawn; so it can lie below the errors of the solvers."
+    "Largest error of the norms up to each time, relative to full scale, by solver. An error above "
+    f"the dashed line, {100 * VISIBLE:g} %, is visible. Marks on this line show when a solver "
+    "diverges from the multiprecision reference; solvers with smaller errors have their marks at "
+    "the end. A case without a reference has an empty panel. The proven bound is of a separate "
+    "computed trajectory, so it can lie below the errors of the solvers."
 )
 
 

@@ -163,7 +163,7 @@ def waiting_grows(over_the_top) -> Finding:
         "gap_of_limits": fast["passage_rate_low"] - slow["passage_rate_high"],
         "least_step": rated["passage_rate"].diff("mu").min(),
     }
-    says = "lower confidence limit of the rate at the largest mu less the upper one at the smallest"
+    says = "lower confidence limit of the rate at the largest mu minus the upper at the smallest"
     apart = Above(0.0, "gap_of_limits", says=says)
     below = np.maximum.accumulate(rated["passage_rate_low"].values)
     within = (rated["passage_rate_high"].values >= below).all()

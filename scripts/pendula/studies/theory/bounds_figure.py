@@ -30,9 +30,9 @@ POWER = r"$P = \|A\|^2 + \|B\|^2$"
 CAPTION = (
     "P = ‖A‖² + ‖B‖² in ℓ² and the bounds of Theorems 1 to 3. (a): P at the start, its largest "
     "value in each run, and the bounds that apply to the case; Theorem 2 with bonds also counts "
-    "the energy of the springs. (b): the largest P over its bound, for random initial conditions "
-    "(bars) and for a wave on a long chain (blue). (c): P that runs on N sites reach at Ω = 0, and "
-    "its bound by Theorem 3."
+    "the coupling energy. (b): the largest P divided by its bound, for random initial conditions "
+    "(bars) and for a wave on a long chain (blue). (c): P reached on N sites at Ω = 0, and its "
+    "bound by Theorem 3."
 )
 
 

@@ -262,7 +262,7 @@ def theorem_3_proof(constant) -> Finding:
         f"A = -B = x (-1)^n violates it on {smallest:.0f} sites and more; with 2 gamma in place of "
         "gamma it holds"
     )
-    return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H less the bound"), fails=fails)
+    return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H minus the bound"), fails=fails)
 
 
 ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)

@@ -25,7 +25,7 @@ CHART_CAPTION = (
     "Where the chain at rest is unstable, by detuning Ω and drive γ in units of the coupling ε. "
     "(a), (b): growth rates of runs from tiny initial amplitudes on a long and on a short chain, "
     "and the thresholds of Lemma 1, for the infinite chain (dashed) and for the finite one "
-    "(solid). Circles mark the cases that are run. (c): share of the detunings between 0 and 4ε "
+    "(solid). Circles mark the cases of Figs 2 to 4. (c): share of the detunings between 0 and 4ε "
     "at which a chain of N sites is stable."
 )
 

@@ -361,7 +361,7 @@ def unbounded_maximum(run, thermal) -> Finding:
     if measured["bulk_at_least"] < 1.0 - CONSTANT.value:
         return undecided(measured, "the largest amplitudes of the bulk are below thermal ones")
     says = f"confidence interval of the maximum on {sizes[0]} to {sizes[-1]} sites over thermal"
-    above = "upper confidence limit of the norm over that in equilibrium up to the front, less 1"
+    above = "upper confidence limit of the norm over that in equilibrium up to the front, minus 1"
     criterion = AllOf(
         Near(1.0, CONSTANT, "bulk_at_least", "bulk_at_most", says=says),
         AtMost(CONSTANT, "norm_above_thermal", says=above),

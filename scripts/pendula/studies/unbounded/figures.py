@@ -20,12 +20,12 @@ LOOKS = {
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
 OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
 CAPTION = (
-    "Infinite chains against τ. (a): the square of the ℓ² norm over τ. (b): its relative "
-    "deviation from its law. (c): the exponent of τ in the ℓ² norm over each doubling of τ, with "
-    "a line at 1/2. (d): the ℓ∞ norm. The dashed law has no fitted constant: it takes thermal "
-    "states behind the two fronts, and their predicted speeds. The dotted line adds a fitted "
-    "constant to the square of the norm. Bands reach from the lowest to the highest run of an "
-    "ensemble; bars are confidence intervals of the mean."
+    "The infinite chain against τ. (a): the square of the ℓ² norm divided by τ. (b): its relative "
+    "deviation from the predicted law. (c): the exponent of τ in the ℓ² norm over each doubling of "
+    "τ, with a line at 1/2. (d): the ℓ∞ norm. The dashed law is predicted from the thermal states "
+    "behind the two fronts and the predicted speeds of these, without a fit. The dotted line adds "
+    "a fitted constant to the square of the norm. Bands reach from the lowest to the highest run "
+    "of an ensemble; bars are confidence intervals of the mean."
 )
 
 
