@@ -13,7 +13,7 @@ __version__ = "1.0.0"
 _HOMES = {
     "pendula.notebook": (
         *("Case", "simulate", "sweep", "survey", "check", "read"),
-        *("draw_breather", "draw_norms", "draw_spacetime", "draw_sweep"),
+        *("draw_breather", "draw_norms", "draw_spacetime", "draw_survey", "draw_sweep"),
     ),
     "latticode.datasets.netcdf": ("save", "DatasetError"),
     "latticode.equations.model": ("Model", "ModelError", "abs2", "lap"),

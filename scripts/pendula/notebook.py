@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 import xarray as xr
 from latticode import notebook
-from latticode.notebook import draw_breather, read, survey
+from latticode.notebook import draw_breather, draw_survey, read, survey
 
 from pendula.configuration import cases
 from pendula.configuration.cases import takes_model
@@ -24,6 +24,7 @@ __all__ = [
     "draw_breather",
     "draw_norms",
     "draw_spacetime",
+    "draw_survey",
     "draw_sweep",
     "read",
     "simulate",

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from latticode import ConfigurationError, Model, save, survey
 from latticode.drawing import style
+from latticode.drawing.surveys import draw_survey, gather_survey
 from pendula import Case, check, simulate
 from pendula.configuration.messages import load
 from pendula.own_cases.page import write_report, write_table
-from pendula.own_cases.surveys import draw_survey, gather_survey
 
 KINDS = "png", "pdf", "nc", "json"
 

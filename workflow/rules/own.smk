@@ -98,7 +98,7 @@ use rule dataset as survey with:
     resources:
         **asked(lambda wildcards: SETTINGS.cost_of_survey(wildcards.survey)),
     params:
-        call=function("pendula.own_cases.surveys.make_survey"),
+        call=function("latticode.datasets.surveys.make_survey"),
         name="{survey}",
         problem=lambda wildcards: SETTINGS.surveyed_problem(wildcards.survey),
         survey=lambda wildcards: SETTINGS.plain_survey(wildcards.survey),
@@ -111,4 +111,4 @@ use rule figure as own_survey with:
     pathvars:
         made="own/surveys/<own_survey>",
     params:
-        call=function("pendula.own_cases.surveys.draw_survey"),
+        call=function("latticode.drawing.surveys.draw_survey"),

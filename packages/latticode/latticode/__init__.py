@@ -15,7 +15,7 @@ _HOMES = {
     ),
     "latticode.notebook": (
         *("Case", "simulate", "sweep", "survey", "check", "read"),
-        *("draw_breather", "draw_norms", "draw_spacetime", "draw_sweep"),
+        *("draw_breather", "draw_norms", "draw_spacetime", "draw_survey", "draw_sweep"),
     ),
     "latticode.datasets.netcdf": ("save",),
     "latticode.datasets": ("DatasetError",),

@@ -38,6 +38,7 @@ __all__ = [
     "draw_breather",
     "draw_norms",
     "draw_spacetime",
+    "draw_survey",
     "draw_sweep",
     "read",
     "simulate",
@@ -365,6 +366,17 @@ def draw_breather(checks: xr.Dataset):
 
     require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
     return runs.draw_breather(runs.gather_breather(checks))
+
+
+def draw_survey(found: xr.Dataset):
+    """Draw what a survey kept, as `survey` returns it: against one axis, or over two as maps.
+
+    Of further axes the first value is shown, and of members the mean with its 95 % limits.
+    """
+    from .drawing import surveys  # here, so that who draws nothing does without it
+
+    require(found, xr.Dataset, "a survey, as `survey` returns it", "component")
+    return surveys.draw_survey(surveys.gather_survey(found))
 
 
 def draw_sweep(sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None):

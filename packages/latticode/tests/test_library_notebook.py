@@ -8,7 +8,18 @@ from pathlib import Path
 
 import latticode
 import pytest
-from latticode import Case, ConfigurationError, Model, abs2, check, lap, notebook, simulate, sweep
+from latticode import (
+    Case,
+    ConfigurationError,
+    Model,
+    abs2,
+    check,
+    lap,
+    notebook,
+    simulate,
+    survey,
+    sweep,
+)
 from latticode.datasets import netcdf
 from latticode.datasets.trajectories import trajectory_contents
 from latticode.drawing import runs, style
@@ -67,6 +78,7 @@ def test_the_examples_in_the_docstrings_run():
         (lambda r: check(CASE, r[["l2"]]), "the dataset has no linf"),
         (lambda r: check(CASE.changed(parameters={"c": 1}), r), "differ in parameters"),
         (lambda r: notebook.draw_spacetime(r.drop_vars("modulus")), "snapshot_step.; the data"),
+        (lambda r: notebook.draw_survey(r["l2"]), "a survey, as `survey` returns it, and not"),
         (lambda r: notebook.draw_sweep(r), "a sweep, as `sweep` returns it; the dataset"),
     ],
 )
@@ -96,3 +108,17 @@ def test_titles_and_captions_name_the_model_its_fields_and_the_data(run):
     swept = sweep(CASE, [2, 4], windows=[(1, 2)])
     assert notebook.draw_sweep(swept).axes[0].get_ylabel().endswith("of $(u, v)$")
     assert len(notebook.draw_spacetime(run).axes) == 3
+
+
+def test_a_survey_is_drawn_against_one_axis_over_two_as_maps_or_by_member():
+    values, members = [0.5, 1.0], {"count": 3, "size": 0.01, "seed": 1}
+    case = CASE.changed(end_time=1)
+    line = notebook.draw_survey(survey(case, {"c": values}, keep=["final_l2"]))
+    assert [list(one.get_xdata()) for one in line.axes[0].get_lines()] == [values] * 2
+    over_two = survey(case, {"c": values, "end_time": [1, 2]}, keep=["final_l2"])
+    maps = notebook.draw_survey(over_two).axes
+    assert [one.get_title() for one in maps[:2]] == ["u", "v"]
+    drawn = maps[0].collections[0].get_array()
+    assert (drawn == over_two["final_l2"].isel(component=0).T).all()
+    points = notebook.draw_survey(survey(case, {}, keep=["final_l2"], members=members))
+    assert points.axes[0].get_lines()[0].get_linestyle() == "None"

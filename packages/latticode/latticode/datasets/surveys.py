@@ -1,11 +1,14 @@
 """Surveys as datasets: an axis of the survey is a dimension, and what is kept a variable."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from latticode.simulation.problem import Problem
-from latticode.simulation.survey import CHAINS, OF_FIELDS, Survey, names_of_axis
+from latticode.simulation.runs import Run
+from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
+from latticode.simulation.survey_runs import run_survey
 from latticode.simulation.systems import integration_of
 
 from .netcdf import Variable
@@ -21,6 +24,13 @@ ABOUT = {
     "divergence": "first time at which a run by another method differs visibly; infinite: at none",
 }
 """What is kept, in words."""
+
+
+def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run) -> Contents:
+    """Return the contents of the dataset on a survey that plain values describe, run by `run`."""
+    members = survey["members"] and Members(**survey["members"])
+    plan = Survey(survey["axes"], tuple(survey["keep"]), survey["window"], members)
+    return survey_contents(name, problem, plan, run_survey(problem, plan, run))
 
 
 def survey_contents(

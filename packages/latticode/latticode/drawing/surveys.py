@@ -1,22 +1,15 @@
-"""Surveys of a user's cases as jobs, and a figure."""
+"""The figure of a survey: what is kept against one axis, over two as maps, or of each member."""
 
-from collections.abc import Mapping
 from textwrap import fill
-from typing import Any
 
 import numpy as np
 import xarray as xr
-from latticode.datasets.surveys import survey_contents
-from latticode.datasets.trajectories import Contents
-from latticode.drawing import style
-from latticode.measures.confidence import mean_limits
-from latticode.simulation.runs import Run
-from latticode.simulation.survey import Members, Survey
-from latticode.simulation.survey_runs import run_survey
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pendula.problem import Problem
+from latticode.measures.confidence import mean_limits
+
+from . import style
 
 MOST_PANELS = 4
 WORDS = {
@@ -26,27 +19,12 @@ WORDS = {
 }
 
 
-def plan_of(survey: Mapping[str, Any]) -> Survey:
-    """Return the survey that plain values describe, as the parameters of a job have them."""
-    members = survey["members"] and Members(**survey["members"])
-    return Survey(survey["axes"], tuple(survey["keep"]), survey["window"], members)
-
-
-def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run) -> Contents:
-    """Return the dataset of a survey."""
-    plan = plan_of(survey)
-    return survey_contents(name, problem, plan, run_survey(problem, plan, run))
-
-
-# --- The figure -----------------------------------------------------------------------------------
-
-
 def gather_survey(survey: xr.Dataset) -> xr.Dataset:
     """Return what the figure shows: the first axes, of further ones their first value."""
     axes = [name for name in survey.dims if name not in ("component", "member")]
     drawn = survey.isel(dict.fromkeys(axes[2:], 0))
     kind = ("points", "line", "map")[min(len(axes), 2)]
-    x, y = ([style_name(survey, name) for name in axes] + ["", ""])[:2]
+    x, y = ([_name(survey, name) for name in axes] + ["", ""])[:2]
     kept = "; ".join(str(one.attrs["long_name"]) for one in drawn.data_vars.values())
     caption = f"A survey: {kept}, {WORDS[kind].format(x=x, y=y)}."
     if "member" in survey.dims and kind != "points":
@@ -56,7 +34,7 @@ def gather_survey(survey: xr.Dataset) -> xr.Dataset:
     return drawn.assign_attrs(caption=caption, kind=kind)
 
 
-def style_name(survey: xr.Dataset, name: str) -> str:
+def _name(survey: xr.Dataset, name: str) -> str:
     """Return an axis in words."""
     return str(survey[name].attrs.get("long_name", name))
 
