@@ -233,6 +233,9 @@ def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> s
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
     limit = f"{limits[name]:g} {unit}"
     takes = str(cost).replace(f"and {limit} of memory", f"and a little over {limit} of memory")
+    if over_time:
+        allowed = duration(limits["hours"] * HOUR)
+        takes = takes.replace(f"about {allowed} and", f"a little over {allowed} and")
     advice = "make it smaller, or raise the limit"
     return f"{what} would take {takes}, and limits.{name} allows {limit}; {advice}"
 
