@@ -262,8 +262,8 @@ const tellHorizon = () => {
   if (!isOfPaper()) return "There is no multiprecision reference for your own settings.";
   const known = horizon() === null ? "at no known time" : until(horizon(), 5);
   const dashed = known.startsWith("until") ? " (the dashed line)" : "";
-  return `Horizon of ${chosen().title}: the norms by ode45 are within ${100 * data.visible} % of the multiprecision reference `
-    + `${known}${dashed}.`;
+  return `Horizon of ${chosen().title}: the norms by ode45 are within ${100 * data.visible} % of the `
+    + `multiprecision reference ${known}${dashed}.`;
 };
 // Return the first time at which the norms of two runs differ by the visible part of full scale.
 const partingOf = (one, two) => {
@@ -279,8 +279,8 @@ const perturb = () => {
   other = solve(changed, steps());
   parted = partingOf(run, other);
   const when = parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time";
-  return `If the initial data are multiplied by 1 + ${size.toExponential(0)} (dashed curves), the norms differ by `
-    + `${100 * data.visible} % of full scale ${when}.`;
+  return `If the initial data are multiplied by the factor 1 + ${size.toExponential(0)} (dashed curves), `
+    + `the norms differ by ${100 * data.visible} % of full scale ${when}.`;
 };
 
 // --- What a change of the settings, or of the time, changes ------------------------------------

@@ -52,19 +52,19 @@ def _trust(checks: xr.Dataset) -> tuple[str, str]:
     if not np.isfinite(parted):
         return question, f"to the end, to {number(checks['largest_difference'])} of full scale"
     if checks.attrs.get("model") == PENDULA:
-        then = "each may show another motion of the same kind from there on"
+        then = "afterwards each run may show another motion of the same kind"
     elif checks.get("chaotic", 0):
-        then = "from there on it is one of many solutions of the same kind: use its statistics"
+        then = "afterwards the run is one random sample, of which only statistics have a meaning"
     else:
-        then = "the motion is not chaotic, and a smaller tolerance or step moves this time on"
-    return question, f"to τ = {number(parted, 4)}, within {level} of full scale; {then}"
+        then = "the motion is not chaotic, so a smaller tolerance or step gives a later time"
+    return question, f"until τ = {number(parted, 4)}, within {level} of full scale; {then}"
 
 
 def _of_pendula(checks: xr.Dataset) -> Answers:
     over, followed = (
         bool(np.isfinite(checks[name])) for name in ("over_the_top", "expansion_error")
     )
-    top = "yes: from there on the expansion (3) and the amplitude equations (4) do not apply"
+    top = "yes: afterwards the expansion (3) and the amplitude equations (4) do not apply"
     return [
         ("a pendulum has gone over the top", top if over else "no"),
         ("the expansion (3) could be followed", "yes" if followed else "no"),
@@ -76,7 +76,7 @@ def _of_own_model(checks: xr.Dataset) -> Answers:
     return [
         _chaotic(checks),
         ("a localised state", localised(checks)),
-        *((f"change of {one['conserved_quantity'].item()}, over its largest size", number(one))
+        *((f"change of {one['conserved_quantity'].item()} relative to its largest size", number(one))
           for one in drifts),
     ]  # fmt: skip
 
@@ -106,8 +106,8 @@ def _lemma_1(checks: xr.Dataset) -> Answers:
         ("Lemma 1, this chain at rest", stable[bool(checks["finite_rate"] > 0)]),
     ]
     if checks.attrs["epsilon"] < 0:
-        rows.append(("ε < 0", "the statements are on the equivalent chain with −ε and Ω − 4ε, of "
-                     "which every other site has the opposite sign"))  # fmt: skip
+        rows.append(("ε < 0", "the statements are about the equivalent chain with −ε and Ω − 4ε, "
+                     "where every second site has the opposite sign"))  # fmt: skip
     return rows
 
 
@@ -117,7 +117,7 @@ def _of_amplitudes(checks: xr.Dataset) -> Answers:
     if not found["growth_holds"]:
         growth = TOO_LARGE
     elif found["too_steep"]:
-        growth = "holds from the start on, but not between outputs: the errors of the run are large"
+        growth = "holds from the start, but not between outputs: the errors of the run are large"
     region = str(checks["region"].values)
     covered = "only Theorem 3 covers" if region == "none" else f"{region.capitalize()} covers"
     bound = "the smallest bound holds" if found["bound_holds"] else f"the bound is {TOO_LARGE}"
