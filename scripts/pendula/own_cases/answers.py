@@ -76,7 +76,7 @@ def _of_own_model(checks: xr.Dataset) -> Answers:
     return [
         _chaotic(checks),
         ("a localised state", localised(checks)),
-        *((f"change of {one['conserved_quantity'].item()} relative to its largest size", number(one))
+        *((f"largest relative change of {one['conserved_quantity'].item()}", number(one))
           for one in drifts),
     ]  # fmt: skip
 
