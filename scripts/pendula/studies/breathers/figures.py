@@ -111,5 +111,7 @@ def _mark_cases(above: Axes, below: Axes, data: xr.Dataset, omega: float) -> Non
         if abs(b - data.attrs["ratio"] * a) < 1e-9 * a:
             places.append((below, (0.0, a)))
         for axes, at in places:
-            axes.plot(*at, marker="o", markersize=7.5, color="white")
-            axes.plot(*at, marker="o", markersize=5, color="black", markerfacecolor=colour)
+            axes.plot(*at, marker="o", markersize=7.5, color="white", clip_on=False)
+            axes.plot(
+                *at, marker="o", markersize=5, color="black", markerfacecolor=colour, clip_on=False
+            )

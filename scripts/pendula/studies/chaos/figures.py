@@ -14,8 +14,8 @@ CAPTION = (
     "Time of the transition at Ω = {omega}, when the central pair loses its excess of power: "
     "{members} runs from each initial amplitude A₀, with B₀ = {ratio} A₀. (a): share of runs "
     "before the transition against τ, with confidence intervals (bands), for amplitudes at which "
-    "its time varies from run to run. (b): median time of the transition. Dashed: the end of the "
-    "runs of Fig 4."
+    "its time varies from run to run. (b): median time of the transition, with confidence "
+    "intervals (bars). Dashed: the end of the runs of Fig 4."
 )
 
 

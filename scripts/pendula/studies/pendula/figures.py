@@ -48,7 +48,7 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
     turns.set(xscale="log", yscale="log", xlabel=r"$\tau$", ylabel="largest angle (turns)")
     turns.set_xlim(1.0, float(data["tau"].max()))
     turns.yaxis.set_minor_locator(NullLocator())
-    turns.set_title("(b) how far they turn; dashed: the top", loc="left")
+    turns.set_title("(b) largest angle so far (dashed: the top)", loc="left")
     style.name_legend(figure, turns)
     return figure
 
@@ -65,4 +65,4 @@ def _draw_passed(axes: Axes, data: xr.Dataset, looks: list[dict]) -> None:
     axes.set(xlabel=r"$\tau$", ylabel="share of runs")
     axes.set_xlim(0, tau[-1] * (1.03 + BESIDE * data.sizes["mu"]))
     axes.set_ylim(-0.03, 1.05)
-    axes.set_title("(a) gone over the top by then", loc="left")
+    axes.set_title("(a) gone over the top by $\\tau$", loc="left")

@@ -31,8 +31,8 @@ CAPTION = (
     "P = ‖A‖² + ‖B‖² in ℓ² and the bounds of Theorems 1 to 3. (a): P at the start, its largest "
     "value in each run, and the bounds that apply to the case; Theorem 2 with bonds also counts "
     "the coupling energy. (b): the largest P divided by its bound, for random initial conditions "
-    "(bars) and for a wave on a long chain (blue). (c): P reached on N sites at Ω = 0, and its "
-    "bound by Theorem 3."
+    "(bars) and for a wave on a long chain (blue); dashed: 1. (c): P reached on "
+    "N sites at Ω = 0, and its bound by Theorem 3."
 )
 
 
@@ -56,9 +56,7 @@ def draw_bounds(data: xr.Dataset) -> Figure:
     _draw_forms(forms, data)
     _draw_growth(growth, data)
     for letter, axes in panels.items():
-        axes.annotate(
-            f"({letter})", (0, 1), (-22, 4), "axes fraction", "offset points", weight="bold"
-        )
+        axes.annotate(f"({letter})", (0, 1), (-22, 4), "axes fraction", "offset points")
     return figure
 
 
@@ -75,7 +73,7 @@ def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
     for name, (marker, colour, label) in BOUNDS.items():
         bound = data[name].where(np.isfinite(data[name]))
         if bound.notnull().any():
-            look = {"color": colour, "label": label, "markersize": 5, "markeredgewidth": 1.5}
+            look = {"color": colour, "label": label, "markersize": 6, "markeredgewidth": 1.5}
             axes.plot(bound, rows, marker, **look)
     axes.set_yticks(rows, list(map(_name, data["omega"], data["initial"])))
     axes.set(ylim=(rows[-1] + 0.5, -0.5), xscale="log", xlabel=POWER)
@@ -100,7 +98,7 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
     axes.set_yticks(rows, [words for _, words in FORMS.values()])
     axes.invert_yaxis()
-    axes.set(xlim=(0, 1.06), xlabel="largest $P$ over its bound")
+    axes.set(xlim=(0, 1.06), xlabel="largest $P$ / bound")
     _legend_above(axes, 1)
 
 

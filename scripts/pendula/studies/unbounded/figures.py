@@ -65,7 +65,7 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     named = {
         rate: r"squared $\ell^2$ norm / $\tau$",
         rest: "deviation from law (%)",
-        exponents: r"exponent in $\ell^2$ norm",
+        exponents: r"exponent of $\ell^2$ norm",
         linf: rf"{panels.NORMS['linf']} norm",
     }
     for (axes, label), letter in zip(named.items(), "abcd", strict=True):
@@ -77,7 +77,7 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     bar = Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
     handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), bar]
     labels += ["law in the text", "law plus a fitted constant"]
-    labels += ["range of the ensemble", "95 % confidence of the mean"]
+    labels += ["range of the ensemble", "95 % confidence interval"]
     figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
     return figure
 

@@ -16,10 +16,10 @@ SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8
 LINES = {"color": "black", "lw": 0.9}
 CAPTION = (
     "The two fronts on the infinite chain. (a), (b): the powers of A − B and of A + B in space and "
-    "time at one Ω, with the positions of the fronts. (c): their speeds, measured (dots) and "
-    "predicted (lines). (d): the power per pair behind the second front and between the fronts, "
-    "divided by that of the thermal state of both fields; dashed: the same ratio for the thermal "
-    "state with A = −B. Bars are confidence intervals of the mean."
+    "time at one Ω; the lines are the first front (solid) and the second (dashed). (c): their "
+    "speeds, measured (marks) and predicted (lines). (d): the power per pair behind the second "
+    "front and between the fronts, divided by that of the thermal state of both fields; dashed: "
+    "the same ratio for the thermal state with A = −B. Bars are confidence intervals of the mean."
 )
 
 
