@@ -128,8 +128,8 @@ def data_below_breathers(periodic) -> Finding:
 
 @claim(
     "Beyond the paper, Fig 3 lower and Fig 6 right",
-    "At Omega = -4 the large initial condition spreads over the chain, but most of those "
-    "perturbed by 1 % do not.",
+    "At Omega = -4 the large initial condition spreads over the chain, but most "
+    "initial conditions perturbed by 1 % do not.",
     (SENSITIVITY,),
     (FAR_AS_NEAR, Control("runs that all spread", ALL_SPREAD)),
     on=("fig3_large",),
@@ -163,8 +163,8 @@ def one_that_disperses(fates):
 
 @claim(
     "Beyond the paper, Figs 2 and 4",
-    "The detuning decides whether the initial conditions of the map with A_0 other than B_0 "
-    "spread: at Omega = 0 all do, at Omega = 8 none does.",
+    "The detuning decides whether initial conditions of the map spread: with A_0 and B_0 unequal, "
+    "all spread at Omega = 0, and none at Omega = 8.",
     (MAP,),
     (
         Control("the maps of both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),

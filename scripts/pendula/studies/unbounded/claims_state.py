@@ -251,8 +251,8 @@ def one_state(thermal):
 
 @claim(
     "Beyond the paper",
-    "l2^2 grows as 2 (v_2 P + (v_1 - v_2) P') tau, with the thermal powers P of both fields and P'"
-    " of A = -B, and the predicted speeds v_1 and v_2 of the fronts.",
+    "l2^2 grows as 2 (v_2 p + (v_1 - v_2) p') tau, with the thermal powers per pair p of both "
+    "fields and p' of A = -B, and the predicted speeds v_1 and v_2 of the fronts.",
     unbounded("omegas", "transverse", "thermal"),
     (
         Control("the thermal states of the next Omega", {"thermal": next_states}),
