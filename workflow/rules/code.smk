@@ -40,6 +40,8 @@ def differs_of(wildcards, input):
 
 
 def code_of_jobs():
-    """Return the names of all files of code that jobs rest on."""
+    """Return the names of the project's files of code that jobs rest on: an installed library is none."""
     files = {module for entries in CALLED.values() for module in modules_of(*entries)}
-    return sorted(file.relative_to(PROJECT).as_posix() for file in files)
+    return sorted(
+        file.relative_to(PROJECT).as_posix() for file in files if file.is_relative_to(PROJECT)
+    )
