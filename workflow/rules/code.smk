@@ -40,8 +40,6 @@ def differs_of(wildcards, input):
 
 
 def code_of_jobs():
-    """Return the names of the project's files of code that jobs rest on: an installed library is none."""
+    """Return the names of all files of code that jobs rest on."""
     files = {module for entries in CALLED.values() for module in modules_of(*entries)}
-    return sorted(
-        file.relative_to(PROJECT).as_posix() for file in files if file.is_relative_to(PROJECT)
-    )
+    return sorted(file.relative_to(PROJECT).as_posix() for file in files)
