@@ -249,6 +249,7 @@ FAULTS = [
     drawn("fig4", "curve hidden", line(1, 1, lambda c: c.set_visible(False))),
     drawn("fig4", "curve cut off", limits(1, ylim=(0, 8))),
     drawn("fig4", "y limits too wide", limits(1, ylim=(0, 300))),
+    drawn("fig4", "y limits nearly doubled", limits(1, ylim=(0, 55))),
     drawn("fig3", "x limits", limits(3, xlim=(0, 40))),
     drawn("fig4", "logarithmic", limits(0, yscale="log")),
     drawn("fig4", "colours exchanged", line(0, 0, lambda c: c.set_color(style.BLUE))),
@@ -271,6 +272,11 @@ FAULTS = [
     drawn("trust_horizons", "bound times 0.01", drawn_from=scale("largest_bound", 0.01)),
     drawn(
         "lifetimes", "label of another amplitude", line(0, 0, lambda c: c.set_label("$A_0 = 6$"))
+    ),
+    drawn(
+        "fronts",
+        "two points of a line lost",
+        line(2, 2, lambda c: c.set_data(c.get_xdata()[:-2], c.get_ydata()[:-2])),
     ),
     drawn("fronts", "unit of the speed", lambda figure: figure.axes[2].set(ylabel="speed")),
     # Figures of wrong data

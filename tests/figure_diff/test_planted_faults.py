@@ -150,6 +150,8 @@ FAULTS = [
     # Pictures
     drawn("other label", label="norm"),
     drawn("other limit in the PDF", "figures/fig2.pdf", limit=9),
+    Fault("axis nearly doubled", "figures/fig4.json",
+          lambda run: made_up.put(run.made, "fig4", made_up.norms(True, seed=1), limit=15)),
     Fault("painted picture", PICTURE, paint),
     content(
         "painted PDF", "figures/fig2.pdf", lambda f: f.replace(b"%PDF-1.4", b"%PDF-1.5"), DIFFERENT
@@ -186,6 +188,7 @@ OF_CHAOS = (
     *("before the horizon", "proven bound times 0.01", "roundings that are none", "verdict"),
     *("criterion of a chaotic claim", "cut-off of a chaotic claim", "verdict in a table"),
     *("verdict in the report", "A and B exchanged", "other label", "older picture"),
+    "axis nearly doubled",
 )
 """Faults that are found where chaos has taken another path too."""
 

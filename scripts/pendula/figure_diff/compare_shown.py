@@ -46,9 +46,9 @@ PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
 """Entries of a description whose numbers follow the data."""
 
 LOOSE, FEW, LARGE = 0.4, 0.01, 10.0
-"""How far down such a place may follow chaos, as a part of the larger end, and a number of points;
-how many times larger than one, or than it was, a measured number may be. Upwards a place may follow
-by as much as the larger end, because one long error bar doubles an axis."""
+"""How far such a place may follow chaos, as a part of the larger end, and a number of points; how
+many times larger than one, or than it was, a measured number may be. Bands and bars may reach twice
+as far, and an axis follows what its panel shows, because one long bar doubles it."""
 
 TURNS = re.compile(r";\s+it turns\s[^-]*?(?=\n- |\n\n|\Z)")
 """Which verdicts a cut-off turns, in the table of claims: this follows measured numbers."""
@@ -94,7 +94,7 @@ def compare(new: Path, was: str, datasets: Known) -> tuple[Status, str]:
         return Status.DAMAGED, "has a wrong checksum, or none: it was edited or damaged"
     beyond, may_differ = 0, not set(datasets.values()) <= {Status.IDENTICAL}
     for path, *pair in _differences(before, after):
-        judged = _judge(path, *pair, before, datasets) if may_differ else Status.DIFFERENT
+        judged = _judge(path, *pair, (before, after), datasets) if may_differ else Status.DIFFERENT
         if judged == Status.DIFFERENT:
             return judged, f"reads {_beside(*map(str, pair))} ({'.'.join(map(str, path))})"
         beyond += judged == Status.BEYOND
@@ -124,10 +124,10 @@ def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, 
         yield path, was, now
 
 
-def _judge(path: tuple, was: Any, now: Any, whole: Any, datasets: Known) -> Status:
-    """Return whether one entry of `whole` may read `now` in place of `was`."""
+def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> Status:
+    """Return whether one entry of `texts`, before and after, may read `now` in place of `was`."""
     entries = {part for part in path if isinstance(part, str)}
-    chaotic = _follows_chaos(path, entries, whole, datasets)
+    chaotic = _follows_chaos(path, entries, texts[0], datasets)
     if chaotic and (entries & FREE or ("ticks" in entries and "x" not in entries)):
         return Status.BEYOND
     if chaotic and "measured" in entries and {was, now} & {None, "infinite"}:
@@ -143,21 +143,33 @@ def _judge(path: tuple, was: Any, now: Any, whole: Any, datasets: Known) -> Stat
     elif chaotic and isinstance(was, str):
         may_be = bool(entries & {"text", "title"})
     elif chaotic and entries & PLACES and not {"x", "limits"} <= entries:
-        may_be = _is_near(path, was, now, whole)
+        may_be = _is_near(path, was, now, *texts)
     else:
         may_be = False
     return Status.BEYOND if may_be else Status.DIFFERENT
 
 
-def _is_near(path: tuple, was: float, now: float, whole: Any) -> bool:
+def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bool:
     """Return whether a limit or an end of a curve follows chaos, on the scale of its axis."""
     if path[-1] == "points":  # gaps in a logarithm, or a state that has just formed
-        return abs(now - was) <= max(2.0, FEW * was)  # two in the outline of a band
-    beside = _entry(whole, path[:-1])
-    if "y" in path and _entry(whole, path[:2])["y"].get("scale") == "log":
+        return abs(now - was) <= max(2.0 if "areas" in path else 1.0, FEW * was)
+    panels = [_entry(text, path[:2]) for text in (before, after)]
+    if "y" in path and panels[0]["y"].get("scale") == "log":
         return 1 / values.SCATTER <= now / was <= values.SCATTER
+    beside, grown = _entry(before, path[:-1]), 1.0
     largest = max(map(abs, beside if isinstance(beside, list) else [was]))
-    return -LOOSE * largest <= now - was <= largest
+    if "limits" in path and "y" in path:
+        reached, reaches = map(_reach, panels)
+        grown = reaches / reached if reached else 1.0
+    is_bar = "areas" in path or ("curves" in path and _entry(before, path[:4])["line"] == "None")
+    off, allowed = now - was * grown, LOOSE * largest * grown
+    return -allowed <= off <= (largest if is_bar else allowed)
+
+
+def _reach(panel: Mapping[str, Any]) -> float:
+    """Return how far from zero the curves, bands and bars of a panel reach."""
+    shown = [*panel.get("curves", ()), *panel.get("areas", ())]
+    return max((abs(end) for one in shown for end in one.get("y", ())), default=0.0)
 
 
 def _entry(whole: Any, path: tuple) -> Any:
