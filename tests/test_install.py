@@ -4,14 +4,11 @@
 """
 
 import ast
-import shutil
-import subprocess
 import sys
 import tomllib
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
-from helpers import package
 from latticode.kernels import sources
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -42,17 +39,3 @@ def test_the_library_declares_what_its_modules_import():
     assert names(homes[name][0] for name in others) | {"latticode"} == names(DECLARED)
     pins = (ROOT / "environment.txt").read_text().split()
     assert names(DECLARED) - {"latticode"} < names(pin for pin in pins if "==" in pin)
-
-
-def files_in(folder: Path) -> set[Path]:
-    return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
-
-
-def test_the_package_has_all_files_of_the_library(tmp_path):
-    package("setuptools", "setuptools")
-    shutil.copy(ROOT / "pyproject.toml", tmp_path)  # building leaves files beside it
-    mine = shutil.ignore_patterns("__pycache__", "*.egg-info")
-    shutil.copytree(ROOT / "scripts", tmp_path / "scripts", ignore=mine)
-    command = ("-c", "from setuptools import setup; setup()", "-q", "build_py", "--build-lib=built")
-    subprocess.run([sys.executable, *command], cwd=tmp_path, check=True)
-    assert files_in(tmp_path / "built/pendula") == files_in(tmp_path / "scripts/pendula")

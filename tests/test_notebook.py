@@ -1,8 +1,6 @@
 """The interface for notebooks: what it returns, refuses and shows, and what importing it costs."""
 
 import doctest
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -27,26 +25,6 @@ def case():
 @pytest.fixture(scope="module")
 def run(case):
     return pendula.simulate(case, "short")
-
-
-def test_importing_the_package_loads_nothing_else():
-    code = "import sys, pendula; print(*(m for m in sys.modules if m.startswith('pendula.')))"
-    said = subprocess.run(
-        [sys.executable, "-c", code + "; print('numpy' in sys.modules)"],
-        cwd=ROOT / "scripts",
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert said.stdout.split() == ["pendula.sources", "False"]
-
-
-def test_every_public_name_is_there_and_explained():
-    for name in pendula.__all__:
-        assert getattr(pendula, name).__doc__, name
-        assert name in dir(pendula)
-    with pytest.raises(AttributeError, match="no attribute 'simulat'"):
-        _ = pendula.simulat
 
 
 def test_the_examples_in_the_docstrings_run():
@@ -86,16 +64,6 @@ def test_a_sweep_needs_no_fitting_half_width_of_its_case(case):
         pendula.sweep(case, [2, 4], [(2, 1)])
     with pytest.raises(ValueError, match=r"there is no window '\[1, 3\]'; known are \[1, 2\]"):
         pendula.draw_sweep(peaks, "[1, 3]")
-
-
-def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
-    with pytest.raises(pendula.DatasetError, match="is missing"):
-        pendula.read(tmp_path / "none.nc")
-    with pytest.raises(pendula.ConfigurationError, match=r"initial: the squares .* overflow"):
-        pendula.Case(omega=0, initial={0: ("1e200", 0)}, end_time=1)
-    chaotic = pendula.Case(omega=0, solver={"name": "auto", "error": 1e-12})
-    with pytest.raises(pendula.IntegrationError, match=r"agree to 1e-12 only before tau = \d"):
-        pendula.simulate(chaotic)
 
 
 @pytest.mark.parametrize(

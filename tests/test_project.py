@@ -82,12 +82,3 @@ def test_importing_a_package_drags_in_no_other_room():
         above = {folder / "__init__.py" for folder in init.parent.parents}
         others = {path for path in sources.modules_of(init) if init.parent not in path.parents}
         assert others <= above | named, init
-
-
-def test_no_part_of_a_reproduction_depends_on_the_benchmarks():
-    of_library = [name for name in CALLED if name.startswith("pendula.")]
-    files = {(name, file) for name in of_library for file in files_behind(name)}
-    assert [pair for pair in files if pair[1].startswith("benchmarks/")] == []
-    files = files_behind("benchmarks.jobs.measure_work_precision")
-    names = ("__init__.py", "timing.py", "peers_in_python.py", "taylor.cpp")
-    assert {f"benchmarks/{name}" for name in names} <= files

@@ -1,9 +1,131 @@
-"""Nothing that a run makes is without a reader, and what is planted without one is found."""
+"""Nothing that a run makes is without a reader, and what is planted without one is found.
 
+A reader is the article; a page of documents; a row of the ledger on a sentence of the paper, or one
+that the article uses; or another dataset or figure that has a reader. The comparison of two runs
+reads trajectories and sweeps: were it to count for all files, nothing would be without a reader.
+
+Each dataset names the function that made it and the datasets that this has read; a claim names
+those that it needs. A variable is read if its name stands in the text of a reader or of a module
+that this imports, its maker apart. Datasets of one form are read together.
+"""
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import netCDF4
 import pytest
-from code_words import words_of_function, words_of_text
-from pendula.ledger.claim import Claim
-from readers import Made, Run, run_of, unread
+from helpers import ROOT
+from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM
+from latticode.kernels.sources import files_of_module, modules_of
+from pendula.ledger.claim import Claim, Origin
+from pendula.ledger.verdicts import all_claims
+
+COMPARED, FIGURES, WRONG = ("trajectories/", "sweeps/"), "figures/", "/wrong/"
+ARTICLE = [ROOT / f"scripts/pendula/article/{name}" for name in ("article.md.j2", "values.py")]
+PAGES = [path for like in ("*.py", "source/*", "*.md") for path in ROOT.glob(f"docs/{like}")]
+PAGES = [*(path for path in PAGES if path.stem != "article"), ROOT / "codecheck.yml"]
+
+
+class Made(NamedTuple):
+    """A dataset of a run: its variables, the function that made it, and what this has read."""
+
+    variables: tuple[str, ...]
+    function: str
+    sources: tuple[str, ...]
+
+    @property
+    def module(self) -> str:
+        return self.function.rpartition(".")[0]
+
+
+class Run(NamedTuple):
+    """What a run has made, and the claims and texts that may read it."""
+
+    datasets: dict[str, Made]
+    tables: list[str]
+    claims: tuple[Claim, ...]
+    article: str
+    pages: str
+
+
+def run_of(results: Path) -> Run:
+    datasets = {}
+    for path in sorted(results.rglob("*.nc")):
+        with netCDF4.Dataset(path) as data:
+            about = {key: data.getncattr(key) for key in data.ncattrs()}
+            variables = tuple(name for name in data.variables if name not in data.dimensions)
+        sources = tuple(filter(None, about.get(COMPUTED_FROM, "").split(", ")))
+        name = path.relative_to(results).with_suffix("").as_posix()
+        datasets[name] = Made(variables, about.get(COMPUTED_BY, ""), sources)
+    tables = sorted(path.name for path in results.glob("tables/*"))
+    article, pages = ("\n".join(map(Path.read_text, files)) for files in (ARTICLE, PAGES))
+    return Run(datasets, tables, all_claims(), article, pages)
+
+
+@cache
+def words_in(text: str) -> set[str]:
+    return set(re.findall(r"\w+", text))
+
+
+@cache
+def words_behind(module: str, maker: str) -> set[str]:
+    """Return the words of a module and of all that it imports, but for a maker that is another."""
+    own = {} if module == maker or not maker else set(files_of_module(maker)[-1:])
+    files = [file for file in modules_of(*files_of_module(module)) if file not in own]
+    return set().union(*(words_in(file.read_text()) for file in files))
+
+
+def is_read(name: str, words: set[str]) -> bool:
+    """Return whether a name is a word, or has a word at one end, as f"{name}_low" does."""
+    cuts = [place for place, letter in enumerate(name) if letter == "_"]
+    return name in words or any({name[:at] + "_", name[at:]} & words for at in cuts)
+
+
+def is_in(text: str, name: str) -> bool:
+    """Return whether a text has this name, and not as a part of another."""
+    return re.search(rf"(?<![\w.]){re.escape(name)}(?![\w])", text) is not None
+
+
+def readers_of(run: Run, claims: list[Claim]) -> dict[str, list[set[str]]]:
+    """Return by dataset the words of each of its readers that are read themselves."""
+    readers: dict[str, list[set[str]]] = {name: [] for name in run.datasets}
+    for text, shows in ((run.article, 'figure("{}"'), (run.pages, "`{}`")):
+        for name in readers:
+            shown = shows.format(name.removeprefix(FIGURES))
+            if shown in text or f'"{name}"' in text or f'"{name}.' in text:
+                readers[name].append(words_in(text))
+    for claim in claims:
+        fed = [name for control in claim.controls for name in control.names]
+        for name in {*claim.needs, *fed} & readers.keys():
+            maker = run.datasets[name].module
+            readers[name].append(words_behind(claim.decide.__module__, maker))
+    waiting = [name for name, found in readers.items() if found or name.startswith(COMPARED)]
+    done: set[str] = set()
+    while waiting:
+        if (name := waiting.pop()) not in done:
+            done.add(name)
+            for source in readers.keys() & set(run.datasets[name].sources):
+                words = words_behind(run.datasets[name].module, run.datasets[source].module)
+                readers[source].append(words)
+                waiting.append(source)
+    return readers
+
+
+def unread(run: Run) -> list[str]:
+    """Return in words each claim, figure, dataset, variable and table that nobody reads."""
+    used = [one for one in run.claims if one.origin == Origin.PAPER or is_in(run.article, one.name)]
+    told = [f"claim {claim.name}" for claim in run.claims if claim not in used]
+    readers, texts = readers_of(run, used), words_in(run.article) | words_in(run.pages)
+    for name, made in run.datasets.items():
+        if not (readers[name] or name.startswith(COMPARED)):
+            told.append(f"{'figure' if name.startswith(FIGURES) else 'dataset'} {name}")
+        elif not name.startswith((FIGURES, *COMPARED)) and WRONG not in name:
+            alike = [one for one, other in run.datasets.items() if other.function == made.function]
+            words = texts.union(*(words for one in alike for words in readers[one]))
+            told += [f"variable {name}:{one}" for one in made.variables if not is_read(one, words)]
+    return told + [f"table {name}" for name in run.tables if not is_in(run.pages, name)]
 
 
 @pytest.fixture(scope="module")
@@ -12,10 +134,16 @@ def run(full_run) -> Run:
 
 
 def test_all_that_a_run_makes_has_a_reader(run):
-    assert list(unread(run)) == []
+    assert unread(run) == []
 
 
 CLAIM = Claim("mine", "Beyond the paper", "It is mine.", (), lambda: None, ())
+PLANTED = Made(("planted",), "", ())
+
+
+def planted_in_lyapunov(run: Run) -> dict[str, Made]:
+    made = run.datasets["checks/lyapunov"]
+    return run.datasets | {"checks/lyapunov": made._replace(variables=("planted",))}
 
 
 @pytest.mark.parametrize(
@@ -23,13 +151,16 @@ CLAIM = Claim("mine", "Beyond the paper", "It is mine.", (), lambda: None, ())
     [
         (lambda run: {"claims": (*run.claims, CLAIM)}, ["claim mine"]),
         (lambda run: {"tables": [*run.tables, "mine.md"]}, ["table mine.md"]),
-        (lambda run: with_dataset(run, "checks/mine"), ["dataset checks/mine"]),
-        (lambda run: with_dataset(run, "figures/mine"), ["figure figures/mine"]),
-        (lambda run: with_variable(run, "checks/lyapunov"), ["variable checks/lyapunov:planted"]),
+        (lambda run: {"datasets": run.datasets | {"checks/mine": PLANTED}},
+         ["dataset checks/mine"]),
+        (lambda run: {"datasets": run.datasets | {"figures/mine": PLANTED}},
+         ["figure figures/mine"]),
+        (lambda run: {"datasets": planted_in_lyapunov(run)},
+         ["variable checks/lyapunov:planted"]),
     ],
-)
+)  # fmt: skip
 def test_what_nobody_reads_is_found(run, plant, found):
-    assert list(unread(run._replace(**plant(run)))) == found
+    assert unread(run._replace(**plant(run))) == found
 
 
 def test_what_only_an_unread_figure_reads_has_no_reader(run):
@@ -37,20 +168,3 @@ def test_what_only_an_unread_figure_reads_has_no_reader(run):
     told = set(unread(run._replace(article="", pages="", claims=())))
     assert {"figure figures/growth_law", "dataset unbounded/growth", "dataset checks/trust"} <= told
     assert not any(one.startswith("dataset trajectories/") for one in told)
-
-
-def with_dataset(run: Run, name: str, sources=()) -> dict:
-    return {"datasets": run.datasets | {name: Made(("planted",), "", sources)}}
-
-
-def with_variable(run: Run, name: str) -> dict:
-    made = run.datasets[name]
-    return {"datasets": run.datasets | {name: made._replace(variables=("planted",))}}
-
-
-def test_words_are_those_of_functions_and_of_what_they_name_in_other_modules():
-    drift = words_of_function("pendula.studies.paper.claims_energy", "energy_small")
-    assert "largest_drift" in drift and "median" not in drift
-    text = words_of_text('a sentence with of("checks/a", "l2") and f"checks/{one}" or size=1')
-    assert all(one in text for one in ("checks/a", "checks/any", "l2", "size"))
-    assert "sentence" not in text and "and" not in text

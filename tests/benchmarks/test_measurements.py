@@ -95,13 +95,6 @@ def least_times(kept, error):
     return own["seconds"].where(own["error"] <= error).min("point").values
 
 
-def test_least_times_and_mean_ratios_follow_from_the_points_and_pairs(kept):
-    np.testing.assert_array_equal(kept["best_seconds"], least_times(kept, kept["target"]))
-    np.testing.assert_array_equal(kept["reached_cases"], kept["ratio"].count("case"))
-    mean = np.exp(np.log(kept["ratio"]).mean("case"))
-    np.testing.assert_allclose(kept["mean_ratio"], mean)
-
-
 def test_the_page_on_speed_says_in_words_what_was_measured(kept):
     """No method but that of Taylor in C++ is faster. `taylor` is our fastest below the error that
     the configuration names."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from problems import problem_of
 
-from benchmarks.contestants import PAIRS, Contestant, Point, cheapest, compare, measure_points
+from benchmarks.contestants import PAIRS, Contestant, compare, measure_points
 
 EXACT = np.ones((2, 3), complex)
 PROBLEM = problem_of(half_width=1)
@@ -36,17 +36,6 @@ def test_who_gives_up_or_returns_no_numbers_has_no_point_there():
     made = contestant(lambda: 1e-3, faults=(1e-4,), blanks=(1e-8,))
     points = measure_points(made, PROBLEM, EXACT)
     assert [point.accuracy for point in points] == [1e-6, 1e-10, 1e-12]
-
-
-def test_who_errs_by_less_than_the_goal_is_not_asked_for_more():
-    points = measure_points(contestant(lambda: 1e-3), PROBLEM, EXACT, goal=1e-5)
-    assert [point.accuracy for point in points] == [1e-4, 1e-6]
-
-
-def test_the_cheapest_run_that_is_good_enough_counts():
-    rows = ((1e-4, 1.0, 1e-3), (1e-6, 3.0, 9e-6), (1e-8, 2.0, 1e-7))
-    found = [Point(accuracy, time, time, time, error) for accuracy, time, error in rows]
-    assert [cheapest(found, target) for target in (1e-5, 1e-3, 1e-9)] == [found[2], found[0], None]
 
 
 def test_the_ratio_is_theirs_over_that_of_our_fastest_below_the_target():

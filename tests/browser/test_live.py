@@ -2,14 +2,12 @@
 
 import csv
 import json
-import shutil
-import subprocess
 
 import numpy as np
 import problems
 import pytest
 import yaml
-from helpers import ROOT, package, skip, snakemake
+from helpers import ROOT, snakemake
 from latticode.datasets.netcdf import read, write
 from latticode.measures.difference import first_above, norm_difference
 from latticode.simulation.simulate import simulate
@@ -18,10 +16,6 @@ from pendula.figure_diff import hashes
 from pendula.live.write import write_live
 from pendula.problem import Problem
 from pendula.studies.breathers.fates import (
-    DISPERSES,
-    SPREADS,
-    STAYS,
-    fate_of,
     is_localised,
     power_by_distance,
 )
@@ -108,19 +102,6 @@ def test_a_wrong_number_is_reported_with_its_time(live, wrong):
     assert text(live, "bits").count("first differs at τ = 30") == 3
 
 
-def test_ten_moves_of_a_slider_take_a_second(live):
-    """Of the processor, which a busy machine lengthens less than it does the time of day."""
-    live.execute_cdp_cmd("Performance.enable", {"timeDomain": "threadTicks"})
-
-    def used() -> float:
-        told = live.execute_cdp_cmd("Performance.getMetrics", {})["metrics"]
-        return next(one["value"] for one in told if one["name"] == "TaskDuration")
-
-    before = used()
-    live.execute_script("for (let i = 0; i < 10; i += 1) answer()")
-    assert used() - before <= 1.0
-
-
 def test_every_slider_changes_numbers_and_the_link(live):
     for name in set(run(live, "Object.keys(settings)")) - {"boundary"}:
         before = text(live, "numbers")
@@ -168,16 +149,6 @@ def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     parted = first_above(one.tau, norm_difference(one.linf, one.l2, two.linf, two.l2), 0.01)
     when = f"at τ = {parted:.4g} " if np.isfinite(parted) else "at no time"
     assert f"1 % of full scale {when}" in text(live, "parted")
-
-
-def test_the_motion_stays_localised_where_it_does_in_the_figure_of_fates(live):
-    """The word is that of the map of fates: not for the large case of Fig 3, which spreads."""
-    for case in CASES:
-        live.execute_script(f"show('case={case}')")
-        settle(live)
-        problem = problem_of(case)
-        stays = fate_of(problem, simulate(problem).final) == STAYS
-        assert text(live, "localised").endswith("to the end.") == stays == (case == "fig2_large")
 
 
 def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
@@ -236,31 +207,6 @@ def resize(page, width: int, height: int) -> None:
     page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
 
 
-@pytest.mark.parametrize(("width", "height"), WINDOWS)
-def test_the_first_minute_of_a_teacher(live, made, width, height):
-    """Without scrolling: the equation, three cases to try, and a chain that moves by itself."""
-    resize(live, width, height)
-    open_page(live, made.as_uri(), "no-preference")
-    wait_for(lambda: 0.2 < float(run(live, "byId('tau').value")) < 40)
-    below = "const bottom = (one) => one.getBoundingClientRect().bottom;"
-    shown = ".equation, [data-link], #pendula, #play"
-    asked = f"{below} return [...document.querySelectorAll('{shown}')].map(bottom)"
-    bottoms = live.execute_script(asked)
-    assert len(bottoms) == 6 and max(bottoms) <= height
-    names = "[...document.querySelectorAll('#pendula text')].map((one) => one.textContent)"
-    assert text(live, "play") == "Pause" and run(live, names) == ["A", "B"]
-
-
-def test_each_case_to_try_is_what_its_button_says(live):
-    for button in live.find_elements("css selector", "[data-link]"):
-        button.click()
-        settle(live)
-        problem = problem_of(run(live, "chosen().name"))
-        found = {STAYS: "Localised", DISPERSES: "Stable", SPREADS: "Unstable"}
-        assert button.text == found[fate_of(problem, simulate(problem).final)]
-        assert run(live, "isOfPaper()") and text(live, "fault") == ""
-
-
 def test_play_stops_out_of_sight_and_waits_where_motion_is_reduced(live, made):
     assert text(live, "play") == "Play" and run(live, "now() === settings.end_time")
     resize(live, 500, 400)
@@ -271,13 +217,6 @@ def test_play_stops_out_of_sight_and_waits_where_motion_is_reduced(live, made):
     live.execute_script("byId('play').click()")
     wait_for(lambda: text(live, "play") == "Pause")
     assert run(live, "isInSight('pendula')")
-
-
-def test_no_window_scrolls_sideways(live):
-    wide = "[document.documentElement, document.querySelector('.settings')]"
-    for width in (*range(320, 1920, 80), 577, 1920):
-        resize(live, width, 700)
-        assert run(live, f"{wide}.every((one) => one.scrollWidth <= one.clientWidth)"), width
 
 
 @pytest.mark.parametrize(("width", "height"), [*WINDOWS, (575, 640), (320, 480)])
@@ -293,32 +232,3 @@ def test_no_picture_hides_a_control(live, width, height):
     }).map((one) => one.id || one.textContent);
     """
     assert live.execute_script(hidden) == []
-
-
-def test_firefox_gets_the_same_bits(made, tmp_path):
-    """By the protocol WebDriver BiDi, for which Firefox needs no driver."""
-    websocket = package("websocket", "-r tests/browser/requirements.txt")
-    program = shutil.which("firefox-esr") or shutil.which("firefox")
-    if not program:
-        skip("there is no Firefox", "apt-get install firefox-esr")
-    command = (program, "--headless", "--profile", tmp_path, "--remote-debugging-port", "0")
-    firefox = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    try:
-        ready = next(line for line in firefox.stderr if "WebDriver BiDi listening on" in line)
-        socket = websocket.create_connection(f"{ready.split()[-1]}/session", suppress_origin=True)
-
-        def call(method: str, **params):
-            socket.send(json.dumps({"id": 1, "method": method, "params": params}))
-            while "id" not in (answer := json.loads(socket.recv())):
-                pass
-            return answer["result"]
-
-        call("session.new", capabilities={})
-        page = {"context": call("browsingContext.getTree")["contexts"][0]["context"]}
-        call("browsingContext.navigate", **page, url=f"{made.as_uri()}#same-bits", wait="complete")
-        counted = "document.getElementById('same-bits').textContent"
-        asked = {"expression": counted, "awaitPromise": False, "target": page}
-        wait_for(lambda: call("script.evaluate", **asked)["result"]["value"] == "6 of 6")
-    finally:
-        firefox.terminate()
-        firefox.wait()

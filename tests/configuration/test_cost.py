@@ -8,7 +8,7 @@ from helpers import ROOT
 from latticode.configuration.cost import EXPLICIT, find_excess, steps_of
 from latticode.configuration.files import ConfigurationError
 from latticode.datasets.netcdf import read
-from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs, with_checks
+from pendula.configuration.cost import ORDINARY, demand, estimate
 from pendula.configuration.messages import load
 
 SPEED = ROOT / "tests/baseline/speed"
@@ -74,12 +74,6 @@ def test_time_and_memory_grow_with_the_chain_as_they_were_measured(solver):
         assert 1 / FACTOR < found.memory / (float(one["memory"]) * sites) < FACTOR
 
 
-def test_even_and_synchronised_data_cost_half_each():
-    assert integrated_pairs(problem()) == 31
-    assert integrated_pairs(problem(initial={1: (1, 0)})) == 61
-    assert integrated_pairs(problem(initial={1: (1, 1), -1: (1, 1)})) == 15.5
-
-
 @pytest.mark.parametrize(
     ("change", "key"),
     [
@@ -102,27 +96,3 @@ def test_a_limit_may_be_raised_and_a_long_run_is_announced():
     (said,) = load(long | {"limits": {"hours": 9}}).long_runs()
     assert said.startswith("cases.mine: the run and its checks take about 8 hours and ")
     assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
-
-
-def test_the_checks_of_an_own_case_count_and_those_of_the_paper_are_not_made():
-    long = {"omega": 1.0, "initial": {0: (1e4, 0.0)}, "end_time": 3.0, "solver": "ode45"}
-    alone = load({"cases": {"fig4_small": long}}).shown_problem("fig4_small")
-    assert estimate(alone).seconds < 3600.0 < with_checks(alone).seconds
-    text = "mine.initial: the run and its checks would take about 3 hours .* limits.hours allows"
-    with pytest.raises(ConfigurationError, match=text):
-        load({"cases": {"mine": long}})
-
-
-def test_checks_take_a_second_run_and_a_tangent_vector_and_auto_several_runs():
-    """Both by dop853 here, whose vector is carried beside the solution: twice the work."""
-    given = problem(omega=-4.0, half_width=200)
-    again = problem(omega=-4.0, half_width=200, solver={"name": "dop853", "rtol": 1e-13})
-    carried = again | {"solver": {"name": "dop853", "rtol": 1e-9}}
-    own, second, tangent = (estimate(one).seconds for one in (given, again, carried))
-    assert with_checks(given).seconds == pytest.approx(own + second + 2.0 * tangent)
-    tried = [1e-8, 1e-10, 1e-12, 1e-14, 1e-15]  # by `auto`, each with the outputs anew
-    runs = [estimate(problem(solver={"name": "taylor", "rtol": one})).seconds for one in tried]
-    auto = estimate(problem(solver={"name": "auto", "error": 1e-8})).seconds
-    assert auto == pytest.approx(sum(runs))
-    pendula = problem(model="pendula", mu=0.1)
-    assert estimate(pendula).seconds < with_checks(pendula).seconds

@@ -8,9 +8,8 @@ from pathlib import Path
 import keep
 import pytest
 from helpers import skip
-from latticode.configuration.files import ConfigurationError
 from pendula.configuration.files import gather
-from pendula.configuration.messages import STUDIES, load, require
+from pendula.configuration.messages import STUDIES, load
 from pendula.configuration.paper import differences, paper, reason, rests_on
 from pendula.ledger.verdicts import all_claims, needed
 
@@ -48,18 +47,6 @@ def test_the_committed_configuration_is_the_papers():
     whole = json.loads(load(gather(files, {})).model_dump_json())
     assert "long" in whole["breathers"]["fates"] and differences(whole) == {}
     assert differences(edited("cases", "mine", value={"omega": 1.0})) == {}
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("omega", 8.0000000001, "fig2_small.omega (8.0000000001 in place of 8)"),
-        ("solver", {"name": "dop853"}, "fig2_small.solver (dop853 in place of ode45)"),
-    ],
-)
-def test_words_name_both_values(key, value, words):
-    (told,) = differences(edited("cases", "fig2_small", key, value=value)).values()
-    assert told == words
 
 
 @pytest.mark.parametrize("case", paper()["cases"])
@@ -107,16 +94,6 @@ def test_an_edited_case_leaves_sentences_on_other_cases_alone():
     }
 
 
-def test_both_panels_of_a_figure_show_the_same_windows():
-    whole = edited("sweeps", "fig5_left", value={
-        **paper()["sweeps"]["fig5_left"], "windows": [[10, 60]], "draw": None,
-    })  # fmt: skip
-    needs = list(whole["cases"]), list(whole["sweeps"]), []
-    settings = load(whole | {"unbounded": None, "breathers": None, "pendula": None})
-    with pytest.raises(ConfigurationError, match=r"fig5_right\.draw: has other windows"):
-        require(settings, *needs)
-
-
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
     for name in needed():
         assert rests_on(name) or name == "checks/identities", name  # which hold for all constants
@@ -125,11 +102,3 @@ def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
             for key in path.split("."):
                 assert key in inner, (name, path)
                 inner = inner[key]
-
-
-def test_what_a_claim_rests_on_is_among_what_its_datasets_rest_on():
-    """The rules hand a part of the ledger only the differences that concern its datasets."""
-    for claim in all_claims():
-        for control in (claim, *claim.controls):
-            for name in dict.fromkeys((*claim.needs, *getattr(control, "names", ()))):
-                assert set(rests_on(name, control.on)) <= set(rests_on(name)), (claim.name, name)

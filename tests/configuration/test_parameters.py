@@ -2,7 +2,6 @@
 
 import pytest
 from latticode.configuration.cases import MOST_NUMBERS, choose_every
-from latticode.configuration.files import ConfigurationError
 from pendula.configuration.messages import load
 
 
@@ -19,15 +18,6 @@ def test_what_is_left_out_takes_the_papers_value_and_the_default_solver():
         "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
         "snapshot_every": 0,
     }
-
-
-def test_all_faults_are_told_at_once():
-    stepped = {"name": "crank_nicolson", "stp": 0.1}  # a key of this solver is near, of none else
-    cases = {"a": {"omega": 1, "solver": stepped}, "b": {"omega": "x", "half_width": -1}}
-    with pytest.raises(ConfigurationError) as caught:
-        load({"cases": cases})
-    assert len(str(caught.value).splitlines()) == 1 + 3
-    assert "did you mean 'step'?" in str(caught.value)
 
 
 def test_a_named_solver_takes_the_shared_controls_and_a_given_one_its_own():

@@ -4,13 +4,11 @@ import os
 import re
 import subprocess
 import sys
-from typing import Annotated, Literal, get_args, get_origin
 
 import pytest
 import yaml
 from helpers import ROOT, python_path
-from pendula.configuration.messages import STUDIES, Sections, load
-from pydantic import BaseModel, TypeAdapter, ValidationError
+from pendula.configuration.messages import STUDIES, load
 
 
 @pytest.fixture(scope="module")
@@ -26,41 +24,6 @@ def test_each_study_has_a_section_of_its_own(whole):
     assert keys == {study: [study] for study in STUDIES}
     settings = load(whole)
     assert [study for study in STUDIES if getattr(settings, study) is None] == []
-
-
-def leaves(kind, place=""):
-    """Yield each type of a single value inside a type, and its place: a model's keys below it."""
-    bare = get_args(kind)[0] if get_origin(kind) is Annotated else kind
-    if isinstance(bare, type) and issubclass(bare, BaseModel):
-        for key, field in bare.model_fields.items():
-            yield from leaves(field.rebuild_annotation(), f"{place}.{key}")
-        return
-    parts = [] if get_origin(bare) is Literal else get_args(bare)
-    for part in parts:
-        yield from leaves(part, place)
-    if not parts:
-        yield place.removeprefix("."), kind, bare
-
-
-def accepts(kind, value):
-    try:
-        TypeAdapter(kind).validate_python(value)
-    except ValidationError:
-        return False
-    return True
-
-
-def test_no_number_of_the_configuration_is_read_from_what_is_none():
-    """Hard cases alone have numbers that are not finite: solvers must refuse them."""
-    numbers = [leaf for leaf in leaves(Sections) if leaf[2] in (int, float, complex)]
-    assert {place.split(".")[0] for place, *_ in numbers} > {*STUDIES, "cases", "sweeps", "limits"}
-    read = [
-        (place, value)
-        for place, kind, _ in numbers
-        for value in (True, "1_0", "one", "", None, [1], "0x1", float("nan"))
-        if accepts(kind, value) and not (value != value and place.startswith("hard_cases."))
-    ]
-    assert read == []
 
 
 def test_the_configuration_is_read_without_what_computes_or_draws():

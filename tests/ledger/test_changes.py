@@ -51,10 +51,6 @@ def test_what_is_taken_has_the_attributes_of_its_place_and_what_is_not_kept_is_d
     assert found["l2"].values.tolist() == [[5, 6]] and found["linf"].values.tolist() == [8, 9]
 
 
-def test_a_place_without_labels_has_a_number(run):
-    assert put("linf", 0.0, mu=[2])(run.drop_vars("mu"))["linf"].values.tolist() == [7, 8, 0]
-
-
 @pytest.mark.parametrize(
     "change",
     [scale("l2", 2.0, mu=0.3), exchange("case", "one", "three"), keep(mu=slice(1, None))],

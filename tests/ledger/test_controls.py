@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.ledger.claim import Claim, Control, claim, late
+from pendula.ledger.claim import Claim, Control, late
 from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
 from pendula.ledger.cutoff import Cutoff
 from pendula.ledger.verdicts import controls_of, evaluate, needed, passes
@@ -84,24 +84,6 @@ def test_a_refusal_comes_from_numbers_unless_nothing_can_be_said():
     unknown = undecided({}, "there is no such bound")
     assert passes(silent, unknown) and not passes(refuse, unknown)
     assert [one.must for one in (refuse, silent)] == ["be rejected", "be left undecided"]
-
-
-def test_a_control_names_datasets_without_the_folder_of_what_it_replaces():
-    one, other = "trajectories/one", "checks/other"
-
-    def fed(needs, wrong):
-        declare = claim("Section 0", "It is so.", needs, (Control("wrong", wrong),))
-        return declare(lambda *runs: runs).claim.controls[0].fed
-
-    two = "trajectories/two"
-    assert fed((one,), "two") == {one: two}
-    wrong = {"one": "two", "other": (one, max)}
-    assert fed((one, other), wrong) == {one: two, other: (one, max)}
-    assert fed((one, other), {other: max}) == {other: max}
-    with pytest.raises(ValueError, match="say which of trajectories/one, checks/other"):
-        fed((one, other), "two")
-    with pytest.raises(ValueError, match="three is not one of trajectories/one"):
-        fed((one,), {"three": "two"})
 
 
 @pytest.mark.parametrize(

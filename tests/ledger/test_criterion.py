@@ -15,7 +15,6 @@ from pendula.ledger.criterion import (
     Verdict,
     WithinFactor,
     judge,
-    plain,
 )
 from pendula.ledger.cutoff import Cutoff, flips, moving, once, recorded
 
@@ -63,13 +62,6 @@ LOW = Below(1.0, "x", "y")
 def test_a_verdict_follows_from_the_criterion_alone(x, y, words, verdict, because):
     found = judge({"x": x, "y": y}, LOW, *words)
     assert (found.verdict, found.because) == (verdict, because)
-
-
-@pytest.mark.parametrize(
-    ("limit", "text"), [(1.0000001, "1.0000001"), (1 / 3, "0.3333"), (2e-6, "2e-06"), (0, "0")]
-)
-def test_limits_are_printed_as_they_are(limit, text):
-    assert plain(limit) == text
 
 
 # --- Cut-offs -------------------------------------------------------------------------------------

@@ -24,13 +24,11 @@ from oracle import (
     random_chain,
     slope,
 )
-from pendula.models.amplitudes import Chain, energy, midpoint_rates, rates
+from pendula.models.amplitudes import Chain, energy, rates
 from problems import PAPER, make_problem
 
 CONSTANTS = (0.7, 1.3, -2.1)
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
-ADDED = ("ode45_real", "delfour_fortin_payre")
-"""The solvers that the library does not give to every model."""
 DRIFTS = {"ode45": 1e-3, "ode45_real": 1e-3, "delfour_fortin_payre": 1e-9}
 each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)
 some = settings(max_examples=20)
@@ -74,21 +72,6 @@ def test_rates_and_energy_are_equations_4_and_8(boundary):
         assert energy(given, y) == pytest.approx(hamiltonian(z, CONSTANTS, boundary), rel=1e-13)
 
 
-@given(
-    z=chains(widths=(1, 4), even=True, synchronised=True), numbers=constants, boundary=boundaries
-)
-@some
-def test_half_a_chain_and_one_component_have_the_bits_of_the_whole(z, numbers, boundary):
-    for name in SOLVERS:
-        whole = run(name, z, numbers, boundary)
-        half = run(name, z, numbers, boundary, Reduction(even=True, synchronised=False))
-        assert_same_bits(half, whole, "final", "linf", "l2", "modulus", "outcome", "energy")
-        for kept in (Reduction(even=False, synchronised=True), find_reduction(z)):
-            one = run(name, z, numbers, boundary, kept)
-            assert_same_bits(one, whole, "final", "linf", "l2", "modulus", "outcome")
-            np.testing.assert_allclose(one.energy, whole.energy, 1e-13, 1e-12, err_msg=name)
-
-
 @given(z=chains(), numbers=constants, boundary=boundaries)
 @some
 def test_energy_is_conserved_and_exchange_of_a_and_b_exchanges_the_bits(z, numbers, boundary):
@@ -97,15 +80,6 @@ def test_energy_is_conserved_and_exchange_of_a_and_b_exchanges_the_bits(z, numbe
         off = np.abs(straight.energy - straight.energy[0]).max()
         assert off < drift * max(1.0, np.abs(straight.energy[0])), name
         np.testing.assert_array_equal(exchanged.final, straight.final[::-1], err_msg=name)
-
-
-@given(z=chains(widths=(0, 2)), numbers=constants, boundary=boundaries)
-@some
-def test_conjugation_reverses_time(z, numbers, boundary):
-    for name, off in zip(ADDED, (1e-4, 1e-8), strict=True):
-        there = run(name, z, numbers, boundary).final
-        back = np.conj(run(name, np.conj(there), numbers, boundary).final)
-        np.testing.assert_allclose(back, z, atol=off, err_msg=name)
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-7])
@@ -123,17 +97,6 @@ def test_ode45_of_real_unknowns_takes_the_published_steps(rtol):
     found = run(solver, z, numbers, "free", **changes)
     assert (found.outcome.steps, found.outcome.rejected) == (steps, rejected)
     np.testing.assert_allclose(found.final, final[0] + 1j * final[1], atol=1e-8)
-
-
-@each_boundary
-def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_square(boundary):
-    for half_width in (3, 7):
-        old, new = random_chain(half_width, seed=1), random_chain(half_width, seed=2)
-        given = Chain(*CONSTANTS, *choose_ends(boundary, WHOLE))
-        middle, dy = np.zeros((2, 4, 2 * half_width + 3))
-        midpoint_rates(given, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
-        expected = mean_slope(old, new, CONSTANTS, boundary)
-        np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)
 
 
 def mean_slope(old, new, numbers, boundary):

@@ -5,15 +5,6 @@ import pytest
 from pendula.models.bounds import growth_margin
 
 
-def test_growth_at_the_bound_has_no_margin_and_beyond_it_less():
-    tau = np.linspace(0.0, 2.0, 21)
-    for rate, expected in ((4.0, 1.0), (2.0, 0.5), (8.0, 2.0)):
-        l2 = np.array([np.exp(0.5 * rate * tau), 0.0 * tau])
-        assert growth_margin(tau, l2, 1.0)["steepest"] == pytest.approx(expected)
-    assert growth_margin(tau, np.ones((2, 21)), 0.0)["steepest"] == 0.0
-    assert growth_margin(tau, np.array([1.0 + tau, 0.0 * tau]), 0.0)["steepest"] == np.inf
-
-
 def test_the_bound_is_seen_from_both_ends():
     """P may neither grow nor fall faster than e^(4 gamma tau), whichever end is given."""
     tau, gamma = np.linspace(0.0, 2.0, 21), 0.5

@@ -8,9 +8,7 @@ from latticode.simulation.lattice import Reduction
 from latticode.simulation.simulate import simulate
 from on_pendula import TIGHT, final, pendula, slope, start, undriven_energy
 from pendula.models.pendula import (
-    amplitudes_of,
     at_time,
-    frequency,
     make_pendula,
 )
 from scipy.integrate import solve_ivp
@@ -57,15 +55,6 @@ def test_half_a_chain_and_one_component_have_the_bits_of_the_whole(boundary, sol
             assert np.array_equal(getattr(part, name), getattr(whole, name)), name
 
 
-def test_a_long_chain_goes_in_tiles_and_waves_with_the_same_bits():
-    ring = pendula(half_width=1200, end_time=0.25, initial={0: (1.0, 0.1)}, boundary="free")
-    short = ring.changed(half_width=40)
-    for solver in ("taylor", "dop853"):
-        middle = final(ring, solver)[..., 1200 - 40 : 1200 + 41]
-        apart = np.abs(middle - final(short, solver)).max()
-        assert apart < 1e-15 * np.abs(middle).max()
-
-
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_pendula_that_are_not_driven_keep_their_energy(boundary):
     alike = {0: (2.0, 2.0), 1: (1j, 1j)}
@@ -76,17 +65,6 @@ def test_pendula_that_are_not_driven_keep_their_energy(boundary):
     driven = pendula(boundary=boundary, mu=0.3, end_time=20.0)
     energies = [undriven_energy(driven, *state) for state in (start(driven), final(driven))]
     assert abs(energies[1] / energies[0] - 1) > 1e-2
-
-
-def test_a_run_can_be_reversed():
-    """After whole turns of the drive the way back is the way there with velocities reversed."""
-    mu, omega = 0.3, frequency(-4.0, 0.3)
-    tau = 0.5 * mu * mu * (40 * np.pi / omega)
-    there = pendula(mu=mu, end_time=tau, output_step=tau)
-    x, v = final(there)
-    back = there.changed(initial=amplitudes_of(x, -v, -4.0, mu))
-    x, v = final(back)
-    np.testing.assert_allclose(np.array([x, -v]), start(there), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize(

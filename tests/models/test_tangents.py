@@ -8,7 +8,6 @@ from latticode.localised.tangents import grow
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unpack
 from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain, tangent_rates
-from pendula.models.linear_chain import finite_rate
 from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -40,21 +39,6 @@ def test_tangent_rates_are_differences_of_equation_4(half_width, boundary, reduc
     expected = derivative(z, vector, boundary)
     actual = tangent_rate(z, vector, boundary, reduction)
     np.testing.assert_allclose(actual, expected, rtol=1e-8, atol=1e-8)
-
-
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_an_odd_vector_of_an_even_state_stays_odd_to_the_last_bit(boundary):
-    z, vector = random_chain(5, even=True), random_chain(5, seed=3)
-    rate = tangent_rate(z, vector - vector[:, ::-1], boundary)
-    np.testing.assert_array_equal(rate, -rate[:, ::-1])
-
-
-@pytest.mark.parametrize("omega", [-1.0, 0.0, 2.5])
-def test_at_rest_a_vector_grows_as_lemma_1_says(omega):
-    rest, vector = np.zeros((2, 7), complex), random_chain(3)[None]
-    growth = grow(problem_from(rest, (1.0, 1.0, omega)), vector, 60.0)
-    rate = (growth.log_growth[0, -1] - growth.log_growth[0, 160]) / 20.0
-    assert rate == pytest.approx(finite_rate(omega, 1.0, 1.0, 7, "dirichlet"), rel=2e-3)
 
 
 HASH = "669dfa1c71eb6f7b"

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from latticode import ConfigurationError, Model, save, survey
+from latticode import Model, save, survey
 from latticode.drawing import style
 from latticode.drawing.surveys import draw_survey, gather_survey
 from pendula import Case, check, simulate
-from pendula.configuration.messages import load
 from pendula.own_cases.page import write_report, write_table
 
 KINDS = "png", "pdf", "nc", "json"
@@ -36,18 +35,6 @@ def test_the_papers_equations_as_a_model_of_ones_own_give_the_papers_run(tmp_pat
     assert float(found["conserved_drift"][0]) < 1e-11
     late = float(check(paper, expected)["exponent"])
     assert float(found["exponent"]) == pytest.approx(late, abs=0.1)
-
-
-def test_a_case_has_the_constants_of_the_paper_or_the_parameters_of_a_model():
-    model = Model(fields="u", parameters={}, i_dt=lambda p, u: u)
-    for case, told in (
-        ({"model": model, "initial": {0: [1]}, "omega": 1}, "omega: belongs to the paper's"),
-        ({"omega": 1, "parameters": {"a": 1}}, "parameters: belong to a model of your own"),
-        ({"model": model, "initial": {0: [1]}, "omgea": 1}, "known are model, parameters"),
-        ({"model": model, "initial": {0: [1]}, "half_wdith": 1}, "mean 'half_width'"),
-    ):
-        with pytest.raises(ConfigurationError, match=told):
-            load({"cases": {"mine": case}})
 
 
 def test_the_page_on_a_lattice_of_ones_own_has_no_word_of_the_paper(tmp_path):

@@ -2,13 +2,9 @@
 
 import numpy as np
 import pytest
-from latticode.configuration import cost
 from latticode.configuration.files import ConfigurationError
 from latticode.simulation import simulate as simulation
 from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
-from pendula.configuration.cases import SOLVERS
-from pendula.configuration.cost import demand
-from pendula.models.integrations import NAMED
 from pendula.own_cases import answers
 from pendula.own_cases.checks import check_sweep
 from pendula.problem import Problem
@@ -41,11 +37,6 @@ def test_a_dataset_of_pendula_says_so_and_has_angles(run, tmp_path):
     np.testing.assert_allclose(run["linf"][:, -1], np.abs(angles).max("site"), rtol=0, atol=0)
 
 
-def test_a_dataset_of_amplitudes_names_no_model(tmp_path):
-    plain = as_the_workflow_writes(Case(omega=8, half_width=2, end_time=1), "a", tmp_path / "a.nc")
-    assert not {"model", "mu"} & plain.attrs.keys() and "energy" in plain and "final" not in plain
-
-
 def test_a_second_run_and_the_expansion_stand_beside_it(checks):
     assert float(checks["largest_difference"]) < 1e-11 and checks["divergence_time"] == np.inf
     assert checks["second_linf"].attrs["units"] == "rad"
@@ -57,11 +48,6 @@ def test_a_second_run_and_the_expansion_stand_beside_it(checks):
 def test_the_error_of_the_expansion_falls_with_the_cube_of_mu():
     errors = [float(check(SWING.changed(mu=mu))["expansion_error"]) for mu in (0.1, 0.05)]
     assert 2.5 < np.log2(errors[0] / errors[1]) < 3.5
-
-
-def test_pendula_that_go_over_the_top_are_told():
-    found = check(OVER)
-    assert 0 < float(found["over_the_top"]) < 2 and float(found["largest_angle"]) > np.pi
 
 
 def test_its_figures_are_in_radians(run, checks):
@@ -104,12 +90,6 @@ def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
     assert answers.of_sweep(swept, found) == [(over, "2")]
 
 
-def test_the_configuration_knows_the_solvers_of_each_model():
-    for model, known in SOLVERS.items():
-        own = {*NAMED[model].integration.solvers} - {"ode45_real"}  # never configured
-        assert own == {*known} - {"auto"}
-
-
 def test_a_solver_of_the_other_model_is_refused_in_words():
     problem = Problem.of(SWING.problem() | {"solver": {"name": "crank_nicolson"}})
     with pytest.raises(simulation.IntegrationError, match="does not take pendula"):
@@ -119,12 +99,3 @@ def test_a_solver_of_the_other_model_is_refused_in_words():
 def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():
     with pytest.raises(ConfigurationError, match="differ in model, mu"):
         check(SWING, simulate(Case(omega=-4, half_width=8, end_time=2)).assign(final=0))
-
-
-@pytest.mark.parametrize("solver", ["taylor", "dop853", "ode45"])
-@pytest.mark.parametrize("mu", [0.05, 0.3])
-def test_the_estimate_of_its_cost_counts_its_steps(solver, mu):
-    case = SWING.changed(solver=solver, mu=mu)
-    problem = case.problem()
-    steps, _ = cost.steps_of(problem["solver"], problem, demand(problem))
-    assert 1 / 3 < steps / simulate(case).attrs["steps"] < 3

@@ -16,25 +16,6 @@ def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
     assert planned(ROOT, made, "figures") == {}
 
 
-def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(full_run, tmp_path):
-    settings = {"cases": {"mine": {"omega": 8, "end_time": 2}}}
-    before = planned(ROOT, tmp_path, "results/trajectories/mine.nc", settings=settings)
-    assert before == {"compile_solver": 1, "trajectory": 1}
-    solvers = ("--config", "solvers={dop853: {rtol: 1e-5}}")
-    jobs = planned(ROOT, full_run, *solvers)
-    assert jobs["measure_solvers"] == 1 and "compile_solver" not in jobs
-
-
-def test_who_only_looks_leaves_the_folder_as_it_is(looked):
-    assert {path.name for path in (looked / "folder").iterdir()} <= {".snakemake"}
-
-
-def test_who_asks_for_the_graph_gets_nothing_else(tmp_path):
-    result = snakemake(ROOT, tmp_path, "--dag")
-    assert result.returncode == 0 and result.stdout.startswith("digraph"), result.stderr
-    assert {path.name for path in tmp_path.iterdir()} <= {".snakemake"}
-
-
 @pytest.fixture(params=["", ".snakemake"], ids=["the folder", "its notes"])
 def read_only(request, tmp_path):
     """Return a folder that nobody can write to; for root it must lie on a read-only disk."""

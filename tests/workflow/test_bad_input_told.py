@@ -35,14 +35,6 @@ def test_a_bad_configuration_stops_before_any_job(tmp_path):
     assert not (tmp_path / "results/trajectories").exists()
 
 
-def test_own_without_a_case_is_told(tmp_path):
-    settings = {"limits": {"hours": 2}}
-    said = refused(snakemake(ROOT, tmp_path, "own", settings=settings))
-    assert (
-        "the configuration has no case, sweep or survey of your own: give some by --config" in said
-    )
-
-
 @pytest.mark.parametrize("wrong", [("fgi5",), ("fig5", "--configfile", "nowhere.yaml")])
 def test_what_is_misspelt_is_named(tmp_path, wrong):
     command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), *wrong]

@@ -4,13 +4,12 @@ Every key of every case is edited in tests/edits.py, which takes half an hour.
 """
 
 import re
-import shutil
 from hashlib import sha256
 
 import pytest
 import yaml
 from edits import EDITS
-from helpers import ROOT, command_of, edit, planned, run_ready, snakemake
+from helpers import ROOT, command_of, planned, run_ready, snakemake
 from latticode.datasets.netcdf import read
 from pendula.configuration.cases import Case
 
@@ -113,20 +112,6 @@ def test_studies_run_on_what_edited_cases_have_become(finished):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     lyapunov = read(finished / "results/checks/lyapunov.nc")
     assert lyapunov["gamma"].sel(case=["fig2_small", "fig4_small"]).values.tolist() == [1.0, 0.5]
-
-
-def test_touch_takes_an_edit_for_done(finished, clone):
-    """Without it the case is run again: see test_reruns.py."""
-    edit(clone / "config/config.yaml", "{<<: *large, omega: 0}", "{<<: *large, omega: 0.5}")
-    assert snakemake(clone, finished, "--touch", "fig4").returncode == 0
-    assert planned(clone, finished, "fig4") == {}
-
-
-def test_a_lost_record_is_told(drawn, tmp_path):
-    folder = shutil.copytree(drawn, tmp_path / "lost")
-    shutil.rmtree(folder / ".snakemake")
-    result = snakemake(ROOT, folder, "--dry-run", "fig1")
-    assert "Rules with missing metadata: fig1" in result.stdout + result.stderr
 
 
 def test_the_report_of_snakemake_shows_each_figure_with_its_rule(full_run, tmp_path):

@@ -1,23 +1,14 @@
 """The checks, the ledger and their figures, as the quick run makes them."""
 
-import pytest
 import xarray as xr
-from latticode.datasets.checks import broken, table, variable
+from latticode.datasets.checks import broken
 from latticode.datasets.json_files import load_json
-from latticode.datasets.netcdf import DatasetError
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.decide import decide_claims, join_claims, tabulate_claims
+from pendula.ledger.decide import decide_claims, tabulate_claims
 from pendula.ledger.verdicts import all_claims, needed
-from pendula.studies.theory import checks as theory_checks
 from pendula.studies.theory.settings import GROUPS, PROVED
 
 CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group), "cases"]
-PARTS = {
-    "figures": ("paper/claims_norms", "paper/claims_sweeps"),
-    "solvers": ("paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"),
-    **{study: (f"{study}/claims",) for study in ("theory", "chaos", "breathers", "pendula")},
-    **{study: (f"{study}/claims",) for study in ("unbounded", "certified")},
-}
 
 
 def ledger_of(folder):
@@ -54,21 +45,6 @@ def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):
     assert verdicts["theorem_3_proof"] == Verdict.NOT_REPRODUCED
 
 
-@pytest.mark.parametrize("part", PARTS)
-def test_a_part_of_the_ledger_takes_what_its_claims_rest_on(full_run, part):
-    assert set(load_json(full_run / f"results/claims/{part}.json")["read"]) == set(
-        needed(*PARTS[part])
-    )
-
-
-def test_a_violated_check_is_made_and_named(monkeypatch, capsys):
-    check = table("wrong", {}, error=variable(2.0, (), "error", tolerance=1.0))
-    monkeypatch.setattr(theory_checks, "run_check", lambda name, arguments: check)
-    (made,) = theory_checks.run_checks({"wrong": {}})
-    assert "CHECK VIOLATED: wrong: error is 2, tolerance 1" in capsys.readouterr().out
-    assert made["error"] == 2.0
-
-
 def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path):
     part = load_json(full_run / "results/claims/theory.json")
     paths = {name: str(full_run / f"results/{name}.nc") for name in needed("theory/claims")}
@@ -87,13 +63,3 @@ def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path):
     turned = {name: after[name] for name in applicable if after[name] != before[name]}
     assert turned == {"hamiltonian": Verdict.NOT_REPRODUCED}
     assert "| not reproduced |" in table.read_text()
-
-
-def test_a_changed_byte_of_a_part_reaches_no_ledger(full_run, tmp_path):
-    content = bytearray((full_run / "results/claims/theory.json").read_bytes())
-    content[len(content) // 2] ^= 1
-    (part := tmp_path / "theory.json").write_bytes(content)
-    made = [tmp_path / name for name in ("claims.json", "claims.md")]
-    with pytest.raises(DatasetError, match=r"theory\.json is damaged and cannot be read"):
-        join_claims([str(part)], *map(str, made))
-    assert not any(path.exists() for path in made)

@@ -10,8 +10,8 @@ tau = mu^2 t / 2, Newton's equations (1) are solved by
 
 P is what the sine and the drive make at three times the frequency. F is the right-hand side of (4),
 and A'' the second derivative of A along (4). Without the terms in P and G this is (3). The coupling
-of neighbours acts on P by mu^5 only, so that neighbours enter G through F and A'' alone. The test
-tests/derivation/test_expansion_by_sympy.py derives all this from (1).
+of neighbours acts on P by mu^5 only, so that neighbours enter G through F and A'' alone. With a
+term that is wrong the orders of tests/studies/pendula/test_remainder.py would be lower.
 
 Data. Angles x = 2 mu Re a and velocities dx/dt = -2 mu omega Im a, with given complex a, are those
 of the amplitudes A = a + mu^2 d + O(mu^4) at tau = 0,

@@ -118,13 +118,6 @@ def test_a_disc_has_its_area_within_the_limits():
     assert np.std(missed) < 0.5 * found.half[STAYS]  # and wide enough
 
 
-def test_scattered_fates_have_the_limits_of_independent_draws():
-    drawn = np.random.default_rng(5).choice([STAYS, SPREADS], size=(60, 60), p=[0.7, 0.3])
-    found, exact = fates.shares_of_area(drawn), share_limits(int((drawn == SPREADS).sum()), 3600)
-    assert found.value[SPREADS] == pytest.approx(exact.value)
-    assert found.half[SPREADS] == pytest.approx(exact.half, rel=0.05)
-
-
 def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
     drawn = np.random.default_rng(6).choice([STAYS, SPREADS], size=(40, 40))
     drawn = np.where(np.tri(40, dtype=bool), drawn, drawn.T)

@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from latticode.numerics.elementary import cos
 from on_breathers import ABOVE, BELOW, members, run_from, unfolded
 from pendula.problem import Constants
 from pendula.studies.breathers import multipliers
-from pendula.studies.breathers.periodic import FAMILIES, Breather, on_half, shoot, single_site
-from pendula.studies.breathers.waves import bands
+from pendula.studies.breathers.periodic import FAMILIES, on_half, shoot, single_site
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -34,17 +32,6 @@ def test_multipliers_are_those_of_the_nonlinear_flow(family, parity):
         assert np.abs(values - mu**2).min() < 1e-6 * abs(mu**2)
     shift = np.abs(values - 1.0).min()  # along the solution, with a Jordan block
     assert bool(shift < 1e-3) is (parity == "even")
-
-
-@pytest.mark.parametrize("constants", [BELOW, ABOVE])
-def test_on_a_chain_at_rest_traces_fill_the_bands_of_linear_waves(constants):
-    """A wave exp(-i omega tau) has nu = -cos(pi omega / lambda)."""
-    rest = Breather(constants, 12.0, np.zeros((2, 30)))
-    nu = multipliers.traces(rest, "odd")
-    ends = [-cos(np.pi * np.array(band) / 12.0) for band in bands(constants)]
-    assert np.abs(nu.imag).max() < 1e-6 and multipliers.growth(rest) == 0.0
-    assert nu.real.min() == pytest.approx(np.min(ends), abs=0.01)
-    assert nu.real.max() == pytest.approx(np.max(ends), abs=0.01)
 
 
 @pytest.mark.parametrize(("nu", "rate"), [

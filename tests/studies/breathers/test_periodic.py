@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from latticode.localised.breathers import NoStateError
 from on_breathers import ABOVE, BELOW, at_twelve, members, run_from, unfolded
 from pendula.problem import Constants
 from pendula.studies.breathers.periodic import (
@@ -106,10 +105,3 @@ def test_a_family_is_followed_down_to_where_it_ends(constants, family, frequenci
         off = np.abs(last.data - near.data[:, : last.data.shape[1]])
         assert off[:, 0].max() < 1e-12
         assert off.max() < 1e-7  # the end of a shorter chain cuts off as much of the tails
-
-
-def test_what_does_not_exist_is_not_found():
-    with pytest.raises(NoStateError, match="no localised motion"):
-        single_site(ABOVE, 5.0, "A only", M)  # a frequency below the chain
-    with pytest.raises(NoStateError, match="no breather"):
-        shoot(BELOW, 12.0, np.full((2, M + 1), 30.0))

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from latticode.equations.ends import DIRICHLET, MIRROR
-from latticode.localised import breathers
 from latticode.localised.breathers import NoStateError, State, flat, newton
 from latticode.localised.linearised import linearise
 from pendula.models.amplitudes import Chain, rates, tangent_rates
@@ -23,14 +22,6 @@ def numbers(epsilon=1.0, gamma=1.0, omega=-4.0):
 def found_on(family, constants, half_width):
     """Return the problem and the state of a family, or None."""
     return next(steady.continued(family, constants, [half_width]), None)
-
-
-@each_family
-def test_the_closed_form_solves_the_equations_of_one_pair(family):
-    alone = numbers(epsilon=0.0, gamma=0.7, omega=-4.3)
-    problem = steady.chain_of(family, alone, 1)
-    assert problem.amplitudes[:, 1].imag.any() == family.imaginary
-    assert np.abs(linearise(problem, flat(problem.amplitudes))[0]).max() < 1e-13
 
 
 def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
@@ -99,13 +90,3 @@ def test_no_start_leads_to_a_state_where_the_theorem_forbids_one(omega):
             given = given.changed(half_width=10)
             with pytest.raises(NoStateError):
                 newton(given, State(flat(given.amplitudes, even=True), even=True), None)
-
-
-def test_the_size_of_the_steps_of_the_coupling_changes_no_state(monkeypatch):
-    """In one step Newton's method would lose the family: the step is halved."""
-    by_small_steps = found_on(REAL, numbers(), 30)[1].x
-    monkeypatch.setattr(breathers, "FIRST_STEP", 1.0)
-    assert np.abs(found_on(REAL, numbers(), 30)[1].x - by_small_steps).max() < 1e-12
-    monkeypatch.setattr(breathers, "LARGEST_CHANGE", 0.0)
-    with pytest.raises(NoStateError, match="it ends at 0 of the coupling"):
-        found_on(REAL, numbers(), 30)

@@ -6,7 +6,7 @@ from flint import arb, arb_mat, ctx
 from pendula.models.pairs import FAMILIES
 from pendula.studies.certified import balls, existence
 from pendula.studies.certified.existence import RefusedError, prove
-from pendula.studies.certified.states import Chain, LostError, find_state
+from pendula.studies.certified.states import Chain, find_state
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
 HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
@@ -149,25 +149,3 @@ def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
             existence.radii(there)
         radius, unique = existence.radii(there._replace(eta=0.9 * eta))
     assert 0.342 < radius < 0.36 < 0.49 < unique < 0.658
-
-
-def test_at_a_pitchfork_there_is_no_proof():
-    """A = B meets the asymmetric family at Omega = -0.5870372 (results/breathers/steady.nc)."""
-    beside = HERE._replace(omega=-0.7, half_width=32)
-    state = find_state(beside, EQUAL)
-    assert proved(EQUAL, beside, state).radius < 1e-6
-    # at the pitchfork itself the state with A = B, whose own slope stays regular
-    at, a, sites = beside._replace(omega=-0.58703721), state[0], state.shape[1]
-    linear = np.eye(sites, k=1) + np.eye(sites, k=-1) + (at.omega - 2.0) * np.eye(sites)
-    linear[0, 1] *= 2.0
-    for _ in range(20):
-        a = a - np.linalg.solve(linear + np.diag(1.5 * a * a), linear @ a + 0.5 * a**3)
-    with pytest.raises(RefusedError):
-        proved(EQUAL, at, np.stack([a, a]))
-
-
-def test_families_that_do_not_exist_or_end_before_the_coupling_are_lost():
-    with pytest.raises(LostError, match="no pair"):
-        find_state(HERE._replace(omega=-1.5), IMAGINARY)
-    with pytest.raises(LostError):
-        find_state(HERE._replace(epsilon=40.0), ASYMMETRIC)

@@ -5,7 +5,6 @@ from itertools import chain as joined
 
 import numpy as np
 import pytest
-from flint import fmpq
 from helpers import ROOT
 from latticode.datasets.netcdf import read
 from pendula.studies.certified import fixed_point, frames
@@ -148,57 +147,6 @@ def test_steps_that_do_not_cover_the_time_between_outputs_are_refused(name):
     assert bound(given, [eight]) < 1e-20
     with pytest.raises(fixed_point.StepError, match="more or less than the time"):
         certify(given, [UNEVEN[name](eight)])
-
-
-@pytest.mark.parametrize("order", [8, 11, 23, 24, 30])
-def test_what_the_tangent_polynomials_miss_is_bounded_for_curves_of_any_order(order):
-    """Against exact coefficients of J M - M', in fractions."""
-    given = problem(half_width=1, end_time=0.05)
-    chain, ((step, *_), *_) = steps_of(given, 32, order)
-    h, size = chain.interval / step.pieces, 4 * chain.sites
-    p = frames.doubles(step, chain, order)
-    identity = np.eye(size).reshape(2, 2, chain.sites, size)
-    terms = frames.tangents(identity, p, float(h), chain, frames.ORDER)
-    sizes = np.sqrt((p**2).sum(axis=1).max(axis=(1, 2)))
-    norms = np.array([np.sqrt((term * term).sum()) for term in terms])
-    claimed = frames.missed(norms, sizes, float(h), chain)
-    true = sum(
-        np.sqrt(float((coefficient**2).sum())) / (k + 1)
-        for k, coefficient in enumerate(exactly_missed(terms, step, chain))
-    )
-    assert true < claimed < 1e4 * true
-
-
-def exactly(x):
-    return fmpq(*x.as_integer_ratio())
-
-
-def exactly_missed(terms, step, chain):
-    """Return the coefficients of h (J M - M') over theta, (part, component, site, column)."""
-    h = chain.interval / step.pieces
-    h, to_fraction = fmpq(h.numerator, h.denominator), np.vectorize(exactly, otypes=[object])
-    p = np.moveaxis(np.array(step.terms, object), 2, 0) / fmpq(2**chain.bits)
-    p = p.reshape(-1, 2, 2, chain.sites, 1)  # (order, part, component, site, column)
-    square, turned, across = np.zeros((3, 2 * len(p) - 1, *p.shape[2:]), object)
-    for i, (a, b) in enumerate(p):
-        for j, (c, d) in enumerate(p):
-            square[i + j] += a * c + b * d
-            turned[i + j] += (a * c - b * d) / 2  # of A^2 / 2, as is `across`
-            across[i + j] += a * d
-    found = np.zeros((len(terms) + len(square) - 1, *terms[0].shape), object)
-    for k, term in enumerate(terms):
-        x, y = exact = to_fraction(term)
-        q, field = fixed_point.scaled_linear(
-            [list(part.reshape(-1, x.shape[-1])) for part in exact], chain
-        )
-        real, imaginary = np.array(field, object).reshape(exact.shape) / q
-        found[k] += h * np.stack([imaginary, -real])  # i e' = F: Re e' = Im F and Im e' = -Re F
-        found[k - 1] -= k * exact if k else 0
-        for i in range(len(square)):
-            real = (square[i] + turned[i]) * x + across[i] * y
-            imaginary = (square[i] - turned[i]) * y + across[i] * x
-            found[k + i] += h * np.stack([imaginary, -real])
-    return found
 
 
 def test_the_data_must_be_even():

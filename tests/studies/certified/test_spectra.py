@@ -35,11 +35,6 @@ def test_boxes_decide(boxes, zero, verdict):
     assert judge(boxes, zero).verdict is verdict
 
 
-def test_the_rate_is_the_root_of_the_fastest_box():
-    found = judge([box(4.0, radius=1e-6), box(1.0), box(-9.0)], False)
-    assert found.growth_low < 2.0 < found.growth_high < found.growth_low + 1e-6
-
-
 def exponents(chain, family, state):
     """Return all exponents of a state on the whole chain, from one dense matrix in doubles."""
     s, whole = family.drive(chain.gamma), np.concatenate([state[:, :0:-1], state], axis=1)

@@ -1,31 +1,15 @@
 """Ensembles: members are runs with draws of their own."""
 
 import numpy as np
-from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import run_all
 from latticode.simulation.simulate import simulate
-from latticode.simulation.sweep import pair_l2, pair_linf
+from latticode.simulation.sweep import pair_l2
 from pendula.studies.chaos.ensembles import draw_swept, run_ensembles
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 WINDOWS = [(0.5, 1.0)]
 PROBLEM = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.5, solver=SOLVER)
-
-
-def test_without_perturbation_every_member_is_the_run_itself():
-    run = simulate(PROBLEM)
-    found, _ = run_ensembles(draw_members(PROBLEM, 0.0, 2, 0), [], WINDOWS, run_all)
-    np.testing.assert_array_equal(found["l2"], [pair_l2(run)] * 2)
-    np.testing.assert_array_equal(found["linf"], [pair_linf(run)] * 2)
-
-
-def test_members_differ_by_seed_and_kind_and_are_the_same_again():
-    drawn = [(5, "even"), (5, "even"), (6, "even"), (5, "uneven")]
-    each = [one for given in drawn for one in draw_members(PROBLEM, 1e-3, 2, *given)]
-    found = run_ensembles(each, [], WINDOWS, run_all)[0]["l2"]
-    np.testing.assert_array_equal(found[:2], found[2:4])
-    assert len(np.unique(found[2:, 2, -1])) == 6
 
 
 def test_half_widths_have_draws_of_their_own():

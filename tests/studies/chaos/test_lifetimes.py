@@ -14,12 +14,6 @@ def problem(case="fig4_small", a0=1.0, **changes):
     return problem_of(case, **given | changes)
 
 
-def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
-    modulus = np.ones((2, 5, 3))
-    modulus[:, 2] = [3.0, 1.0, 0.5]
-    assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]
-
-
 def test_a_life_is_the_same_in_pieces_as_in_one_run():
     case = problem(a0=2.0)
     whole = simulate(case.changed(end_time=10.0, snapshot_every=1))

@@ -65,15 +65,3 @@ def test_of_another_case_the_paper_states_no_drift(trajectories):
     assert np.isnan(float(data["stated_drift"].sel(case="fig2_small")))
     assert data["kept_until"].sel(case="fig2_small").isnull().all()
     assert (data["kept_until"].sel(case="fig2_large", solver="ode45") == np.inf).all()
-
-
-def test_runs_of_different_lengths_and_sweeps_over_other_half_widths_are_drawn_whole(
-    make_trajectory, make_sweep
-):
-    pair = [make_trajectory(), make_trajectory(end_time=7.0)]
-    figure = figures.draw_norms(figures.gather_norms(pair, pair))
-    assert [axes.get_lines()[2].get_xdata()[-1] for axes in figure.axes] == [5.0, 5.0, 7.0, 7.0]
-    left, right = make_sweep(), make_sweep().assign_coords(half_width=[7, 10, 300])
-    figure = figures.draw_sweeps(figures.gather_sweeps(left, right, "[10, 70]", "[10, 40]"))
-    shown = [list(axes.get_lines()[0].get_xdata()) for axes in figure.axes]
-    assert shown == [[5, 10, 20], [7, 10, 300]]

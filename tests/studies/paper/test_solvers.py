@@ -9,7 +9,6 @@ from pendula.ledger.criterion import Verdict
 from pendula.studies.paper import solvers
 from pendula.studies.paper.claims_energy import drifts
 from pendula.studies.paper.claims_second_solver import swept_chance
-from pendula.studies.paper.figures import gather_norms
 from problems import problem_of
 
 
@@ -84,13 +83,3 @@ def test_the_most_distant_means_decide_the_chance_of_a_sweep():
     off = ensembles.assign(l2_mean=ensembles["l2_mean"].where(~here, far))
     assert swept_chance("fig6_right", ensembles, off) < 0.001
     assert swept_chance("fig6_right", ensembles, ensembles) == 1.0
-
-
-def test_the_divergence_time_of_a_figure_is_the_horizon_of_the_dataset(make_trajectory):
-    run, true = make_trajectory(), make_trajectory()
-    true["l2"][0, 4:] *= 1.5
-    shown = gather_norms([run, run], [true, run])["divergence_time"]
-    runs = {"small": {"ode45": run}, "large": {"ode45": run}}
-    horizons = solvers.trust_solvers(runs, {"small": true, "large": run})["horizon"]
-    stored = horizons.sel(solver="ode45")
-    assert np.array_equal(shown, stored) and list(shown) == [2.0, np.inf]

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from latticode.simulation.simulate import simulate
 from pendula.configuration.paper import paper
-from pendula.models.linear_chain import gamma_0
 from pendula.problem import Constants, Problem
 from pendula.studies.pendula import mathieu, threshold
 from scipy.integrate import solve_ivp
@@ -23,19 +22,6 @@ def test_tongues_are_those_of_scipy():
         (mathieu_b, 2, mathieu.second_tongue, second),
     ):
         np.testing.assert_allclose(curve(order, tongue(offset)), 1.0 + offset, rtol=0, atol=2e-15)
-
-
-def test_what_the_first_tongue_does_not_reach_is_infinite():
-    highest = mathieu_a(1, np.linspace(0.0, mathieu.BEYOND, 4001)).max() - 1.0
-    assert np.isfinite(mathieu.first_tongue(highest - 1e-3))
-    assert mathieu.first_tongue(highest + 1e-3) == np.inf
-
-
-@pytest.mark.parametrize("of", [mathieu.first_tongue, mathieu.second_tongue])
-def test_deeper_fractions_change_no_bit(of, monkeypatch):
-    found = of(OFFSETS)
-    monkeypatch.setattr(mathieu, "DEPTH", 2 * mathieu.DEPTH)
-    assert np.array_equal(of(OFFSETS), found)
 
 
 def of_wave(offset):
@@ -103,18 +89,6 @@ def test_the_second_resonance_takes_all_stability_between_its_ends(omega, grows)
     assert (threshold.pendula_threshold(omega, 0.3, 1.0) == 0.0) == grows
     largest = max(multiplier(omega, 0.3, 0.5, curvature) for curvature in np.linspace(0, 4, 61))
     assert (largest > 1.001) == grows
-
-
-@pytest.mark.parametrize("epsilon", [1.0, 0.75])
-def test_corrections_are_those_of_small_mu(epsilon):
-    """What is left is of the order mu^4."""
-    omegas = np.array([-6.0, -4.0, -1.0, 5.0, 8.0, 12.0])
-    left = []
-    for mu in (0.02, 0.01):
-        exact = threshold.pendula_threshold(omegas, mu, epsilon)
-        first = mu * mu * threshold.correction(omegas, epsilon)
-        left.append(exact - gamma_0(omegas, epsilon) - first)
-    assert left[0] / left[1] == pytest.approx(np.full(6, 16.0), rel=0.05)
 
 
 @pytest.mark.parametrize(("factor", "grows"), [(0.98, False), (1.02, True)])

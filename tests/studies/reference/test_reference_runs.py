@@ -16,10 +16,8 @@ from pendula.studies.reference.verified_run import (
     Run,
     UnverifiedError,
     compare,
-    integrate,
     reference_contents,
     require_agreement,
-    start,
 )
 from problems import problem_of
 
@@ -85,22 +83,6 @@ def test_the_equations_are_those_of_the_oracle(half_width):
     np.testing.assert_allclose(values.reshape(4, -1), exact, rtol=1e-12, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    "changes", [{"boundary": "free"}, {"initial": {1: (1.0, 0.0)}}, {"boundary": "periodic"}]
-)
-def test_what_half_a_dirichlet_chain_cannot_hold_is_refused(changes):
-    package("heyoka", HEYOKA)
-    with pytest.raises(ValueError, match="the reference"):
-        start(problem_of(**changes), Numbers(100))
-
-
-def test_the_start_is_the_lattice_of_the_other_solvers():
-    package("heyoka", HEYOKA)
-    problem = problem_of(initial={-2: (0.5j, 1), 0: (1, 0.25), 2: (0.5j, 1)})
-    state = start(problem, Numbers(100))
-    np.testing.assert_array_equal(state.astype(float), rows_of(problem.amplitudes))
-
-
 @pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
 def test_a_short_run_made_again_gives_the_same_doubles(case):
     package("heyoka", HEYOKA)
@@ -112,11 +94,3 @@ def test_a_short_run_made_again_gives_the_same_doubles(case):
     for name in ("linf", "l2", "energy"):
         np.testing.assert_array_equal(again[name], kept[name].sel(tau=slice(0, 1)))
     assert again["discrepancy"].max() < 1e-30
-
-
-def test_fewer_bits_and_another_order_give_an_error_of_their_size():
-    package("heyoka", HEYOKA)
-    short = problem_of("fig3_large", half_width=6, end_time=0.5)
-    coarse, fine = (integrate(short, [], bits) for bits in (100, 150))
-    assert coarse.order < fine.order
-    assert 2.0**-105 < compare(coarse, fine).norms.max() < 2.0**-88

@@ -5,7 +5,6 @@ from dataclasses import astuple, replace
 import numpy as np
 import pytest
 from pendula.models.bounds import (
-    best_bound,
     coercivity,
     extent,
     lipschitz,
@@ -15,12 +14,11 @@ from pendula.models.bounds import (
     theorem_2_constants,
     theorem_3_bound,
     widened_barrier,
-    widened_bound,
     widened_delta_0,
     with_positive_coupling,
 )
 from pendula.studies.theory.equations import one_pair, total_energy
-from pendula.studies.theory.sharpness import reached, shell_state
+from pendula.studies.theory.sharpness import reached
 from problems import constants_of
 
 NEGATIVE, POSITIVE = constants_of((1.0, 1.0, -4.0)), constants_of((1.0, 1.0, 8.0))
@@ -100,26 +98,6 @@ def test_exact_values_of_the_bounds():
     assert widened_delta_0(NEGATIVE) == pytest.approx(1.340, abs=1e-3)
 
 
-def test_theorem_2_ends_at_its_barrier():
-    """At Omega = -5 it covers P(0) < 6 with -H < 9, where P stays below 6; not the edges."""
-    constants = constants_of((1.0, 1.0, -5.0))
-    assert theorem_2_bound(-8.91, 5.9, constants) == pytest.approx(5.4)
-    assert theorem_2_bound(-6.75, 0.1, constants) == pytest.approx(3.0)
-    for energy, start in ((-6.75, 6.0), (-9.0, 0.1), (-10.0, 0.1), (-6.75, 7.0)):
-        assert theorem_2_bound(energy, start, constants) == np.inf
-    for numbers in ((0.0, 1.0, -4.0), (1.0, 0.0, 4.0), (1.0, 1.0, -2.0)):
-        assert widened_barrier(constants_of(numbers)) == (0.0, 0.0)
-
-
-def test_the_best_bound_knows_the_ends():
-    energy, power, constants = start_of(-4.0, (1.0, 0.1))
-    closed, free = (
-        best_bound(energy, power, 61, constants, ends) for ends in ("dirichlet", "free")
-    )
-    assert closed == widened_bound(energy, power, constants) == pytest.approx(3.3858, abs=1e-4)
-    assert free == theorem_3_bound(energy, 61, constants) > 4000.0
-
-
 @each_constants
 def test_signs_that_a_change_of_variables_turns_do_not_matter(constants):
     """Amplitudes times i turn the sign of the drive, every second one times -1 that of epsilon."""
@@ -147,11 +125,3 @@ def test_a_tiny_wave_reaches_what_the_linear_equations_say(sites):
     assert reached("theorem_2", NEGATIVE, sites) == pytest.approx(2.0 / (kappa - 2.0), rel=1e-6)
     growth = (kappa + 2.0) / (kappa - 2.0)
     assert reached("theorem_2_ball", NEGATIVE, sites) == pytest.approx(growth / 5.0, rel=1e-6)
-
-
-def test_states_of_one_energy_have_it_and_stay_below_theorem_3():
-    state = shell_state(NEGATIVE, 11, -6.5)
-    energy = total_energy(NEGATIVE, "dirichlet", state)
-    assert energy == pytest.approx(-6.5, abs=1e-6)
-    assert np.sum(np.abs(state) ** 2) < theorem_3_bound(energy, 11, NEGATIVE)
-    assert shell_state(POSITIVE, 11, -1.0) is None

@@ -6,7 +6,6 @@ from oracle import BOUNDARIES, hamiltonian
 from pendula.studies.theory import derivation, polynomials
 from pendula.studies.theory.equations import right_hand_side
 from pendula.studies.theory.identities import IDENTITIES, prove_identities
-from pendula.studies.theory.inequalities import along_drive, sums
 from pendula.studies.theory.polynomials import (
     CONSTANTS,
     EPSILON,
@@ -15,7 +14,6 @@ from pendula.studies.theory.polynomials import (
     MU,
     STATE,
     rational,
-    terms_left,
 )
 from problems import constants_of
 
@@ -45,23 +43,6 @@ def test_the_polynomials_are_the_equations_and_the_energy(boundary):
     np.testing.assert_allclose(re + 1j * im, right_hand_side(constants, boundary, Z), rtol=1e-13)
     energy = at_numbers(polynomials.energy(boundary))
     assert energy == pytest.approx(hamiltonian(Z, constants, boundary), rel=1e-13)
-
-
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_sums_of_squares_are_what_they_stand_for(boundary):
-    """4 P less the bonds, and 2 P with the drive added or taken off."""
-    power, bonds = polynomials.densities().sum(), polynomials.bonds(boundary)
-    assert terms_left(4 * power - bonds - sums(boundary)) == 0
-    for sign in (1, -1):
-        assert terms_left(2 * power + sign * polynomials.drive() - along_drive(sign)) == 0
-
-
-def test_means_over_a_turn_are_those_of_many_points():
-    t = 2.0 * np.pi * np.arange(64) / 64
-    for j in (0, 2, 4, 6):
-        for k in (0, 2, 4):
-            mean = np.mean(np.cos(t) ** j * np.sin(t) ** k)
-            assert float(derivation.mean_of_powers(j, k)) == pytest.approx(mean, abs=1e-14)
 
 
 def test_the_accelerations_are_those_of_newtons_equations():

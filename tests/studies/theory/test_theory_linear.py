@@ -5,7 +5,6 @@ import pytest
 import xarray as xr
 from pendula.models.linear_chain import (
     finite_rate,
-    gamma_0,
     growth_rate,
     infinite_rate,
     stable_windows,
@@ -14,12 +13,6 @@ from pendula.models.linear_chain import (
 from pendula.studies.theory.claims_linear import misclassified
 from pendula.studies.theory.stability_chart import resolution
 from pendula.studies.theory.threshold import exponents
-
-
-def test_gamma_0_is_half_of_the_distance_to_the_band():
-    """The band of a negative coupling lies below zero."""
-    np.testing.assert_array_equal(gamma_0(np.array([-4, 0, 2, 4, 5, 8]), 1.0), [2, 0, 0, 0, 0.5, 2])
-    np.testing.assert_array_equal(gamma_0(np.array([-6, -4, -2, 0, 2]), -1.0), [1, 0, 0, 0, 1])
 
 
 @pytest.mark.parametrize("gamma", [0.3, 1.0, 2.5])

@@ -2,12 +2,8 @@
 
 import numpy as np
 import pytest
-from latticode.localised.linearised import linearise
 from latticode.simulation.lattice import WHOLE
-from latticode.simulation.simulate import IntegrationError, simulate
-from oracle import random_chain
-from pendula.models.amplitudes import EQUATIONS
-from pendula.studies.unbounded import active_sites
+from latticode.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
     GUARD,
@@ -24,7 +20,6 @@ from problems import problem_of
 from scipy.integrate import solve_ivp
 
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
-LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 REST = 1e-20
 LOPSIDED = {-2: (1.0, 0.1), 0: (0.0, 0.5j)}
 
@@ -70,12 +65,6 @@ def test_the_norms_of_a_regular_case_are_those_of_the_whole_chain(half_width, ch
     assert one.second_front[-1] == pytest.approx(find_front(sums), abs=1e-3)
 
 
-def test_a_chaotic_case_is_the_same_while_doubles_follow_it():
-    windowed = problem("fig4_small", end_time=8.0)
-    found, whole = end_of(windowed), simulate(windowed.changed(half_width=150), WHOLE)
-    np.testing.assert_allclose(found, whole.final[:, 150 : 150 + found.shape[1]], atol=1e-10)
-
-
 def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_its_end():
     """What is added is at rest, whatever the ghosts held: the one at the right becomes a site."""
     state = np.zeros((4, 2 * GUARD + 2))
@@ -95,42 +84,7 @@ def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_i
     assert widths == [state.shape[1] + more for more in (0, 1, BLOCK)]
 
 
-def test_a_front_next_to_nothing_stands_on_its_last_site():
-    power = np.zeros(10)
-    power[2:5] = 3.0  # and nothing before or behind them
-    assert find_front(power) == 4.0
-    power[3:6] = 0.0, 3.0, 1e-4  # now nothing before it, and little behind it
-    assert 4.0 < find_front(power) < 5.0
-    power[:] = 3.0
-    assert find_front(power) == 9.0
-
-
-def test_a_piece_ends_where_the_flag_is_up(monkeypatch):
-    own = in_sums(problem(half_width=30, end_time=1.0))
-    state = begin(own.initial, own.half_width)
-    advance(own, state, own.times, {})
-    up = np.ones(1, np.bool_)
-    monkeypatch.setattr(active_sites, "interruptible", lambda run, *given: run(*given, up))
-    with pytest.raises(IntegrationError, match="it was interrupted"):
-        advance(own, state, own.times, {})
-
-
 # --- The unknowns S and D ------------------------------------------------------------------------
-
-
-def test_the_rates_are_those_of_the_equations_for_a_and_b():
-    given = problem_of("fig4_small", half_width=6, omega=0.7, gamma=0.6, epsilon=1.3)
-    z = random_chain(6)
-    own = in_sums(given.changed(initial=z))
-    plain = own.changed(model=EQUATIONS, initial=z)
-
-    def rates(one):
-        a, b = one.initial
-        state = np.array([a.real, a.imag, b.real, b.imag]).ravel()
-        return linearise(one, state)[0].reshape(4, -1)
-
-    np.testing.assert_allclose(turned(rates(own)), rates(plain), atol=1e-12)
-    np.testing.assert_allclose(turned(own.initial), z, rtol=1e-14)
 
 
 def test_the_second_front_is_where_another_solver_has_it():

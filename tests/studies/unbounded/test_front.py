@@ -31,14 +31,6 @@ def test_waves_grow_and_move_as_the_matrix_of_each_says(numbers):
             assert group_velocity(k, constants) == pytest.approx(speed, rel=1e-6)
 
 
-def test_in_the_middle_of_the_band_the_saddle_is_known():
-    """There s = 2 epsilon sin k, so that decay tanh decay = 1 and v = 2 sinh decay."""
-    front = linear_front(constants(2.0))
-    assert front.decay * np.tanh(front.decay) == pytest.approx(1.0, abs=1e-12)
-    assert front.speed == pytest.approx(2.0 * np.sinh(front.decay), rel=1e-12)
-    assert front.wave_number == pytest.approx(np.pi / 2, abs=1e-12)
-
-
 @pytest.mark.parametrize("omega", [-1.95, -1.75, 5.9])
 def test_near_the_edge_of_the_band_two_waves_are_equally_fast_at_the_least_speed(omega):
     """No saddle point is the least there, over decays, of the largest speed over waves."""
@@ -59,18 +51,6 @@ def test_rest_is_unstable_inside_the_band_and_the_front_is_continuous_at_its_edg
     )
     assert inside.speed == pytest.approx(outside.speed, abs=5e-3)
     assert outside.decay == outside.delay == 0.0 < inside.decay
-
-
-def test_without_a_front_that_is_pulled_the_fastest_wave_leads():
-    numbers = (0.8, 0.3, -1.5)
-    k = np.linspace(0.0, np.pi, 4001)
-    frequencies = np.array([of_wave(one, numbers).imag for one in k])
-    front = linear_front(constants_of(numbers))
-    assert front.speed == pytest.approx((np.abs(np.diff(frequencies)) / k[1]).max(), rel=1e-5)
-    assert front.delay == front.rest == front.diffusion == 0.0
-    at = front.wave_number + np.array([-2e-3, 0.0, 2e-3])
-    below, here, above = (of_wave(k, numbers).imag for k in at)
-    assert here - below == pytest.approx(above - here, rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ from pendula.studies.unbounded.measured import (
     measure_fronts,
     measure_growth,
     resolution,
-    second_speeds,
     speeds,
 )
 
@@ -27,13 +26,6 @@ def test_the_speed_of_a_made_up_front():
     plain, error = speeds(run)
     assert plain[0] < 2.495 and speeds(run, corrected=True)[0] == pytest.approx(2.5, abs=1e-9)
     assert error[0] == resolution(TAU) == pytest.approx(1.5 / 133.3, rel=1e-3)
-
-
-def test_the_limits_of_a_speed_are_those_of_its_mean_over_members():
-    """Student's t of two members, 12.706, times half of their difference."""
-    both = xr.concat([front_of(2.0 * TAU), front_of(3.0 * TAU)], "member", data_vars=["front"])
-    speed, limits = speeds(both)
-    assert (speed[0], limits[0]) == pytest.approx((2.5, 12.7062 * 0.5), rel=1e-5)
 
 
 def test_the_law_has_no_fitted_constant_and_the_offset_is_found():
@@ -63,13 +55,3 @@ def test_both_fronts_and_the_powers_behind_them_are_those_of_the_made_up_runs():
     end = int(run["front"][0, 0, -1]) - int(run["second_front"][0, 0, -1])
     assert (behind.where(behind["distance"] < end - 20, 0.0) < 1e-9).all()
     assert (behind.where(behind["distance"] > end + 20, 1.0) == 1.0).all()
-
-
-def test_where_both_fields_never_filled_the_chain_there_is_no_second_front():
-    run = spread(variants=2, omegas=OMEGAS[:2])
-    empty = (run["kind"] == "|S|^2") & (run["variant"] == 1)
-    emptied = run.assign(region_mean=run["region_mean"].where(~empty, 1e-3))
-    speed, error = second_speeds(emptied)
-    assert np.isfinite(speed).tolist() == np.isfinite(error).tolist() == [True, False]
-    found = measure_fronts(emptied, transverse(), thermal())
-    assert np.isnan(found["power_behind"].values).tolist() == [False, True]
