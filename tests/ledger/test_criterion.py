@@ -16,7 +16,6 @@ from pendula.ledger.criterion import (
     WithinFactor,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff, flips, moving, once, recorded
 
 HELD = [
     (Below(1.0, "x"), "x < 1", [0.0, 0.999], [1.0, 2.0]),
@@ -62,60 +61,3 @@ LOW = Below(1.0, "x", "y")
 def test_a_verdict_follows_from_the_criterion_alone(x, y, words, verdict, because):
     found = judge({"x": x, "y": y}, LOW, *words)
     assert (found.verdict, found.because) == (verdict, because)
-
-
-# --- Cut-offs -------------------------------------------------------------------------------------
-
-HALF = Cutoff(0.5, '"about half"')
-WHOLE = Cutoff(0.9, '"nearly all"', ideal=1.0)
-
-
-@pytest.mark.parametrize(("cutoff", "low", "high"), [(HALF, 1 / 3, 2 / 3), (WHOLE, 0.9333, 0.8667)])
-def test_a_cutoff_moves_by_a_third_of_its_distance_from_the_ideal(cutoff, low, high):
-    for factor, moved in ((2 / 3, low), (4 / 3, high)):
-        with moving(cutoff, factor):
-            assert float(cutoff) == pytest.approx(moved, abs=1e-4)
-            assert {float(HALF), float(WHOLE)} & {0.5, 0.9}  # the other one has not moved
-    assert float(cutoff) == cutoff.number
-
-
-@pytest.mark.parametrize(
-    ("value", "moved"),
-    [(0.1, []), (0.4, [1 / 3]), (0.6, [2 / 3]), (0.9, [])],
-)
-def test_a_verdict_flips_only_where_the_number_is_near_its_cutoff(value, moved):
-    def decide():
-        return str(judge({"x": value}, Below(HALF, "x")).verdict)
-
-    with recorded() as read:
-        verdict = decide()
-    assert read == {HALF}
-    found = flips(verdict, read, decide)
-    assert [flip.value for flip in found] == pytest.approx(moved)
-    assert all(flip.verdict != verdict and flip.verdict in str(flip) for flip in found)
-
-
-def test_what_is_measured_once_is_measured_anew_of_other_datasets_and_where_a_cutoff_moves():
-    asked = []
-
-    @once
-    def measure(data, name):
-        asked.append(name)
-        return [name, *data]
-
-    @once
-    def share(data):
-        asked.append("share")
-        return data[0] / HALF.value
-
-    data, alike = [1.0], [1.0]
-    assert measure(data, "l2") is measure(data, "l2")
-    assert measure(data, "linf") == ["linf", 1.0] and measure(alike, "l2") == ["l2", 1.0]
-    assert asked == ["l2", "linf", "l2"]
-    for _ in range(2):
-        with recorded() as read:
-            assert share(data) == 2.0
-        assert read == {HALF}
-        with moving(HALF, 2.0):
-            assert share(data) == 1.0
-    assert asked[3:] == 3 * ["share"], "once at the cut-off's own value, and at each move"

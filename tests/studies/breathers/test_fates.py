@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
-from latticode.measures.confidence import share_limits
 from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
 from pendula.studies.breathers import fates, figures, sensitivity
@@ -100,34 +99,6 @@ def test_a_map_of_phases_turns_b_alone():
 
 
 # --- Shares of an area, and maps beside a finer one -----------------------------------------------
-
-
-def test_a_disc_has_its_area_within_the_limits():
-    """The centre lies anywhere between the points, so that the grid is one of many."""
-    rng, points = np.random.default_rng(3), 40
-    grid, area, missed, held = np.arange(points) + 0.5, np.pi * (12.0 / points) ** 2, [], 0
-    for _ in range(40):
-        x, y = 20.0 + rng.uniform(-0.5, 0.5, 2)
-        inside = (grid[:, None] - x) ** 2 + (grid - y) ** 2 < 12.0**2
-        found = fates.shares_of_area(np.where(inside, STAYS, DISPERSES))
-        held += found.low[STAYS] < area < found.high[STAYS]
-        missed.append(found.value[STAYS] - area)
-    assert held >= 38
-    scattered = share_limits(round(area * points**2), points**2)
-    assert found.half[STAYS] < 0.5 * scattered.half  # known between equal neighbours
-    assert np.std(missed) < 0.5 * found.half[STAYS]  # and wide enough
-
-
-def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
-    drawn = np.random.default_rng(6).choice([STAYS, SPREADS], size=(40, 40))
-    drawn = np.where(np.tri(40, dtype=bool), drawn, drawn.T)
-    np.fill_diagonal(drawn, DISPERSES)
-    found, twice = fates.shares_of_area(drawn, mirrored=True), fates.shares_of_area(drawn)
-    below = drawn[np.tril_indices(40, -1)]
-    assert found.value[DISPERSES] == 0.0
-    assert found.value[SPREADS] == pytest.approx((below == SPREADS).mean())
-    assert found.half[SPREADS] == pytest.approx(twice.half[SPREADS] * 2**0.5, rel=0.1)
-    assert found.high[MOVES] == pytest.approx(share_limits(0, len(below)).high, rel=1e-5)
 
 
 def maps(points, **changes):

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
-from latticode.localised.tangents import grow, random_tangent
 from latticode.measures.growth import mean_rate
-from latticode.simulation.ensembles import draw_members
 from pendula.studies.chaos import lyapunov
 from problems import problem_of
 
@@ -48,13 +46,3 @@ def test_an_exponent_and_its_limits_are_those_of_the_members_on_its_span(short_c
     assert float(one["exponent"]) == pytest.approx(rates.mean())
     off = 4.30265 * rates.std(ddof=1) / np.sqrt(3.0)  # Student's t of two degrees of freedom
     assert float(one["exponent_high"] - one["exponent"]) == pytest.approx(off, rel=1e-4)
-
-
-def test_every_member_and_its_tangent_vector_have_draws_of_their_own():
-    problem = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
-    runs = lyapunov.follow_members(problem, 2.0, 2, 1e-3, SEED)
-    first, second = draw_members(problem, 1e-3, 2, SEED)
-    for number, (member, run) in enumerate(zip((first, second), runs, strict=True)):
-        vector = random_tangent(5, np.random.default_rng([SEED, number]))
-        known = grow(member, vector[None], 2.0, step=1.0, tolerance=problem.solver["rtol"])
-        np.testing.assert_array_equal(run.log_growth, known.log_growth)

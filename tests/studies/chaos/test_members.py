@@ -16,19 +16,6 @@ PROBLEM = problem_of(
 )
 
 
-def test_a_run_is_reduced_to_means_and_maxima_over_each_window():
-    run = simulate(PROBLEM)
-    found = members.reduce_run(PROBLEM, WINDOWS, 7)
-    assert np.isnan(found["rms"][..., [0, -1]]).all()  # beyond the ends of this chain
-    early, late = run.tau[4:9], run.tau >= 2.0
-    assert early[0] == 1.0 and early[-1] == 2.0
-    pair = np.sqrt((run.l2**2).sum(axis=0))
-    assert found["l2_level"][2, 1] == pytest.approx(pair[late].mean())
-    assert found["linf_level"][0, 1] == pytest.approx(run.linf[0, late].mean())
-    # mean squares of all pendula add up to the power
-    assert np.nansum(found["rms"][0] ** 2) == pytest.approx((pair[4:9:2] ** 2).mean())
-
-
 def test_every_case_has_all_numbers_of_both_kinds():
     data = as_xarray(*members.member_numbers({"a": PROBLEM, "b": PROBLEM}, WINDOWS, 1e-3, 3, 7))
     assert data["kind"].values.tolist() == ["even", "uneven"]

@@ -10,7 +10,6 @@ from pendula.models.bounds import (
     lipschitz,
     proven_region,
     theorem_1_bound,
-    theorem_2_bound,
     theorem_2_constants,
     theorem_3_bound,
     widened_barrier,
@@ -55,23 +54,6 @@ def start_of(omega, pair):
 )
 def test_region_of_each_case(omega, pair, boundary, region):
     assert proven_region(*start_of(omega, pair), boundary) == region
-
-
-@each_constants
-def test_theorem_2_covers_its_whole_ball(constants):
-    delta_0, c_0 = theorem_2_constants(constants)
-    for delta in delta_0 * np.array([1e-6, 0.1, 0.5, 0.999]):
-        deepest = -extent(constants) * delta
-        assert theorem_2_bound(deepest, delta, constants) <= c_0 * delta * (1 + 1e-12)
-
-
-@each_constants
-def test_barrier_is_the_maximum_of_the_coercivity(constants):
-    power = np.linspace(1e-3, 30.0, 300001)
-    top, barrier = widened_barrier(constants)
-    heights = coercivity(power, constants)
-    assert barrier == pytest.approx(heights.max(), rel=1e-8)
-    assert top == pytest.approx(power[np.argmax(heights)], abs=1e-3)
 
 
 @each_constants

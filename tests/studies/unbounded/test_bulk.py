@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from made_up_unbounded import exact, thermal, transverse
 from oracle import hamiltonian, random_chain
 from pendula.studies.unbounded import bulk
 from pendula.studies.unbounded.sums import turned
@@ -39,33 +38,3 @@ def test_means_are_those_of_the_sites_well_behind_and_well_between_the_fronts():
     nothing, all_of_it = bulk.region_means(sites, CONSTANTS, 110.9, -1.0)
     assert np.isnan(nothing).all() and all_of_it[0] == pytest.approx(powers[1:70].mean())
     assert np.isnan(bulk.region_means(sites, CONSTANTS, 45.0, 40.0)[1]).all()
-
-
-@pytest.mark.parametrize(("delay", "ratio"), [(1.4, 1.0), (0.5, 1.0), (0.0, np.nan)])
-def test_the_slope_is_that_of_the_law_whatever_the_offset_and_the_delay(delay, ratio):
-    run = exact(delay)
-    laws = bulk.law_of(run, thermal(), transverse())
-    found = bulk.slope_ratios(run, laws)[0].value
-    assert found == pytest.approx(ratio, rel=1e-9, nan_ok=True)
-
-
-def test_the_law_takes_the_powers_of_both_states_and_the_speeds_of_both_fronts():
-    right = bulk.law_of(exact(), thermal(), transverse())
-    others = (
-        (thermal().assign(power=1.1 * thermal()["power"]), transverse()),
-        (thermal(), transverse().assign(second_speed=1.1 * transverse()["second_speed"])),
-    )
-    for states in others:
-        assert bulk.slope_ratios(exact(), bulk.law_of(exact(), *states))[0].value < 0.99
-    assert np.isnan(bulk.law_of(exact().assign(omega=("variant", [1.0])), thermal(),
-                                transverse())).all()  # fmt: skip
-    assert right[0, -1] == pytest.approx(exact()["l2"].values[0, 0, -1] ** 2 + 50.0)
-
-
-@pytest.mark.parametrize("run", [exact(), exact().isel(tau=slice(0, 395, 2))])
-def test_the_line_through_the_squares_starts_at_a_quarter_of_the_run(run):
-    """With the quarter itself if there is an output: of a run to 200 at 50, of one to 197 at 50."""
-    laws = bulk.law_of(run, thermal(), transverse())
-    for first, right in ((49.0, True), (50.0, False)):
-        spoilt = run.assign(l2=run["l2"].where(run["tau"] > first, 0.0))
-        assert (abs(bulk.slope_ratios(spoilt, laws)[0].value - 1.0) < 1e-7) == right
