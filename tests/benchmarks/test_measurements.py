@@ -4,57 +4,14 @@ import numpy as np
 import pytest
 from helpers import ROOT
 from latticode.datasets.netcdf import as_xarray, read
-from latticode.simulation.simulate import simulate
 from problems import problem_of
 from waiting import HANGS
 
-from benchmarks import contestants, cost, pendula, work_precision
+from benchmarks import contestants, cost, pendula
 from benchmarks.contestants import OURS
-from benchmarks.problems import until
 from benchmarks.tables import tabulate_cost, tabulate_pendula, tabulate_work_precision
 
 FOLDER = ROOT / "tests/baseline/speed"
-TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
-PROBLEM = problem_of("fig3_small", half_width=4, end_time=50.0, solver=TIGHT)
-
-
-def counted(action):
-    """Return what `action()` returns, and a time that depends on its work alone."""
-    run = action()
-    return run, 1e-4 * run.outcome.evaluations
-
-
-@pytest.fixture(scope="module")
-def measured():
-    """Return speed against error on a short run of one case, with one of our solvers as a peer."""
-    said = []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(contestants, "ENOUGH", 0.0)
-        patch.setattr(contestants, "timed", counted)
-        exact = simulate(PROBLEM.changed(end_time=2.0))
-        problem, peer = until(PROBLEM, 2.0), {"someone": OURS["ode45"]}
-        references = {"fig3_small": exact.final}
-        for contestant in OURS.values():  # what compiles for long may be broken off
-            contestant.prepare(problem)(contestant.accuracies[0])
-        variables = work_precision.measure({"fig3_small": problem}, references, peer, said.append)
-    assert said[0] == "fig3_small: ode45" and len(said) == len(OURS) + 1
-    return as_xarray(variables, {"absent": "another one is not installed"})
-
-
-def test_solvers_reach_the_reference_and_the_pair_is_compared_below_the_target(measured):
-    case = measured.sel(case="fig3_small")
-    for solver in ("ode45", "dop853", "taylor"):
-        assert float(case["error"].sel(contestant=solver).min()) < 1e-11
-    assert float(case["error"].sel(contestant="crank_nicolson").min()) < 1e-4
-    assert (np.isfinite(measured["seconds"]) == np.isfinite(measured["error"])).all()
-    assert (
-        (measured["least"] > measured["seconds"]) | (measured["seconds"] > measured["most"])
-    ).sum() == 0
-    pair = case.sel(peer="someone")
-    assert float(pair["peer_error"]) <= 1e-10 and float(pair["our_error"]) <= 1e-10
-    assert pair["our_best"].item() in ("dop853", "taylor")
-    assert 1.0 < float(pair["ratio"]) < 100.0
-    assert measured["mean_ratio"].item() == pytest.approx(float(pair["ratio"]))
 
 
 def test_a_time_is_that_of_a_site_and_a_unit_of_slow_time(monkeypatch):

@@ -26,12 +26,6 @@ def with_points(made):
     return made, measure_points(made, PROBLEM, EXACT)
 
 
-def test_the_time_is_the_median_of_several_runs_after_the_first():
-    times = iter([0.25, 0.1, 0.3, 0.2])
-    (point,) = measure_points(contestant(lambda: next(times), (1e-4,)), PROBLEM, EXACT)
-    assert point[1:4] == (0.2, 0.1, 0.3) and next(times, None) is None
-
-
 def test_who_gives_up_or_returns_no_numbers_has_no_point_there():
     made = contestant(lambda: 1e-3, faults=(1e-4,), blanks=(1e-8,))
     points = measure_points(made, PROBLEM, EXACT)

@@ -207,18 +207,6 @@ def resize(page, width: int, height: int) -> None:
     page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
 
 
-def test_play_stops_out_of_sight_and_waits_where_motion_is_reduced(live, made):
-    assert text(live, "play") == "Play" and run(live, "now() === settings.end_time")
-    resize(live, 500, 400)
-    open_page(live, made.as_uri(), "no-preference")
-    assert text(live, "play") == "Pause"
-    live.execute_script("scrollTo(0, 1e6)")
-    wait_for(lambda: text(live, "play") == "Play")
-    live.execute_script("byId('play').click()")
-    wait_for(lambda: text(live, "play") == "Pause")
-    assert run(live, "isInSight('pendula')")
-
-
 @pytest.mark.parametrize(("width", "height"), [*WINDOWS, (575, 640), (320, 480)])
 def test_no_picture_hides_a_control(live, width, height):
     """A control that gets the focus, from above or from below, is what a click there reaches."""

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 from latticode.configuration.files import ConfigurationError
-from latticode.simulation import simulate as simulation
 from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
 from pendula.own_cases import answers
 from pendula.own_cases.checks import check_sweep
-from pendula.problem import Problem
 from simulate_own import as_the_workflow_writes
 
 SWING = Case(omega=-4, model="pendula", mu=0.1, half_width=8, end_time=2)
@@ -88,12 +86,6 @@ def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
     assert int(calm["swept_over"]) == 0 and float(calm["swept_angle"].max()) < 0.3
     over = "chains on which a pendulum goes over the top"
     assert answers.of_sweep(swept, found) == [(over, "2")]
-
-
-def test_a_solver_of_the_other_model_is_refused_in_words():
-    problem = Problem.of(SWING.problem() | {"solver": {"name": "crank_nicolson"}})
-    with pytest.raises(simulation.IntegrationError, match="does not take pendula"):
-        simulation.simulate(problem)
 
 
 def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():

@@ -3,15 +3,12 @@
 Every key of every case is edited in tests/edits.py, which takes half an hour.
 """
 
-import re
 from hashlib import sha256
 
 import pytest
 import yaml
-from edits import EDITS
 from helpers import ROOT, command_of, planned, run_ready, snakemake
 from latticode.datasets.netcdf import read
-from pendula.configuration.cases import Case
 
 
 def bytes_of(folder):
@@ -99,11 +96,6 @@ RUN_ON_EDITED = (
 )
 
 
-def test_every_key_of_a_case_is_edited_three_times():
-    assert EDITS.keys() == Case.model_fields.keys() - {"parameters"}  # of other equations
-    assert {len(values) for values in EDITS.values()} == {3}
-
-
 def test_studies_run_on_what_edited_cases_have_become(finished):
     (edits := finished / "edit.yaml").write_text(yaml.safe_dump({"cases": EDITED}))
     targets = [f"results/{name}" for name in RUN_ON_EDITED]
@@ -112,13 +104,3 @@ def test_studies_run_on_what_edited_cases_have_become(finished):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     lyapunov = read(finished / "results/checks/lyapunov.nc")
     assert lyapunov["gamma"].sel(case=["fig2_small", "fig4_small"]).values.tolist() == [1.0, 0.5]
-
-
-def test_the_report_of_snakemake_shows_each_figure_with_its_rule(full_run, tmp_path):
-    page = tmp_path / "page.html"
-    result = snakemake(ROOT, full_run, "--report", str(page))
-    assert result.returncode == 0, result.stderr
-    pictures = [path.name for path in (full_run / "results/figures").glob("*.png")]
-    shown = re.findall(r'"name": "(\w+\.png)".*?"rule": "(\w+)"', page.read_text())
-    assert sorted(name for name, _ in shown) == sorted(pictures) and len(shown) >= 15
-    assert "norms_in_time" in (rules := {rule for _, rule in shown}) and "all" not in rules

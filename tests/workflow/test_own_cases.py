@@ -68,13 +68,6 @@ def test_the_page_says_what_the_checks_say(own_run):
     assert not re.findall(r"\bnan\b", "".join(text))
 
 
-def test_sweeps_are_enough(tmp_path):
-    """And so are cases: docs/own_cases.md has no sweep."""
-    sweeps = {"sweeps": {"mine": SETTINGS["sweeps"]["mine"]}}
-    jobs = planned(ROOT, tmp_path, "own", settings=sweeps)
-    assert jobs.keys() == {"compile_solver", "sweep", "own_sweep_figure", "own_table", "own"}
-
-
 def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, changed):
     changed["cases"]["sea"]["omega"] = 0.5
     changed["cases"]["fig5"]["omega"] = 7.5
@@ -82,11 +75,6 @@ def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, chan
         "trajectory": 2, "own_checks": 2, "own_figures": 2, "sweep": 1, "own_sweep_figure": 1,
         "own_table": 3, "own": 1,
     }  # fmt: skip
-
-
-def test_a_case_taken_out_reruns_the_report_alone(made, changed):
-    del changed["cases"]["sea"]
-    assert planned(ROOT, made, "own", settings=changed) == {"own": 1}
 
 
 def test_a_case_whose_linear_flow_keeps_no_norm_is_refused_a_proof_before_any_job(tmp_path):

@@ -74,36 +74,6 @@ def test_the_reason_of_a_job_of_slurm(tmp_path, state, own, screen, says):
     assert more == str(tmp_path / ("own.log" if own or not screen else "slurm.log"))
 
 
-REFUSED = """
-Error in rule sweep:
-    message: SLURM sbatch failed. The error message was 'sbatch: error: Memory cannot be satisfied
-sbatch: error: Batch job submission failed: Requested node configuration is not available'.
-    sbatch call:
-        sbatch --parsable
-For further error details see the cluster/cloud log and the log files of the involved rule(s).
-    jobid: 4
-    log: own.log (check log file(s) for error details)
-"""
-
-
-def test_the_reason_of_a_job_that_slurm_refuses():
-    assert why_jobs_failed(REFUSED) == [("sbatch: error: Memory cannot be satisfied", "own.log")]
-
-
-def test_each_job_of_a_group_has_its_reason(tmp_path):
-    logs = [tmp_path / "1.log", tmp_path / "2.log"]
-    jobs = "".join(
-        f"        rule sweep:\n            jobid: {n}\n            log: {log} (check log file(s))\n"
-        for n, log in enumerate(logs)
-    )
-    logs[1].write_text("failed: it is wrong\nTraceback\n")
-    text = f"Error in group mine:\n    message: None\n    jobs:\n{jobs}"
-    assert [reason for reason, _ in why_jobs_failed(text)] == [
-        WORDLESS,
-        "it is wrong",
-    ]
-
-
 def test_a_backend_of_jupyter_that_is_not_installed_ends_no_figure(tmp_path):
     command = command_of(ROOT, tmp_path, ROOT / "config/quick.yaml", "fig1")
     result = run_ready(command, MPLBACKEND="module://no_such_module.backend_inline")

@@ -8,7 +8,6 @@ from oracle import laplacian
 from pendula.models.linear_chain import flow
 from pendula.problem import Constants
 from pendula.studies.certified import norm, regular
-from pendula.studies.certified.contents import curve_contents
 from pendula.studies.certified.norm import (
     NotDefiniteError,
     bands,
@@ -112,19 +111,6 @@ def test_no_output_is_further_from_the_reference_than_its_bound(case):
         assert np.linalg.norm(found.states[output] - state) <= found.bound[output]
 
 
-def test_where_no_norm_is_kept_the_bound_is_infinite_and_the_file_says_why():
-    variables, attributes = curve_contents("mine", problem(omega=1.0))
-    assert np.isinf(variables["bound"].values).all() and variables["l2"].values.max() < 10.0
-    assert "lies in [-2, 6]" in attributes["not_certified"]
-
-
-def test_an_error_that_no_trial_holds_has_no_bound():
-    """What is quadratic in so large an error is larger than the room that a trial leaves."""
-    given = problem(end_time=0.25)
-    far = find_curve(given.changed(initial=1.3 * given.initial))
-    assert np.isinf(certify(given, far).bound[-1])
-
-
 WRONG = {
     "a constant": lambda one, given: find_curve(given.changed(gamma=1.0 + 1e-9)),
     "the ends": lambda one, given: find_curve(given.changed(boundary="free")),
@@ -207,30 +193,13 @@ def test_the_linear_part_is_as_strong_as_its_bound_on_the_shortest_wave():
     assert 0.999 < strongest / regular._strength(given) <= 1.0
 
 
-def test_what_is_rounded_away_is_below_its_bound_and_each_rounding_counts():
-    curve, given = short_curve()
-    sizes, exact = regular._sizes(curve), integral(exact_defect(curve, given)[:3], 0)
-    found = regular._rounding(curve, given, sizes)
-    assert (exact <= found).all() and found == pytest.approx(exact, rel=1e-8)
-    # without any defect what is left are the roundings that Higham's bound allows
-    rest = regular._rounding(Curve(curve.step, 0.0 * curve.terms), given, sizes)
-    unit, strength = 2.0**-53, 4 * 0.5 + 2.0 + 2 * 0.25
-    cubic = regular._cubic(sizes)
-    expected = sum(
-        unit * (9 * strength * 0.125 * sizes.norm[k] + (2 * k + 10) * 0.125 * cubic[k]
-                + 3 * (k + 1) * sizes.norm[k + 1]) / (k + 1)
-        for k in range(3)
-    )  # fmt: skip
-    assert rest == pytest.approx(expected, rel=1e-8, abs=0.0)
-
-
 @pytest.mark.parametrize("x", [0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0])
 def test_the_factor_of_growth_is_an_upper_bound_to_third_order(x):
     assert np.exp(np.longdouble(x)) <= regular.exponential(x) <= np.exp(x) + x**3 / 8 + 1e-14
     assert np.isinf(regular.exponential(x + 1.0 + 1e-12)) and np.isinf(regular.exponential(np.nan))
 
 
-def test_the_rate_between_two_times_counts_bend_rounding_and_jumps():
+def test_the_rate_between_two_times_counts_how_far_squares_bend():
     curve, given = short_curve()
     form, sizes = find_form(given.constants), regular._sizes(curve)
     states = regular.sample(curve)
@@ -248,20 +217,6 @@ def test_the_rate_between_two_times_counts_bend_rounding_and_jumps():
                 line = np.linspace(0.0, 1.0, 21)[:, None, None]
                 off = off + np.abs(square - square[0] - line * (square[-1] - square[0]))
             assert 1.5 * form.condition * 0.5 * off.max() <= extra[step * regular.SAMPLES + i]
-    still = Curve(curve.step, curve.terms.copy())
-    still.terms[1:] = 0.0  # what does not move still is rounded, and jumps
-    sizes = regular._sizes(still)
-    rates = find_rates(regular.sample(still), given, form)
-    growth = regular._growth(still, given, form, sizes)
-    extra = growth / (norm.UP * delta) - 0.5 * (rates[:-1] + rates[1:])
-    jump = np.linalg.norm(still.terms[0, 1] - still.terms[0, 0])
-    largest = sizes.largest[0]
-    assert extra[: regular.SAMPLES] == pytest.approx(
-        1.5 * form.condition * (2.0 * largest[0] * jump + jump * jump), rel=1e-6
-    )
-    rounded = 2.0**-44 * sizes.norm[0, 1]
-    exact = 1.5 * form.condition * 2.0 * largest[1] * rounded
-    assert extra[-1] == pytest.approx(exact, rel=0.1, abs=0.0)
 
 
 def test_what_is_quadratic_in_the_error_is_that_of_the_cubic_term():

@@ -92,12 +92,6 @@ def test_the_half_chain_has_the_field_of_the_whole():
     assert np.array(exact).reshape(half.shape) / q == pytest.approx(expected, rel=1e-13)
 
 
-def test_a_bound_that_is_no_longer_small_is_infinite(right):
-    _, chain, steps, _ = right
-    tube = frames.begin(chain, 1.0)
-    assert np.isinf(frames.distances(frames.advance(tube, steps[0][0], chain, 0.0))[2])
-
-
 def _raised(steps, output, place, by):
     """Return steps of which the first behind an output has another coefficient."""
     (part, site, k), (first, *rest) = place, steps[output]
@@ -147,12 +141,6 @@ def test_steps_that_do_not_cover_the_time_between_outputs_are_refused(name):
     assert bound(given, [eight]) < 1e-20
     with pytest.raises(fixed_point.StepError, match="more or less than the time"):
         certify(given, [UNEVEN[name](eight)])
-
-
-def test_the_data_must_be_even():
-    for wrong in (problem(boundary="free"), problem(((0, 0, 1.0), (0, 0, 0)))):
-        with pytest.raises(fixed_point.NotEvenError):
-            fixed_point.half_chain(wrong, BITS)
 
 
 COMMITTED = sorted(ROOT.glob("tests/baseline/proofs/fig?_*.nc"))

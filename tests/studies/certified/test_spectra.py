@@ -83,12 +83,3 @@ def test_states_are_proved_stable_or_not(family, omega, verdict):
         assert found.growth_low == found.growth_high == 0.0
     else:
         assert found.growth_low - 1e-7 < fastest < found.growth_high + 1e-7
-
-
-def test_a_state_that_is_not_of_the_family_is_not_taken_for_stable():
-    """The free phase of A = B is what allows the eigenvalue zero: 0.9 times the state has none."""
-    chain = HERE._replace(omega=-8.0)
-    state = find_state(chain, EQUAL)
-    assert decide(chain, EQUAL, 0.9 * state, 1e-14).verdict is not Verdict.UNDECIDED
-    nearly = EQUAL._replace(kind="asymmetric")
-    assert decide(chain, nearly, state, 1e-14).verdict is Verdict.UNDECIDED
