@@ -88,10 +88,3 @@ def test_a_new_name_for_known_ends_needs_a_line_of_the_table_and_no_more(
     if reader != "problem":
         np.testing.assert_array_equal(READERS[reader]("new"), READERS[reader](known))
     assert READERS["problem"]("new").boundary == "new"
-
-
-@pytest.mark.parametrize("reader", TAUGHT)
-def test_equations_and_proofs_refuse_ends_that_they_were_not_taught(reader, monkeypatch):
-    monkeypatch.setitem(ENDS, "reflecting", ENDS["free"]._replace(sees=(1, -2)))
-    with pytest.raises(ValueError, match=r"'reflecting' see the sites \(1, -2\), which no equat"):
-        TAUGHT[reader]("reflecting")

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import dataset
 import job
 import pytest
-from helpers import python_path, skip
+from helpers import python_path
 from latticode.datasets.netcdf import Variable, read, write
 from waiting import wait_for
 
@@ -69,14 +69,6 @@ def test_an_interrupted_job_leaves_no_half_of_a_file(tmp_path, how):
     assert job.returncode == 130
     assert "interrupted: run the same command again" in screen and "Traceback" not in screen
     assert [path.name for path in tmp_path.iterdir()] == ["a.log"]
-
-
-def test_a_log_on_a_full_disk_hides_no_message(tmp_path):
-    if not os.path.exists("/dev/full"):
-        skip("this system has no /dev/full", "run it on Linux")
-    job = start(tmp_path, "raise DatasetError('a.nc is damaged')", log="/dev/full")
-    _, screen = job.communicate()
-    assert job.returncode == 1 and screen == "failed: a.nc is damaged\n"
 
 
 class Named(dict):

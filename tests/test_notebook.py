@@ -1,7 +1,6 @@
 """The interface for notebooks: what it returns, refuses and shows, and what importing it costs."""
 
 import doctest
-from pathlib import Path
 
 import numpy as np
 import pendula
@@ -13,7 +12,6 @@ from pendula.configuration.messages import load
 from pendula.own_cases import figures
 from simulate_own import as_the_workflow_writes
 
-ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"omega": -4, "half_width": 6, "end_time": 2}
 
 
@@ -54,34 +52,6 @@ def test_faults_are_told_in_words_and_all_at_once():
     ]
     with pytest.raises(pendula.ConfigurationError, match="site 5 lies outside the chain"):
         pendula.Case(omega=1, half_width=1, initial={5: (1, 0)})
-
-
-def test_a_sweep_needs_no_fitting_half_width_of_its_case(case):
-    peaks = pendula.sweep(case, [2, 4], [(1, 2)], "wider")
-    assert dict(peaks.sizes) == {"half_width": 2, "quantity": 3, "statistic": 2, "window": 1}
-    assert peaks.attrs["case"] == "wider" and peaks.attrs["end_time"] == 2
-    with pytest.raises(pendula.ConfigurationError, match="does not run forward"):
-        pendula.sweep(case, [2, 4], [(2, 1)])
-    with pytest.raises(ValueError, match=r"there is no window '\[1, 3\]'; known are \[1, 2\]"):
-        pendula.draw_sweep(peaks, "[1, 3]")
-
-
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda c, r: pendula.check(c, r[["l2"]]), "the dataset has no linf, energy"),
-        (lambda c, r: pendula.check(c.changed(omega=8, gamma=0), r), "differ in gamma, omega"),
-        (lambda c, r: pendula.draw_norms(r, r), "the dataset has no divergence_time"),
-        (lambda c, r: c.changed(omga=8), "omga: is not a known key; did you mean 'omega'"),
-        (lambda c, r: pendula.Case(omega=1, initial={0: (1, 2, 3)}), "site 0 has 3 values"),
-        (lambda c, r: pendula.Case(omega=1, initial=[1, 0]), "not data by site such as"),
-        (lambda c, r: pendula.Case(omega=1, solver="crank_nicolson", output_step=0.001), "div"),
-    ],
-)  # fmt: skip
-def test_what_cannot_be_done_is_told_before_anything_runs(call, words, case, run):
-    with pytest.raises(ValueError, match=words) as told:
-        call(case, run)
-    assert isinstance(told.value, pendula.ConfigurationError)
 
 
 def test_a_run_by_any_solver_is_checked_and_the_second_one_is_drawn_where_it_diverges(run, case):

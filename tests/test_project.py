@@ -11,7 +11,6 @@ from pendula.sources import SCRIPTS
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = [sources.ROOTS[name] / name for name in ("latticode", "pendula")]
-STUDIES_FOLDER = SCRIPTS / "pendula/studies"
 
 
 def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():

@@ -1,5 +1,6 @@
 """The promise of all numbers: the same bits whatever the code was compiled for."""
 
+import hashlib
 import json
 import os
 import subprocess
@@ -8,13 +9,17 @@ from pathlib import Path
 
 import bits
 import machines
+import numpy as np
 import pytest
 import some_numbers
 from accepted import BASELINE
 from another_numba import another_numba
 from helpers import skip
 from latticode.datasets.netcdf import read
+from latticode.localised.tangents import grow
+from oracle import random_chain
 from pendula.figure_diff import hashes
+from problems import problem_from
 
 HASHES = {
     "taylor": "f71cfb065655de7a",
@@ -156,3 +161,10 @@ def test_another_family_gives_the_same_checks_of_the_theory(python_of_another_fa
 @pytest.mark.parametrize(("name", "even"), bits.RUNS)
 def test_code_for_this_processor_gives_the_committed_bits(name, even):
     assert bits.run(name, even) == HASHES[name]
+
+
+def test_the_growth_of_tangent_vectors_has_the_committed_bits():
+    z, *vectors = (np.round(random_chain(2, even=True, seed=n), 3) for n in (4, 5, 6))
+    growth = grow(problem_from(z, (0.7, 1.3, -2.1)), np.array(vectors), 3.0, even=True)
+    found = growth.log_growth.tobytes() + growth.size.tobytes()
+    assert hashlib.sha256(found).hexdigest()[:16] == "669dfa1c71eb6f7b"

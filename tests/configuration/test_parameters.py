@@ -1,7 +1,7 @@
 """What a configuration means: defaults from the paper, controls of solvers, snapshots."""
 
 import pytest
-from latticode.configuration.cases import MOST_NUMBERS, choose_every
+from latticode.configuration.cases import choose_every
 from pendula.configuration.messages import load
 
 
@@ -45,14 +45,3 @@ def test_a_named_solver_takes_the_shared_controls_and_a_given_one_its_own():
 )
 def test_a_picture_has_two_hundred_columns_or_more_and_the_last_state_among_them(outputs, columns):
     assert outputs / choose_every(outputs, 61) == columns
-
-
-def test_long_chains_keep_fewer_snapshots_and_what_is_asked_for_is_kept():
-    sites = 1_000_001
-    assert 2 * sites * (2000 // choose_every(2000, sites)) <= MOST_NUMBERS
-    assert choose_every(2000, MOST_NUMBERS) == 2000
-    case = {"omega": 1, "end_time": 10, "snapshot_step": 2.5}
-    settings = load({"cases": {"asked": case, "open": {"omega": 1, "end_time": 10}}})
-    assert settings.shown_problem("asked")["snapshot_every"] == 100
-    assert settings.shown_problem("open")["snapshot_every"] == 2
-    assert settings.problem("open")["snapshot_every"] == 0

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from latticode.equations.ends import DIRICHLET
-from latticode.simulation.lattice import Reduction
-from latticode.simulation.simulate import simulate
 from on_pendula import TIGHT, final, pendula, slope, start, undriven_energy
 from pendula.models.pendula import (
     at_time,
@@ -37,22 +35,6 @@ def test_every_solver_agrees_with_plain_numpy(boundary):
     for solver in TIGHT:
         found = final(problem, solver).ravel()
         np.testing.assert_allclose(found, exact.y[:, -1], rtol=0, atol=2e-11, err_msg=solver)
-
-
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-@pytest.mark.parametrize("solver", TIGHT)
-@pytest.mark.parametrize("half_width", [2, 9])
-def test_half_a_chain_and_one_component_have_the_bits_of_the_whole(boundary, solver, half_width):
-    pair = (1.0 + 0.5j, 1.0 + 0.5j)
-    problem = pendula(
-        initial={0: pair, 1: pair, -1: pair}, boundary=boundary, half_width=half_width
-    )
-    problem = problem.changed(solver=TIGHT[solver], snapshot_every=2)
-    whole = simulate(problem, Reduction(even=False, synchronised=False))
-    for even, synchronised in ((True, False), (False, True), (True, True)):
-        part = simulate(problem, Reduction(even, synchronised))
-        for name in ("linf", "l2", "modulus", "final", "snapshots"):
-            assert np.array_equal(getattr(part, name), getattr(whole, name)), name
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)

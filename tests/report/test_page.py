@@ -106,13 +106,3 @@ def test_the_page_allows_its_own_style_and_pictures_beside_it_alone(written):
     digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
     assert policy.startswith(f"default-src 'none'; style-src 'sha256-{digest}'; img-src 'self'")
     assert "style=" not in html
-
-
-def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):
-    (tmp_path / "checks").mkdir()
-    (tmp_path / "checks/a.log").write_text("said much\nwall time: 1.5 s, largest memory: 9 MB\n")
-    (tmp_path / "b.log").write_text("wall time: 12.0 s, largest memory: 80 MB\n")
-    (tmp_path / "old.log").write_text("nothing\n")
-    (tmp_path / "empty.log").write_text("")
-    assert document.run_times(tmp_path) == [("b", 12.0, "80"), ("checks/a", 1.5, "9")]
-    assert document.run_times(tmp_path / "absent") == []

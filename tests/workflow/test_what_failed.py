@@ -7,8 +7,7 @@ from reasons import WORDLESS, why_jobs_failed
 TARGETS = "results/pendula/threshold.nc", "fig1"
 
 
-@pytest.mark.parametrize("executor", ["forked", "local"])
-def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_path, executor):
+def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_path):
     edit(clone / "scripts/dataset.py", "from latticode.datasets.netcdf", "import absent\nfrom p")
     edit(
         clone / "scripts/figure.py",
@@ -17,7 +16,7 @@ def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_p
     )
     folder = tmp_path / "folder"
     folder.mkdir()
-    result = snakemake(clone, folder, "--keep-going", "--executor", executor, *TARGETS)
+    result = snakemake(clone, folder, "--keep-going", *TARGETS)
     assert result.returncode == 1
     last = result.stderr.splitlines()[-4:]
     assert "ModuleNotFoundError: No module named 'absent'" in last

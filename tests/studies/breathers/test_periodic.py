@@ -1,10 +1,7 @@
 """Periodic breathers: periods by an independent solver, multipliers, laws, and what has none."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
 from on_breathers import ABOVE, BELOW, at_twelve, members, run_from, unfolded
 from pendula.problem import Constants
 from pendula.studies.breathers.periodic import (
@@ -17,7 +14,6 @@ from pendula.studies.breathers.periodic import (
 from pendula.studies.breathers.waves import bands, distance_from_bands
 
 M = 20
-CONFIG = Path(__file__).resolve().parents[3] / "config"
 
 
 def after(breather, quarters, change=0.0, steps=1):
@@ -45,16 +41,6 @@ def test_a_breather_is_periodic_by_the_taylor_method_and_has_its_symmetry(consta
         assert 0.0 < np.abs(b).max() < 0.3 * np.abs(a).max()
     else:
         assert np.array_equal(a, b if family == "A = B" else -b)
-
-
-@pytest.mark.parametrize("constants", [BELOW, ABOVE], ids=["below", "above"])
-def test_the_ends_of_a_family_close(constants):
-    """The slowest breather has the longest tails, the fastest one the largest amplitude."""
-    given = yaml.safe_load((CONFIG / "breathers.yaml").read_text())["breathers"]
-    widths = given["periodic"]["half_widths"]
-    for one in members(constants, "A = -B", 8.1, 20.0, **widths):
-        missed = np.abs(after(one, 4).final - unfolded(one.data)).max()
-        assert missed < 1e-11 * np.abs(one.data).max()
 
 
 @pytest.mark.parametrize(("instant", "lowest"), [("both real", 36.29), ("both imaginary", 30.25)])

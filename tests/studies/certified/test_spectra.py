@@ -5,7 +5,7 @@ import pytest
 from flint import acb, arb
 from pendula.models.pairs import FAMILIES
 from pendula.studies.certified import balls, spectra
-from pendula.studies.certified.spectra import decide, judge
+from pendula.studies.certified.spectra import judge
 from pendula.studies.certified.states import Chain, Verdict, find_state
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
@@ -61,25 +61,3 @@ def test_the_blocks_have_the_spectrum_of_the_whole_chain(family):
     assert 2 * len(found) == len(squares)
     assert max(np.abs(found - y).min() for y in squares) < 1e-6
     assert max(np.abs(squares - y).min() for y in found) < 1e-6
-
-
-@pytest.mark.parametrize(
-    ("family", "omega", "verdict"),
-    [
-        (EQUAL, -4.0, Verdict.UNSTABLE),
-        (EQUAL, -8.0, Verdict.STABLE),
-        (REAL, -13.0, Verdict.STABLE),
-        (ASYMMETRIC, -10.0, Verdict.STABLE),
-        (IMAGINARY, -4.0, Verdict.UNSTABLE),
-    ],
-)
-def test_states_are_proved_stable_or_not(family, omega, verdict):
-    chain = HERE._replace(omega=omega)
-    state = find_state(chain, family)
-    found = decide(chain, family, state, 1e-14)
-    fastest = exponents(chain, family, state).real.max()
-    assert found.verdict is verdict
-    if verdict is Verdict.STABLE:
-        assert found.growth_low == found.growth_high == 0.0
-    else:
-        assert found.growth_low - 1e-7 < fastest < found.growth_high + 1e-7

@@ -25,10 +25,3 @@ def test_a_life_is_the_same_in_pieces_as_in_one_run():
 @pytest.mark.parametrize(("case", "a0"), [("fig4_small", 10.0), ("fig2_large", 5.0)])
 def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
     assert lifetimes.follow(problem(case, a0)) == {"life": np.inf}
-
-
-def test_members_start_near_both_amplitudes():
-    variables, _ = lifetimes.measure_lifetimes(problem(end_time=12.0), [1.0, 2.0], 0.2, 1e-7, 3, 1)
-    alone = [lifetimes.follow(problem(a0=a0, end_time=12.0))["life"] for a0 in (1.0, 2.0)]
-    expected = np.repeat(alone, 3).reshape(2, 3)
-    np.testing.assert_allclose(variables["life"].values, expected, atol=0.3)

@@ -17,7 +17,6 @@ from pendula.studies.unbounded.active_sites import (
 )
 from pendula.studies.unbounded.sums import in_sums, turned
 from problems import problem_of
-from scipy.integrate import solve_ivp
 
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
 REST = 1e-20
@@ -82,31 +81,3 @@ def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_i
     state[:, -2] = 1.0
     widths = [widen(state, 2 * GUARD - 1 + more, 1e-6).shape[1] for more in (0, 1, 2 * BLOCK)]
     assert widths == [state.shape[1] + more for more in (0, 1, BLOCK)]
-
-
-# --- The unknowns S and D ------------------------------------------------------------------------
-
-
-def test_the_second_front_is_where_another_solver_has_it():
-    """SciPy, which integrates S and D as they stand in the literature of waves, on half a chain."""
-    count, omega, tight = 100, 3.0, {"name": "dop853", "rtol": 1e-12, "atol": 1e-14}
-    given = problem("fig4_small", omega=omega, end_time=12.0, solver=tight)
-    a, b = end_of(given)
-
-    def rate(_, y):
-        s, d = y[:count], y[count:]
-
-        def lap(u):
-            wide = np.concatenate([u[1:2], u, [0.0]])
-            return wide[2:] - 2.0 * u + wide[:-2]
-
-        both, product = np.abs(s) ** 2 + np.abs(d) ** 2, s * d.conj()
-        of_s = lap(s) + omega * s + 0.25 * both * s + 0.25 * (product + product.conj()) * d
-        of_d = lap(d) + omega * d + 0.25 * both * d + 0.25 * (product + product.conj()) * s
-        return -1j * np.concatenate([of_s, of_d - 2.0 * d.conj()])
-
-    start = np.zeros(2 * count, complex)
-    start[[0, count]] = in_sums(given).initial[:, 0]
-    end = solve_ivp(rate, (0.0, 12.0), start, "DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
-    expected = find_front(np.abs(end[:count]) ** 2)
-    assert find_front(np.abs(a + b) ** 2 / 2.0) == pytest.approx(expected, abs=0.01)
