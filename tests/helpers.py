@@ -49,13 +49,13 @@ def chosen(study: str, *over: str):
 
 
 def snakemake(
-    project: Path, directory: Path, *arguments: str, settings: dict | None = None
+    project: Path, directory: Path, *arguments: str, settings: dict | None = None, **variables: str
 ) -> Finished:
     """Run snakemake in `directory`, on the quick configuration or on settings of one's own."""
     configuration = project / "config/quick.yaml"
     if settings is not None:
         (configuration := directory / "mine.yaml").write_text(yaml.safe_dump(settings))
-    return run_ready(command_of(project, directory, configuration, *arguments))
+    return run_ready(command_of(project, directory, configuration, *arguments), **variables)
 
 
 def run_ready(command: list[str], folder: Path | None = None, **variables: str) -> Finished:

@@ -65,11 +65,8 @@ def test_a_run_of_other_cases_has_a_notice():
 @pytest.mark.parametrize(
     ("claim", "verdict"),
     [
-        ("theorem_1", "not reproduced"),
-        ("transition_amplitude", "not reproduced"),
         ("fig6_caption", "confirmed"),
         ("balance", "not reproduced"),  # of which the article says nothing while it holds
-        ("lemma_1_for_the_pendula", "confirmed"),
     ],
 )
 def test_another_verdict_gives_a_notice(monkeypatch, claim, verdict):

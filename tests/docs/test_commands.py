@@ -16,6 +16,9 @@ from pathlib import Path
 import pytest
 import yaml
 from helpers import MY_BASELINE, ROOT, snakemake
+from latticode.configuration.files import ConfigurationError
+from pendula.configuration.files import gather
+from pendula.configuration.messages import STUDIES, load
 from printed import (
     FILES,
     KINDS,
@@ -55,11 +58,27 @@ RUN = [block for block in ALL if block.kind in ("", "pycon") and first(block) no
 JOINED = [block for block in RUN if first(block) in DRY and only_targets(block)]
 BY_TARGETS = {call for call in INLINE if re.fullmatch(r"[a-z]\w*( [a-z]\w*)*", call)}
 TARGETS = [*sorted(BY_TARGETS), *(target for block in JOINED for target in only_targets(block))]
-CALLS = [" ".join(TARGETS), *sorted({*INLINE} - BY_TARGETS)]
+GIVEN = {line.removeprefix("snakemake ") for block in RUN for line in block.text.splitlines()}
+CALLS = [" ".join(TARGETS), *sorted({*INLINE} - BY_TARGETS - GIVEN)]
 ASKED = [Block(call, 0, "", "", f"snakemake -n {call}") for call in CALLS]
 """What sentences and tables say to ask Snakemake for. One dry run does for all targets that are
 named alone, those of blocks too."""
 PLAYED = {block: dry(block) if first(block) in DRY else block for block in RUN}
+
+
+OWN = re.compile(r"snakemake own --configfile (\w+\.yaml)\n")
+
+
+def play(reader: Reader, block: Block) -> Done:
+    """Play a block; of a user's own cases that another test runs, read the configuration alone."""
+    if first(block) not in DRY or not (own := OWN.fullmatch(block.text)):
+        return reader.play(PLAYED.get(block, block))
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
+    try:
+        load(gather([*files, reader.clone / own[1]], {}))
+    except ConfigurationError as error:
+        return Done(1, str(error))
+    return Done(0, "")
 
 
 def accept_and_pack(clone: Path, full_run: Path) -> None:
@@ -82,11 +101,7 @@ def playground(made_once, full_run) -> Path:
             accept_and_pack(clone, full_run)
         tried = [block for block in ALL if block in RUN or block.kind in FILES]
         reader = Reader(clone)
-        run = {
-            block.name: reader.play(PLAYED.get(block, block))
-            for block in [*tried, *ASKED]
-            if block not in JOINED
-        }
+        run = {block.name: play(reader, block) for block in [*tried, *ASKED] if block not in JOINED}
         run |= {block.name: run[ASKED[0].name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 

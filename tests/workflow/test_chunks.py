@@ -21,18 +21,12 @@ def test_a_survey_of_ones_own_has_no_more_parts_than_runs(tmp_path):
     assert planned(ROOT, tmp_path, "own", "--cores", "2", settings=given)["part"] == 2
 
 
-def test_parts_change_no_bit_and_a_lost_part_is_made_again_alone(tmp_path):
-    def made(folder, *options):
-        folder.mkdir(exist_ok=True)
-        result = snakemake(ROOT, folder, MADE, *options, settings=SETTINGS)
-        assert result.returncode == 0, result.stderr
-        return (folder / MADE).read_bytes()
-
-    whole, split = tmp_path / "whole", tmp_path / "split"
-    assert made(split, "--config", "chunks=3") == made(whole)
-    assert not list(whole.glob("results/*/*.parts"))  # nobody has asked for any
-    assert planned(ROOT, split, MADE, settings=SETTINGS) == {}  # as many parts as are there
-    (split / MADE).unlink()
-    (split / "results/breathers/sensitivity.parts/0-of-3.nc").unlink()
-    again = planned(ROOT, split, MADE, settings=SETTINGS)
+def test_a_lost_part_is_made_again_alone(tmp_path):
+    """That the number of parts changes no bit is told by tests/studies/test_parts.py."""
+    result = snakemake(ROOT, tmp_path, MADE, "--config", "chunks=3", settings=SETTINGS)
+    assert result.returncode == 0, result.stderr
+    assert planned(ROOT, tmp_path, MADE, settings=SETTINGS) == {}  # as many parts as are there
+    (tmp_path / MADE).unlink()
+    (tmp_path / "results/breathers/sensitivity.parts/0-of-3.nc").unlink()
+    again = planned(ROOT, tmp_path, MADE, settings=SETTINGS)
     assert again == {"part": 1, "measure_sensitivity": 1}

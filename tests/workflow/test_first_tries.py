@@ -19,13 +19,17 @@ def bytes_of(folder):
 
 @pytest.fixture(scope="module")
 def drawn(made_once):
-    """Return a folder with Fig 1, drawn by Snakemake's own executor beside a job that fails."""
+    """Return a folder with Fig 1, drawn by Snakemake's own executor beside a job that fails.
+
+    In the environment of a notebook whose backend for figures is not installed.
+    """
 
     def make(folder):
         settings = {"cases": {"wild": {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}}}
         options = ("--executor", "local", "--cores", "1", "--keep-going")
-        targets = "results/trajectories/wild.nc", "fig1"
-        result = snakemake(ROOT, folder, *options, *targets, settings=settings)
+        words = (*options, "results/trajectories/wild.nc", "fig1")
+        backend = "module://no_such_module.backend_inline"
+        result = snakemake(ROOT, folder, *words, settings=settings, MPLBACKEND=backend)
         assert result.returncode == 1
         (folder / "said.txt").write_text(result.stderr)
 

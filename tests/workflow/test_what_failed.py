@@ -1,7 +1,7 @@
 """The last lines of a run say why each job failed, also where the job itself could not."""
 
 import pytest
-from helpers import ROOT, command_of, edit, run_ready, snakemake
+from helpers import edit, snakemake
 from reasons import WORDLESS, why_jobs_failed
 
 TARGETS = "results/pendula/threshold.nc", "fig1"
@@ -71,9 +71,3 @@ def test_the_reason_of_a_job_of_slurm(tmp_path, state, own, screen, says):
     ((reason, more),) = why_jobs_failed(SLURM.format(state=state, folder=tmp_path))
     assert says in reason
     assert more == str(tmp_path / ("own.log" if own or not screen else "slurm.log"))
-
-
-def test_a_backend_of_jupyter_that_is_not_installed_ends_no_figure(tmp_path):
-    command = command_of(ROOT, tmp_path, ROOT / "config/quick.yaml", "fig1")
-    result = run_ready(command, MPLBACKEND="module://no_such_module.backend_inline")
-    assert result.returncode == 0, result.stderr

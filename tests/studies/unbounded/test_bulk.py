@@ -38,3 +38,12 @@ def test_means_are_those_of_the_sites_well_behind_and_well_between_the_fronts():
     nothing, all_of_it = bulk.region_means(sites, CONSTANTS, 110.9, -1.0)
     assert np.isnan(nothing).all() and all_of_it[0] == pytest.approx(powers[1:70].mean())
     assert np.isnan(bulk.region_means(sites, CONSTANTS, 45.0, 40.0)[1]).all()
+
+
+def test_cells_are_means_of_ten_sites_from_the_centre_on():
+    z, sites = right_half(34)
+    a, b = z[:, 34:]
+    expected = [np.abs(a + b) ** 2 / 2.0, np.abs(a - b) ** 2 / 2.0]
+    found = bulk.cell_means(sites)
+    assert found.shape == (2, 3)
+    np.testing.assert_allclose(found[:, 1], [one[10:20].mean() for one in expected])

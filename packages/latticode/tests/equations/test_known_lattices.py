@@ -2,21 +2,17 @@
 
 Each row has what the model is made of, its ends, its initial data, and the same equations for
 arrays: of a complex field i du/dt, of a real one its second derivative. Where `r` and `s` stand,
-they are the right and the left neighbours.
+they are the right and the left neighbours. Toda and Lennard-Jones stand in test_traced_functions.
 """
 
 import numpy as np
 import pytest
-from latticode import Case, Model, abs2, cos, exp, lap, simulate, sin, sqrt
+from latticode import Case, Model, abs2, cos, lap, simulate, sin, sqrt
 from scipy.integrate import solve_ivp
 from test_traced_models import TIGHT, beside
 
 M, END = 4, 4.0
 DRAWN = np.random.default_rng(3).uniform(-1, 1, 2 * M + 1)
-
-
-def lennard_jones(r):
-    return r**-13 - r**-7
 
 
 def zigzag(p, u, v):
@@ -56,25 +52,10 @@ FIRST = {
     ),
 }  # fmt: skip
 SECOND = {
-    "Toda": (
-        {"a": 1.3}, "periodic", {0: [1 + 0.5j], 2: [-0.4]},
-        lambda p, x: exp(p.a * (x.left - x)) - exp(p.a * (x - x.right)),
-        lambda t, x, v, r, s: np.exp(1.3 * (s - x)) - np.exp(1.3 * (x - r)),
-    ),
     "sine-Gordon, damped and driven": (
         {"a": 0.2, "f": 0.4, "w": 0.9}, "free", {0: [2 + 1j]},
         lambda p, x, v: lap(x) - sin(x) - p.a * v + p.f * cos(p.w * p.t),
         lambda t, x, v, r, s: r + s - 2 * x - np.sin(x) - 0.2 * v + 0.4 * np.cos(0.9 * t),
-    ),
-    "Morse": (
-        {"k": 0.3}, "dirichlet", {0: [0.8]},
-        lambda p, x: p.k * lap(x) - exp(-x) * (1 - exp(-x)),
-        lambda t, x, v, r, s: 0.3 * (r + s - 2 * x) - np.exp(-x) * (1 - np.exp(-x)),
-    ),
-    "Lennard-Jones": (
-        {}, "periodic", {0: [0.05 + 0.2j], 3: [-0.03]},
-        lambda p, x: 12 * (lennard_jones(1 + x - x.left) - lennard_jones(1 + x.right - x)),
-        lambda t, x, v, r, s: 12 * (lennard_jones(1 + x - s) - lennard_jones(1 + r - x)),
     ),
     "rotors, damped, with a torque at each site": (
         {"g": 0.05, "torque": DRAWN}, "free", {0: [1 + 2j], 1: [-1]},

@@ -80,7 +80,7 @@ def test_half_of_an_even_chain_gives_the_growth_of_the_whole(model):
 @pytest.mark.parametrize("gain", [0.4, -0.4])
 def test_all_vectors_of_linear_equations_grow_at_the_exact_rate(gain):
     """i u' = lap u + i gain u turns orthonormal vectors into orthonormal ones, times e^(gain t)."""
-    model = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + 1j * gain * u)
+    model = Model(fields="u", parameters={"g": gain}, i_dt=lambda p, u: lap(u) + 1j * p.g * u)
     rng = np.random.default_rng(4)
     vectors = np.array([random_tangent(5, rng, fields=1) for _ in range(4)])
     found = grow(chain(model, half_width=2), vectors, 3.0, tolerance=1e-11)
