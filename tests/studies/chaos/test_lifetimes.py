@@ -25,3 +25,9 @@ def test_a_life_is_the_same_in_pieces_as_in_one_run():
 @pytest.mark.parametrize(("case", "a0"), [("fig4_small", 10.0), ("fig2_large", 5.0)])
 def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
     assert lifetimes.follow(problem(case, a0)) == {"life": np.inf}
+
+
+def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
+    modulus = np.ones((2, 5, 3))
+    modulus[:, 2] = [3.0, 1.0, 0.5]
+    assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]

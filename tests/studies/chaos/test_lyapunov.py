@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
-from latticode.measures.growth import mean_rate
+from latticode.measures.growth import mean_rate, mean_rate_error
 from pendula.studies.chaos import lyapunov
 from problems import problem_of
 
@@ -46,3 +46,11 @@ def test_an_exponent_and_its_limits_are_those_of_the_members_on_its_span(short_c
     assert float(one["exponent"]) == pytest.approx(rates.mean())
     off = 4.30265 * rates.std(ddof=1) / np.sqrt(3.0)  # Student's t of two degrees of freedom
     assert float(one["exponent_high"] - one["exponent"]) == pytest.approx(off, rel=1e-4)
+
+
+def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):
+    found = lyapunov.spectrum_of(whole_spectrum, 50.0)
+    tau, growth = whole_spectrum.tau, whole_spectrum.log_growth
+    np.testing.assert_array_equal(found.value, mean_rate(tau, growth, 50.0))
+    off = 2.36462 * mean_rate_error(tau, growth, 50.0)  # Student's t of seven degrees of freedom
+    np.testing.assert_allclose([found.value - found.low, found.high - found.value], [off, off])

@@ -47,3 +47,14 @@ def test_cells_are_means_of_ten_sites_from_the_centre_on():
     found = bulk.cell_means(sites)
     assert found.shape == (2, 3)
     np.testing.assert_allclose(found[:, 1], [one[10:20].mean() for one in expected])
+
+
+def test_maxima_are_those_of_blocks_on_the_first_half_of_the_way_to_the_front():
+    z, sites = right_half(40)
+    moduli = np.abs(z).max(axis=0)[41:59]  # the front is at 38.7; its centre is left out
+    found = bulk.bulk_maxima(turned(sites), 38.7)
+    for i, size in enumerate(bulk.NEIGHBOURS):
+        maxima = [max(moduli[end - size : end]) for end in range(size, 19, size)]
+        assert found[i] == pytest.approx(np.mean(maxima) if maxima else np.nan, nan_ok=True), size
+    assert np.isfinite(found).tolist() == [True] * 5 + [False] * 2
+    assert np.isnan(bulk.bulk_maxima(turned(sites), -1.0)).all()
