@@ -8,7 +8,7 @@ from helpers import ROOT
 from latticode.configuration.cost import EXPLICIT, find_excess, steps_of
 from latticode.configuration.files import ConfigurationError
 from latticode.datasets.netcdf import read
-from pendula.configuration.cost import ORDINARY, demand, estimate
+from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs
 from pendula.configuration.messages import load
 
 SPEED = ROOT / "tests/baseline/speed"
@@ -96,3 +96,9 @@ def test_a_limit_may_be_raised_and_a_long_run_is_announced():
     (said,) = load(long | {"limits": {"hours": 9}}).long_runs()
     assert said.startswith("cases.mine: the run and its checks take about 8 hours and ")
     assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
+
+
+def test_even_and_synchronised_data_cost_half_each():
+    assert integrated_pairs(problem()) == 31
+    assert integrated_pairs(problem(initial={1: (1, 0)})) == 61
+    assert integrated_pairs(problem(initial={1: (1, 1), -1: (1, 1)})) == 15.5

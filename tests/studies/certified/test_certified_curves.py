@@ -233,3 +233,28 @@ def test_what_is_quadratic_in_the_error_is_that_of_the_cubic_term():
     y, a, time = start / low, sizes.largest[0, 0], curve.step / regular.SAMPLES
     exact = high * 0.5 * (3.0 * a * y + y * y) * y * time
     assert quadratic == pytest.approx(exact, rel=1e-4, abs=0.0)
+
+
+def test_what_is_rounded_away_is_below_its_bound_and_each_rounding_counts():
+    curve, given = short_curve()
+    sizes, exact = regular._sizes(curve), integral(exact_defect(curve, given)[:3], 0)
+    found = regular._rounding(curve, given, sizes)
+    assert (exact <= found).all() and found == pytest.approx(exact, rel=1e-8)
+    # without any defect what is left are the roundings that Higham's bound allows
+    rest = regular._rounding(Curve(curve.step, 0.0 * curve.terms), given, sizes)
+    unit, strength = 2.0**-53, 4 * 0.5 + 2.0 + 2 * 0.25
+    cubic = regular._cubic(sizes)
+    expected = sum(
+        unit * (9 * strength * 0.125 * sizes.norm[k] + (2 * k + 10) * 0.125 * cubic[k]
+                + 3 * (k + 1) * sizes.norm[k + 1]) / (k + 1)
+        for k in range(3)
+    )  # fmt: skip
+    assert rest == pytest.approx(expected, rel=1e-8, abs=0.0)
+
+
+def test_norms_are_off_by_twelve_roundings_beside_that_of_the_sum():
+    curve, _ = short_curve(steps=1)
+    curve.terms[1:] = 0.0
+    found = norms_at(regular.leave_unproved(curve), np.zeros(1))
+    size = np.linalg.norm(curve.terms[0])
+    assert found.parts[-1, 0] == pytest.approx(13 * 2.0**-53 * size, rel=1e-6, abs=0.0)

@@ -124,3 +124,21 @@ def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
             existence.radii(there)
         radius, unique = existence.radii(there._replace(eta=0.9 * eta))
     assert 0.342 < radius < 0.36 < 0.49 < unique < 0.658
+
+
+def test_a_large_radius_allows_a_slower_decay_or_none():
+    """d = 6 for s = 1: the cubic term takes half of the square of the radius from it."""
+    with balls.precision():
+        found = existence._decay(HERE, 1.0, arb(2))
+        assert found == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-12)
+        with pytest.raises(RefusedError, match="decay"):
+            existence._decay(HERE, 1.0, arb(3))
+
+
+def test_the_sign_of_epsilon_does_not_open_a_band():
+    """For epsilon = -1 it is [-4, 0]; outside of it, the tail decays as for epsilon = 1."""
+    state, other = find_state(HERE, EQUAL), HERE._replace(epsilon=-1.0)
+    with pytest.raises(RefusedError, match="band"):
+        proved(EQUAL, other._replace(omega=-3.0), state)
+    alone = other._replace(epsilon=-1e-3, omega=-4.0)
+    assert 0.0 < proved(EQUAL, alone, find_state(alone, EQUAL)).decay < 1e-3
