@@ -29,5 +29,5 @@ def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
 
 def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
     modulus = np.ones((2, 5, 3))
-    modulus[:, 2] = [3.0, 1.0, 0.5]
+    modulus[:, 2] = [1.5, 1.0, 0.5]
     assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]

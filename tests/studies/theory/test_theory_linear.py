@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from pendula.models.linear_chain import (
     finite_rate,
+    gamma_0,
     growth_rate,
     infinite_rate,
     stable_windows,
@@ -56,3 +57,9 @@ def test_cells_are_misclassified_beyond_what_time_resolves():
     ):  # fmt: skip
         assert count([measured], [finite]) == wrong
     assert count([0.2, 0.0, 0.0], [0.0, 0.3, 0.0]) == 2
+
+
+def test_gamma_0_is_half_of_the_distance_to_the_band():
+    """The band of a negative coupling lies below zero."""
+    np.testing.assert_array_equal(gamma_0(np.array([-4, 0, 2, 4, 5, 8]), 1.0), [2, 0, 0, 0, 0.5, 2])
+    np.testing.assert_array_equal(gamma_0(np.array([-6, -4, -2, 0, 2]), -1.0), [1, 0, 0, 0, 1])
