@@ -111,3 +111,10 @@ def test_corrections_are_those_of_small_mu(epsilon):
         first = mu * mu * threshold.correction(omegas, epsilon)
         left.append(exact - gamma_0(omegas, epsilon) - first)
     assert left[0] / left[1] == pytest.approx(np.full(6, 16.0), rel=0.05)
+
+
+@pytest.mark.parametrize("of", [mathieu.first_tongue, mathieu.second_tongue])
+def test_deeper_fractions_change_no_bit(of, monkeypatch):
+    found = of(OFFSETS)
+    monkeypatch.setattr(mathieu, "DEPTH", 2 * mathieu.DEPTH)
+    assert np.array_equal(of(OFFSETS), found)
