@@ -159,7 +159,7 @@ def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.D
     linf, l2 (component, tau): the largest modulus of a field on the chain, and the root of the sum
         of its squares.
     modulus (component, site, snapshot): moduli at the times `snapshot`, as snapshot_tau has them.
-    conserved (conserved_quantity, snapshot): what the model conserves, if it says so.
+    conserved (conserved_quantity, tau): what the model conserves, if it says so.
     final (part, component, site): the fields at end_time.
 
     Attributes: every parameter, the solver's controls and its work, `name` as "case".
