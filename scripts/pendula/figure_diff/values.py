@@ -2,9 +2,9 @@
 
 A regular number may be off by TOLERANCE of the largest of its row, an error of rounding by a
 factor, and a proven bound by a part of itself. A number that rests on chaos differs from one right
-run to the next, but within limits: it keeps its sign and its range, and over a row it differs by
-less than it is large. These limits are about twice what runs show whose epsilon is moved by its
-last bits (`.ci/elsewhere moved`).
+run to the next, but within limits: it keeps its sign and its range, over a row it differs by less
+than it is large, and its steps in time are not much longer. These limits are about twice what runs
+show whose epsilon is moved by its last bits (`.ci/elsewhere moved`).
 """
 
 import re
@@ -35,6 +35,13 @@ APART, SCATTER, LONG, SMALL = 0.6, 4.0, 100, 0.01
 """Limits of the mean difference of chaotic rows, and of their scatter; LONG rows also keep their
 range. What is SMALL beside the largest of the variable may be anything."""
 
+ROUNDED = 1e-5
+"""How far equal numbers may be apart, relative to the largest: accepted ones have seven digits."""
+
+TIMES = ("tau", "snapshot", "snapshot_tau")
+STEP, FEWEST = 3.0, 20
+"""How much larger a step in time may be than the largest accepted one; FEWEST times make a run."""
+
 
 def fault(
     key: str, was: xr.Variable, now: xr.Variable, chaotic: np.ndarray, data: xr.Dataset
@@ -49,6 +56,20 @@ def fault(
         if says:
             return f"{key} {says}"
     return ""
+
+
+def jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
+    """Yield in words where a variable steps further in time than the accepted run ever does."""
+    for key, variable in was.variables.items():
+        times = [dim for dim in TIMES if variable.sizes.get(dim, 0) >= FEWEST]
+        for dim in times if variable.dtype.kind == "f" else ():
+            axis, rounded = variable.get_axis_num(dim), ROUNDED * hashes.largest(variable.values)
+            steps = [abs(np.diff(data[key].values, axis=axis)) for data in (was, now)]
+            for row in rows(variable, was):
+                before, after = (hashes.largest(each[row]) for each in steps)
+                if after > STEP * before + rounded:
+                    yield f"{key} jumps along {dim}"
+                    break
 
 
 def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
