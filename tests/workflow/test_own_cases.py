@@ -64,7 +64,7 @@ def test_the_page_says_what_the_checks_say(own_run):
     assert "to the end, to" in still and "Theorem 1 covers" in still and "chaoticno" in still
     assert "chaoticyes" in sea and "only Theorem 3 covers" in sea
     with xr.open_dataset(own_run / "results/own/cases/sea.checks.nc") as checks:
-        assert f"to τ = {float(checks['divergence_time']):.4g}, within" in sea
+        assert f"until τ = {float(checks['divergence_time']):.4g}, within" in sea
     assert not re.findall(r"\bnan\b", "".join(text))
 
 

@@ -50,10 +50,10 @@ def test_a_drift_by_each_reading_and_until_when_it_is_kept(measured, trajectorie
     ("drift", "start", "verdict", "said"),
     [
         ({}, 1.0, Verdict.CONFIRMED, ""),
-        ({("case1", "ode45", "whole"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides for case1"),
-        ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides for case1"),
-        ({("case1",): 3e-6}, 1.0, Verdict.NOT_REPRODUCED, "that of case1 exceeds"),
-        ({("case1",): 3e-6}, 100.0, Verdict.UNDECIDED, "decides for case1"),
+        ({("case1", "ode45", "whole"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides in case1"),
+        ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides in case1"),
+        ({("case1",): 3e-6}, 1.0, Verdict.NOT_REPRODUCED, "by every definition in case1"),
+        ({("case1",): 3e-6}, 100.0, Verdict.UNDECIDED, "decides in case1"),
         ({("case0", "ode45"): 3e-6, ("case1",): 3e-4}, 100.0, Verdict.NOT_REPRODUCED, "case1"),
     ],
 )
