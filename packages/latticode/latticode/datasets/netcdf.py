@@ -88,9 +88,15 @@ def _attributes(name: str, variable: Variable) -> dict[str, Any]:
 
 
 def save(path: str | Path, dataset) -> None:
-    """Write an xarray.Dataset as `write` does, or as a table where the path ends in .csv."""
-    if str(path).endswith(".csv"):
+    """Write an xarray.Dataset as `write` does, or as a table where the path ends in .csv.
+
+    Raises DatasetError for any other ending than .csv and .nc.
+    """
+    ending = Path(path).suffix
+    if ending == ".csv":
         return write_csv(path, dataset)
+    if ending not in ("", ".nc"):
+        raise DatasetError(f"{path}: datasets are saved as netCDF (.nc) or tables (.csv)")
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
     for name, variable in stated.variables.items():
         about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}

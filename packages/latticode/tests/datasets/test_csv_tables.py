@@ -52,3 +52,9 @@ def test_what_is_no_table_is_refused(tmp_path):
     with pytest.raises(DatasetError, match="has no norms"):
         save(tmp_path / "no.csv", xr.Dataset({"growth": 1.0}))
     assert not list(tmp_path.iterdir())
+
+
+def test_a_file_of_another_kind_is_refused(tmp_path):
+    with pytest.raises(DatasetError, match=r"a\.xlsx: datasets are saved as netCDF"):
+        save(tmp_path / "a.xlsx", RUN)
+    assert not list(tmp_path.iterdir())
