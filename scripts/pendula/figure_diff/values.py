@@ -40,7 +40,9 @@ ROUNDED = 1e-5
 
 TIMES = ("tau", "snapshot", "snapshot_tau")
 STEP, FEWEST = 3.0, 20
-"""How much larger a step in time may be than the largest accepted one; FEWEST times make a run."""
+"""How much larger a step in time may be than the largest accepted one, and twice that of what is
+SCATTERED: one excursion of a chaotic run makes the largest step of its drift. FEWEST times make a
+run."""
 
 
 def fault(
@@ -64,10 +66,11 @@ def jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
         times = [dim for dim in TIMES if variable.sizes.get(dim, 0) >= FEWEST]
         for dim in times if variable.dtype.kind == "f" else ():
             axis, rounded = variable.get_axis_num(dim), ROUNDED * hashes.largest(variable.values)
+            longest = STEP * (2.0 if SCATTERED.search(str(key)) else 1.0)
             steps = [abs(np.diff(data[key].values, axis=axis)) for data in (was, now)]
             for row in rows(variable, was):
                 before, after = (hashes.largest(each[row]) for each in steps)
-                if after > STEP * before + rounded:
+                if after > longest * before + rounded:
                     yield f"{key} jumps along {dim}"
                     break
 
