@@ -4,6 +4,7 @@ import json
 from functools import cache
 from pathlib import Path
 
+import fixed_point
 import numpy as np
 import pytest
 from helpers import chosen
@@ -75,6 +76,18 @@ def test_our_solvers_agree_while_doubles_suffice(case, solver):
     np.testing.assert_allclose(data["linf"], run.linf, rtol=0, atol=1e-9)
     np.testing.assert_allclose(data["l2"], run.l2, rtol=0, atol=1e-9)
     np.testing.assert_allclose(amplitudes(case, 5), run.final, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_integer_arithmetic_gives_the_same_doubles(case):
+    small = case.endswith("small")
+    pair = ("1", "0.1") if small else ("5", "1")
+    fine = {"steps_per_unit": 20, "order": 24} if small else {"steps_per_unit": 40, "order": 32}
+    z = fixed_point.integrate(pair, int(CASES[case][0]), 1, **fine)
+    np.testing.assert_array_equal(z[:, 10:19], amplitudes(case, 1)[:, 26:35])
+    there = reference(case).sel(tau=1)
+    np.testing.assert_allclose(np.linalg.norm(z, axis=1), there["l2"], rtol=1e-15)
+    np.testing.assert_allclose(np.abs(z).max(axis=1), there["linf"], rtol=1e-15)
 
 
 def test_one_tenth_and_the_double_beside_it_part_after_tau_26():
