@@ -38,7 +38,8 @@ def write_dataset(path):
 def write_figure(path):
     figure = new_figure(3, 2)
     figure.add_subplot().plot([0, 1], [0, 1])
-    save(figure, xr.Dataset(), *(path.with_suffix(f".{kind}") for kind in ("png", "pdf", "nc", "json")))
+    kinds = ("png", "pdf", "nc", "json")
+    save(figure, xr.Dataset(), *(path.with_suffix(f".{kind}") for kind in kinds))
 
 
 @pytest.mark.parametrize("put", [write_text, write_dataset, write_figure])
