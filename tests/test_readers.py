@@ -78,9 +78,13 @@ def words_behind(module: str, maker: str) -> set[str]:
 
 
 def is_read(name: str, words: set[str]) -> bool:
-    """Return whether a name is a word, or has a word at one end, as f"{name}_low" does."""
+    """Return whether a name is among the words, or was made of one of them, as f"{norm}_low" is.
+
+    Of `l2_low` the code then has the end `_low`, or the beginning `l2_`.
+    """
     cuts = [place for place, letter in enumerate(name) if letter == "_"]
-    return name in words or any({name[:at] + "_", name[at:]} & words for at in cuts)
+    beginnings, ends = {name[: at + 1] for at in cuts}, {name[at:] for at in cuts}
+    return not words.isdisjoint({name} | beginnings | ends)
 
 
 def is_in(text: str, name: str) -> bool:
@@ -114,7 +118,7 @@ def readers_of(run: Run, claims: list[Claim]) -> dict[str, list[set[str]]]:
 
 
 def unread(run: Run) -> list[str]:
-    """Return in words each claim, figure, dataset, variable and table that nobody reads."""
+    """Return kind and name of each claim, figure, dataset, variable and table without a reader."""
     used = [one for one in run.claims if one.origin == Origin.PAPER or is_in(run.article, one.name)]
     told = [f"claim {claim.name}" for claim in run.claims if claim not in used]
     readers, texts = readers_of(run, used), words_in(run.article) | words_in(run.pages)

@@ -22,7 +22,7 @@ def test_a_survey_of_ones_own_has_no_more_parts_than_runs(tmp_path):
 
 
 def test_a_lost_part_is_made_again_alone(tmp_path):
-    """That the number of parts changes no bit is told by tests/studies/test_parts.py."""
+    """tests/studies/test_parts.py shows that the number of parts changes no bit."""
     result = snakemake(ROOT, tmp_path, MADE, "--config", "chunks=3", settings=SETTINGS)
     assert result.returncode == 0, result.stderr
     assert planned(ROOT, tmp_path, MADE, settings=SETTINGS) == {}  # as many parts as are there

@@ -1,6 +1,6 @@
 """A run that is killed goes on where it was, to the same bits.
 
-What Ctrl-C does is told by the tests of the executor, of jobs and of kernels.
+The tests of the executor, of jobs and of kernels interrupt by Ctrl-C.
 """
 
 import os

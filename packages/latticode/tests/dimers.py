@@ -1,6 +1,11 @@
 """(4) of arXiv 1708.06134 as a user writes a model, and problems and runs of it."""
 
+from typing import NamedTuple
+
 from latticode import Model, abs2, conj, lap
+from latticode.generation.chain import at_every_site, close
+from latticode.generation.modules import load_rule
+from latticode.kernels.compiled import kernel
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.problem import Problem, on_sites
 from latticode.simulation.simulate import Trajectory, simulate
@@ -42,6 +47,25 @@ def model(sign=-1) -> Model:
 
 
 DIMERS = model()
+rates_at_site = load_rule(DIMERS.rates, "y")
+write_rates = at_every_site(rates_at_site)
+
+
+class Pairs(NamedTuple):
+    """The parameters of DIMERS and the ends of the chain, as a kernel takes them."""
+
+    epsilon: float
+    gamma: float
+    omega: float
+    left: int
+    right: int
+
+
+@kernel
+def rates(pairs, y, dy):
+    """Write the right-hand side of DIMERS at `y` into `dy`."""
+    close(pairs, y)
+    write_rates(pairs, (y,), dy)
 
 
 def dimers(initial=((0, (1.0, 0.1)),), **changes) -> Problem:

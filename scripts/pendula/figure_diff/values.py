@@ -61,7 +61,10 @@ def fault(
 
 
 def jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
-    """Yield in words where a variable steps further in time than the accepted run ever does."""
+    """Yield a message for each variable that changes too much from one time to the next.
+
+    Its largest change there is compared with that of the accepted run (see STEP).
+    """
     for key, variable in was.variables.items():
         times = [dim for dim in TIMES if variable.sizes.get(dim, 0) >= FEWEST]
         for dim in times if variable.dtype.kind == "f" else ():

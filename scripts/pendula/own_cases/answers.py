@@ -54,7 +54,7 @@ def _trust(checks: xr.Dataset) -> tuple[str, str]:
     if checks.attrs.get("model") == PENDULA:
         then = "afterwards each run may show another motion of the same kind"
     elif checks.get("chaotic", 0):
-        then = "afterwards the run is one random sample, of which only statistics have a meaning"
+        then = "afterwards the run is one random sample: use its statistics only"
     else:
         then = "the motion is not chaotic, so a smaller tolerance or step gives a later time"
     return question, f"until τ = {number(parted, 4)}, within {level} of full scale; {then}"

@@ -68,8 +68,13 @@ class Cost(NamedTuple):
     memory: float
 
     def __str__(self) -> str:
+        return "{} and {} of memory".format(*self.words)
+
+    @property
+    def words(self) -> tuple[str, str]:
+        """Time and memory in words."""
         time = duration(self.seconds)
-        return f"{'' if ' than ' in time else 'about '}{time} and {amount(self.memory)} of memory"
+        return f"{'' if ' than ' in time else 'about '}{time}", amount(self.memory)
 
     def excess(self, limits: Mapping[str, float]) -> float:
         """Return this cost divided by the largest that `limits` allow: above 1 it is refused."""
@@ -231,12 +236,13 @@ def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> s
     """Return the words for a run that costs more than is allowed."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
-    limit = f"{limits[name]:g} {unit}"
-    takes = str(cost).replace(f"and {limit} of memory", f"and a little over {limit} of memory")
-    if over_time:
-        allowed = duration(limits["hours"] * HOUR)
-        takes = takes.replace(f"about {allowed} and", f"a little over {allowed} and")
-    advice = "make it smaller, or raise the limit"
+    limit, (time, memory) = f"{limits[name]:g} {unit}", cost.words
+    allowed = duration(limits["hours"] * HOUR)
+    if over_time and time == f"about {allowed}":
+        time = f"a little over {allowed}"
+    elif memory == limit:
+        memory = f"a little over {limit}"
+    takes, advice = f"{time} and {memory} of memory", "make it smaller, or raise the limit"
     return f"{what} would take {takes}, and limits.{name} allows {limit}; {advice}"
 
 

@@ -1,7 +1,7 @@
 """DejaVu Sans for a PDF: all letters, without the tables that it takes longest to cut down.
 
-For each PDF, matplotlib cuts a font down to the letters that the figure uses. Most of this time
-goes into the tables of ligatures and of marks on letters, of which the file then uses nothing.
+For each PDF, matplotlib cuts a font down to the letters that the figure uses. About half of this
+time goes into the tables of ligatures and of marks on letters, which the PDF does not need.
 """
 
 from collections.abc import Iterator

@@ -48,11 +48,12 @@ def webassembly(kernel, *arguments: Any) -> bytes:
     machine = binding.Target.from_triple(TRIPLE).create_target_machine(
         opt=OPTIMISED, features=FEATURES
     )
-    module = binding.parse_assembly(_code_of(kernel, arguments))
+    types = tuple(map(numba.typeof, arguments))
+    module = binding.parse_assembly(_code_of(kernel, types))
     functions = [one for one in module.functions if not one.is_declaration]
     for one in (*functions, *(one for one in module.global_variables if not one.is_declaration)):
         one.linkage = "internal"
-    (run,) = (one for one in functions if kernel.py_func.__name__ in one.name)
+    run = module.get_function(kernel.part.overloads[types].fndesc.mangled_name)
     run.linkage = "external"
     passes = binding.create_pass_builder(machine, binding.PipelineTuningOptions(OPTIMISED))
     passes.getModulePassManager().run(module, passes)
@@ -61,14 +62,13 @@ def webassembly(kernel, *arguments: Any) -> bytes:
     return _exported(machine.emit_object(small), place)
 
 
-def _code_of(kernel, arguments: tuple) -> str:
-    """Return the intermediate code of a kernel and of all that it calls."""
+def _code_of(kernel, types: tuple) -> str:
+    """Return the intermediate code of a kernel for these types, and of all that it calls."""
     if not hasattr(kernel, "part"):
         raise WebAssemblyError(
             f"code of numba {numba.__version__} counts references, which WebAssembly cannot: take"
             f" numba {' or '.join(TESTED)}"
         )
-    types = tuple(map(numba.typeof, arguments))
     kernel.part.compile(types)
     # Nothing is left of Python's errors, whose texts name files of this machine.
     code = kernel.part.inspect_llvm(types)

@@ -1,14 +1,12 @@
 """Rates and power series of a chain of pairs against its equations, and the laws of their bits."""
 
 from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 import pytest
-from dimers import DIMERS
+from dimers import DIMERS, Pairs, rates, rates_at_site
 from hypothesis import given, settings
-from latticode.generation.chain import at_every_site, close
-from latticode.generation.modules import load_rule, load_series
+from latticode.generation.modules import load_series
 from latticode.generation.series import CACHED_BLOCKS
 from latticode.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from latticode.kernels.compiled import kernel
@@ -20,27 +18,6 @@ WHOLE = Reduction(even=False, synchronised=False)
 CONSTANTS = (0.7, 1.3, -2.1)
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
 continue_series = load_series(DIMERS).continue_in_waves
-rates_at_site = load_rule(DIMERS.rates, "y")
-write_rates = at_every_site(rates_at_site)
-
-
-class Pairs(NamedTuple):
-    """The parameters of DIMERS and the ends of the chain, as a kernel takes them.
-
-    Kept kernels tell such classes by their names alone: no other one has this name.
-    """
-
-    epsilon: float
-    gamma: float
-    omega: float
-    left: int
-    right: int
-
-
-@kernel
-def rates(chain, y, dy):
-    close(chain, y)
-    write_rates(chain, (y,), dy)
 
 
 def slope_of(z, numbers, boundary, reduction=WHOLE):

@@ -1,38 +1,18 @@
 """A long state taken in tiles: each site owned once, and the bits those of one piece."""
 
-from typing import NamedTuple
-
 import numpy as np
 import pytest
-from dimers import DIMERS
+from dimers import Pairs, rates
 from hypothesis import given
 from hypothesis import strategies as st
 from latticode.equations.ends import DIRICHLET
-from latticode.generation.chain import at_every_site, can_be_tiled, close
-from latticode.generation.modules import load_rule
+from latticode.generation.chain import can_be_tiled
 from latticode.integrators import DONE, dop853, tiles
 from latticode.kernels.compiled import kernel
 from latticode.simulation.lattice import Reduction, choose_ends, pack
 from latticode.simulation.observables import blank_record, observe_moduli
 
 TIMES = np.linspace(0.0, 4.0, 81)  # enough steps that some pass narrowly
-write_rates = at_every_site(load_rule(DIMERS.rates, "y"))
-
-
-class PairsOfTiles(NamedTuple):
-    """The parameters of DIMERS and the ends of the chain, as a kernel takes them."""
-
-    epsilon: float
-    gamma: float
-    omega: float
-    left: int
-    right: int
-
-
-@kernel
-def rates(pairs, y, dy):
-    close(pairs, y)
-    write_rates(pairs, (y,), dy)
 
 
 @kernel
@@ -45,7 +25,7 @@ def pairs_of_tile(pairs, is_first, is_last):
     """Return the pairs as a tile sees them: at rest beyond its margins."""
     left = pairs.left if is_first else DIRICHLET
     right = pairs.right if is_last else DIRICHLET
-    return PairsOfTiles(pairs.epsilon, pairs.gamma, pairs.omega, left, right)
+    return Pairs(pairs.epsilon, pairs.gamma, pairs.omega, left, right)
 
 
 solve_in_one = dop853.build(rates, observe)
@@ -65,7 +45,7 @@ def run_in_tiles(pairs, y, times, controls, work, record, stop):
 def run(method, z, boundary, even, times=TIMES, every=20):
     """Return all that a run makes of data (2, N), as arrays and counts."""
     reduction = Reduction(even=even, synchronised=False)
-    pairs = PairsOfTiles(1.0, 1.0, -4.0, *choose_ends(boundary, reduction))
+    pairs = Pairs(1.0, 1.0, -4.0, *choose_ends(boundary, reduction))
     y = pack(z, reduction)
     record = blank_record(2, y.shape[1] - 2, times.size, every)
     work = np.zeros((dop853.WORK, *y.shape))

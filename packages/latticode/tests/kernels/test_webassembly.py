@@ -25,8 +25,14 @@ def add_scaled(factor, y, out):
         out[i] += factor * y[i]
 
 
-def test_a_module_is_whole_and_names_no_file_of_this_machine():
-    module = webassembly(add_scaled, 0.0, np.zeros(1), np.zeros(1))
+@kernel
+def add(y, out):  # part of the name of the kernel that it calls
+    add_scaled(1.0, y, out)
+
+
+@pytest.mark.parametrize(("method", "numbers"), [(add_scaled, (0.0,)), (add, ())])
+def test_a_module_is_whole_and_names_no_file_of_this_machine(method, numbers):
+    module = webassembly(method, *numbers, np.zeros(1), np.zeros(1))
     assert module.startswith(b"\0asm\1\0\0\0") and b"\3run\0" in module
     assert b".py" not in module
 
