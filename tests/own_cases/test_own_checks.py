@@ -29,28 +29,21 @@ TINY = Case(omega=-4, half_width=1, initial={0: ("1e-140", 0)}, end_time=2,
 def test_data_whose_errors_have_vanishing_squares_are_checked_all_the_same():
     found = checks.check_run(*made(TINY))
     assert found.attrs["second_name"] == "dop853" and "second_refusal" not in found.attrs
-    assert float(found["largest_difference"]) < 1e-8 and float(found["balance_error"]) < 1e-12
-    assert answers.decided(found)["balanced"]
+    assert float(found["largest_difference"]) < 1e-8
 
 
 def test_a_wrong_run_breaks_lemma_2_and_its_bound():
     run = simulate(STILL)
-    run["l2"] = run["l2"] * np.exp(5.0 * run["tau"])
-    found = checks.beside_bounds(run)
-    assert found["from_start"]["data"] > 1 and found["ratio"]["data"] > 1
+    run["l2"].values *= np.exp(5.0 * run["tau"].values)
+    said = dict(answers.of_case(check(STILL, run), True))
+    assert "broken" in said["Lemma 2, growth of P"]
+    assert "broken" in said["the smallest bound of these theorems"]
 
 
-def test_lemma_2_does_not_hold_of_a_run_that_is_too_steep_in_between():
-    found = checks.check_run(*made(STILL))
-    assert not answers.decided(found)["too_steep"]
-    found["steepest"] = found["steepest"] * 0 + 7.0  # as of ode45 at a tolerance of 0.9
-    assert found["from_start"] < 1 and answers.decided(found)["too_steep"]
-
-
-def test_the_numbers_of_lemma_1_and_of_the_balance(still):
+def test_the_numbers_of_lemma_1(still):
     assert float(still["gamma_0"]) == 2.0 and still["finite_rate"] == 0
     assert float(still["finite_threshold"]) >= 2.0
-    assert float(still["balance_error"]) < 1e-12 and str(still["region"].values) == "theorem 1"
+    assert str(still["region"].values) == "theorem 1"
     assert float(still["from_start"]) <= 1 and float(still["energy_drift"]) < 1e-10
 
 

@@ -5,7 +5,6 @@ import pytest
 from latticode.configuration.files import ConfigurationError
 from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
 from pendula.own_cases import answers
-from pendula.own_cases.checks import check_sweep
 from simulate_own import as_the_workflow_writes
 
 SWING = Case(omega=-4, model="pendula", mu=0.1, half_width=8, end_time=2)
@@ -77,15 +76,6 @@ def test_a_sweep_of_pendula_is_one_of_angles(swept):
     assert peak == float(alone["linf"].max())
     axes = draw_sweep(swept).axes
     assert all("(x, y)" in one.get_ylabel() and "(rad)" in one.get_ylabel() for one in axes)
-
-
-def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
-    found = check_sweep("mine", swept)
-    assert int(found["swept_over"]) == 2 and float(found["swept_angle"].min()) > np.pi
-    calm = check_sweep("mine", sweep(SWING, [2, 4], [(0, 1)]))
-    assert int(calm["swept_over"]) == 0 and float(calm["swept_angle"].max()) < 0.3
-    over = "chains on which a pendulum goes over the top"
-    assert answers.of_sweep(swept, found) == [(over, "2")]
 
 
 def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():

@@ -13,7 +13,6 @@ from pendula.report.words import (
     plainly,
     span,
     symbols,
-    told,
     with_error,
 )
 
@@ -56,11 +55,6 @@ WRITTEN = [
 @pytest.mark.parametrize(("found", "expected"), WRITTEN, ids=[text for _, text in WRITTEN])
 def test_numbers_and_cases_are_written(found, expected):
     assert found.replace("\N{NO-BREAK SPACE}", " ") == expected
-
-
-def test_values_in_a_text_of_markup_are_escaped():
-    text = told("{n} &lt; <b>{m}</b>", n="1", m="<2>")
-    assert text == "1 &lt; <b>&lt;2&gt;</b>"
 
 
 def test_links_are_seen_from_the_page():

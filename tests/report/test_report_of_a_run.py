@@ -28,7 +28,9 @@ def test_the_page_is_well_formed_and_shows_every_claim_figure_and_dataset(tags, 
     }
     drawn = {path.stem for path in (results / "figures").glob("*.png")}
     drawn -= {one for one in drawn if one.startswith(("speed", "cost"))}
-    assert {one for one in tags.ids if one.startswith("figure_")} == {f"figure_{n}" for n in drawn}
+    assert {one for one in tags.ids if one.startswith("figures/")} == {
+        f"figures/{n}" for n in drawn
+    }
     needed = {f"data_{name}.nc" for row in rows for name in row["decided_by"]}
     assert needed <= set(tags.ids)
 

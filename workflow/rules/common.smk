@@ -250,8 +250,7 @@ def some_own_files(wildcards):
             "the configuration has no case, sweep or survey of your own: give some by "
             "--configfile, as docs/own_cases.md shows"
         )
-    of_sweep = [*FIGURE_KINDS, "checks.nc"]
-    of_case = [*of_sweep, *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
+    of_case = [*FIGURE_KINDS, "checks.nc", *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
     of_models = [case for case in OWN_CASES if SETTINGS.cases[case].model not in MODELS]
     made = {"trajectories": OWN_CASES, "sweeps": OWN_SWEEPS, "surveys": OWN_SURVEYS}
     return [
@@ -260,7 +259,7 @@ def some_own_files(wildcards):
         *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),
         *expand("<results>/own/cases/{case}.breather.{kind}", case=of_models, kind=FIGURE_KINDS),
         *datasets("sweeps", *OWN_SWEEPS),
-        *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=of_sweep),
+        *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=FIGURE_KINDS),
         *datasets("surveys", *OWN_SURVEYS),
         *expand("<results>/own/surveys/{survey}.{kind}", survey=OWN_SURVEYS, kind=FIGURE_KINDS),
     ]

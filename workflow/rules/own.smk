@@ -46,18 +46,14 @@ use rule figure as own_breather with:
         call=function("latticode.drawing.runs.draw_breather"),
 
 
-use rule job as own_sweep_figure with:
-    "The figure and checks of a sweep of your own: results/own/sweeps/{sweep}.png"
+use rule figure as own_sweep_figure with:
+    "The figure of a sweep of your own: results/own/sweeps/{sweep}.png"
     input:
         sweep="<results>/sweeps/{sweep}.nc",
-    output:
-        figure=figure_files("<results>/own/sweeps/<own_sweep>"),
-        checks="<results>/own/sweeps/<own_sweep>.checks.nc",
     pathvars:
         made="own/sweeps/<own_sweep>",
     params:
-        call=function("pendula.own_cases.figures.draw_with_checks"),
-        name="{sweep}",
+        call=function("pendula.own_cases.figures.draw_sweep"),
         given=lambda wildcards: drawn_windows(wildcards.sweep),
 
 

@@ -25,11 +25,10 @@ AT_LEAST = {"members", "swept_members", "nodes"}
 AT_MOST = {"tolerance"}
 """Smaller values are still about the same case."""
 
-EQUATION = ("model", "epsilon", "gamma", "omega")
-DATA = (*EQUATION, "initial")
-CHAIN = (*DATA, "boundary", "output_step")
-FINITE = (*CHAIN, "half_width")
-"""What of a case decides a solution: on an infinite chain, on swept chains, on its own chain."""
+DATA = ("model", "epsilon", "gamma", "omega", "initial")
+"""What of a case decides a solution on an infinite chain."""
+MAPS = "the maps"
+"""What a statement on fates is on that looks at the maps alone, and at no case of the paper."""
 
 Differences = Mapping[str, str]
 """By dotted path, in words, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in place of
@@ -132,118 +131,64 @@ def concerning(
 
 # --- What datasets rest on ------------------------------------------------------------------------
 
+ALL_CASES = ("cases", "lyapunov", "members", "solvers", "trust", "fates", "remainder")
+"""Datasets of all cases of the paper."""
+
 
 @cache
 def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     """Return the parts of the configuration that decide a dataset, as dotted paths.
 
-    `on` leaves of a check of many cases and sweeps these alone.
+    All of a case decides what is computed on its chain. `on` leaves of a dataset of many cases and
+    sweeps these alone.
     """
     folder, _, rest = name.partition("/")
     stem, _, solver = rest.partition(".")
-    if folder == "trajectories":
-        by = f"solvers.{solver}" if solver else f"cases.{stem}.solver"
-        return (*_keys(stem, *FINITE, "end_time"), by)
+    by = (f"solvers.{solver}",) if solver else ()
     if folder == "sweeps":
-        return _sweep(stem, solver.partition(".")[0])
-    of_studies = {"breathers": _breathers, "pendula": _pendula, "certified": _certified}
-    return (of_studies | {"unbounded": _unbounded}).get(folder, _check)(rest, on)
+        return (*_swept([stem]), *by)
+    if stem in paper()["cases"]:
+        of_case = _unbounded([stem]) if folder == "unbounded" else (f"cases.{stem}",)
+        return (*of_case, *by)
+    if folder == "unbounded":
+        given = paper()["unbounded"]
+        others = given["cases"] if stem in ("growth", "fronts") else ()
+        return _unbounded([given["omegas"]["case"], *others])
+    sections = _sections(folder, stem)
+    part = _at(sections[-1]) if sections else {}
+    named = paper()["cases"] if stem in ALL_CASES else part.get("cases", ())
+    cases = [part["case"]] if "case" in part else [case for case in named if not on or case in on]
+    sweeps = [sweep for sweep in part.get("sweeps", ()) if not on or sweep in on]
+    return (*sections, *_swept(sweeps), *(f"cases.{case}" for case in cases))
 
 
-def _keys(case: str, *keys: str) -> tuple[str, ...]:
-    return tuple(f"cases.{case}.{key}" for key in keys)
+def _swept(sweeps: Iterable[str]) -> tuple[str, ...]:
+    """Return what sweeps rest on; those of a user are none of the paper's."""
+    known = [sweep for sweep in sweeps if sweep in paper()["sweeps"]]
+    cases = [paper()["sweeps"][sweep]["case"] for sweep in known]
+    return (*(f"sweeps.{sweep}" for sweep in known), *(f"cases.{case}" for case in cases))
 
 
-def _sweep(name: str, solver: str = "") -> tuple[str, ...]:
-    by = f"solvers.{solver}" if solver else f"cases.{paper()['sweeps'][name]['case']}.solver"
-    return (*_swept(name), by, f"sweeps.{name}.solver")
+def _unbounded(cases: Iterable[str]) -> tuple[str, ...]:
+    return ("unbounded", *(f"cases.{case}.{key}" for case in cases for key in DATA))
 
 
-def _swept(name: str) -> tuple[str, ...]:
-    own = tuple(f"sweeps.{name}.{key}" for key in ("case", "half_widths", "windows"))
-    return (*own, *_keys(paper()["sweeps"][name]["case"], *CHAIN))
+def _sections(folder: str, stem: str) -> list[str]:
+    """Return the sections of the configuration that decide a dataset of a study, its own last."""
+    if stem in ("solvers", "trust"):
+        return ["solvers"]
+    if folder == "checks":
+        own = "ensembles" if stem.startswith("ensembles") else stem
+        return [path for path in (f"theory.{own}", f"chaos.{own}") if _at(path)]
+    if folder == "breathers":
+        parts = ["periodic", stem] if stem == "fates" else [stem]
+        return [f"breathers.{part}" for part in ("epsilon", "gamma", *parts)]
+    return ["certified.curves.wrong" if stem.startswith("wrong/") else f"{folder}.{stem}"]
 
 
-def _unbounded(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
-    given = paper()["unbounded"]
-    shared = ("output_step", "perturbation", "short.solver", "short.rest")
-    if name == "thermal":
-        own = tuple(f"unbounded.{key}" for key in ("omegas", "nodes"))
-        return (*own, *_keys(given["omegas"]["case"], *EQUATION))
-    if name in ("growth", "fronts"):
-        runs = (*given["cases"], "omegas", "transverse", "thermal")
-        return tuple(dict.fromkeys(path for run in runs for path in _unbounded(run)))
-    whole = tuple(f"unbounded.{key}" for key in (*shared, f"short.runs.{name}"))
-    if name in given["cases"]:
-        return (*whole, *_keys(name, *DATA))
-    return (*whole, "unbounded.omegas", *_keys(given["omegas"]["case"], *DATA))
-
-
-MAPS = "the maps"
-"""What a statement on fates is on that looks at the maps alone, and at no case of the paper."""
-
-
-def _breathers(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
-    """Return what a part of the study of breathers rests on, but for its longer variant.
-
-    Fates are compared with periodic breathers; those of the paper's data rest on its cases. `on`
-    leaves some of these alone, and with MAPS none.
-    """
-    given = paper()["breathers"]
-    parts = (name, "periodic") if name == "fates" else (name,)
-    followed = [case for case in paper()["cases"] if name == "fates" and (not on or case in on)]
-    own = tuple(f"breathers.{part}.{key}" for part in parts for key in given[part] if key != "long")
-    cases = [case for case in (given[name].get("case"), *followed) if case]
-    return ("breathers.epsilon", "breathers.gamma", *own, *_of_all(cases, *FINITE))
-
-
-def _pendula(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
-    """Return what a part of the study of the pendula rests on, but for its longer variant.
-
-    `on` leaves of a part that runs many cases these alone.
-    """
-    given = paper()["pendula"][name]
-    own = tuple(f"pendula.{name}.{key}" for key in given if key not in ("long", "case"))
-    if "case" in given:
-        return (*own, *_keys(given["case"], *FINITE))
-    cases = (on or paper()["cases"]) if name == "remainder" else ()
-    return (*own, *(key for case in cases for key in _keys(case, *FINITE)))
-
-
-def _certified(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
-    """Return what a proof rests on: its states or case, or what asks it about a wrong one."""
-    given = paper()["certified"]
-    wrong = given["curves"]["wrong"]
-    if name == "breathers":
-        return tuple(f"certified.breathers.{key}" for key in given["breathers"])
-    if name == "wrong/curve":
-        return ("certified.curves.wrong", *_keys(wrong["case"], *FINITE))
-    return _keys(name, *FINITE, "end_time")
-
-
-def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
-    """Return what a check rests on; those of the theory have a key of their own each."""
-    given, theory = paper()["chaos"], paper()["theory"]
-    cases = [case for case in paper()["cases"] if not on or case in on]
-    swept = [sweep for sweep in paper()["sweeps"] if not on or sweep in on]
-    if name in theory:
-        return (f"theory.{name}",)
-    if name.startswith("ensemble"):
-        ensemble = given["ensembles"]
-        cases = [case for case in cases if case in ensemble["cases"]]
-        swept = [sweep for sweep in swept if sweep in ensemble["sweeps"]]
-        of_sweeps = tuple(path for sweep in swept for path in _swept(sweep))
-        return ("chaos.ensembles", *of_sweeps, *_of_all(cases, *FINITE, "end_time"))
-    runs = _of_all(cases, *FINITE, "end_time")
-    lives = _keys(given["lifetimes"]["case"], *EQUATION, "boundary", "half_width")
-    return {
-        "lifetimes": ("chaos.lifetimes", *lives),
-        "members": ("chaos.members", *_of_all(cases, *FINITE)),
-        "lyapunov": ("chaos.lyapunov", *runs),
-        **dict.fromkeys(("solvers", "trust"), ("solvers", *runs)),
-        "cases": _of_all(cases, *FINITE, "end_time", "solver"),
-    }.get(name, ())
-
-
-def _of_all(cases: Iterable[str], *keys: str) -> tuple[str, ...]:
-    return tuple(path for case in cases for path in _keys(case, *keys))
+def _at(path: str) -> Any:
+    """Return what stands at a dotted path, nothing if there is nothing."""
+    found = paper()
+    for key in path.split("."):
+        found = found.get(key, {})
+    return found

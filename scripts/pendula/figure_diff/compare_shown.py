@@ -32,12 +32,9 @@ NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
-OF_THE_MACHINE = {
-    "report.html": rb'<section id="run">(?:(?!</?section).)*</section>',
-    "live.html": rb'"code": "[\w+/=]*"',
-}
-"""What two pages hold of the machine, each once: processor, versions and times of jobs; and code
-that numba writes for the processor, whose bits are compared where it runs."""
+CODE = rb'"code": "[\w+/=]*"'
+"""What the live page holds of the machine, once: code that numba writes for the processor. The bits
+of this code are compared where it runs."""
 
 FREE = {"because", "rests_on"}
 """Entries of a ledger whose words follow measured numbers."""
@@ -50,9 +47,6 @@ LOOSE, FEW, LARGE = 0.4, 0.01, 10.0
 many times larger than one, or than it was, a measured number may be. Bands and bars may reach twice
 as far, and an axis follows what its panel shows, because one long bar doubles it."""
 
-TURNS = re.compile(r";\s+it turns\s[^-]*?(?=\n- |\n\n|\Z)")
-"""Which verdicts a cut-off turns, in the table of claims: this follows measured numbers."""
-
 IN_TAGS = rb'<script type="application/json".*?</script>|<[^>]*>'
 """What stands between the words of a page: tags, and the data of the live page."""
 DIGIT = re.compile(rb"\d")
@@ -62,13 +56,11 @@ Known = Mapping[str, Status]
 
 
 def comparable(name: str, content: bytes) -> bytes:
-    """Return what is compared of the file `name` of a run: of a page, not what is of the machine.
+    """Return what is compared of the file `name` of a run: of the live page all but its CODE.
 
     A mark stays in its place, so that it cannot be lost; where it stands twice, all is compared.
     """
-    if name not in OF_THE_MACHINE:
-        return content
-    around = re.split(OF_THE_MACHINE[name], content, flags=re.DOTALL)
+    around = re.split(CODE, content) if name == "live.html" else [content]
     return b"(of the machine)".join(around) if len(around) == 2 else content
 
 
@@ -107,7 +99,7 @@ def compare(new: Path, was: str, datasets: Known) -> tuple[Status, str]:
 
 def _paragraphs(text: str) -> list[str]:
     """Return the lines of tables and the paragraphs of a text, without the width of columns."""
-    parts = re.split(r"\n(?=[-|#]|\n)", TURNS.sub("", RULE.sub("---", text)))
+    parts = re.split(r"\n(?=[-|#]|\n)", RULE.sub("---", text))
     return [" ".join(part.split()) for part in parts]
 
 

@@ -1,10 +1,9 @@
-"""The ledger as a file, and as tables to read: claims and cut-offs.
+"""The ledger as a table to read, and counts of its rows.
 
 A sentence may be decided for a single run, for ensembles and for the infinite chain, by functions
 of several studies. They make one row, which holds where all of them hold.
 """
 
-import textwrap
 from collections import Counter
 from collections.abc import Iterable
 
@@ -12,7 +11,7 @@ from pendula.report.words import markdown
 
 from .claim import Origin
 from .criterion import REFUTED, Verdict
-from .verdicts import controls_of, cutoff_lines
+from .verdicts import controls_of
 
 WORST_FIRST = (*REFUTED, Verdict.UNDECIDED, Verdict.NOT_APPLICABLE, Verdict.CAVEAT)
 """Verdicts in the order in which one of them is that of several readings; else all confirm."""
@@ -78,22 +77,11 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
 def tables(rows: list[dict]) -> list[str]:
     """Return the parts of a page on these rows of the ledger."""
     claims = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
-    cutoffs = [
-        _item(f"{value} ({origin}) decides {decides}{f'; it turns {rest}' if rest else ''}")
-        for value, origin, decides, rest in cutoff_lines(rows)
-    ]
     return [
         "# What the paper says, and what the numbers say",
         "\n".join(f"- {line}" for line in counted(rows)),
         markdown(("name", "where", "claim", "verdict"), claims),
-        "# The cut-offs, each moved by a third either way",
-        "\n".join(cutoffs),
     ]
-
-
-def _item(text: str) -> str:
-    return textwrap.fill(f"- {text}", 100, subsequent_indent="  ", break_long_words=False,
-                         break_on_hyphens=False)  # fmt: skip
 
 
 def in_short(rows: list[dict]) -> str:
@@ -110,12 +98,3 @@ def counted(rows: list[dict]) -> list[str]:
         + ", ".join(f"{n} {one.replace('does not', 'do not')}" for one, n in verdicts.items())
         for origin, verdicts in tally(rows).items()
     ]
-
-
-def as_sentence(verdict: str, count: int) -> str:
-    """Return a verdict with its verb, such as "are confirmed"."""
-    if verdict == Verdict.NOT_CARRIED:
-        return verdict if count == 1 else verdict.replace("does", "do")
-    if verdict == Verdict.UNDECIDED:
-        return verdict
-    return f"{'is' if count == 1 else 'are'} {verdict}"

@@ -226,14 +226,3 @@ def plain(value: float) -> float | str:
 def controls_of(rows: list[dict]) -> list[dict]:
     """Return what every claim's function said of its controls, from the rows of the ledger."""
     return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]
-
-
-def cutoff_lines(rows: list[dict]) -> list[tuple]:
-    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
-    decides: dict[tuple, dict] = {}
-    rest: dict[tuple, dict] = {}
-    for key, users in (("cutoffs", decides), ("rests_on", rest)):
-        for row in rows:
-            for cutoff in row[key]:
-                users.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
-    return [(*one, ", ".join(decides[one]), ", ".join(rest.get(one, ()))) for one in decides]

@@ -2,15 +2,12 @@
 
 import numpy as np
 import xarray as xr
-from latticode.datasets.netcdf import read, save
-from latticode.drawing import runs, style
+from latticode.drawing import runs
 from latticode.drawing.runs import Naming
 from matplotlib.figure import Figure
 
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA
-
-from .checks import check_swept
 
 EIGHT = 8.0
 """Outputs in a period of the pendula that show how they swing."""
@@ -58,19 +55,11 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
     return runs.draw_spacetime(data, naming_of(data))
 
 
+def gather_sweep(sweep: xr.Dataset, text_window: str, caption_window: str) -> xr.Dataset:
+    """Return the maximum of the norms over one window, and the mean over another."""
+    return runs.gather_sweep(sweep, text_window, caption_window)
+
+
 def draw_sweep(data: xr.Dataset) -> Figure:
     """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
     return runs.draw_sweep(data, naming_of(data))
-
-
-def draw_with_checks(
-    sweep: str, name: str, text_window: str, caption_window: str, figure: list[str], checks: str
-) -> None:
-    """Draw the maximum over one window and the mean over another; check the norms by `name`.
-
-    `figure` names the files of the figure: PNG, PDF, data, description.
-    """
-    swept = read(sweep)
-    drawn = runs.gather_sweep(swept, text_window, caption_window)
-    style.save(draw_sweep(drawn), drawn, *figure)
-    save(checks, check_swept(name, swept))

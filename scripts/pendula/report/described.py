@@ -27,14 +27,8 @@ class Figure(NamedTuple):
 
     stem: str
     caption: str
-    omegas: list[float]
     width: int
     height: int
-
-    @property
-    def place(self) -> str:
-        """The name of its place on the page, such as figure_fig5 for figures/fig5."""
-        return f"figure_{self.stem.removeprefix('figures/').replace('/', '-')}"
 
     @property
     def label(self) -> str:
@@ -44,9 +38,8 @@ class Figure(NamedTuple):
 
     @property
     def headline(self) -> str:
-        """How the caption begins, with the detunings that the figure shows."""
-        shown = " and ".join(map(number, self.omegas))
-        return re.split(r"[.:] ", self.caption)[0].rstrip(".") + (f", Ω = {shown}" if shown else "")
+        """How the caption begins."""
+        return re.split(r"[.:] ", self.caption)[0].rstrip(".")
 
 
 class Variable(NamedTuple):
@@ -71,12 +64,11 @@ class Dataset(NamedTuple):
 def figure(path: Path, page: Path) -> Figure:
     """Return the figure whose dataset is at `path`, beside its picture, for a page in `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
-        omegas = data["omega"][...].ravel().tolist() if "omega" in data.variables else []
         caption = data.caption
     with path.with_suffix(".png").open("rb") as picture:
         size = struct.unpack(">II", picture.read(SIZE_OF_PNG.stop)[SIZE_OF_PNG])
     stem = path.relative_to(page).with_suffix("").as_posix()
-    return Figure(stem, caption, list(dict.fromkeys(omegas)), *size)
+    return Figure(stem, caption, *size)
 
 
 def dataset(path: Path, page: Path) -> Dataset:

@@ -1,32 +1,23 @@
-"""The report of a run: verdicts, figures, claims, datasets and times, as the files tell them."""
+"""The report of a run: verdicts, figures, claims and datasets, as the files tell them."""
 
-import re
 from collections.abc import Mapping
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from latticode.datasets import complete_or_absent
 from latticode.datasets.json_files import load_json
-from latticode.kernels.sources import describe_machine
-from markupsafe import Markup
 
-from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import on_figure
-from pendula.ledger.tables import as_sentence, counted, tally
-from pendula.sources import TOOK
+from pendula.ledger.tables import counted
 
 from .described import Dataset, Figure, dataset, figure
 from .page import render
-from .words import number, plainly, symbols, told
+from .words import number, plainly, symbols
 
 TITLE = "Coupled pendula under a PT-symmetric drive"
 PAPERS = [f"fig{n}" for n in range(1, 7)]
-SOUND = (Verdict.CONFIRMED, Verdict.CAVEAT)
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
 """Claims with these verdicts are folded; readers look for the others first."""
-PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2")
 
 
 class Table(NamedTuple):
@@ -63,15 +54,13 @@ def write_report(
     rows = load_json(ledger)["rows"]
     papers = [shown.pop(name) for name in PAPERS]
     sections = [
-        Section("figures", "The figures of the paper", tables=[_overview(rows, papers)],
-                figures=papers),
+        Section("figures", "The figures of the paper", figures=papers),
         *_claims(rows),
         Section("more", "More figures", False, figures=[*shown.values()]),
         _datasets([dataset(Path(path), folder) for path in datasets]),
-        _run(folder / "logs"),
     ]  # fmt: skip
     title = f"{TITLE}: the paper, {'with other settings' if differs else 'replicated'}"
-    first = {"verdict": verdict(rows), "differs": [*differs.values()]}
+    first = {"counts": counted(rows), "differs": [*differs.values()]}
     write_page(html, "report.html.j2", title, sections, **first)
 
 
@@ -82,58 +71,11 @@ def write_page(html: str, template: str, title: str, sections: list[Section], **
         Path(partial).write_text(page, encoding="utf-8")
 
 
-def verdict(rows: list[dict]) -> str:
-    """Return in a sentence how many claims of the paper have each verdict."""
-    counts = tally(rows).get(Origin.PAPER, {})
-    parts = ", ".join(f"{n} {as_sentence(one, n)}" for one, n in counts.items())
-    return f"Of {sum(counts.values())} claims of the paper, {parts}."
-
-
-def _overview(rows: list[dict], figures: list[Figure]) -> Table:
-    """Return Figs 1 to 6 with the verdicts on the paper's claims about them, all with links."""
-    return Table(
-        "Whether what the paper says of each figure holds for our curves, and its claims",
-        ("figure", "verdict", "claims"),
-        [_verdict(which, one, on_figure(rows, which)) for which, one in enumerate(figures, 1)],
-    )
-
-
-def _verdict(which: int, shown: Figure, rows: list[dict]) -> tuple:
-    name = told('<a href="#{place}">Fig {which}</a>: {topic}', place=shown.place, which=which,
-                topic=shown.headline)  # fmt: skip
-    by_verdict = {one: [row for row in rows if row["verdict"] == one] for one in Verdict}
-    counts = Markup(", ").join(
-        told('<a href="#claim_{first}">{n} {verdict}</a>',
-             first=own[0]["name"], n=len(own), verdict=one)
-        for one, own in by_verdict.items() if own
-    )  # fmt: skip
-    failing = len(rows) - sum(len(by_verdict[one]) for one in SOUND)
-    if not rows:
-        return name, "a drawing", "none"
-    if by_verdict[Verdict.NOT_APPLICABLE]:
-        found = badge(Verdict.NOT_APPLICABLE, "not applicable")
-    elif failing == len(rows):
-        found = badge(Verdict.NOT_REPRODUCED, "does not hold")
-    elif failing:
-        found = badge(Verdict.CAVEAT, f"holds, except for {failing} of the claims")
-    elif by_verdict[Verdict.CAVEAT]:
-        found = badge(Verdict.CAVEAT, "holds with a caveat")
-    else:
-        found = badge(Verdict.CONFIRMED, "holds")
-    return name, found, counts
-
-
-def badge(verdict: str, text: str = "") -> Markup:
-    """Return a verdict in its colour, or a text in the colour of this verdict."""
-    return told('<span class="badge {name}">{text}</span>', name=verdict.replace(" ", "_"),
-                text=text or verdict)  # fmt: skip
-
-
 def _claims(rows: list[dict]) -> list[Section]:
     """Return the claims that are not confirmed, and those of each other verdict folded."""
     others = [row for row in rows if row["verdict"] not in FOLDED]
     title = "Claims that are not reproduced, do not carry over, or cannot be decided"
-    found = [Section("claims", title, lines=counted(rows), claims=list(map(_claim, others)))]
+    found = [Section("claims", title, claims=list(map(_claim, others)))]
     for verdict in FOLDED:
         if own := [_claim(row) for row in rows if row["verdict"] == verdict]:
             name = verdict.replace(" ", "_")
@@ -145,14 +87,13 @@ def _claim(row: dict) -> dict[str, Any]:
     """Return a row of the ledger as a page shows it."""
     because = row["because"]
     return {
-        **{key: row[key] for key in ("name", "place", "kind")},
+        **{key: row[key] for key in ("name", "place", "kind", "verdict")},
         **{key: symbols(row[key]) for key in ("says", "criterion")},
         "because": symbols(because[:1].upper() + because[1:]),
-        "badge": badge(row["verdict"]),
-        "measured": ", ".join(
-            f"{plainly(key)} = {symbols(one) if isinstance(one, str) else number(one, 4)}"
-            for key, one in row["measured"].items()
-        ),
+        "measured": [f"{plainly(key)} = {_value(one)}" for key, one in row["measured"].items()],
+        "thresholds": [
+            f"{_value(one['value'])} ({symbols(one['from'])})" for one in row["cutoffs"]
+        ],
         "controls": [
             one | {"fed": symbols(one["fed"]), "because": symbols(one["because"])}
             for one in row["controls"]
@@ -161,42 +102,13 @@ def _claim(row: dict) -> dict[str, Any]:
     }
 
 
+def _value(value: float | str) -> str:
+    return symbols(value) if isinstance(value, str) else number(value, 4)
+
+
 def _datasets(found: list[Dataset]) -> Section:
     """Return all datasets by their folders."""
     by_folder: dict[str, list[Dataset]] = {}
     for one in found:
         by_folder.setdefault(one.link.partition("/")[0], []).append(one)
     return Section("datasets", f"{len(found)} datasets", False, datasets=by_folder)
-
-
-def _run(logs: Path) -> Section:
-    """Return the versions and the times of a run whose logs lie below a folder."""
-    times = run_times(logs)
-    total = sum(seconds for _, seconds, _ in times)
-    return Section(
-        "run", "How it was run", False,
-        tables=[
-            Table("Processor and versions", ("what", "which"), [*versions().items()]),
-            Table(
-                f"Wall times and largest memory of the jobs: {total:.0f} s in all, start-up "
-                "included; several ran side by side", ("job", "s", "MB"),
-                [(name, f"{seconds:.1f}", memory) for name, seconds, memory in times],
-            ),
-        ],
-    )  # fmt: skip
-
-
-def versions() -> dict[str, str]:
-    """Return the processor and the versions of the packages that the numbers pass through."""
-    return describe_machine() | {name: version(name) for name in PACKAGES}
-
-
-def run_times(logs: Path) -> list[tuple[str, float, str]]:
-    """Return the wall time in s and the memory in MB of each job with a log, the longest first."""
-    found = []
-    for log in sorted(logs.rglob("*.log")):
-        last = log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
-        if took := re.match(rf"{TOOK}([\d.]+) s, largest memory: (\d+) MB", last):
-            name = log.relative_to(logs).with_suffix("").as_posix()
-            found.append((name, float(took[1]), took[2]))
-    return sorted(found, key=lambda job: (-job[1], job[0]))

@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 from latticode.datasets import complete_or_absent
 from latticode.simulation.problem import read_initial
-from markupsafe import Markup
 from tabulate import tabulate
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -49,11 +48,6 @@ class Quote(NamedTuple):
 
     def __str__(self) -> str:
         return self.text
-
-
-def told(text: str, /, **values) -> Markup:
-    """Return a text of HTML with values, which are escaped, in place of their names."""
-    return Markup(text).format(**values)
 
 
 def number(value: float, digits: int = 3) -> str:
