@@ -22,7 +22,7 @@ MADE_TOGETHER = {
     "fig4_spacetime": "Where the chain moves in the cases of fig4, made together with it",
     "fig5": "Fig 5: norms against half-width for small amplitudes",
     "fig6": "Fig 6: norms against half-width for large amplitudes",
-    "pendula_over_the_top": "The chaotic state of the pendula, and first passages over the top",
+    "pendula_over_the_top": "First passages of the pendula over the top",
     "growth_law": "The infinite chain: norms against time, and the exponents that they follow",
     "fronts": "The infinite chain: its two fronts, and the states behind them",
 }
@@ -115,7 +115,7 @@ NAMED = {
 }
 LONGER_STUDIES = {
     "fates": "The map of fates on a fine grid, which takes minutes",
-    "over_the_top": "The chaotic state, and first passages over the top, with many members for long",
+    "over_the_top": "First passages of the pendula over the top, with many members for long",
 }
 for name, text in LONGER_STUDIES.items():
     figure = name if name in FIGURES else f"pendula_{name}"

@@ -240,8 +240,7 @@ FAULTS = [
         lambda d: d.assign(fate=(d["fate"].dims, d["fate"].values.swapaxes(1, 2))),
     ),
     data("breathers/fates", "all stay", lambda d: d.assign(fate=d["fate"] * 0 + 1)),
-    data("pendula/sea", "power doubled", scale("site_power", 2.0)),
-    data("pendula/remainder", "order of the expansion", shift("order", 0.5)),
+    data("pendula/remainder", "error of the expansion", scale("error", 1.5)),
     # Figures drawn otherwise than their data
     drawn("fig3", "curve reversed in time", line(2, 0, lambda c: c.set_ydata(c.get_ydata()[::-1]))),
     drawn("fig4", "A and B exchanged", drawn_from=reverse("l2", along="component")),

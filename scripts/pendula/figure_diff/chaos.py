@@ -37,8 +37,6 @@ RESTS_ON_CHAOS = [
     # Chains of other lengths, and without ends, at the detuning of a chaotic case
     *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
     *(f"unbounded/{name}:*" for name in ("fronts", "omegas", "transverse")),
-    # The sea that fills a chain of pendula
-    "pendula/sea:*",
 ]
 """Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
 the file or along a dimension."""
@@ -51,7 +49,7 @@ STEADY = [
     *("*:stated_drift", "*:allowed_drift"),
     *("*:theorem_*", "*:widened", "*:proved_until", "*:proven_bound", "*:largest_bound"),
     *("*:linear_speed", "*:predicted_[dr]*", "*:predicted_speed", "*:thermal*_power"),
-    *("pendula/remainder:*error", "pendula/remainder:*order"),  # they end before chaos
+    "pendula/remainder:error",  # it ends before chaos
 ]
 """Variables that theory, a reference or the configuration gives, also those beside chaotic runs."""
 

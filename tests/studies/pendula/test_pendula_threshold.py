@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from latticode.simulation.simulate import simulate
 from pendula.configuration.paper import paper
-from pendula.models.linear_chain import gamma_0
 from pendula.problem import Constants, Problem
 from pendula.studies.pendula import mathieu, threshold
 from scipy.integrate import solve_ivp
@@ -99,22 +98,3 @@ def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, gr
     per_tau = np.log(multiplier(omega, mu, gamma, curvature)) / period
     assert (per_tau > 1e-3) == grows
     assert np.log(later / late) / 10.0 == pytest.approx(per_tau, abs=2e-3)
-
-
-@pytest.mark.parametrize("epsilon", [1.0, 0.75])
-def test_corrections_are_those_of_small_mu(epsilon):
-    """What is left is of the order mu^4."""
-    omegas = np.array([-6.0, -4.0, -1.0, 5.0, 8.0, 12.0])
-    left = []
-    for mu in (0.02, 0.01):
-        exact = threshold.pendula_threshold(omegas, mu, epsilon)
-        first = mu * mu * threshold.correction(omegas, epsilon)
-        left.append(exact - gamma_0(omegas, epsilon) - first)
-    assert left[0] / left[1] == pytest.approx(np.full(6, 16.0), rel=0.05)
-
-
-@pytest.mark.parametrize("of", [mathieu.first_tongue, mathieu.second_tongue])
-def test_deeper_fractions_change_no_bit(of, monkeypatch):
-    found = of(OFFSETS)
-    monkeypatch.setattr(mathieu, "DEPTH", 2 * mathieu.DEPTH)
-    assert np.array_equal(of(OFFSETS), found)

@@ -29,16 +29,6 @@ def pendula_threshold(omega, mu, epsilon: float) -> np.ndarray:
     return 0.5 * square * found
 
 
-def correction(omega, epsilon: float) -> np.ndarray:
-    """Return the coefficient of mu^2 in gamma_0(mu): gamma_0^2 / 4, with a minus above the band.
-
-    The edges of the first tongue are a - 1 = +-q - q^2 / 8 + ..., by (28.6.2) and (28.6.3) of the
-    NIST Digital Library of Mathematical Functions: both bend to one side.
-    """
-    lemma = gamma_0(omega, epsilon)
-    return np.where(np.asarray(omega) > 0.0, -0.25, 0.25) * lemma * lemma
-
-
 def threshold_contents(epsilon: float, omegas: Sequence[float], mus: Sequence[float]) -> Contents:
     """Return thresholds at each of `omegas` and `mus`, and what Lemma 1 says there."""
     omega, mu = np.array(omegas, dtype=float), np.array(mus, dtype=float)
@@ -51,7 +41,5 @@ def threshold_contents(epsilon: float, omegas: Sequence[float], mus: Sequence[fl
                             attributes={"significant_digits": np.finfo(float).precision}),
         "gamma_0_lemma": Variable(("omega",), gamma_0(omega, epsilon),
                                   "threshold gamma_0 of Lemma 1"),
-        "correction": Variable(("omega",), correction(omega, epsilon),
-                               "coefficient of mu^2 in the threshold of the pendula"),
     }  # fmt: skip
     return variables, {"title": "Lemma 1 for the pendula", "epsilon": epsilon}

@@ -1,0 +1,209 @@
+"""How far the expansion, Lemma 1 and the chaotic state of the amplitudes hold for the pendula."""
+
+import numpy as np
+from latticode.measures.confidence import mean_limits
+from latticode.numerics.elementary import log
+
+from pendula.ledger.changes import exchange, keep, repeat, roll, scale
+from pendula.ledger.claim import FACTOR, Control, claim
+from pendula.ledger.criterion import (
+    Above,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    Near,
+    UndecidableError,
+    judge,
+)
+from pendula.ledger.cutoff import Cutoff
+
+SECTION = 7
+LEMMA_1 = "Section 3, Lemma 1, for the pendula (1)"
+REMAINDER, THRESHOLD, TOP = (
+    f"pendula/{name}" for name in ("remainder", "threshold", "over_the_top")
+)
+THERMAL = "unbounded/thermal"
+CASES = ("fig2_small", "fig2_large", "fig3_small", "fig3_large", "fig4_small", "fig4_large")
+SLOW = "mu^2 t / 2"
+"""The slow time of the expansion (3)."""
+SMALL_ANGLES = 0.15
+"""Up to this mu the angles of the chaotic state stay below a quarter of a turn."""
+SMALL = keep(mu=slice(None, SMALL_ANGLES))
+
+ORDER = Cutoff(0.25, "an order counts as a whole number if it differs from one by up to a quarter")
+SAME = Cutoff(0.05, "P of the thermal state changes by so much if Omega changes by 0.25")
+
+
+def by_mu(dataset, fewest: int = 2):
+    """Return the dataset by falling mu; it must hold enough of them."""
+    if dataset.sizes["mu"] < fewest:
+        raise UndecidableError(f"an order requires {fewest} values of mu")
+    return dataset.isel(mu=np.argsort(-dataset["mu"].values))
+
+
+def order_of(values):
+    """Return the order in mu of what has `values` at each mu, from the two smallest."""
+    coarse, fine = values.isel(mu=-2), values.isel(mu=-1)
+    ratio = float(coarse["mu"] / fine["mu"])
+    return log(coarse.values / fine.values) / log(ratio)
+
+
+# --- The expansion (3) ----------------------------------------------------------------------------
+
+FAST = Control("amplitudes with the slow time mu^2 t", exchange("slow_time"))
+
+
+@claim(
+    "Section 2, after (3)",
+    "The expansion is justified on times of the order mu^-2: up to a tau of order 1 the angles of "
+    "(3) and (4) differ from those of the pendula by the order mu^3.",
+    (REMAINDER,),
+    (FAST,),
+    on=CASES,
+)
+def expansion_order(remainder) -> Finding:
+    order = order_of(by_mu(remainder)["error"].sel(slow_time=SLOW))
+    measured = {
+        "least_order": order.min(),
+        "largest_order": order.max(),
+        "up_to_tau": remainder.attrs["end_time"],
+    }
+    says = "order in mu of the error of the angles"
+    return judge(measured, Near(3.0, ORDER, "least_order", "largest_order", says=says))
+
+
+@claim(
+    "Section 2, before (4)",
+    "The remainder of the expansion stays bounded as the system evolves.",
+    (REMAINDER,),
+    (FAST,),
+    on=CASES,
+)
+def remainder_bounded(remainder) -> Finding:
+    """Compare the remainder at two mu and one slow time: t is four times as late at half of the mu.
+
+    That is the condition from which (4) follows: no term of the remainder grows in proportion to t.
+    """
+    errors = by_mu(remainder)["error"].sel(slow_time=SLOW).isel(mu=[-2, -1])
+    coarse, fine = (errors / errors["mu"] ** 3).transpose("mu", "case")
+    times = float((coarse["mu"] / fine["mu"]) ** 2)
+    end = float(remainder.attrs["end_time"])
+    says = f"growth of the remainder over mu^3 at tau = {end:g} as t grows {times:g} times"
+    caveat = f"as mu goes to 0 at a fixed slow time, here up to tau = {end:g}"
+    growth = (fine.values / coarse.values).max()
+    return judge({"largest_growth": growth}, Below(FACTOR, "largest_growth", says=says), caveat)
+
+
+# --- Lemma 1 --------------------------------------------------------------------------------------
+
+
+def outside(dataset):
+    """Return the detunings outside the band at which each mu has a threshold above zero."""
+    some = (dataset["gamma_0"] > 0).all("mu") & (dataset["gamma_0_lemma"] > 0)
+    if not some.any():
+        raise UndecidableError("no detuning lies outside the band")
+    return dataset.isel(omega=some.values)
+
+
+@claim(
+    LEMMA_1,
+    "In the limit of small mu the pendula become unstable at the gamma_0 of Lemma 1, up to the "
+    "order mu^2.",
+    (THRESHOLD,),
+    (Control("thresholds for half of the drive", scale("gamma_0_lemma", 2.0)),),
+)
+def lemma_1_is_the_limit(threshold) -> Finding:
+    beside = outside(by_mu(threshold))
+    order = order_of(abs(beside["gamma_0"] - beside["gamma_0_lemma"]))
+    measured = {"least_order": order.min(), "largest_order": order.max()}
+    says = "order in mu of the difference"
+    return judge(measured, Near(2.0, ORDER, *measured, says=says))
+
+
+@claim(
+    LEMMA_1,
+    "The pendula at rest are linearly stable if gamma is below the gamma_0 of Lemma 1.",
+    (THRESHOLD,),
+    (
+        Control(
+            "only detunings below the band",
+            lambda one: one.sel(omega=((one["omega"] < 0) & (one["gamma_0"] > 0).all("mu")).values),
+            confirms=True,
+        ),
+    ),
+)
+def lemma_1_for_the_pendula(threshold) -> Finding:
+    """Compare the exact thresholds with Lemma 1's at each mu, where both are known."""
+    lemma = threshold["gamma_0_lemma"]
+    share = (threshold["gamma_0"] / lemma).where(lemma > 0)
+    fails = (
+        "above the band a drive weaker than gamma_0 makes the pendula unstable, and at large mu the"
+        " second resonance does so below the band"
+    )
+    says = "least threshold of the pendula over that of Lemma 1"
+    criterion = AtLeast(1.0, "least_share", says=says)
+    return judge({"least_share": share.min()}, criterion, fails=fails)
+
+
+# --- The chaotic state ----------------------------------------------------------------------------
+
+
+@claim(
+    "Section 5, Fig 4, for the pendula (1)",
+    "At Omega = 0 and small mu the pendula reach the same chaotic state as the amplitudes.",
+    (TOP, THERMAL),
+    (
+        Control("angles in place of their envelope", {TOP: scale("site_power", 0.5)}),
+        Control("the thermal state of another detuning", {THERMAL: roll("power", {"omega": 1})}),
+    ),
+)
+def same_sea(over_the_top, thermal) -> Finding:
+    """Compare P a site, at the smallest mu, with that of the thermal state of zero energy."""
+    power = thermal["power"].reindex(omega=[over_the_top.attrs["omega"]]).values[0]
+    found = mean_limits(over_the_top["site_power"].sortby("mu").isel(mu=0).values)
+    measured = {"from_thermal": abs(found.value / power - 1.0), "its_limits": found.half / power}
+    if not np.isfinite(list(measured.values())).all():
+        raise UndecidableError("P is known of fewer than two members, or not of the thermal state")
+    says = "relative difference of P per site, and half of its confidence interval"
+    return judge(measured, Below(SAME, *measured, says=says))
+
+
+@claim(
+    "Abstract and Section 6, for the pendula (1)",
+    "The l-infinity norm of the pendula at Omega = 0 remains finite: each oscillates.",
+    (TOP,),
+    (Control(f"only mu up to {SMALL_ANGLES:g}", SMALL, confirms=True),),
+)
+def pendula_stay_below_the_top(over_the_top) -> Finding:
+    shares = over_the_top["passed"].isel(tau=-1)
+    says = "largest share of runs in which a pendulum goes over the top"
+    fails = "at larger mu some pendula go over the top after a while and keep rotating"
+    criterion = AtMost(0.0, "largest_share", says=says)
+    return judge({"largest_share": shares.max()}, criterion, fails=fails)
+
+
+@claim(
+    "Section 6, for the pendula (1)",
+    "The smaller mu is, the longer it takes in the chaotic state until a pendulum goes over the "
+    "top.",
+    (TOP,),
+    (
+        Control("mu in reverse order", exchange("mu")),
+        Control("the same passage rates at all mu", repeat("mu", SMALL_ANGLES, slice(None))),
+    ),
+)
+def waiting_grows(over_the_top) -> Finding:
+    """Require distinct limits of the rates at the smallest and the largest mu that have one."""
+    ordered = over_the_top.sortby("mu")
+    rated = ordered.sel(mu=np.isfinite(ordered["passage_rate"]).values)
+    if rated.sizes["mu"] < 2:
+        raise UndecidableError("passage rates are known at fewer than two mu")
+    slow, fast = rated.isel(mu=0), rated.isel(mu=-1)
+    measured = {
+        "rate": fast["passage_rate"],
+        "slower_rate": slow["passage_rate"],
+        "gap_of_limits": fast["passage_rate_low"] - slow["passage_rate_high"],
+    }
+    says = "lower confidence limit of the rate at the largest mu minus the upper at the smallest"
+    return judge(measured, Above(0.0, "gap_of_limits", says=says))
