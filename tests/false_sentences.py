@@ -58,8 +58,8 @@ class Run:
 
     @cached_property
     def claims(self) -> dict[str, dict]:
-        """The rows of the ledger by the name of each claim in them."""
-        return {name: row for row in self.rows("claims.json") for name in row["names"]}
+        """The rows of the ledger by the names of their claims."""
+        return {row["name"]: row for row in self.rows("claims.json")}
 
     def others(self, keys: set[str], cases=CASES) -> list[str]:
         return [case for case in cases if self.edited[case] & keys]
@@ -103,8 +103,8 @@ def ledger(run: Run):
     """A claim that rests on an edited case has no verdict but "not applicable"."""
     for claim in all_claims():
         row = run.claims[claim.name]
-        if row["verdict"] not in DECIDED or "," in row["reading"]:
-            continue  # of several readings one may be on cases that nobody has edited
+        if row["verdict"] not in DECIDED:
+            continue
         for name in claim.needs:
             folder = name.partition("/")[0]
             keys = RUN_BY.get(folder, DATA | {"boundary", "half_width"})
@@ -118,7 +118,7 @@ def controls(run: Run):
     """A control that came out wrong leaves no verdict; one that is fed an edited case, neither."""
     for row in run.rows("claims.json"):
         for one in row["controls"]:
-            if one["passes"] is False and row["verdict"] in DECIDED and "," not in row["reading"]:
+            if one["passes"] is False and row["verdict"] in DECIDED:
                 yield f"{row['name']} is {row['verdict']}, and its control {one['fed']} is wrong"
             fed = re.search(r"\b(small|large) case at Omega = (-?[\d.]+)", one["fed"])
             for case in CASES if fed and one["verdict"] != "not applicable" else ():

@@ -9,6 +9,8 @@ from pendula.ledger.claim import Claim, Control
 from pendula.ledger.criterion import Above, Verdict, judge
 from pendula.ledger.verdicts import all_claims, apart, decide, evaluate, feed, needed
 
+SECTION = 5
+"""Of the paper, as modules of claims name it."""
 FIG2 = {"cases.fig2_small.omega": "fig2_small.omega (1 in place of 8)"}
 
 

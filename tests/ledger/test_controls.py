@@ -8,8 +8,10 @@ import xarray as xr
 from pendula.ledger.claim import Claim, Control, late
 from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
 from pendula.ledger.cutoff import Cutoff
-from pendula.ledger.verdicts import controls_of, evaluate, needed, passes
+from pendula.ledger.verdicts import evaluate, needed, passes
 
+SECTION = 5
+"""Of the paper, as modules of claims name it."""
 GROWS = Cutoff(2.0, '"grows"')
 
 
@@ -69,9 +71,9 @@ def test_a_function_that_is_wrong_on_a_control_decides_nothing(
 ):
     """The control passes with the verdict `passed`, or not if that is False."""
     (row,) = rows({"run": 5.0, **sources}, it(decide, control))
-    (fed,) = controls_of([row])
+    (fed,) = row["controls"]
     assert row["verdict"] == verdict and because in row["because"]
-    assert fed["claim"] == "it" and fed["fed"] == control.says and fed["passes"] == bool(passed)
+    assert fed["fed"] == control.says and fed["passes"] == bool(passed)
     assert not passed or fed["verdict"] == passed
     assert needed() == ["run", *control.names]
 

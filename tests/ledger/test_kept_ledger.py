@@ -62,7 +62,6 @@ PARTS = [BASELINE / f"claims/{name}.json" for name in NAMES]
 
 
 def test_parts_make_the_accepted_ledger_and_its_table(tmp_path):
-    """All readings of a sentence in one row, in the order of the paper."""
     made = [str(tmp_path / name) for name in ("claims.json", "claims.md")]
     join_claims(list(map(str, PARTS)), *made)
     assert Path(made[0]).read_bytes() == (BASELINE / "claims.json").read_bytes()

@@ -128,8 +128,7 @@ def source(
 def _untrue(marked: Mapping[str, set[str]], rows: list[dict]) -> Iterator[str]:
     """Yield verdicts that are not those of the article, or that it leaves out."""
     for row in rows:
-        names = {row["name"], *row["names"]}
-        told = {mark for mark, claims in marked.items() if names & claims}
+        told = {mark for mark, claims in marked.items() if row["name"] in claims}
         right = {mark for mark, verdicts in MARKS.items() if row["verdict"] in verdicts}
         left_out = row["origin"] == Origin.PAPER and right - {"holds"} - told
         if told - right or left_out:

@@ -2,12 +2,13 @@
 
 `claim`      a claim, as a study declares it above the function that decides it
 `changes`    the verbs that make wrong cases
-`chaos`      which cases are chaotic, and what ensembles of almost equal data may say
+`chaos`      what ensembles of almost equal data may say
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
 `missing`    what is missing from a dataset, and confirms nothing
 `rows`       the rows of a run, and the numbers that others quote from them
-`tables`     the readings of a sentence as one row, counts of rows, and the ledger as files
+`decide`     the jobs that write the parts of the ledger and join them
+`tables`     counts of rows, and the ledger as a table
 `verdicts`   all claims, and the verdict on each with what its controls say
 
 Each study keeps its claims in its own folder, in modules whose names start with `claims`.

@@ -1,5 +1,6 @@
 """How a study declares a claim, and how the function that decides it reads datasets."""
 
+import sys
 from collections.abc import Callable, Mapping
 from enum import StrEnum
 from typing import NamedTuple
@@ -83,8 +84,7 @@ class Claim(NamedTuple):
     """A sentence of the paper, the function that decides it, and the controls of that function.
 
     `needs` names the datasets that decide it: paths below results/ without their ending. `on` names
-    the cases and sweeps that it is on, where a dataset holds others as well. Functions of several
-    studies may decide one sentence: each has a `reading` then, such as "ensembles".
+    the cases and sweeps that it is on, where a dataset holds others as well.
     """
 
     name: str
@@ -94,8 +94,12 @@ class Claim(NamedTuple):
     decide: Callable
     controls: tuple[Control, ...]
     on: tuple[str, ...] = ()
-    reading: str = ""
     kind: Kind = Kind.OBSERVATION
+
+    @property
+    def section(self) -> int:
+        """The section of the paper with which the module of this function begins."""
+        return sys.modules[self.decide.__module__].SECTION
 
     @property
     def origin(self) -> Origin:
@@ -117,7 +121,6 @@ def claim(
     needs: tuple[str, ...],
     controls: tuple[Control, ...] = (),
     on: tuple[str, ...] = (),
-    reading: str = "",
     kind: Kind = Kind.OBSERVATION,
 ) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
@@ -127,7 +130,7 @@ def claim(
 
     def declare(function: Callable) -> Callable:
         fed = tuple(_by_name(control, needs) for control in controls)
-        about = (function.__name__, place, says, needs, function, fed, on, reading, kind)
+        about = (function.__name__, place, says, needs, function, fed, on, kind)
         function.claim = Claim(*about)
         return function
 

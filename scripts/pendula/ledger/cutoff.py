@@ -2,13 +2,11 @@
 
 The paper says "grows" or "comparable" and gives no number. Who decides such a sentence by numbers
 has to choose one, and a verdict that hangs on the choice must say so. So a cut-off is no plain
-float: while a claim is decided it records that it was read, and it can be moved for a while, so
-that the ledger can decide the claim again with each of its cut-offs a third smaller and larger.
+float: while a claim is decided it notes that it was read, and it can be moved, so that the ledger
+can decide the claim again with each of its cut-offs a third smaller and larger.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from functools import wraps
 from typing import Any, NamedTuple
 
@@ -29,92 +27,62 @@ class Cutoff(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The number that decides now: it is recorded as read, and moved where a move is on."""
-        read = _read.get()
-        if read is not None:
-            read.add(self)
-        moved, factor = _move.get()
-        return self.moved(factor) if moved == self else self.number
-
-    def moved(self, factor: float) -> float:
-        """Return the number with its distance from the ideal times `factor`."""
-        return self.ideal + factor * (self.number - self.ideal)
+        """The number that decides now."""
+        _read.add(self)
+        return self.ideal + _moved.get(self, 1.0) * (self.number - self.ideal)
 
     def __float__(self) -> float:
         return self.value
 
 
-_read: ContextVar[set[Cutoff] | None] = ContextVar("_read", default=None)
-_move: ContextVar[tuple[Cutoff | None, float]] = ContextVar("_move", default=(None, 1.0))
+_read: set[Cutoff] = set()
+_moved: dict[Cutoff, float] = {}
 
 
-@contextmanager
-def recorded() -> Iterator[set[Cutoff]]:
-    """Give the set of cut-offs that are read while the context lasts."""
-    read: set[Cutoff] = set()
-    token = _read.set(read)
+def reading(decide: Callable[[], Any]) -> tuple[Any, set[Cutoff]]:
+    """Return what a function returns, and the cut-offs that it reads."""
+    before = set(_read)
+    _read.clear()
     try:
-        yield read
+        return decide(), set(_read)
     finally:
-        _read.reset(token)
+        _read.update(before)
 
 
-@contextmanager
-def moving(cutoff: Cutoff, factor: float) -> Iterator[None]:
-    """Move one cut-off while the context lasts."""
-    token = _move.set((cutoff, factor))
-    try:
-        yield
-    finally:
-        _move.reset(token)
-
-
-class Flip(NamedTuple):
-    """A verdict that is another one where a cut-off has moved to `value`."""
-
-    cutoff: Cutoff
-    value: float
-    verdict: str
-
-    def __str__(self) -> str:
-        return f"{self.verdict} with {self.value:.3g} instead of {self.cutoff.number:.3g}"
-
-
-def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> list[Flip]:
-    """Return the moves of the cut-offs that a decision has `read` that change its `verdict`.
+def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> list[str]:
+    """Return in words the moves of the cut-offs that a decision has `read` that turn its `verdict`.
 
     `verdict_of` decides again.
     """
     found = []
     for cutoff in sorted(read):
         for factor in MOVES:
-            with moving(cutoff, factor), recorded():
-                other = verdict_of()
+            _moved[cutoff] = factor
+            try:
+                other, value = verdict_of(), cutoff.value
+            finally:
+                _moved.clear()
             if other != verdict:
-                found.append(Flip(cutoff, cutoff.moved(factor), other))
+                found.append(f"{other} with {value:.3g} instead of {cutoff.number:.3g}")
     return found
 
 
 def once(measure: Callable) -> Callable:
-    """Let a deciding function measure the same datasets once, however often it decides.
+    """Let deciding functions measure the same datasets once, however often they decide.
 
-    Datasets are the same if they are one object; words and numbers are if they are equal. What
-    reads a cut-off changes as that moves, so it is measured each time while that one is moved.
+    What reads a cut-off is measured again while this cut-off is moved.
     """
     kept: dict[tuple, tuple] = {}
 
     @wraps(measure)
     def measured(*given: Any) -> Any:
         key = tuple(one if isinstance(one, str | float | int) else ("", id(one)) for one in given)
-        moved, _ = _move.get()
-        found, read, _ = kept.get(key, (None, {moved}, ()))
-        if moved in read:
-            with recorded() as read:
-                found = measure(*given)
-            if moved not in read:
+        found, read, _ = kept.get(key, (None, None, ()))
+        if read is None or read & _moved.keys():
+            found, read = reading(lambda: measure(*given))
+            if not _moved:
                 kept[key] = found, read, given  # kept too: no other object gets the same id
-        for cutoff in read:
-            _ = cutoff.value  # the decision has read it too
+        _read.update(read)
         return found
 
     return measured

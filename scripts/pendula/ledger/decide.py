@@ -5,8 +5,8 @@ from latticode.datasets.netcdf import read
 
 from pendula.report.words import write_markdown
 
-from .tables import by_sentence, in_short, tables
-from .verdicts import evaluate, in_order, needed, sections
+from .tables import in_short, tables
+from .verdicts import evaluate, needed
 
 
 def decide_claims(
@@ -21,8 +21,8 @@ def decide_claims(
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
     rows = evaluate(sources, differs, modules)
-    write_json(part, {"sections": sections(*modules), "read": names, "rows": rows})
-    print(in_short(by_sentence(rows)))
+    write_json(part, {"rows": rows})
+    print(in_short(rows))
 
 
 def join_claims(parts: list[str], ledger: str, table: str) -> None:
@@ -31,10 +31,9 @@ def join_claims(parts: list[str], ledger: str, table: str) -> None:
 
 
 def tabulate_claims(parts: list[str], table: str) -> list[dict]:
-    """Write the rows in the order of the paper as Markdown, and return them."""
-    read = [load_json(path) for path in parts]
-    sections = {module: at for part in read for module, at in part["sections"].items()}
-    rows = by_sentence(in_order([row for part in read for row in part["rows"]], sections))
+    """Write the rows in the order of the paper's sections as Markdown, and return them."""
+    rows = [row for path in parts for row in load_json(path)["rows"]]
+    rows.sort(key=lambda row: row["section"])
     write_markdown(table, *tables(rows))
     print(in_short(rows))
     return rows

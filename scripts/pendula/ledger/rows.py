@@ -32,7 +32,7 @@ class Ledger:
     def __init__(self, results: "Results"):
         self._results = results
         self.rows = load(results)
-        self._by_name = {name: row for row in self.rows for name in row["names"]}
+        self._by_name = {row["name"]: row for row in self.rows}
 
     def value(self, claim: str, key: str) -> float:
         """Return a measured number, NaN if the claim was not decided or is not applicable."""

@@ -3,14 +3,13 @@
 import math
 from collections.abc import Iterable, Mapping
 from functools import cache
-from types import ModuleType
 
 from pendula import studies
 from pendula.configuration.paper import Differences, reason
 
 from .claim import Claim, Control, Wrong
 from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
-from .cutoff import Cutoff, Flip, flips, recorded
+from .cutoff import flips, reading
 from .missing import missing
 
 
@@ -20,40 +19,14 @@ def all_claims(*modules: str) -> tuple[Claim, ...]:
 
     `modules` are starts of names, such as "theory/claims" and "paper/claims_norms".
     """
-    return tuple(
+    found = [
         function.claim
-        for module in _in_order(modules)
+        for start in modules or ("claims",)
+        for module in studies.all_modules(start)
         for function in vars(module).values()
         if hasattr(function, "claim")
-    )
-
-
-def _in_order(modules: tuple[str, ...]) -> list[ModuleType]:
-    found = [module for start in modules or ("claims",) for module in studies.all_modules(start)]
-    return sorted(found, key=lambda module: module.SECTION)
-
-
-def sections(*modules: str) -> dict[str, int]:
-    """Return the section of the paper with which each module begins, by its name in the rows."""
-    return {_home(module.__name__): module.SECTION for module in _in_order(modules)}
-
-
-def _home(module: str) -> str:
-    return module.removeprefix(f"{studies.__name__}.")
-
-
-def in_order(rows: Iterable[dict], sections: Mapping[str, int]) -> list[dict]:
-    """Return rows of several parts of the ledger in the order of the paper.
-
-    Each module of claims names the SECTION of the paper with which it begins; modules of one
-    section come in the order of the list of studies.
-    """
-
-    def place(row: dict) -> tuple:
-        module = row["function"].rpartition(".")[0]
-        return sections[module], studies.STUDIES.index(module.partition(".")[0]), module
-
-    return sorted(rows, key=place)
+    ]
+    return tuple(sorted(found, key=lambda claim: claim.section))
 
 
 def needed(*modules: str) -> list[str]:
@@ -151,8 +124,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     if why:
         finding, cutoffs, moved = not_applicable(why), set(), []
     else:
-        with recorded() as cutoffs:
-            finding = decide(claim, sources)
+        finding, cutoffs = reading(lambda: decide(claim, sources))
         moved = flips(finding.verdict, cutoffs, lambda: str(decide(claim, sources).verdict))
     controls = [
         (control, not_applicable(why) if why else feed(claim, control, sources))
@@ -162,23 +134,21 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     finding = _severe(finding, moved, controls)
     return {
         "name": claim.name,
-        "names": [claim.name],
+        "section": claim.section,
         "place": claim.place,
         "origin": str(claim.origin),
         "says": claim.says,
-        "reading": claim.reading,
         "kind": str(claim.kind),
         "decided_by": list(claim.needs),
-        "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
+        "function": f"{claim.decide.__module__}.{claim.name}",
         "measured": _plain(finding),
         "criterion": str(finding.criterion or ""),
         "verdict": str(finding.verdict),
         "because": finding.because,
-        "cutoffs": [_cutoff_row(cutoff) for cutoff in sorted(cutoffs)],
-        "rests_on": [
-            _cutoff_row(flip.cutoff) | {"moved_to": plain(flip.value), "verdict": flip.verdict}
-            for flip in moved
+        "cutoffs": [
+            {"value": plain(cutoff.number), "from": cutoff.origin} for cutoff in sorted(cutoffs)
         ],
+        "rests_on": moved,
         "controls": [
             {
                 "fed": control.says,
@@ -193,9 +163,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     }
 
 
-def _severe(
-    finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
-) -> Finding:
+def _severe(finding: Finding, moved: list[str], controls: list[tuple[Control, Finding]]) -> Finding:
     """Return the finding with what the moved cut-offs and the controls say against it."""
     failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
     if failed is not None and finding.verdict != Verdict.UNDECIDED:
@@ -204,14 +172,10 @@ def _severe(
         return undecided(finding.measured, f"its function fails a control: {wrong}")
     if not moved:
         return finding
-    rests = f"depends on the cut-off: {'; '.join(map(str, moved))}"
+    rests = f"depends on the cut-off: {'; '.join(moved)}"
     because = f"{finding.because}; {rests}" if finding.because else rests
     kept = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
     return finding._replace(because=because, verdict=kept)
-
-
-def _cutoff_row(cutoff: Cutoff) -> dict:
-    return {"value": plain(cutoff.number), "from": cutoff.origin}
 
 
 def _plain(finding: Finding) -> dict:
@@ -221,8 +185,3 @@ def _plain(finding: Finding) -> dict:
 def plain(value: float) -> float | str:
     """Return a number as JSON can hold it: six digits, the infinite as a word."""
     return float(f"{value:.6g}") if math.isfinite(value) else "infinite" if value > 0 else "none"
-
-
-def controls_of(rows: list[dict]) -> list[dict]:
-    """Return what every claim's function said of its controls, from the rows of the ledger."""
-    return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]

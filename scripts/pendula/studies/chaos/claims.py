@@ -142,14 +142,14 @@ def wrong_cases(right: str, *wrongs: str) -> tuple[Control, ...]:
 # --- Fig 3, lower ---------------------------------------------------------------------------------
 
 
-def fig3(says: str, *wrongs: str, reading: str = "") -> Callable:
+def fig3(says: str, *wrongs: str) -> Callable:
     """Return the decorator of a claim, whose controls are members of these other cases.
 
     It needs the shares of runs that spread as well, and they must not spread by data far away.
     """
-    place = "Section 5, Fig 3 lower" + ("" if reading else ", in ensembles")
+    place, needs = "Section 5, Fig 3 lower, in ensembles", (*NEEDS, SENSITIVITY)
     controls = (*wrong_cases("fig3_large", *wrongs), FAR_AS_NEAR)
-    return claim(place, says, (*NEEDS, SENSITIVITY), controls, ("fig3_large",), reading)
+    return claim(place, says, needs, controls, ("fig3_large",))
 
 
 @fig3("As a result, the l2 norm of the solution grows.", "fig3_small", "fig2_large", "fig2_small")
@@ -202,7 +202,6 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
 @fig3(
     "The l-infinity norm stays at its initial level.",
     *("fig4_small", "fig2_small", "fig3_small"),
-    reading="ensembles",
 )
 def ensemble_fig3_maximum(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
@@ -262,7 +261,6 @@ def ensemble_fig4_settles(members) -> Finding:
         *wrong_cases("fig4_small", "fig2_small", "fig3_small"),
     ),
     on=BOTH,
-    reading="ensembles",
 )
 def ensemble_fig4_many(members) -> Finding:
     def share(case):
@@ -328,7 +326,6 @@ def ensemble_fig4_alike(members) -> Finding:
     NEEDS,
     controls=wrong_cases("fig4_small", "fig2_small", "fig2_large", "fig3_small", "fig3_large"),
     on=("fig4_small",),
-    reading="ensembles",
 )
 def ensemble_equilibrium(members) -> Finding:
     def least(case):

@@ -210,7 +210,6 @@ def fig2_separate(large) -> Finding:
             {"fig2_large": "fig3_large"},
         ),
     ),
-    reading="chain of the paper",
 )
 def stable_oscillations(*trajectories) -> Finding:
     ratios = [np.sqrt(total_power(run) / total_power(run)[0]) for run in trajectories]

@@ -12,8 +12,7 @@ from latticode.measures.confidence import chance_of_difference, chance_of_draw
 from latticode.measures.difference import VISIBLE
 
 from pendula.ledger import missing
-from pendula.ledger.changes import exchange, repeat
-from pendula.ledger.chaos import chaotic, regular
+from pendula.ledger.changes import exchange, put, repeat
 from pendula.ledger.claim import FEWEST, Control, checks, claim, sweeps
 from pendula.ledger.criterion import (
     Above,
@@ -93,11 +92,11 @@ def late_chances(solvers, members, case: str) -> list[float]:
                 )
             },
         ),
-        Control("chaotic cases required to agree as single runs", {"lyapunov": regular}),
+        Control("chaotic cases required to agree as single runs", {"lyapunov": put("chaotic", 0)}),
     ),
 )
 def second_solver(solvers, lyapunov, members) -> Finding:
-    chaos, cases = chaotic(lyapunov), list(map(str, solvers["case"].values))
+    chaos, cases = lyapunov["chaotic"], list(map(str, solvers["case"].values))
     if unknown := [case for case in cases if case not in chaos["case"].values]:
         raise UndecidableError(f"it is not known whether {', '.join(unknown)} is chaotic")
     is_chaotic = {case: bool(chaos.sel(case=case)) for case in cases}
@@ -201,7 +200,7 @@ def is_chaotic(lyapunov, sweep) -> bool:
     )
     if not same.any():
         raise UndecidableError(f"it is not known whether {sweep.attrs['case']} is chaotic")
-    return bool(chaotic(lyapunov).values[same.values].any())
+    return bool(lyapunov["chaotic"].values[same.values].any())
 
 
 @claim(

@@ -94,7 +94,6 @@ def fig5_decreases(sweep) -> Finding:
     " with Theorem 2.",
     (*runs("fig3_small"), *sweeps("fig5_left")),
     controls=(Control("the sweep of the large case", {"fig5_left": "fig6_right"}),),
-    reading="sweep",
 )
 def fig5_theorem_2(case, sweep) -> Finding:
     start, energy = float(total_power(case)[0]), float(case["energy"][0])

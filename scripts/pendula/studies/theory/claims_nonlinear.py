@@ -161,7 +161,7 @@ def energy_bounds(identities) -> Finding:
     return proved(identities, *OF_ENERGIES)
 
 
-def theorem(name: str, says: str, bound: str, *families: str, reading: str = "") -> Callable:
+def theorem(name: str, says: str, bound: str, *families: str) -> Callable:
     """Return the function that decides a theorem: its `bound` of the energy, and random data."""
 
     def decide(identities, samples) -> Finding:
@@ -177,7 +177,7 @@ def theorem(name: str, says: str, bound: str, *families: str, reading: str = "")
         Control("bounds without the drive", {"samples": take(worst_sample="worst_without_drive")}),
     )
     place, needs = name.replace("_", " ").capitalize(), checks("identities", "samples")
-    return claim(place, says, needs, controls, reading=reading, kind=Kind.THEOREM)(decide)
+    return claim(place, says, needs, controls, kind=Kind.THEOREM)(decide)
 
 
 theorem_1 = theorem(
@@ -244,7 +244,6 @@ theorem_3 = theorem(
     "theorem_3",
     "On N sites the l2 norm is bounded for all parameters and initial conditions.",
     *("lower bound for Theorem 3", "theorem_3"),
-    reading="random cases",
 )
 
 
