@@ -52,7 +52,7 @@ DATASETS = [
     *rules.breathers.input.datasets,
     *rules.pendula.input.datasets,
     *datasets("unbounded", *SETTINGS.unbounded.names, "thermal", "growth", "fronts"),
-    *(*PROVED_CURVES, *datasets("certified", "wrong/curve", "breathers")),
+    *datasets("certified", "breathers"),
 ]
 
 

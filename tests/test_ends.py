@@ -12,7 +12,6 @@ from oracle import BOUNDARIES, random_chain
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.problem import PENDULA
-from pendula.studies.certified import norm, polynomials
 from pendula.studies.theory.equations import right_hand_side, total_energy
 from pendula.studies.theory.polynomials import energy as exact_energy
 from problems import make_problem
@@ -27,12 +26,6 @@ def problem(boundary, **changes):
 
 def pendula(boundary):
     return simulate(problem(boundary, model=PENDULA, mu=0.1), WHOLE).final
-
-
-def rates_of_errors(boundary):
-    given = problem(boundary)
-    states = np.stack([Z.real, Z.imag])[None]
-    return norm.find_rates(states, given, norm.find_form(given.constants))
 
 
 def described(boundary, written):
@@ -52,13 +45,11 @@ TAUGHT = {
     "pendula": pendula,
     "rates": lambda boundary: right_hand_side(problem("free").constants, boundary, Z),
     "energy": lambda boundary: total_energy(problem("free").constants, boundary, Z),
-    "proven rates": rates_of_errors,
     "region": lambda boundary: proven_region(-1.0, 0.5, problem("free").constants, boundary),
     "bound": lambda boundary: best_bound(-1.0, 0.5, 7, problem("free").constants, boundary),
 }
 NAMED = {
     "problem": problem,
-    "polynomials": lambda boundary: polynomials.find_curve(problem(boundary)).terms,
     "exact energy": lambda boundary: len(exact_energy(boundary)),
     "title": lambda boundary: described(boundary, name_data_and_ends),
 }

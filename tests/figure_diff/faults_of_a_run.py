@@ -202,7 +202,6 @@ FAULTS = [
         )
     ),
     # Proved and predicted
-    data("certified/fig2_small", "proven bound times 0.01", scale("bound", 0.01)),
     data("certified/breathers", "proven radius times 0.01", scale("radius", 0.01)),
     data("checks/trust", "proven bound times 0.01", scale("proven_bound", 0.01)),
     data("checks/cases", "bound of Theorem 1", scale("theorem_1", 1.01)),

@@ -22,7 +22,7 @@ use rule job as article with:
                 *("tests/baseline/quoted/breathers.nc", "tests/baseline/quoted/pendula.nc"),
                 "tests/baseline/quoted/reproduction.json",
                 "tests/baseline/speed/work_precision.nc",
-                *committed_proofs(),
+                *expand("tests/baseline/proofs/{case}.nc", case=PAPER_CASES),
             ]
         ),
         digests=[version(name) for name in ("typst", "pypandoc_binary")],

@@ -54,12 +54,11 @@ from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from latticode.simulation.problem import name_window
-from pendula.problem import MODELS, Constants
+from pendula.problem import MODELS
 from latticode.kernels import DISABLED
 from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
 from pendula.sources import SCRIPTS
 from pendula.studies import files_of_part
-from pendula.studies.certified.norm import NotDefiniteError, find_form
 from pendula.studies.theory.settings import GROUPS, PROVED
 
 if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
@@ -133,7 +132,6 @@ SWEEPS = datasets("sweeps", *PAPER_SWEEPS)
 SECOND_SWEEPS = datasets(
     "sweeps", *(f"{sweep}.crank_nicolson" for sweep in ("fig5_left", "fig6_left"))
 )
-PROVED_CURVES = datasets("certified", *SETTINGS.certified.curves.cases)
 
 
 def one_of(names):
@@ -235,12 +233,6 @@ def references(*names):
 def fine_maps(wildcards):
     """Return the maps of `snakemake fates` as they are committed, for all but these themselves."""
     return {} if wildcards.size else committed(fine="tests/baseline/quoted/breathers.nc")
-
-
-def committed_proofs():
-    """Return the proofs that are kept; that of a case new in the configuration is made first."""
-    proofs = [f"tests/baseline/proofs/{case}.nc" for case in SETTINGS.certified.frames]
-    return [proof for proof in proofs if (PROJECT / proof).exists()]
 
 
 def some_own_files(wildcards):

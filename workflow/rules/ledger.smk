@@ -22,10 +22,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
         *datasets("breathers", "sensitivity"),
         *datasets("unbounded", *SETTINGS.unbounded.names, "thermal"),
     ],
-    "certified": [
-        *(*PROVED_CURVES, *datasets("certified", "wrong/curve")),
-        *datasets("certified", "breathers"),
-    ],
+    "certified": [*checks("trust"), *datasets("certified", "breathers")],
 }
 DECIDED_IN = {part: [f"{part}/claims"] for part in RESTS_ON} | {
     "figures": ["paper/claims_norms", "paper/claims_sweeps"],

@@ -102,30 +102,16 @@ def cases_on_one_pair():
 
 
 def certified_problem(case):
-    """Return a case as a problem whose solver is not asked; stop where no bound can be proved.
-
-    A case of the paper that the configuration has changed has an infinite bound then, so that the
-    rest of a full run goes on.
-    """
-    plain = SETTINGS.problem(case, snapshot_step=None)
-    if case in OWN_CASES:
-        if plain.get("model", "amplitudes") != "amplitudes":
-            stop(f"cases.{case}.model: proofs are of curves of the amplitudes, equations (4)")
-        try:
-            find_form(Constants.of(plain))
-        except NotDefiniteError as error:
-            stop(f"cases.{case}.omega: {error}")
-    return {**plain, "solver": {"name": "polynomials"}}
-
-
-def framed_problem(case):
-    from pendula.problem import Problem  # this and the next for a long target alone
+    """Return a case as a problem whose solver is not asked; stop where it is not even."""
+    from pendula.problem import Problem  # this and the next for a target of its own alone
     from pendula.studies.certified.fixed_point import NotEvenError, half_chain
 
-    given = SETTINGS.certified.frames[case]
-    problem = {**certified_problem(case), "end_time": given.end_time}
+    plain = SETTINGS.problem(case, snapshot_step=None)
+    if plain.get("model", "amplitudes") != "amplitudes":
+        stop(f"cases.{case}.model: proofs are of curves of the amplitudes, equations (4)")
+    problem = {**plain, "solver": {"name": "polynomials"}}
     try:
-        half_chain(Problem.of(problem), given.bits)
+        half_chain(Problem.of(problem), 1)
     except NotEvenError as error:
         stop(f"cases.{case}: {error}")
     return problem

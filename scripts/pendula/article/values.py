@@ -10,6 +10,7 @@ import xarray as xr
 from latticode.measures.confidence import CONFIDENCE
 from latticode.measures.levels import levelling
 
+from pendula.configuration.schema import PAPER_CASES
 from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.rows import Ledger, load, on_figure
@@ -21,8 +22,6 @@ KEPT = "../tests/baseline"
 """Where committed datasets lie, seen from the article."""
 QUOTED = f"{KEPT}/quoted/"
 LONG = f"{QUOTED}unbounded"
-FRAMED = ("fig2_large", "fig3_large", "fig4_small", "fig4_large")
-"""The cases whose proofs are committed; a full run proves the others."""
 VERDICTS = {Verdict.CONFIRMED: "confirmed", Verdict.CAVEAT: "with a caveat",
             Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "undecided"}  # fmt: skip
 MARK = "†"
@@ -186,9 +185,8 @@ def over_thermal(study: xr.Dataset) -> dict[str, xr.DataArray]:
 
 def largest_bound(results: Results) -> str:
     """Return the largest proven distance of a computed curve from the true one, rounded upward."""
-    proofs = [f"{KEPT}/proofs/{case}" for case in FRAMED]
-    proofs += [f"certified/{case}" for case in ("fig2_small", "fig3_small")]
-    return upward(max(results[name]["bound"].max() for name in proofs))
+    proofs = (results[f"{KEPT}/proofs/{case}"] for case in PAPER_CASES)
+    return upward(max(one["bound"].max() for one in proofs))
 
 
 def upward(bound: float) -> str:

@@ -183,7 +183,7 @@ def _sections(folder: str, stem: str) -> list[str]:
     if folder == "breathers":
         parts = ["periodic", stem] if stem == "fates" else [stem]
         return [f"breathers.{part}" for part in ("epsilon", "gamma", *parts)]
-    return ["certified.curves.wrong" if stem.startswith("wrong/") else f"{folder}.{stem}"]
+    return [f"{folder}.{stem}"]
 
 
 def _at(path: str) -> Any:

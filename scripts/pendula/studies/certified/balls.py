@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from flint import arb, ctx, fmpq
 
-from . import norm
+from .fixed_point import decimal as exact_decimal
 
 BITS = 128
 """Precision of the midpoints."""
@@ -23,7 +23,7 @@ def precision():
 
 def decimal(value: float) -> arb:
     """Return the ball of the decimal fraction that a double prints as: 0.1 is one tenth."""
-    exact = norm.decimal(value)
+    exact = exact_decimal(value)
     return arb(fmpq(exact.numerator, exact.denominator))
 
 

@@ -32,7 +32,9 @@ from flint import fmpz_poly
 
 from pendula.problem import Problem
 
-from .norm import UP, decimal
+UP = 1.0 + 1e-9
+"""Sums and products of positive numbers, with fewer than a million roundings, times this are upper
+bounds: 1e6 * 2^-53 < 1e-9."""
 
 LAST_TERM = 16
 """The last term of a polynomial is no larger than so many units, or the step becomes shorter."""
@@ -69,12 +71,17 @@ class Step(NamedTuple):
     terms: Series
 
 
+def decimal(x: float) -> Fraction:
+    """Return the printed decimal that a double stands for: 1/10 for 0.1."""
+    return Fraction(repr(float(x)))
+
+
 def half_chain(problem: Problem, bits: int) -> Chain:
     """Return the half of a chain with even data; raises NotEvenError for any other problem."""
     amplitudes = problem.amplitudes
     if problem.boundary != "dirichlet" or (amplitudes != amplitudes[:, ::-1]).any():
         raise NotEvenError(
-            "proofs by frames are for data that are even in n, on a chain at rest beyond its ends"
+            "a proof needs data that are even in n, on a chain at rest beyond its ends"
         )
     given = problem.constants
     epsilon, gamma, omega = map(decimal, (given.epsilon, given.gamma, given.omega))

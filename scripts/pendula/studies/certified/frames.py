@@ -50,17 +50,19 @@ has the coefficients, over theta,
 Their integrals over theta are a (k + 1)th of that. M at the end is the rounded sum of its
 coefficients, off by at most gamma_{K+1} times the sum of t_k: it is added to w times |z|.
 
-The quadratic term: |r| <= (3 a y + y^2) y / 2 where |e| <= y, as in `regular`. A trial is taken,
-which is |w| from (i) without r and a thousandth of all that |e| may be, and (i) with r must come
-out below it. Then |w| stays below the trial over the whole step, since it is continuous, and |e|
-below y = the trial + (sum of t_k) |z|.
+The quadratic term. From |A + e|^2 (A + e) - |A|^2 A less its terms of first order,
+2 Re(conj(A) e) e + |e|^2 A + |e|^2 e, follows |r| <= (3 a y + y^2) y / 2 where |e| <= y. A trial is
+taken, which is |w| from (i) without r and a thousandth of all that |e| may be, and (i) with r must
+come out below it. Then |w| stays below the trial over the whole step, since it is continuous, and
+|e| below y = the trial + (sum of t_k) |z|.
 
 The parts of the bound grow alike, so they are carried side by side: the bounds of |z_i| and |w| are
 sums over parts. One more part, which belongs to no error, is a unit error at the start: the
 order of the columns in a new frame depends on it.
 
-Rounding of the bound itself: sums, products and roots of numbers that are not negative, as in
-`regular`, with the factor `UP` each step.
+Rounding of the bound itself: it uses only + - * / and roots of numbers that are not negative, of
+fewer than a million roundings in a step, which the factor `UP` covers; TINY covers what underflow
+may lose.
 """
 
 from fractions import Fraction
@@ -72,6 +74,7 @@ import numpy as np
 from pendula.problem import Problem
 
 from .fixed_point import (
+    UP,
     Chain,
     Step,
     defect,
@@ -83,9 +86,10 @@ from .fixed_point import (
     start,
     whole,
 )
-from .norm import UP
-from .regular import TINY, UNIT, Certified, exponential, norms_of
 
+UNIT = 2.0**-53
+TINY = 1e-140
+"""More than what any number of this module that underflows can have lost."""
 ORDER = 24
 """Order of the tangent polynomials; what they leave out is as small as rounding."""
 DIGITS = 20
@@ -94,6 +98,20 @@ SLACK = 2.0**-10
 """The part of an error that the quadratic term may add to it over a step."""
 UNIT_ERROR = 3
 """The place of the unit error among the parts that grow: start, defect, quadratic term, and it."""
+
+
+class Certified(NamedTuple):
+    """Norms of the curve at the output times, with a bound of their distance to the true ones."""
+
+    tau: np.ndarray  # (time,)
+    linf: np.ndarray  # (component, time)
+    l2: np.ndarray  # (component, time)
+    parts: np.ndarray  # (part, time): start, defect, quadratic term, and rounding of the outputs
+
+    @property
+    def bound(self) -> np.ndarray:
+        """The bound of the distance of the states, (time,), the sum of its parts rounded up."""
+        return UP * np.sum(self.parts, axis=0)
 
 
 class Tube(NamedTuple):
@@ -142,6 +160,13 @@ def advance(tube: Tube, step: Step, chain: Chain, jumped: float, order: int = OR
     matrix = sum_up(terms)
     w += UP * (len(terms) + 1) * UNIT * np.sum(norms) * z
     return Tube(matrix, tube.z, UP * w)
+
+
+def exponential(x: float) -> float:
+    """Return an upper bound of e^x for 0 <= x <= 1: x^3 / 6 (1 + x/4 + x^2/20 + ...) <= x^3 / 4."""
+    if not x <= 1.0:
+        return np.inf
+    return (1.0 + x + 0.5 * x * x + 0.25 * x * x * x) * (1.0 + 4.0 * UNIT)
 
 
 def _quadratic(w: float, moved: float, largest: float, time: float) -> float:
@@ -295,8 +320,7 @@ def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> 
         parts.append(round_up([*grown, evaluation(states[-1], grown, chain, late)]))
         if count and count % outputs_per_frame == 0:
             tube = reframe(tube)
-    found = np.array(states)
-    return Certified(problem.times, *norms_of(found), np.array(parts).T, found)
+    return Certified(problem.times, *norms_of(np.array(states)), np.array(parts).T)
 
 
 def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) -> float:
@@ -312,6 +336,22 @@ def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) 
     near = norm + float(np.sum(parts))
     moved = UP * late * (strength + 0.5 * near * near) * near
     return UP * (12.0 * UNIT * norm + moved) + TINY
+
+
+def norms_of(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return l-infinity and l2 norms, (component, time), of (time, part, component, site)."""
+    squares = states[:, 0] ** 2 + states[:, 1] ** 2
+    return np.sqrt(squares.max(axis=2)).T, np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T
+
+
+def tree_sum(values: np.ndarray) -> np.ndarray:
+    """Return the sum over the first axis by halves, so that a term goes through few roundings."""
+    while len(values) > 1:
+        half = (len(values) + 1) // 2
+        rest = values[half:]
+        values = values[:half].copy()
+        values[: len(rest)] += rest
+    return values[0]
 
 
 def round_up(values) -> np.ndarray:

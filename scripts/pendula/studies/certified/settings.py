@@ -2,37 +2,22 @@
 
 from typing import Annotated
 
-from latticode.configuration.cases import is_multiple
 from latticode.configuration.values import (
     Count,
     Model,
     Name,
-    Names,
     Number,
     Positive,
     Whole,
     model,
-    shown,
 )
 from pydantic import Field
 
-from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
+from pendula.configuration.schema import Configuration, Faults
 from pendula.models.pairs import FAMILIES, pair
 
-
-class WrongCurve(Model):
-    """A curve of a case, made with other constants than its own: its bound must be large."""
-
-    case: Name
-    end_time: Positive
-    epsilon: Number | None = None
-    gamma: Number | None = None
-    omega: Number | None = None
-
-
-# A curve of integers whose distance to the true one is bounded by frames.
+# How a curve of integers is made whose distance to the true one is bounded by frames.
 Frames = model(
-    end_time=Positive,
     bits=Annotated[Whole, Field(ge=32, le=4096)],
     order=Annotated[Whole, Field(ge=8, le=400)],
     outputs_per_frame=Count,
@@ -85,19 +70,12 @@ class Breathers(Model):
 class Settings(Model):
     """Section `certified` of the configuration."""
 
-    curves: model(cases=Names, wrong=WrongCurve)  # with a proven distance to the true ones
-    frames: dict[Name, Frames]
+    frames: dict[Name, Frames]  # curves with a proven distance to the true ones
+    own: Frames  # those of any other case
     breathers: Breathers
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield the cases that the configuration has not, and states that do not exist."""
-        yield from settings.absent("cases", "curves.cases", self.curves.cases)
-        for case, frames in self.frames.items():  # compared with a reference, and kept
-            if case not in PAPER_CASES:
-                yield "frames", f"{shown(case)} is no case of the paper: {', '.join(PAPER_CASES)}"
-            elif not is_multiple(frames.end_time, step := settings.cases[case].output_step):
-                fault = f"{frames.end_time:g} is no multiple of output_step, {step:g}"
-                yield f"frames.{case}.end_time", fault
-        yield from settings.absent("cases", "curves.wrong.case", [self.curves.wrong.case])
+        yield from settings.absent("cases", "frames", self.frames)
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault

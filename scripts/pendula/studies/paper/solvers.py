@@ -62,6 +62,9 @@ TRUSTED = {
     "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
     "full scale of its norms; NaN: nothing is proved",
     "proved_until": "last tau at which this bound is not visible; NaN: nothing is proved",
+    "largest_bound": "largest proven bound of the certified curve in the l2 norm; NaN: no proof",
+    "distance": "largest distance of its norms from the reference, over the bound",
+    "late_distance": "the same distance of the curve one output late",
 }
 """What the two datasets hold, beside names of the registry and of `measures.difference`."""
 
@@ -71,7 +74,6 @@ def measure_solvers(
     solvers: Mapping[str, Mapping],
     references: Mapping[str, xr.Dataset],
     others: Collection[str] = (),
-    proved: Mapping[str, xr.Dataset] = {},
     proofs: Mapping[str, xr.Dataset] = {},
 ) -> Iterator[xr.Dataset]:
     """Yield how the solvers keep the energy and differ, then until when each can be trusted.
@@ -81,7 +83,7 @@ def measure_solvers(
     """
     runs = {name: run_by_all(name, case, solvers) for name, case in cases.items()}
     yield compare_solvers(runs, others)
-    yield trust_solvers(runs, references, {**proved, **proofs})
+    yield trust_solvers(runs, references, proofs)
 
 
 def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict[str, xr.Dataset]:
@@ -155,15 +157,15 @@ def _second(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
 def trust_solvers(
     runs: Mapping[str, Mapping[str, xr.Dataset]],
     references: Mapping[str, xr.Dataset],
-    certified: Mapping[str, xr.Dataset] = {},
+    proofs: Mapping[str, xr.Dataset] = {},
 ) -> xr.Dataset:
     """Return by case and solver how far the norms are from the reference's, and from when on.
 
-    A run that does not solve its reference's problem has no horizon: there it is NaN. `certified`
+    A run that does not solve its reference's problem has no horizon: there it is NaN. `proofs`
     holds computed curves with a proven bound, which counts where it is of the run's problem.
     """
     found = [
-        _trust_case(by_solver, references[case], certified.get(case))
+        _trust_case(by_solver, references[case], proofs.get(case))
         for case, by_solver in runs.items()
     ]
     data = _stack(found, runs).assign(visible=VISIBLE)
@@ -183,22 +185,35 @@ def _trust_case(
     ]
     apart = xr.concat(errors, xr.Variable("solver", list(runs)))
     run = next(iter(runs.values()))
-    bound = _proven_bound(run, proved)
     found = apart.to_dataset().assign(
         horizon=divergence_time(apart),
         known_until=known_until(apart),
-        proven_bound=bound,
-        proved_until=known_until(bound.where(bound <= VISIBLE)),
+        **_proven(run, reference, proved),
     )
     return xr.merge([found, _about(runs)])
 
 
-def _proven_bound(run: xr.Dataset, proved: xr.Dataset | None) -> xr.DataArray:
-    """Return the proven bound of a curve of the run's problem, as a part of full scale, (tau)."""
+def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
+    """Return what is proved of a curve of the run's problem, as TRUSTED says."""
     if proved is None or not is_of_same_case(run, proved):
-        return xr.full_like(run["tau"], np.nan)
+        nothing = {"proven_bound": xr.full_like(run["tau"], np.nan)}
+        names = ("proved_until", "largest_bound", "distance", "late_distance")
+        return nothing | dict.fromkeys(names, np.nan)
     known = proved[["bound", *NORMS]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
-    return known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
+    bound = known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
+    right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)
+
+    def distance(late: int) -> float:
+        apart = abs(proved[list(NORMS)].shift(tau=late) - right) / proved["bound"]
+        return float(apart.to_dataarray().max())
+
+    return {
+        "proven_bound": bound,
+        "proved_until": known_until(bound.where(bound <= VISIBLE)),
+        "largest_bound": float(proved["bound"].max()),
+        "distance": distance(0),
+        "late_distance": distance(1),
+    }
 
 
 def _about(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:

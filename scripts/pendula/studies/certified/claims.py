@@ -1,24 +1,60 @@
-"""What is proved of steady breathers."""
+"""What is proved of the curves of Figs 2 to 4, and of steady breathers."""
 
 from pendula.ledger.changes import put
 from pendula.ledger.claim import Control, claim
-from pendula.ledger.criterion import AllOf, AtLeast, Below, Finding, judge
+from pendula.ledger.criterion import (
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    UndecidableError,
+    judge,
+)  # fmt: skip
 from pendula.ledger.cutoff import Cutoff
 
 from .states import Verdict
 
 SECTION = 7
+CURVES, BREATHERS = "checks/trust", "certified/breathers"
 PLACE = "Section 6, breathers"
 
-PROVED = "certified/breathers"
-
+NEEDED = Cutoff(1e-9, "1 % of the relative tolerance, 1e-7, of the paper's solver")
 NEAR = Cutoff(1e-12, "twelve correct digits of a state")
+
+
+@claim(
+    "Beyond the paper, Figs 2 to 4",
+    "One computed trajectory of each case is proved to lie within 1e-9 of the true one.",
+    (CURVES,),
+    (
+        Control(
+            "the same trajectories one output late",
+            lambda trust: trust.assign(distance=trust["late_distance"]),
+        ),
+    ),
+)
+def curves_certified(trust) -> Finding:
+    """Require that bounds are small, and that no norm is further from the reference than that."""
+    proved = trust.where(trust["largest_bound"].notnull(), drop=True)
+    if not proved.sizes["case"]:
+        raise UndecidableError("no curve of these cases is proved")
+    measured = {
+        "curves": proved.sizes["case"],
+        "largest_bound": proved["largest_bound"].max(),
+        "largest_distance": proved["distance"].max(skipna=False),
+    }
+    criterion = AllOf(
+        AtMost(NEEDED, "largest_bound", says="largest proven distance"),
+        AtMost(1.0, "largest_distance", says="largest distance from the reference, over its bound"),
+    )
+    return judge(measured, criterion)
 
 
 @claim(
     PLACE,
     "On the infinite chain a steady breather exists near each computed one, as proved.",
-    (PROVED,),
+    (BREATHERS,),
     (
         Control(
             "a state inside the band of linear waves",
@@ -50,7 +86,7 @@ def breathers_exist(proved) -> Finding:
 @claim(
     PLACE,
     "On a finite chain some steady breathers are stable and others unstable, as proved.",
-    (PROVED,),
+    (BREATHERS,),
     tuple(
         Control(f"spectra that are all {verdict.name.lower()}", put("stable", int(verdict)))
         for verdict in Verdict
