@@ -7,14 +7,13 @@
 rule reference:
     "The references: cases of the paper in multiprecision (half an hour; needs heyoka)"
     input:
-        # Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
-        expand("<results>/reference/{name}.nc", name=[*PAPER_CASES, "fig4_small.double"]),
+        expand("<results>/reference/{name}.nc", name=PAPER_CASES),
 
 
 use rule dataset as reference_case with:
-    "One case, integrated twice: {case}{numbers}.nc"
+    "One case, integrated twice: {case}.nc"
     pathvars:
-        made=r"reference/<paper_case>{numbers,(\.double)?}",
+        made="reference/<paper_case>",
     conda:
         "../envs/reference.yaml"
     resources:
@@ -25,4 +24,3 @@ use rule dataset as reference_case with:
         problem=lambda wildcards: reference_problem(wildcards.case),
         snapshots=SETTINGS.reference.snapshots,
         bits=lambda wildcards: SETTINGS.reference.bits[wildcards.case],
-        decimal=lambda wildcards: not wildcards.numbers,

@@ -1,10 +1,14 @@
 """A case integrated twice in multiprecision: what both runs agree on is the solution's.
 
-Two runs of different precision and order share no rounding. Their common digits, each number
-rounded once to double, make the dataset of a reference.
+heyoka (Biscani and Izzo, MNRAS 504 (2021) 2614) integrates the equations (4) on half a chain of
+even data. It takes expressions, which follow from the traced equations; the numbers come from the
+decimals that the configuration prints. A state has the rows Re A, Im A, Re B, Im B on the sites
+0..M, and A = B = 0 beyond site M. Two runs of different precision and order share no rounding.
+Their common digits, each number rounded once to double, make the dataset of a reference.
 """
 
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -15,9 +19,101 @@ from latticode.simulation.problem import by_site
 from latticode.simulation.simulate import IntegrationError
 
 from pendula.many_cases import COMPONENTS
+from pendula.models.amplitudes import field
 from pendula.problem import Problem
 
-from .multiprecision import Numbers, RealConstants, energy, norms, right_hand_side
+HEYOKA = "heyoka==7.13.2"
+LIMIT = 1e-12
+"""The largest difference of any norm that two runs may have, at any output time."""
+NUMBERS = "the printed decimals"
+"""What the parameters mean: 0.1 is one tenth, and not the double beside it."""
+
+
+class UnverifiedError(RuntimeError):
+    """heyoka, which only the reference needs, is missing, or two runs have too few digits."""
+
+
+def load_heyoka() -> ModuleType:
+    """Return the module heyoka; the error names the command that installs it."""
+    try:
+        import heyoka
+    except ImportError:
+        text = f"the reference, and nothing else, needs heyoka: pip install {HEYOKA}"
+        raise UnverifiedError(text) from None
+    return heyoka
+
+
+# --- The equations (4) and their energy (8) -------------------------------------------------------
+
+
+class RealConstants(NamedTuple):
+    """Coupling, drive and detuning, as multiprecision reals."""
+
+    epsilon: Any
+    gamma: Any
+    omega: Any
+
+
+def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[tuple]:
+    """Return the pairs (variable, its rate of change), in the order of a flattened state."""
+    names = [[f"{row}{n}" for n in range(half_width + 1)] for row in ("ra", "ia", "rb", "ib")]
+    rows = [[heyoka.make_vars(name) for name in row] for row in names]
+
+    def field_at(component: int, n: int) -> tuple:
+        def seen(partner: int, part: int, by: int):
+            row, site = rows[2 * (component ^ partner) + part], abs(n + by)  # -1 moves as 1
+            return row[site] if site < len(row) else 0.0  # site M + 1 is at rest
+
+        return field(constants, seen)
+
+    pairs = []
+    for component in (0, 1):
+        fields = [field_at(component, n) for n in range(half_width + 1)]
+        re, im = rows[2 * component : 2 * component + 2]
+        pairs += [(u, of_im) for u, (_, of_im) in zip(re, fields, strict=True)]
+        pairs += [(v, -of_re) for v, (of_re, _) in zip(im, fields, strict=True)]
+    return pairs
+
+
+def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the l-infinity and l2 norms, each (component, time), of states (time, row, site)."""
+    modulus2 = _squares(states)
+    largest = np.maximum.reduce(modulus2, axis=2)
+    return np.sqrt(largest), np.sqrt(_over_chain(modulus2))
+
+
+def energy(constants: RealConstants, states: np.ndarray) -> np.ndarray:
+    """Return the energy (8), (time,), of states (time, row, site)."""
+    epsilon, gamma, omega = constants
+    modulus2 = _squares(states)
+    both = modulus2[0] + modulus2[1]
+    quartic = np.square(modulus2[0]) + np.square(modulus2[1])
+    gap = states[:, :2] - states[:, 2:]  # Re (A - B) and Im (A - B)
+    drive = np.square(gap[:, 1]) - np.square(gap[:, 0])
+    # of all bonds: inside the half chain twice (left and right), and the two to the ends
+    bonds = _sum(np.square(states[:, :, 1:] - states[:, :, :-1])) + _sum(states[:, :, -1:] ** 2)
+    on_sites = quartic / 4 + omega * both + gamma * drive
+    return _over_chain(on_sites) - epsilon * (bonds + bonds)
+
+
+def _squares(states):
+    """Return |A_n|^2 and |B_n|^2, (component, time, site)."""
+    squares = np.square(states)
+    return np.stack([squares[:, 0] + squares[:, 1], squares[:, 2] + squares[:, 3]])
+
+
+def _over_chain(values):
+    """Return the sum over the sites -M..M of values that end in the sites 0..M."""
+    right = np.add.reduce(values[..., 1:], axis=-1)
+    return values[..., 0] + right + right
+
+
+def _sum(values):
+    """Return the sum over rows and sites of values (time, row, site)."""
+    return np.add.reduce(np.add.reduce(values, axis=2), axis=1)
+
+
+# --- Two runs -------------------------------------------------------------------------------------
 
 
 class Run(NamedTuple):
@@ -29,13 +125,10 @@ class Run(NamedTuple):
     energy: np.ndarray  # (time,)
     snapshot_tau: np.ndarray  # (snapshot,), doubles
     amplitude: np.ndarray  # (snapshot, row, site), rows Re A, Im A, Re B, Im B
-    bits: int
-    order: int
-    tolerance: float
-    steps: int
+    controls: dict[str, float]
 
 
-def start(problem: Problem, numbers: Numbers) -> np.ndarray:
+def start(problem: Problem, bits: int) -> np.ndarray:
     """Return the initial state (row, site) of the half chain 0..M, in multiprecision.
 
     Raises ValueError where the data are not even, or the ends are not at rest.
@@ -44,126 +137,106 @@ def start(problem: Problem, numbers: Numbers) -> np.ndarray:
         raise ValueError(f"the reference has Dirichlet ends only, not {problem.boundary}")
     if not np.array_equal(problem.initial, problem.initial[:, ::-1]):
         raise ValueError("the reference integrates half a chain: its data must be even")
-    state = numbers.exactly(np.zeros((4, problem.half_width + 1)))
+    state = exactly(np.zeros((4, problem.half_width + 1)), bits)
     for site, (a, b) in by_site(problem.initial).items():
         parts = [part for z in (complex(a), complex(b)) for part in (z.real, z.imag)]
-        for row, part in enumerate(parts):
-            state[row, abs(site)] = numbers.given(part)
+        state[:, abs(site)] = [printed(part, bits) for part in parts]
     return state
 
 
-def integrate(problem: Problem, snapshots: list[float], bits: int, decimal: bool = True) -> Run:
+def exactly(values, bits: int) -> np.ndarray:
+    """Return an array of doubles as reals."""
+    real = load_heyoka().real
+    return np.array([real(float(x), bits) for x in np.ravel(values)]).reshape(np.shape(values))
+
+
+def printed(x: float, bits: int):
+    """Return the shortest decimal that names a double, which the configuration prints."""
+    return load_heyoka().real(repr(float(x)), bits)
+
+
+def integrate(problem: Problem, snapshots: list[float], bits: int) -> Run:
     """Integrate a case with `bits` bits, and a tolerance of 2^-bits.
 
     The problem's own solver is not used. Outputs are at the doubles `problem.times`; those
-    among `snapshots` keep the state. `decimal` is explained by Numbers. Raises IntegrationError
-    where heyoka does not reach the end, ValueError as `start` does.
+    among `snapshots` keep the state. Raises IntegrationError where heyoka does not reach the end,
+    ValueError as `start` does.
     """
-    numbers = Numbers(bits, decimal)
-    constants = RealConstants(*map(numbers.given, problem.constants))
-    times, tolerance = problem.times, 2.0**-bits
-    stepper = numbers.heyoka.taylor_adaptive(  # it chooses its order from the tolerance
-        right_hand_side(numbers.heyoka, constants, problem.half_width),
-        start(problem, numbers).ravel(),
-        time=numbers.exact(0.0),
-        fp_type=numbers.heyoka.real,
+    heyoka = load_heyoka()
+    constants = RealConstants(*(printed(one, bits) for one in problem.constants))
+    times = problem.times
+    stepper = heyoka.taylor_adaptive(  # it chooses its order from the tolerance
+        right_hand_side(heyoka, constants, problem.half_width),
+        start(problem, bits).ravel(),
+        time=heyoka.real(0.0, bits),
+        fp_type=heyoka.real,
         prec=bits,
-        tol=numbers.exact(tolerance),
+        tol=heyoka.real(2.0**-bits, bits),
         compact_mode=True,  # else it compiles every site by itself, for minutes
     )
-    outcome, _, _, steps, _, states = stepper.propagate_grid(numbers.exactly(times))
-    if outcome != numbers.heyoka.taylor_outcome.time_limit:
+    outcome, _, _, steps, _, states = stepper.propagate_grid(exactly(times, bits))
+    if outcome != heyoka.taylor_outcome.time_limit:
         raise IntegrationError(f"heyoka stopped at tau = {float(stepper.time):.6g}: {outcome}")
     states, kept = states.reshape(len(times), 4, -1), np.isin(times, snapshots)
     energies = energy(constants, states)
+    controls = {"bits": bits, "order": stepper.order, "tolerance": float(stepper.tol)}
     observed = (times, *norms(states), energies, times[kept], states[kept])
-    return Run(*observed, bits, stepper.order, float(stepper.tol), steps)
+    return Run(*observed, controls | {"steps": steps})
 
 
-LIMIT = 1e-12
-"""The largest difference of any norm that two runs may have, at any output time."""
+def compare(name: str, run: Run, check: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Return how far two runs are apart, in doubles: norms (time,) and amplitudes (snapshot,).
 
-
-class UnverifiedError(RuntimeError):
-    """Two multiprecision runs that differ too much: neither has digits enough."""
-
-
-class Discrepancy(NamedTuple):
-    """How far two runs of a case are apart, in doubles."""
-
-    norms: np.ndarray  # (time,), the largest over both norms and components
-    amplitude: np.ndarray  # (snapshot,), the largest over parts, components and sites
-    energy_drift: float  # max |H - H(0)| of the first run
-
-
-def compare(run: Run, check: Run) -> Discrepancy:
-    """Return how far two runs are apart, the difference taken before any rounding to double."""
+    It is the largest difference, taken before any rounding. Raises UnverifiedError where a norm
+    differs by LIMIT or more.
+    """
     linf, l2 = np.abs(run.linf - check.linf), np.abs(run.l2 - check.l2)
-    apart = np.maximum(np.maximum.reduce(linf), np.maximum.reduce(l2))
-    amplitude = np.maximum.reduce(np.abs(run.amplitude - check.amplitude), axis=(1, 2))
-    drift = np.maximum.reduce(np.abs(run.energy - run.energy[0]))
-    return Discrepancy(apart.astype(float), amplitude.astype(float), float(drift))
-
-
-def require_agreement(name: str, run: Run, check: Run, discrepancy: Discrepancy) -> None:
-    """Raise UnverifiedError where a norm of the two runs differs by LIMIT or more."""
-    apart = np.flatnonzero(~(discrepancy.norms < LIMIT))
-    if apart.size:
+    apart = np.maximum(np.maximum.reduce(linf), np.maximum.reduce(l2)).astype(float)
+    if (beyond := np.flatnonzero(~(apart < LIMIT))).size:
         raise UnverifiedError(
-            f"{name}: runs of {run.bits} and {check.bits} bits differ by {LIMIT:g} or more "
-            f"from tau = {run.tau[apart[0]]:g} on; give the case more bits"
+            f"{name}: runs of {run.controls['bits']} and {check.controls['bits']} bits differ by "
+            f"{LIMIT:g} or more from tau = {run.tau[beyond[0]]:g} on; give the case more bits"
         )
+    amplitude = np.maximum.reduce(np.abs(run.amplitude - check.amplitude), axis=(1, 2))
+    return apart, amplitude.astype(float)
 
 
-def as_variables(run: Run, apart: Discrepancy) -> dict[str, Variable]:
-    """Return the variables; times are exact, `amplitude` may start any run as an exact state."""
-    series, reach = ("component", "tau"), run.amplitude.shape[2] - 1
-    mirrored = Reduction(even=True, synchronised=False)
+def reference_contents(
+    name: str, problem: Problem, snapshots: list[float], bits: tuple[int, int]
+) -> Contents:
+    """Return the reference of a case; `bits` are those of the stored run and of the second one.
+
+    States are kept at those of the times `snapshots` that are output times. Times are exact, and
+    `amplitude` may start any run as an exact state.
+    """
+    run, check = (integrate(problem, snapshots, some) for some in bits)
+    apart, amplitudes_apart = compare(name, run, check)
     rows = run.amplitude.astype(float).transpose(1, 2, 0)
+    mirrored = Reduction(even=True, synchronised=False)
     amplitude = np.stack([unfold(rows[part::2], mirrored) for part in (0, 1)])
-    grid = ("part", "component", "site", "snapshot")
-    norm_apart = "largest difference of a norm from that of the second run"
-    amplitude_apart = "largest difference from the second run's amplitudes"
-    return {
+    series, reach = ("component", "tau"), problem.half_width
+    variables = {
         "tau": Variable(("tau",), run.tau),
         "component": COMPONENTS,
         "linf": Variable(series, run.linf.astype(float)),
         "l2": Variable(series, run.l2.astype(float)),
         "energy": Variable(("tau",), run.energy.astype(float)),
-        "discrepancy": Variable(("tau",), apart.norms, norm_apart),
+        "discrepancy": Variable(
+            ("tau",), apart, "largest difference of a norm from that of the second run"),
         "part": Variable(("part",), ["re", "im"]),
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
         "snapshot_tau": Variable(("snapshot",), run.snapshot_tau),
-        "amplitude": Variable(grid, amplitude, "amplitude on a site"),
-        "amplitude_discrepancy": Variable(("snapshot",), apart.amplitude, amplitude_apart),
-    }
-
-
-def reference_contents(
-    name: str, problem: Problem, snapshots: list[float], bits: tuple[int, int], decimal: bool
-) -> Contents:
-    """Return the reference of a case; `bits` are those of the stored run and of the second one.
-
-    States are kept at those of the times `snapshots` that are output times. Where `decimal` is
-    false, the parameters and data are the doubles nearest to the decimals.
-    """
-    run, check = (integrate(problem, snapshots, some, decimal) for some in bits)
-    apart = compare(run, check)
-    for one in (run, check):
-        print(f"{name}: {one.bits} bits, order {one.order}, {one.steps} steps")
-    print(f"{name}: the norms differ by {apart.norms.max():.1e}, H drifts {apart.energy_drift:.1e}")
-    require_agreement(name, run, check, apart)
-    controls, others = (
-        {key: getattr(one, key) for key in ("bits", "order", "tolerance", "steps")}
-        for one in (run, check)
-    )
-    numbers = "the printed decimals" if decimal else "the doubles nearest to them"
-    about = describe_run(name, problem, {"name": "heyoka", **controls})
-    return as_variables(run, apart), {
-        "title": f"Norms, energy and snapshots of {name} in multiprecision, from {numbers}",
+        "amplitude": Variable(
+            ("part", "component", "site", "snapshot"), amplitude, "amplitude on a site"),
+        "amplitude_discrepancy": Variable(
+            ("snapshot",), amplitudes_apart, "largest difference from the second run's amplitudes"),
+    }  # fmt: skip
+    about = describe_run(name, problem, {"name": "heyoka", **run.controls})
+    return variables, {
+        "title": f"Norms, energy and snapshots of {name} in multiprecision, from {NUMBERS}",
         **shared_by([about], "snapshot_every"),
-        **{f"second_run_{key}": value for key, value in others.items()},
-        "parameters_mean": numbers,
-        "energy_drift": apart.energy_drift,
-        "largest_discrepancy": float(apart.norms.max()),
+        **{f"second_run_{key}": value for key, value in check.controls.items()},
+        "parameters_mean": NUMBERS,
+        "energy_drift": float(np.maximum.reduce(np.abs(run.energy - run.energy[0]))),
+        "largest_discrepancy": float(apart.max()),
     }
