@@ -1,7 +1,4 @@
-"""The outcomes of the solvers on the hard cases, as a dataset.
-
-It keeps no times, in which two runs would differ.
-"""
+"""The outcomes of the solvers on the hard cases, as a dataset."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -44,7 +41,7 @@ def evaluate(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, An
         "error": error,
         "limit": np.nan if must_refuse else expected,
         "refusal": refusal,
-        "reference": case["against"],
+        "reference": errors.AGAINST[case["measure"]],
         "sound": np.int8(sound and must_refuse == bool(refusal)),
     }
 

@@ -5,14 +5,12 @@ Numbers may be anything, not finite ones too, since solvers must refuse what mak
 
 from typing import Annotated, Any, Literal
 
-from latticode.configuration.values import AnyNumber, Model, Name, Whole
-from pydantic import Field, create_model, model_validator
-from pydantic_core import PydanticCustomError
+from latticode.configuration.values import AnyNumber, Model, Whole
+from pydantic import Field, create_model
 
 MEASURES = (
-    *("miss_of_linear_flow", "miss_near_threshold", "miss_of_rotation", "drift_of_norms"),
-    *("drift_of_energy", "motion_of_rest", "miss_of_other", "miss_of_scaled"),
-    *("miss_of_single_pairs", "miss_of_short_chain", "run_anyway"),
+    *("miss_of_linear_flow", "drift_of_energy", "miss_of_other", "miss_of_scaled"),
+    *("miss_of_short_chain", "run_anyway"),
 )
 """The functions of `errors` by name."""
 
@@ -28,7 +26,7 @@ class AnySolver(Model):
     iterations: Whole | None = None
 
 
-NUMBERS = ("omega", "gamma", "factor", "size", "turns", "tau", "amplitude")
+NUMBERS = ("omega", "gamma", "size", "tau", "amplitude")
 WHOLE = ("power", "sites", "half_width")
 Arguments = create_model(
     "Arguments",
@@ -43,35 +41,17 @@ class HardCase(Model):
     """A case that each of `solvers` must solve to an error of `expected`, or refuse in words."""
 
     case: str
-    against: str
     measure: Literal[MEASURES]
     arguments: Arguments = Arguments()
-    solvers: Name | list[AnySolver]
+    solvers: Annotated[list[AnySolver], Field(min_length=1)]
     expected: AnyNumber | str
 
 
 class Settings(Model):
     """Section `hard_cases` of the configuration."""
 
-    solvers: dict[Name, Annotated[list[AnySolver], Field(min_length=1)]]
     cases: Annotated[list[HardCase], Field(min_length=1)]
 
-    @model_validator(mode="after")
-    def _solvers_are_known(self) -> "Settings":
-        for case in self.cases:
-            if isinstance(case.solvers, str) and case.solvers not in self.solvers:
-                known = ", ".join(self.solvers)
-                raise PydanticCustomError(
-                    "solvers",
-                    "{case}: there are no solvers {name}; known are {known}",
-                    {"case": repr(case.case), "name": repr(case.solvers), "known": known},
-                )
-        return self
-
     def plain(self) -> list[dict[str, Any]]:
-        """Return the cases as plain values, every one with its own list of solvers."""
-        shared, cases = self.model_dump(exclude_none=True)["solvers"], []
-        for case in self.model_dump(exclude_none=True)["cases"]:
-            named = isinstance(case["solvers"], str)
-            cases.append(case | {"solvers": shared[case["solvers"]] if named else case["solvers"]})
-        return cases
+        """Return the cases as plain values."""
+        return self.model_dump(exclude_none=True)["cases"]

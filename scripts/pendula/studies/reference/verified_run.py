@@ -43,7 +43,7 @@ def load_heyoka() -> ModuleType:
     return heyoka
 
 
-# --- The equations (4) and their energy (8) -------------------------------------------------------
+# --- The equations (4) ----------------------------------------------------------------------------
 
 
 class RealConstants(NamedTuple):
@@ -77,40 +77,11 @@ def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[t
 
 def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the l-infinity and l2 norms, each (component, time), of states (time, row, site)."""
-    modulus2 = _squares(states)
-    largest = np.maximum.reduce(modulus2, axis=2)
-    return np.sqrt(largest), np.sqrt(_over_chain(modulus2))
-
-
-def energy(constants: RealConstants, states: np.ndarray) -> np.ndarray:
-    """Return the energy (8), (time,), of states (time, row, site)."""
-    epsilon, gamma, omega = constants
-    modulus2 = _squares(states)
-    both = modulus2[0] + modulus2[1]
-    quartic = np.square(modulus2[0]) + np.square(modulus2[1])
-    gap = states[:, :2] - states[:, 2:]  # Re (A - B) and Im (A - B)
-    drive = np.square(gap[:, 1]) - np.square(gap[:, 0])
-    # of all bonds: inside the half chain twice (left and right), and the two to the ends
-    bonds = _sum(np.square(states[:, :, 1:] - states[:, :, :-1])) + _sum(states[:, :, -1:] ** 2)
-    on_sites = quartic / 4 + omega * both + gamma * drive
-    return _over_chain(on_sites) - epsilon * (bonds + bonds)
-
-
-def _squares(states):
-    """Return |A_n|^2 and |B_n|^2, (component, time, site)."""
     squares = np.square(states)
-    return np.stack([squares[:, 0] + squares[:, 1], squares[:, 2] + squares[:, 3]])
-
-
-def _over_chain(values):
-    """Return the sum over the sites -M..M of values that end in the sites 0..M."""
-    right = np.add.reduce(values[..., 1:], axis=-1)
-    return values[..., 0] + right + right
-
-
-def _sum(values):
-    """Return the sum over rows and sites of values (time, row, site)."""
-    return np.add.reduce(np.add.reduce(values, axis=2), axis=1)
+    modulus2 = np.stack([squares[:, 0] + squares[:, 1], squares[:, 2] + squares[:, 3]])
+    right = np.add.reduce(modulus2[..., 1:], axis=-1)
+    whole = modulus2[..., 0] + right + right
+    return np.sqrt(np.maximum.reduce(modulus2, axis=2)), np.sqrt(whole)
 
 
 # --- Two runs -------------------------------------------------------------------------------------
@@ -122,7 +93,6 @@ class Run(NamedTuple):
     tau: np.ndarray  # (time,), doubles
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    energy: np.ndarray  # (time,)
     snapshot_tau: np.ndarray  # (snapshot,), doubles
     amplitude: np.ndarray  # (snapshot, row, site), rows Re A, Im A, Re B, Im B
     controls: dict[str, float]
@@ -178,9 +148,8 @@ def integrate(problem: Problem, snapshots: list[float], bits: int) -> Run:
     if outcome != heyoka.taylor_outcome.time_limit:
         raise IntegrationError(f"heyoka stopped at tau = {float(stepper.time):.6g}: {outcome}")
     states, kept = states.reshape(len(times), 4, -1), np.isin(times, snapshots)
-    energies = energy(constants, states)
     controls = {"bits": bits, "order": stepper.order, "tolerance": float(stepper.tol)}
-    observed = (times, *norms(states), energies, times[kept], states[kept])
+    observed = (times, *norms(states), times[kept], states[kept])
     return Run(*observed, controls | {"steps": steps})
 
 
@@ -220,7 +189,6 @@ def reference_contents(
         "component": COMPONENTS,
         "linf": Variable(series, run.linf.astype(float)),
         "l2": Variable(series, run.l2.astype(float)),
-        "energy": Variable(("tau",), run.energy.astype(float)),
         "discrepancy": Variable(
             ("tau",), apart, "largest difference of a norm from that of the second run"),
         "part": Variable(("part",), ["re", "im"]),
@@ -233,10 +201,9 @@ def reference_contents(
     }  # fmt: skip
     about = describe_run(name, problem, {"name": "heyoka", **run.controls})
     return variables, {
-        "title": f"Norms, energy and snapshots of {name} in multiprecision, from {NUMBERS}",
+        "title": f"Norms and snapshots of {name} in multiprecision, from {NUMBERS}",
         **shared_by([about], "snapshot_every"),
         **{f"second_run_{key}": value for key, value in check.controls.items()},
         "parameters_mean": NUMBERS,
-        "energy_drift": float(np.maximum.reduce(np.abs(run.energy - run.energy[0]))),
         "largest_discrepancy": float(apart.max()),
     }
