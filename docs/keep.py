@@ -19,18 +19,11 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts")]
 
 from latticode.datasets.netcdf import Variable, read, write  # noqa: E402
-from latticode.measures.confidence import mean_limits  # noqa: E402
 from latticode.measures.spreading import fit_exponent  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.studies.breathers.figures import MAPS, SAME_RUNS  # noqa: E402
-from pendula.studies.unbounded.bulk import (  # noqa: E402
-    BEHIND,
-    law_of,
-    mean_powers,
-    slope_ratios,
-)
 from pendula.studies.unbounded.measured import speeds  # noqa: E402
 
 GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
@@ -40,8 +33,7 @@ QUOTED = ROOT / "tests/baseline/quoted"
 def keep_unbounded(results: Path, folder: Path) -> None:
     """Keep exponents, fronts and powers of the long study of the infinite chain."""
     long = results / "long/unbounded"
-    states = read(results / "unbounded/thermal.nc"), read(long / "transverse.nc")
-    rows = [_case(read(long / f"{name}.nc"), *states) for name in GIVEN["cases"]]
+    rows = [_case(read(long / f"{name}.nc")) for name in GIVEN["cases"]]
     kept = {
         "case": Variable(("case",), GIVEN["cases"], "case of the paper, on the infinite chain"),
         **{
@@ -78,7 +70,7 @@ def keep_passages(results: Path, folder: Path) -> None:
 
 HALF = "half of its 95 % confidence interval"
 OCTAVES = 2
-"""The exponents hold for so many of the last octaves of time, as in the ledger."""
+"""The exponents hold for so many of the last octaves of time."""
 
 
 def _exponent(run: xr.Dataset, variant: int = 0):
@@ -88,39 +80,35 @@ def _exponent(run: xr.Dataset, variant: int = 0):
     return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
-def _case(run: xr.Dataset, *states: xr.Dataset) -> dict[str, tuple[float, str]]:
-    """Return the numbers of a case, each with what it is; `states` are those of its law."""
-    speed, error = speeds(run, corrected=True)
+def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
+    """Return the numbers of a case, each with what it is."""
+    speed, error = speeds(run)
     sites = 2 * int(run["front"].isel(piece_tau=-1).max()) + 1
     predicted, tau = float(run["predicted_speed"][0]), float(run["tau"][-1])
-    measured = {
-        "exponent": (_exponent(run), "exponent of tau in the l2 norm over the last octaves"),
-        "power": (mean_limits(mean_powers(run, BEHIND)[0]), f"mean of P {BEHIND}"),
-        "law_ratio": (
-            slope_ratios(run, law_of(run, *states))[0],
-            "slope of l2^2 over that of its law",
-        ),
-    }
+    exponent = _exponent(run)
     return {
         "end": (tau, "slow time at the end"),
         "sites": (sites, "sites that the front has passed at the end"),
         "speed": (speed[0], "speed of the front, sites per unit of tau"),
         "speed_error": (error[0], f"{HALF}, or its resolution"),
         "predicted_speed": (predicted, "speed of linear spreading, sites per unit of tau"),
-        **{name: (found.value, words) for name, (found, words) in measured.items()},
-        **{f"{name}_error": (found.half, HALF) for name, (found, _) in measured.items()},
+        "exponent": (exponent.value, "exponent of tau in the l2 norm over the last octaves"),
+        "exponent_error": (exponent.half, HALF),
     }
+
+
+OF_FRONTS = (
+    *("omega", "second_front_speed", "second_front_speed_error"),
+    *("power_behind", "power_behind_error", "power_between", "power_between_error"),
+    *("thermal_power", "thermal_antisymmetric_power"),
+)
 
 
 def _omegas(run: xr.Dataset, fronts: xr.Dataset) -> dict[str, Variable]:
     """Return the exponent at each Omega, and what was measured of the fronts."""
     exponents = [_exponent(run, variant).value for variant in range(run.sizes["variant"])]
-    of_fronts = {
-        str(name): Variable(("omega",), values.values, values.attrs["long_name"])
-        for name, values in fronts.variables.items()
-        if values.dims == ("omega",)
-    }
-    return of_fronts | {
+    return {
+        **{name: _as_it_is(fronts[name]) for name in OF_FRONTS},
         "omega_end": Variable((), float(run["tau"][-1]), "slow time at the end of these runs"),
         "omega_exponent": Variable(
             ("omega",), exponents, "exponent of tau in the l2 norm over the last two octaves"

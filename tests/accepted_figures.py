@@ -9,7 +9,6 @@ from pendula.studies.pendula import figures as pendula
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
-from pendula.studies.unbounded import front_figure
 
 
 def norms_of(figure: str) -> tuple[list, list]:
@@ -62,7 +61,12 @@ FIGURES = {
         lambda *charts: theory.gather_chart(*charts, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
         "checks/chart", "checks/short_chart", "checks/windows",
     ),
-    "fronts": (front_figure.draw_fronts, front_figure.gather_fronts, "unbounded/fronts"),
-    "growth_law": (unbounded.draw_growth_law, unbounded.gather_growth_law, "unbounded/growth"),
+    "fronts": (unbounded.draw_fronts, unbounded.gather_fronts, "unbounded/fronts"),
+    "growth_law": (
+        unbounded.draw_growth_law,
+        lambda *data: unbounded.gather_growth_law(data[:-1], data[-1]),
+        *(f"unbounded/{name}" for name in ("fig4_small", "fig3_large", "fig2_large", "fig3_small")),
+        "unbounded/thermal",
+    ),
 }  # fmt: skip
 """What draws a figure, what gathers what it shows, and from which datasets."""

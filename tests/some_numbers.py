@@ -13,11 +13,10 @@ from pathlib import Path
 import xarray
 from helpers import chosen
 from latticode.datasets.netcdf import read, save, write
-from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
-from pendula.studies.unbounded.measured import measure_fronts, measure_growth
-from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy, thermal_variables
+from pendula.studies.unbounded.measured import measure_fronts
+from pendula.studies.unbounded.thermal import solve_thermal
 
 CHECKS = {
     "windows": {},  # bisection
@@ -26,19 +25,9 @@ CHECKS = {
 }
 """One check for each kind of function in `numerics`, with what makes it take no time."""
 NODES = 6
-GROWN = ("fig4_small", "fig3_large", "fig3_small", "fig2_large")
-UNBOUNDED = ("growth", "fronts", "thermal")
 PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
 """A steady breather whose proof takes a state, an inverse in balls, and a spectrum."""
-NAMES = (*CHECKS, *UNBOUNDED, "proofs")
-
-
-def unbounded(given: Path) -> dict[str, xarray.Dataset]:
-    """Return what is fitted to and averaged over runs on infinite chains, and thermal states."""
-    runs = {path.stem: read(str(path)) for path in given.glob("*.nc")}
-    states = runs["thermal"], runs["transverse"]
-    growth = measure_growth({name: runs[name] for name in GROWN}, *states)
-    return {"growth": growth, "fronts": measure_fronts(runs["omegas"], *states[::-1])}
+NAMES = (*CHECKS, "fronts", "thermal", "proofs")
 
 
 def make(given: Path, made: Path, *every: str) -> None:
@@ -48,12 +37,10 @@ def make(given: Path, made: Path, *every: str) -> None:
     smaller = {name: {} for name in arguments} if every else CHECKS
     checks = {name: run_check(name, arguments[name] | less) for name, less in smaller.items()}
     datasets = {name: xarray.Dataset.from_dict(check) for name, check in checks.items()}
-    for name, data in (datasets | unbounded(given)).items():
+    runs = (read(str(given / f"{name}.nc")) for name in ("omegas", "thermal"))
+    for name, data in (datasets | {"fronts": measure_fronts(*runs)}).items():
         save(str(made / f"{name}.nc"), data)
-    constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
-    both, alone = (state_of_energy(constants, 0.0, NODES, alike) for alike in (False, True))
-    thermal = thermal_variables([both], [alone]) | maximum_variables(both)
-    write(str(made / "thermal.nc"), thermal, {})
+    write(str(made / "thermal.nc"), *solve_thermal(1.0, 1.0, [-1.0], NODES))
     write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
 
 

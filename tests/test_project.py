@@ -37,7 +37,7 @@ COMPUTING = [
     *("paper.runs.run_case", "paper.runs.run_sweep", "paper.compile_solver.compile_solver"),
     *("reference.verified_run.reference_contents", "chaos.lyapunov.measure_lyapunov"),
     *("chaos.ensembles.measure_ensembles", "unbounded.long_runs.spread_case"),
-    *("unbounded.transverse.solve_transverse", "hard_cases.outcomes.hard_cases_contents"),
+    "hard_cases.outcomes.hard_cases_contents",
 ]
 
 

@@ -170,5 +170,5 @@ def test_what_nobody_reads_is_found(run, plant, found):
 def test_what_only_an_unread_figure_reads_has_no_reader(run):
     """The article has shown it, and its dataset, and all that this was computed from, with it."""
     told = set(unread(run._replace(article="", pages="", claims=())))
-    assert {"figure figures/growth_law", "dataset unbounded/growth", "dataset checks/trust"} <= told
+    assert {"figure figures/growth_law", "dataset unbounded/fronts", "dataset checks/trust"} <= told
     assert not any(one.startswith("dataset trajectories/") for one in told)

@@ -214,9 +214,6 @@ FAULTS = [
     data("unbounded/fronts", "linear speed", scale("linear_speed", 1.05)),
     data("unbounded/fronts", "speed of the second front doubled", scale("second_front_speed", 2.0)),
     data("unbounded/fronts", "thermal power", scale("thermal_power", 1.05)),
-    data(
-        "unbounded/fronts", "both powers exchanged", swap("symmetric_power", "antisymmetric_power")
-    ),
     data("unbounded/fig4_small", "front runs backwards", reverse("front", along="piece_tau")),
     data("unbounded/fig4_small", "predicted speed", scale("predicted_speed", 1.1)),
     data("unbounded/omegas", "linf above l2", swap("linf", "l2")),

@@ -8,19 +8,12 @@ from latticode.datasets.netcdf import as_xarray
 from pendula.configuration.schema import PAPER_CASES
 from pendula.studies.breathers.fate_contents import _shares
 from pendula.studies.theory.bounds import check_cases
-from pendula.studies.unbounded.measured import measure_fronts, measure_growth
-
-INFINITE = ("fig4_small", "fig3_large", "fig2_large", "fig3_small")
+from pendula.studies.unbounded.measured import measure_fronts
 
 
 def of(folder, names):
     """Return the accepted datasets of these names in a folder."""
     return {name: dataset(f"{folder}/{name}") for name in names}
-
-
-def unbounded(*names):
-    """Return accepted datasets of infinite chains."""
-    return of("unbounded", names).values()
 
 
 def areas():
@@ -32,10 +25,7 @@ def areas():
 MADE = {
     "breathers/fates": areas,
     "checks/cases": lambda: xr.Dataset.from_dict(check_cases(of("trajectories", PAPER_CASES))),
-    "unbounded/growth": lambda: measure_growth(
-        of("unbounded", INFINITE), *unbounded("thermal", "transverse")
-    ),
-    "unbounded/fronts": lambda: measure_fronts(*unbounded("omegas", "transverse", "thermal")),
+    "unbounded/fronts": lambda: measure_fronts(*of("unbounded", ("omegas", "thermal")).values()),
 }
 
 

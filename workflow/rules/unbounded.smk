@@ -2,14 +2,12 @@
 # the full run, the long one is `snakemake unbounded`.
 UNBOUNDED = SETTINGS.unbounded
 GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
-SPREAD = function("pendula.studies.unbounded.long_runs.spread_case")
-TRANSVERSE = function("pendula.studies.unbounded.transverse.solve_transverse")
 
 
 rule unbounded:
     "The long study of the infinite chain (takes about ten minutes): results/long/"
     input:
-        datasets("long/unbounded", *UNBOUNDED.names, "growth", "fronts"),
+        datasets("long/unbounded", *UNBOUNDED.names, "fronts"),
         expand("<results>/long/figures/{name}.png", name=["growth_law", "fronts"]),
 
 
@@ -23,7 +21,7 @@ use rule dataset as spread with:
         **asked(cost_of_study),
     params:
         **values_of(UNBOUNDED, "perturbation", "seed"),
-        call=lambda wildcards: TRANSVERSE if wildcards.study == "transverse" else SPREAD,
+        call=function("pendula.studies.unbounded.long_runs.spread_case"),
         name="{study}",
         problems=lambda wildcards: UNBOUNDED.problems(
             SETTINGS.problem(UNBOUNDED.case_of(wildcards.study)),
@@ -43,29 +41,24 @@ use rule dataset as thermal with:
         call=function("pendula.studies.unbounded.thermal.solve_thermal"),
         omegas=UNBOUNDED.omegas.values,
         nodes=UNBOUNDED.nodes,
-        bulk_omega=SETTINGS.cases["fig4_small"].omega,
 
 
-use rule dataset as measure_growth with:
-    "The infinite chain: growth laws of the norms, speeds of its fronts, the states behind them"
+use rule dataset as measure_fronts with:
+    "The infinite chain: the speeds of its fronts, and the states behind them"
     input:
-        runs=expand("<results>/{{size}}unbounded/{case}.nc", case=GROWTH_CASES),
         omegas="<results>/{size}unbounded/omegas.nc",
-        transverse="<results>/{size}unbounded/transverse.nc",
         thermal="<results>/unbounded/thermal.nc",
-    output:
-        "<results>/<size>unbounded/growth.nc",
-        "<results>/<size>unbounded/fronts.nc",
     pathvars:
-        made="<size>unbounded/growth",
+        made="<size>unbounded/fronts",
     params:
-        call=function("pendula.studies.unbounded.measured.measure"),
+        call=function("pendula.studies.unbounded.measured.measure_fronts"),
 
 
 use rule figure as draw_growth_law with:
-    "The infinite chain: norms against time, and the exponents of time that they follow"
+    "The infinite chain: norms against time, and the law that they follow"
     input:
-        growth="<results>/{size}unbounded/growth.nc",
+        runs=expand("<results>/{{size}}unbounded/{case}.nc", case=GROWTH_CASES),
+        thermal="<results>/unbounded/thermal.nc",
     pathvars:
         made="<size>figures/growth_law",
     params:
@@ -79,4 +72,4 @@ use rule figure as draw_fronts with:
     pathvars:
         made="<size>figures/fronts",
     params:
-        call=function("pendula.studies.unbounded.front_figure.draw_fronts"),
+        call=function("pendula.studies.unbounded.figures.draw_fronts"),

@@ -107,8 +107,6 @@ def gather(results: Results) -> dict[str, Any]:
         "mark": MARK,
         "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),
         "omegas": results.quote(LONG, study.sizes["omega"]),
-        "slopes": numbers.long(LONG, span(study["slope_ratio"].values, 3)),
-        "slopes_of_one_front": numbers.long(LONG, span(slopes_of_one_front(study), 3)),
         "over_thermal": {
             name: numbers.long(LONG, span(ratio.values, 3))
             for name, ratio in over_thermal(study).items()
@@ -162,17 +160,6 @@ def level_of_runs(results: Results) -> Quote:
     at = {"quantity": "pair", "statistic": "max", "window": "[10, 50]"}
     norm = results["sweeps/fig5_right"]["l2"].sel(at)
     return results.quote("sweeps/fig5_right", levelling(norm["half_width"].values, norm.values))
-
-
-def slopes_of_one_front(study: xr.Dataset) -> np.ndarray:
-    """Return slopes of l2^2 over those of a law with one front and the power P behind it, (omega,).
-
-    Of both laws only the terms in tau are compared.
-    """
-    first, second = study["linear_speed"], study["predicted_second_speed"]
-    both, alone = study["thermal_power"], study["thermal_antisymmetric_power"]
-    rate = second * both + (first - second) * alone
-    return (study["slope_ratio"] * rate / (first * both)).values
 
 
 def over_thermal(study: xr.Dataset) -> dict[str, xr.DataArray]:

@@ -151,9 +151,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         of_case = _unbounded([stem]) if folder == "unbounded" else (f"cases.{stem}",)
         return (*of_case, *by)
     if folder == "unbounded":
-        given = paper()["unbounded"]
-        others = given["cases"] if stem in ("growth", "fronts") else ()
-        return _unbounded([given["omegas"]["case"], *others])
+        return _unbounded([paper()["unbounded"]["omegas"]["case"]])
     sections = _sections(folder, stem)
     part = _at(sections[-1]) if sections else {}
     named = paper()["cases"] if stem in ALL_CASES else part.get("cases", ())

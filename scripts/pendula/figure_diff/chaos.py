@@ -36,7 +36,7 @@ RESTS_ON_CHAOS = [
     *("checks/lifetimes:*", "figures/lifetimes:*", "figures/fates:*fate"),
     # Chains of other lengths, and without ends, at the detuning of a chaotic case
     *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
-    *(f"unbounded/{name}:*" for name in ("fronts", "omegas", "transverse")),
+    *("unbounded/fronts:*", "unbounded/omegas:*"),
 ]
 """Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
 the file or along a dimension."""

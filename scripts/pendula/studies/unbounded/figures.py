@@ -1,15 +1,20 @@
-"""Infinite chains in pictures: norms against time, and the exponents that they follow."""
+"""Infinite chains in pictures: norms against time, and the two fronts over Omega."""
+
+from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from latticode.drawing import panels, style
+from latticode.numerics.elementary import geometric
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import NullFormatter
 
 from pendula.drawing import name_case
+
+from .measured import law_of
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-", "lw": 1.1},
@@ -18,80 +23,115 @@ LOOKS = {
     "fig3_small": {"color": "#b07800", "ls": ":", "lw": 1.1},
 }
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
-OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
-CAPTION = (
-    "The infinite chain against τ. (a): the square of the ℓ² norm divided by τ. (b): its relative "
-    "deviation from the predicted law. (c): the exponent of τ in the ℓ² norm over each doubling of "
-    "τ, with a line at 1/2. (d): the ℓ∞ norm. The dashed law is predicted from the thermal states "
-    "behind the two fronts and the predicted speeds of these, without a fit. The dotted line adds "
-    "a fitted constant to the square of the norm. Bands reach from the lowest to the highest run "
-    "of an ensemble; bars are confidence intervals of the mean."
+FIRST_TAU, POINTS = 10.0, 120
+BAND = ("lowest", "mean", "highest")
+GROWTH_CAPTION = (
+    "The infinite chain against τ. (a): the square of the ℓ² norm divided by τ. (b): the ℓ∞ norm. "
+    "The dashed law follows from the thermal states behind the two fronts and the speeds of these. "
+    "Bands reach from the lowest to the highest run of an ensemble."
 )
 
 
-def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
-    """Return what `measured.measure_growth` has made."""
-    return growth.assign_attrs(caption=CAPTION)
+def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
+    """Return the norms of the first variant of each run at times equally spaced in log tau.
+
+    The law of l2^2 stands beside them where its states were solved.
+    """
+    cases = pd.Index([run.attrs["name"] for run in runs], name="case")
+    found = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
+    found["band"].attrs["long_name"] = "value over the members of the ensemble"
+    found["law"].attrs["long_name"] = "l2^2 by thermal states and speeds of fronts"
+    found["initial"].attrs["long_name"] = "initial data"
+    return found.assign_attrs(title="Growth of the norms", caption=GROWTH_CAPTION)
+
+
+def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
+    known = all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
+    law = law_of(run, thermal)[0] if known else np.full(run.sizes["tau"], np.nan)
+    norms = run[["l2", "linf"]].isel(variant=0)
+    bands = [norms.min("member"), norms.mean("member"), norms.max("member")]
+    found = xr.concat(bands, pd.Index(BAND, name="band"))
+    found = found.assign(omega=run["omega"][0], initial=run.attrs["initial"], law=("tau", law))
+    times = geometric(FIRST_TAU, float(run["tau"][-1]), POINTS)
+    return found.sel(tau=np.unique(found["tau"].sel(tau=times, method="nearest")))
 
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2^2 / tau beside its law, what is left over, exponents over octaves, l-infinity."""
-    figure = style.new_figure(style.WIDTH, 3.8)
-    (rate, rest), (exponents, linf) = figure.subplots(2, 2, sharex=True)
-    rest.axhline(0.0, **LAW)
-    exponents.axhline(0.5, color="black", lw=0.8)
-    start = float(data["span_tau"].min())
-    for i, case in enumerate(data["case"].values):
+    """Draw l2^2 / tau beside its law, and l-infinity."""
+    figure = style.new_figure(style.WIDTH, 2.4)
+    rate, linf = figure.subplots(1, 2, sharex=True)
+    for case in data["case"].values:
         one, look = data.sel(case=case), LOOKS[str(case)]
-        rate.plot(one["span_tau"], one["l2_rate"].sel(band="mean"), label=name_case(one), **look)
-        _shade(rate, one["span_tau"], one["l2_rate"], look)
-        rate.plot(one["span_tau"], one["law_rate"], **LAW)
-        if np.isfinite(one["law_rate"]).any():
-            _draw_rest(rest, one, look["color"])
-        exponent, error = one["l2_exponent"].values, one["l2_exponent_error"].values
-        aside = 1.0 + 0.04 * (i - 1.5)  # so that error bars stand beside each other
-        dots = {"color": look["color"], "marker": "osD^"[i], "ms": 3.5, "lw": 0, "capsize": 2}
-        exponents.errorbar(aside * one["octave_tau"], exponent, error, elinewidth=0.9, **dots)
-        late = one["tau"].where(one["tau"] >= start)
-        linf.plot(late, one["linf"].sel(band="mean"), **look)
-        _shade(linf, late, one["linf"], look)
-        linf.plot(late, one["thermal_linf"], **LAW)
+        tau = one["tau"]
+        _draw_band(rate, tau, one["l2"] ** 2 / one["tau"], look, name_case(one))
+        rate.plot(tau, one["law"] / one["tau"], **LAW)
+        _draw_band(linf, tau, one["linf"], look)
     rate.set_yscale("log")
     rate.set_xscale("log")
-    rate.set_xlim(left=0.9 * start)
-    rate.xaxis.set_minor_formatter(NullFormatter())
     linf.set_ylim(bottom=0)
-    named = {
-        rate: r"squared $\ell^2$ norm / $\tau$",
-        rest: "deviation from law (%)",
-        exponents: r"exponent of $\ell^2$ norm",
-        linf: rf"{panels.NORMS['linf']} norm",
-    }
-    for (axes, label), letter in zip(named.items(), "abcd", strict=True):
-        axes.set_ylabel(label)
+    rate.set_ylabel(r"squared $\ell^2$ norm / $\tau$")
+    linf.set_ylabel(rf"{panels.NORMS['linf']} norm")
+    for axes, letter in ((rate, "a"), (linf, "b")):
         axes.set_title(f"({letter})", loc="left")
-    for axes in (exponents, linf):
         axes.set_xlabel(r"$\tau$")
     handles, labels = rate.get_legend_handles_labels()
-    bar = Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
-    handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), bar]
-    labels += ["law in the text", "law plus a fitted constant"]
-    labels += ["range of the ensemble", "95 % confidence interval"]
+    handles += [Line2D([], [], **LAW), Patch(color="0.75")]
+    labels += ["law in the text", "range of the ensemble"]
     figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
     return figure
 
 
-def _shade(axes: Axes, tau: xr.DataArray, bands: xr.DataArray, look: dict) -> None:
-    low, high = (bands.sel(band=bound) for bound in ("lowest", "highest"))
+def _draw_band(axes: Axes, tau, bands: xr.DataArray, look: dict, label: str = "") -> None:
+    """Draw the mean of an ensemble and the range of its members."""
+    mean, low, high = (bands.sel(band=bound) for bound in ("mean", "lowest", "highest"))
+    axes.plot(tau, mean, label=label or None, **look)
     axes.fill_between(tau, low, high, color=look["color"], alpha=0.3, lw=0)
 
 
-def _draw_rest(axes: Axes, one: xr.Dataset, colour: str) -> None:
-    """Draw by how many per cent l2^2 of a case differs from its law."""
-    off = 100.0 * (one["l2_rate"] / one["law_rate"] - 1.0)
-    _shade(axes, one["span_tau"], off, {"color": colour})
-    axes.plot(one["span_tau"], 100.0 * one["offset_rate"] / one["law_rate"], **OFFSET)
-    bars = 100.0 * one["rate_limits"] / one["law_rate"]
-    dots = {"color": colour, "marker": "o", "ms": 2.5, "lw": 0, "elinewidth": 0.9}
-    axes.errorbar(one["span_tau"], off.sel(band="mean"), bars, **dots)
+# --- The two fronts -------------------------------------------------------------------------------
+
+DOTS = {"marker": "o", "ms": 3.0, "lw": 0, "elinewidth": 0.9, "capsize": 1.5}
+FIRST = {**DOTS, "color": style.RED}
+SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
+LINE = LAW | {"ls": "-"}
+FRONTS_CAPTION = (
+    "The two fronts on the infinite chain. (a): their speeds; the line is the predicted one of the "
+    "first. (b): the power per pair behind the second front and between the fronts over that of "
+    "the thermal state of both fields; dashed: the same ratio for the thermal state with A = −B. "
+    "Bars are confidence intervals of the mean."
+)
+
+
+def gather_fronts(fronts: xr.Dataset) -> xr.Dataset:
+    """Return what `measured.measure_fronts` has made."""
+    return fronts.assign_attrs(caption=FRONTS_CAPTION)
+
+
+@style.styled
+def draw_fronts(data: xr.Dataset) -> Figure:
+    """Draw the speeds of both fronts over Omega, and the powers behind them over thermal ones."""
+    figure = style.new_figure(style.WIDTH, 2.2)
+    speeds, powers = figure.subplots(1, 2)
+    omega, thermal = data["omega"], data["thermal_power"]
+    speeds.plot(omega, data["linear_speed"], **LINE)
+    powers.axhline(1.0, **LINE)
+    powers.plot(omega, data["thermal_antisymmetric_power"] / thermal, **LAW)
+    for axes, name, over, look, label in (
+        (speeds, "front_speed", 1.0, FIRST, "first"),
+        (speeds, "second_front_speed", 1.0, SECOND, "second"),
+        (powers, "power_between", thermal, FIRST, "between"),
+        (powers, "power_behind", thermal, SECOND, "behind both"),
+    ):
+        limits = data[f"{name}_error"] / over
+        bars = limits.where(np.isfinite(limits))
+        axes.errorbar(omega, data[name] / over, bars, label=label, **look)
+    speeds.set_ylim(bottom=0)
+    powers.set_ylim(bottom=0.6)
+    speeds.set_ylabel(r"speed (sites per $\tau$)")
+    powers.set_ylabel("power / thermal power")
+    for axes, letter in ((speeds, "a"), (powers, "b")):
+        axes.set_title(f"({letter})", loc="left")
+        axes.set_xlabel(r"$\Omega$")
+        axes.legend(loc="lower left", handlelength=1.0)
+    return figure

@@ -13,9 +13,10 @@ from latticode.simulation.runs import Run, shaped
 
 from pendula.problem import Problem
 
-from .active_sites import run_long
-from .bulk import CELL, KINDS, NEIGHBOURS, REGIONS
-from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, REST, SITE_OF_FRONT, linear_front
+from .active_sites import KINDS, REGIONS, run_long
+from .front import linear_front
+
+PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
 
 
 def member(problem: Problem, perturbation: float, seed: int, number: int) -> Problem:
@@ -30,6 +31,13 @@ def member(problem: Problem, perturbation: float, seed: int, number: int) -> Pro
     return problem.changed(initial=problem.initial * (1.0 + perturbation * draws)[:, None])
 
 
+def members_of(
+    problems: list[Problem], members: int, perturbation: float, seed: int
+) -> list[Problem]:
+    """Return all members of each problem."""
+    return [member(one, perturbation, seed, n) for one in problems for n in range(members)]
+
+
 def attributes(title: str, name: str, problems: list[Problem], rest: float, **ensemble) -> dict:
     """Return what all of `problems` have in common: of varied parameters there is no one value."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
@@ -38,31 +46,16 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
     return {"title": title, **shared, **ends, **ensemble}
 
 
-def members_of(
-    problems: list[Problem], members: int, perturbation: float, seed: int
-) -> list[Problem]:
-    """Return all members of each problem."""
-    return [member(one, perturbation, seed, n) for one in problems for n in range(members)]
-
-
 def spread_case(
     name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
     run: Run,
 ) -> Contents:  # fmt: skip
     """Return the series of each problem and member."""
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
-    found = run(members_of(problems, **ensemble), partial(_series_of, rest=rest))
+    found = run(members_of(problems, **ensemble), partial(run_long, rest=rest))
     series = shaped(found, (len(problems), members))
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
     return run_variables(problems, series), attributes(title, name, problems, rest, **ensemble)
-
-
-def _series_of(problem: Problem, rest: float) -> dict[str, np.ndarray]:
-    """Return the series of a run, its cells as (piece, 2, cell): zero where no site moves."""
-    one = run_long(problem, rest)
-    most = one.cells[-1].shape[1]
-    cells = [np.pad(cell, ((0, 0), (0, most - cell.shape[1]))) for cell in one.cells]
-    return one._asdict() | {"cells": np.array(cells)}
 
 
 def run_variables(problems: list[Problem], series: Mapping[str, np.ndarray]) -> dict[str, Variable]:
@@ -72,41 +65,30 @@ def run_variables(problems: list[Problem], series: Mapping[str, np.ndarray]) -> 
     def of_variants(values: list[float], long_name: str = "") -> Variable:
         return Variable(("variant",), np.array(values, float), long_name)
 
-    def of_runs(name: str, axes: tuple, long_name: str = "") -> Variable:
+    def of_runs(name: str, axes: tuple, long_name: str) -> Variable:
         return Variable(("variant", "member", *axes), series[name], long_name)
 
-    both, look = "of A and B together", ("piece_tau",)
-    cells = series["cells"][:, 0]
-    cells = np.nan_to_num(cells[..., ~np.isnan(cells).all(axis=(0, 1, 2))])
-    of_cells = f"power, mean of {{}} over cells of {CELL} sites, in the first member"
+    both, place = "of A and B together", "site of the front"
     return {
         "tau": Variable(("tau",), series["tau"][0, 0]),
-        "piece_tau": Variable(("piece_tau",), series["piece_tau"][0, 0], PIECE_TAU),
+        "piece_tau": Variable(
+            ("piece_tau",), series["piece_tau"][0, 0], "slow time at the end of a piece of the run"
+        ),
         "region": Variable(("region",), list(REGIONS), "region of the chain"),
         "kind": Variable(
-            ("kind",), list(KINDS), "kind of quantity of a pair, with S = (A + B) / sqrt 2"
+            ("kind",), list(KINDS), "kind of power of a pair, with S = (A + B) / sqrt 2"
         ),
         "omega": of_variants([p.constants.omega for p in problems]),
         "l2": of_runs("l2", ("tau",), f"{NAMES['l2']}, {both}"),
         "linf": of_runs("linf", ("tau",), f"{NAMES['linf']}, {both}"),
-        "front": of_runs("front", look, SITE_OF_FRONT),
-        "second_front": of_runs("second_front", look, f"{SITE_OF_FRONT}, second one"),
+        "front": of_runs("front", ("piece_tau",), place),
+        "second_front": of_runs("second_front", ("piece_tau",), f"{place}, second one"),
         "region_mean": of_runs(
-            "means", (*look, "region", "kind"), "mean over a region; NaN: it has no sites"
-        ),
-        "neighbours": Variable(("neighbours",), NEIGHBOURS, "neighbouring sites of a block"),
-        "bulk_maximum": of_runs(
-            "maxima",
-            ("piece_tau", "neighbours"),
-            "largest |A_n| or |B_n| of a block, mean over blocks of the old bulk; NaN: none",
-        ),
-        "symmetric_power": Variable(
-            ("variant", *look, "cell"), cells[:, :, 0], of_cells.format("|A_n + B_n|^2 / 2")
-        ),
-        "antisymmetric_power": Variable(
-            ("variant", *look, "cell"), cells[:, :, 1], of_cells.format("|A_n - B_n|^2 / 2")
+            "means", ("piece_tau", "region", "kind"), "mean over a region; NaN: it has no sites"
         ),
         "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
-        "predicted_delay": of_variants([front.delay for front in predicted], DELAY),
-        "predicted_rest": of_variants([front.rest for front in predicted], REST),
+        "predicted_delay": of_variants(
+            [front.delay for front in predicted],
+            "sites lost per unit of log tau on the way to that speed",
+        ),
     }

@@ -29,8 +29,8 @@ SPEED = 5.0
 
 Nodes = Annotated[Whole, Field(ge=8, le=100)]
 
-OMEGAS, TRANSVERSE = ENSEMBLES = ("omegas", "transverse")
-"""The ensembles over Omega: of the paper's equations, and of a small A + B on a chain A = -B."""
+OMEGAS = "omegas"
+"""The ensemble over Omega, beside those of cases."""
 
 
 class Size(Model):
@@ -59,15 +59,16 @@ class Settings(Model):
         absent = [fault for key, case in used for fault in settings.absent("cases", key, [case])]
         sizes = {"short": self.short, "long": self.long}
         for label, size in sizes.items():
-            unknown = [name for name in size.runs if name not in {*self.names, *settings.cases}]
+            unknown = size.runs.keys() - {*self.names, *settings.cases}
             missing = [name for name in self.names if name not in size.runs]
             said = "is no ensemble of cases or over Omega"
-            absent += [(f"{label}.runs.{name}", said) for name in unknown]
+            absent += [(f"{label}.runs.{name}", said) for name in sorted(unknown)]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
         yield from absent
-        if not absent:
-            yield from self._faults_of_band(settings)
-        for label, size in {} if absent else sizes.items():
+        if absent:
+            return
+        yield from self._faults_of_band(settings)
+        for label, size in sizes.items():
             yield from self._faults_of_size(settings, label, size)
 
     def _faults_of_band(self, settings: Configuration) -> Faults:
@@ -84,38 +85,33 @@ class Settings(Model):
                 text = f"{run.end_time:g} is not a whole number of output steps"
                 yield f"{label}.runs.{name}.end_time", f"{text} of {self.output_step:g}"
         for name in self.names:
-            run, problems = size.runs[name], self.problems(
-                settings.problem(self.case_of(name)), name, size
-            )  # fmt: skip
+            run = size.runs[name]
+            problems = self.problems(settings.problem(self.case_of(name)), name, size)
             # the front moves at SPEED, half of its reach is the mean
             reach = 0.5 * SPEED * abs(problems[0]["epsilon"]) * run.end_time
             cost = estimate(problems[0] | {"half_width": max(1.0, reach), "snapshot_every": 0})
-            key = "end_time" if cost.seconds * len(problems) > run.members else "members"
             count = len(problems) * run.members
+            key = "end_time" if cost.seconds * len(problems) > run.members else "members"
             yield from settings.excess(f"{label}.runs.{name}.{key}", [cost], count)
 
     @property
     def names(self) -> list[str]:
-        """The ensembles: those of cases, and those over Omega."""
-        return [*self.cases, *ENSEMBLES]
+        """The ensembles: those of cases, and the one over Omega."""
+        return [*self.cases, OMEGAS]
 
     def case_of(self, name: str) -> str:
         """Return the case of the paper that an ensemble starts from."""
-        return self.omegas.case if name in ENSEMBLES else name
+        return self.omegas.case if name == OMEGAS else name
 
     def problems(self, case: Mapping[str, Any], name: str, size: Size) -> list[dict]:
-        """Return the problems of an ensemble as plain values, one for each Omega.
-
-        `case` is the case that it starts from, as plain values of a Problem.
-        """
-        kept = {key: case[key] for key in ("epsilon", "gamma", "omega", "initial")}
+        """Return the problems of an ensemble that starts from a case, one for each Omega."""
         base = {
-            **kept,
+            **{key: case[key] for key in ("epsilon", "gamma", "omega", "initial")},
             "half_width": None,
             "boundary": "dirichlet",
             "end_time": size.runs[name].end_time,
             "output_step": self.output_step,
             "solver": size.solver.model_dump(),
         }
-        omegas = self.omegas.values if name in ENSEMBLES else [base["omega"]]
+        omegas = self.omegas.values if name == OMEGAS else [base["omega"]]
         return [base | {"omega": omega} for omega in omegas]

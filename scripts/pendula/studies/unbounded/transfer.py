@@ -9,10 +9,9 @@ is the distribution of a site of the infinite chain.
 The coordinates are y = (s, t, p, q) = (Re, Re, Im, Im) of (A + B, A - B, A + B, A - B) / sqrt 2. In
 them P = |y|^2, the quartic term is (P^2 + 4 (st + pq)^2) / 8 and the drive -2 gamma (t^2 - q^2).
 A bond is a product of four factors, one a coordinate, so that an integral over a site is four
-small sums. They are taken by the midpoint rule, which converges exponentially for smooth functions
-that decay. H keeps its value under changes of signs that keep the sign of s t p q. Therefore the
-nodes with s, t, p, q > 0 suffice, with two values at each: that of (s, t, p, q), and that of
-(s, t, p, -q). On the chain with A = -B s and p have the one node zero.
+small sums, by the midpoint rule. H keeps its value under changes of signs that keep the sign of
+s t p q. Therefore the nodes with s, t, p, q > 0 suffice, with two values at each: that of
+(s, t, p, q), and that of (s, t, p, -q). On the chain with A = -B s and p have the one node zero.
 """
 
 from typing import NamedTuple
@@ -56,8 +55,7 @@ class Operator(NamedTuple):
 def widest(constants: Constants, beta: float) -> np.ndarray:
     """Return a bound on the coordinates: beyond it a site has less than exp(-REACH) of the weight.
 
-    The energy of a site is above P^2 / 8 - c P with c as below, and beta times that above its least
-    value by REACH at the bound.
+    The energy of a site is above P^2 / 8 - c P with c as below.
     """
     epsilon, gamma, omega = constants
     c = 4.0 * epsilon + 2.0 * gamma - omega
@@ -73,10 +71,10 @@ def half_nodes(reach: np.ndarray, count: int, antisymmetric: bool) -> tuple[np.n
     return tuple(found)
 
 
-def bonds_between(beta: float, epsilon: float, to: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+def bonds_on(nodes: np.ndarray, beta: float, epsilon: float) -> np.ndarray:
     """Return the factor of a bond on even and odd functions of a coordinate, (parity, to, node)."""
     step = 2.0 * nodes[0] if nodes.size > 1 else 1.0  # the midpoint rule
-    apart, across = to[:, None] - nodes, to[:, None] + nodes
+    apart, across = nodes[:, None] - nodes, nodes[:, None] + nodes
     near, far = (step * exp(-beta * epsilon * d * d) for d in (apart, across))
     return np.array([near + far, near - far])
 
@@ -90,7 +88,7 @@ def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ..
     quartic = (power * power + 4.0 * products * products) / 8.0
     whole = quartic + (omega - 4.0 * epsilon) * power - 2.0 * gamma * (t * t - q * q)
     roots = exp(-0.5 * beta * (whole - whole.min()))
-    bonds = tuple(bonds_between(beta, epsilon, one, one) for one in nodes)
+    bonds = tuple(bonds_on(one, beta, epsilon) for one in nodes)
     return Operator(constants, beta, nodes, bonds, roots, quartic, power)
 
 
