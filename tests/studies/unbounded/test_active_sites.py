@@ -8,12 +8,11 @@ from oracle import random_chain
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
     GUARD,
-    find_front,
     in_pieces,
-    region_means,
     run_long,
     widen,
 )
+from pendula.studies.unbounded.bulk import find_front, region_means
 from pendula.studies.unbounded.sums import in_sums, turned
 from problems import problem_of
 

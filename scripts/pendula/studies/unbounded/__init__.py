@@ -1,7 +1,7 @@
 """The infinite chain: only its sites in motion are integrated.
 
-From the bottom: `sums` (the unknowns), `transfer` and `thermal` (the thermal states that the states
-behind the fronts are compared with), `active_sites` (a long run on the sites in motion), `front`
-(the predicted speed of the first front), `long_runs` (ensembles), `measured` (speeds, powers, the
-law of growth); `settings` holds the choices of the configuration.
+From the bottom: `sums` (the unknowns), `bulk` (the states behind the fronts), `transfer` and
+`thermal` (the thermal states that these are compared with), `active_sites` (a long run on the sites
+in motion), `front` (the predicted speed of the first front), `long_runs` (ensembles), `measured`
+(speeds, powers, the law of growth); `settings` holds the choices of the configuration.
 """

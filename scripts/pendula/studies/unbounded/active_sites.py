@@ -22,6 +22,7 @@ from latticode.simulation.systems import make_system, solvers_of
 
 from pendula.problem import Problem
 
+from .bulk import find_front, region_means, site_powers
 from .sums import halves, in_sums, turned
 
 BLOCK, GUARD = 64, 32
@@ -30,20 +31,6 @@ sites within a piece."""
 
 PIECE = 2.0
 """Units of tau between two looks at the last sites."""
-
-LEVEL = 1e-2
-"""Power of a pair at which the fronts are found: of P the first, of its part |S|^2 the second."""
-
-BEHIND, BETWEEN = REGIONS = ("behind the second front", "between the fronts")
-KINDS = ("P", "|S|^2")
-SHARE, EDGE, AHEAD = 0.9, 40, 10
-"""The part of the way to a front that counts as behind it, and how many sites behind the first and
-ahead of the second front do not count as between them: there the state is yet to settle."""
-
-
-def site_powers(sites: np.ndarray) -> np.ndarray:
-    """Return the sum of the squares of the rows, (site,)."""
-    return (sites * sites).sum(axis=0)
 
 
 def is_even(initial: np.ndarray) -> bool:
@@ -140,24 +127,3 @@ def _norms(record: Record) -> tuple[np.ndarray, np.ndarray]:
     s, d = np.swapaxes(record.kept, 0, 1)  # (part, site, time)
     squares = np.maximum(*(site_powers(part) for part in halves(turned(np.concatenate([s, d])))))
     return np.sqrt((record.l2**2).sum(axis=0)), np.sqrt(squares.max(axis=0))
-
-
-def find_front(power: np.ndarray) -> float:
-    """Return the last site where the power (site,) is above LEVEL, -1 if none is."""
-    above = np.flatnonzero(power > LEVEL)
-    return float(above[-1]) if above.size else -1.0
-
-
-def region_means(sites: np.ndarray, front: float, second: float) -> np.ndarray:
-    """Return the means of KINDS over REGIONS, (region, kind), NaN where one has no sites.
-
-    `sites` are rows of S and D. The centre is left out.
-    """
-    values = np.array([site_powers(sites), site_powers(sites[:2])])
-    ahead = max(1, int(second) + AHEAD) if second >= 0.0 else 1
-    regions = slice(1, int(SHARE * second)), slice(ahead, int(front) - EDGE)
-    found = np.full((len(REGIONS), len(KINDS)), np.nan)
-    for mean, region in zip(found, regions, strict=True):
-        if region.stop > region.start:
-            mean[:] = np.add.reduce(values[:, region], axis=1) / (region.stop - region.start)
-    return found

@@ -20,7 +20,7 @@ from pendula.ledger.criterion import (
 )
 from pendula.ledger.cutoff import Cutoff
 
-from .active_sites import BEHIND, BETWEEN, KINDS
+from .bulk import BEHIND, BETWEEN, KINDS
 from .claims import DIFFUSING, sure, times_of
 from .measured import mean_powers, resolution, second_speeds, slope_ratios, speeds, thermal_powers
 

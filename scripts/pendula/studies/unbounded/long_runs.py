@@ -13,10 +13,9 @@ from latticode.simulation.runs import Run, shaped
 
 from pendula.problem import Problem
 
-from .active_sites import KINDS, REGIONS, run_long
+from .active_sites import run_long
+from .bulk import KINDS, PREDICTED_SPEED, REGIONS
 from .front import linear_front
-
-PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
 
 
 def member(problem: Problem, perturbation: float, seed: int, number: int) -> Problem:

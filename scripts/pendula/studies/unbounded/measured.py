@@ -16,9 +16,7 @@ from latticode.measures.confidence import CONFIDENCE, Limits, mean_limits
 from latticode.measures.spreading import fit_line, lay_line
 from latticode.numerics.elementary import log
 
-from .active_sites import BEHIND, BETWEEN, KINDS, LEVEL
-from .long_runs import PREDICTED_SPEED
-from .thermal import POWER
+from .bulk import BEHIND, BETWEEN, KINDS, LEVEL, POWER, PREDICTED_SPEED
 
 LATE = 0.5
 """The part of a run, at its end, that powers are means of."""

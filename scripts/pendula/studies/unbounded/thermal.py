@@ -18,14 +18,13 @@ from latticode.numerics.elementary import exp, log
 from pendula.problem import Constants
 
 from . import transfer
+from .bulk import POWER
 
 HOT, COLD = 1e-3, 1e5
 """Inverse temperatures between which a state is looked for."""
 
 HALVINGS, SECANTS = 7, 12
 """Steps to a rough beta on a coarse grid, and the most steps from there on a finer one."""
-
-POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, its mean"
 
 
 class NoStateError(ValueError):

@@ -1,0 +1,45 @@
+"""Where the fronts are on the sites of a state, and the powers of what they leave behind.
+
+`sites` are four rows on the sites 0..W, (row, site): Re and Im of S and D (see `sums`).
+"""
+
+import numpy as np
+
+POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, its mean"
+PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
+"""What these quantities are called in every dataset of this study."""
+
+LEVEL = 1e-2
+"""Power of a pair at which the fronts are found: of P the first, of its part |S|^2 the second."""
+
+BEHIND, BETWEEN = REGIONS = ("behind the second front", "between the fronts")
+KINDS = ("P", "|S|^2")
+SHARE, EDGE, AHEAD = 0.9, 40, 10
+"""The part of the way to a front that counts as behind it, and how many sites behind the first and
+ahead of the second front do not count as between them: there the state is yet to settle."""
+
+
+def site_powers(sites: np.ndarray) -> np.ndarray:
+    """Return the sum of the squares of the rows, (site,)."""
+    return (sites * sites).sum(axis=0)
+
+
+def find_front(power: np.ndarray) -> float:
+    """Return the last site where the power (site,) is above LEVEL, -1 if none is."""
+    above = np.flatnonzero(power > LEVEL)
+    return float(above[-1]) if above.size else -1.0
+
+
+def region_means(sites: np.ndarray, front: float, second: float) -> np.ndarray:
+    """Return the means of KINDS over REGIONS, (region, kind), NaN where one has no sites.
+
+    `sites` are rows of S and D. The centre is left out.
+    """
+    values = np.array([site_powers(sites), site_powers(sites[:2])])
+    ahead = max(1, int(second) + AHEAD) if second >= 0.0 else 1
+    regions = slice(1, int(SHARE * second)), slice(ahead, int(front) - EDGE)
+    found = np.full((len(REGIONS), len(KINDS)), np.nan)
+    for mean, region in zip(found, regions, strict=True):
+        if region.stop > region.start:
+            mean[:] = np.add.reduce(values[:, region], axis=1) / (region.stop - region.start)
+    return found
