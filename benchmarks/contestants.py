@@ -13,9 +13,9 @@ import numpy as np
 from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
 
-from . import peers_as_programs, peers_in_python
+from . import peer_in_cpp, peers_in_python
 from .peer import Peer, Solve
-from .timing import Times, TooLongError, in_turns, limit, repeat, timed
+from .timing import TooLongError, in_turns, limit, repeat, timed
 
 TOLERANCES = 10.0 ** -np.arange(4.0, 15.5)
 ITERATED = ("crank_nicolson", "delfour_fortin_payre")
@@ -23,17 +23,13 @@ STEPS = {
     **{name: 0.04 / 2.0 ** np.arange(6) for name in ITERATED},
     "kahan_li": 1.6 / 2.0 ** np.arange(6),  # of the pendula, in their time t
 }
-PEERS: dict[str, Peer] = peers_in_python.PEERS | peers_as_programs.PEERS
+PEERS: dict[str, Peer] = peers_in_python.PEERS | peer_in_cpp.PEERS
 
 PATIENCE = 1.0
 """Seconds: a contestant that took longer is not asked for more accuracy."""
 LIMIT = 5.0
 """Seconds after which a run is broken off."""
-ENOUGH = 0.1
-"""Seconds of repetitions after which a median is taken."""
-LEAST, MOST = 3, 15
-"""Repetitions of a run, as its length allows."""
-PAIRS, FEW_PAIRS = 7, 3
+REPEAT, PAIRS, FEW_PAIRS = 7, 7, 3
 LONG = 0.3
 """Seconds: a run that takes longer is not repeated by itself, and few pairs are enough."""
 BLOCK = 0.02
@@ -49,22 +45,11 @@ class Contestant(NamedTuple):
 
 
 class Point(NamedTuple):
-    """What one accuracy costs (median, least and most of the repetitions, s) and brings."""
+    """What one accuracy costs (median of the repetitions, s) and brings."""
 
     accuracy: float
     seconds: float
-    least: float
-    most: float
     error: float
-
-
-class Comparison(NamedTuple):
-    """How many times as long a peer takes as our best solver, each at an error below the target."""
-
-    ours: str
-    our_point: Point
-    peer_point: Point
-    ratios: np.ndarray
 
 
 Measured = tuple[Contestant, list[Point]]
@@ -97,17 +82,17 @@ OURS = {name: own for name, own in OWN.items() if name != "kahan_li"}
 """The solvers of the amplitudes."""
 
 
-def find_peers(
-    peers: Mapping[str, Peer] = PEERS,
-) -> tuple[dict[str, Contestant], dict[str, str]]:
-    """Return the peers that are installed, and for the others the reason why they are missing."""
+def find_peers(peers: Mapping[str, Peer]) -> tuple[dict[str, Contestant], str]:
+    """Return the peers that are installed, and why others are missing, which is also printed."""
     absent = {name: why for name, peer in peers.items() if (why := peer.why_absent())}
     present = {
         name: Contestant(peer.title, TOLERANCES, peer.prepare)
         for name, peer in peers.items()
         if name not in absent
     }
-    return present, absent
+    for reason in absent.values():
+        print(f"not measured: {reason}")
+    return present, "; ".join(absent.values())
 
 
 def error_of(final: np.ndarray, exact: np.ndarray) -> float:
@@ -137,11 +122,10 @@ def measure_points(
             continue
         if not np.all(np.isfinite(final)):
             continue
-        times = Times(seconds, seconds, seconds)
         if seconds <= LONG:
-            times = repeat(lambda a=accuracy: solve(a)[1], LEAST, MOST, ENOUGH, warm=True)
-        points.append(Point(accuracy, *times, error_of(final, exact)))
-        if times.median > PATIENCE or points[-1].error < goal:
+            seconds = repeat(lambda a=accuracy: solve(a)[1], REPEAT)
+        points.append(Point(accuracy, seconds, error_of(final, exact)))
+        if seconds > PATIENCE or points[-1].error < goal:
             break
     return points
 
@@ -154,8 +138,11 @@ def cheapest(points: list[Point], target: float) -> Point | None:
 
 def compare(
     problem: Problem, target: float, peer: Measured, ours: dict[str, Measured]
-) -> Comparison | None:
-    """Let the peer and our best solver take turns; None where one of them misses the target."""
+) -> np.ndarray | None:
+    """Let the peer and our best solver take turns, each at an error below the target.
+
+    Return how many times as long the peer takes; None where one of them misses the target.
+    """
     reached = {name: cheapest(points, target) for name, (_, points) in ours.items()}
     times = {name: point.seconds for name, point in reached.items() if point}
     theirs = cheapest(peer[1], target)
@@ -165,10 +152,9 @@ def compare(
     mine = reached[best]
     solve_peer, solve_ours = peer[0].prepare(problem), ours[best][0].prepare(problem)
     turns = FEW_PAIRS if theirs.seconds > LONG else PAIRS
-    ratios = in_turns(
+    return in_turns(
         lambda: solve_peer(theirs.accuracy)[1], lambda: solve_ours(mine.accuracy)[1], turns, BLOCK
     )
-    return Comparison(best, mine, theirs, ratios)
 
 
 def compete(
@@ -178,7 +164,7 @@ def compete(
     ours: Mapping[str, Contestant],
     peers: Mapping[str, Contestant],
     say: Callable[[str], None],
-) -> tuple[dict[str, list[Point]], dict[str, Comparison | None]]:
+) -> tuple[dict[str, list[Point]], dict[str, np.ndarray | None]]:
     """Return the points of all contestants by name, and how each peer compares with our best.
 
     `say` is called with the title of each contestant before it is measured.

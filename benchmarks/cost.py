@@ -6,7 +6,7 @@ from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
 
 from .contestants import controls
-from .timing import clocked, repeat
+from .timing import repeat, timed
 
 SITES = (3, 5, 11, 31, 61, 201, 1001, 10_001, 100_001)
 SOLVERS = ("dop853", "taylor")
@@ -49,4 +49,4 @@ def time_chain(sites: int, name: str) -> float:
     """Return the time in s a site and unit of tau."""
     problem = noisy_chain(sites, name)
     simulate(problem)  # compiles
-    return repeat(clocked(lambda: simulate(problem)), REPEAT).median / sites / problem.end_time
+    return repeat(lambda: timed(lambda: simulate(problem))[1], REPEAT) / sites / problem.end_time

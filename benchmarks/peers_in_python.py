@@ -12,7 +12,6 @@ from functools import partial
 
 import numba
 import numpy as np
-from latticode.simulation.lattice import WHOLE, Reduction
 from numba import types
 from pendula.models.pendula import frequency
 from pendula.problem import AMPLITUDES, PENDULA, Problem
@@ -35,19 +34,6 @@ def plain_rates(tau, u, epsilon, gamma, omega):
     db = epsilon * (right_b - 2 * b + left_b) + omega * b
     db = db + gamma * (np.conj(a) - np.conj(b)) + 0.5 * np.abs(b) ** 2 * b
     return -1j * np.concatenate([da, db])
-
-
-def plain_rates_of_pendula(t, u, coupling, strength, twice_omega):
-    """Equations (1) of the vector (x, y, x', y') as most people would write them in NumPy."""
-    x, y, _, _ = np.split(u, 4)
-    drive = strength * np.cos(twice_omega * t)
-
-    def force(own, other):
-        wide = np.concatenate([[0], own, [0]])
-        bonds = coupling * (wide[2:] - 2 * own + wide[:-2])
-        return bonds + drive * (other - own) - np.sin(own)
-
-    return np.concatenate([u[len(u) // 2 :], force(x, y), force(y, x)])
 
 
 def factors_of(problem: Problem) -> dict[str, float]:
@@ -76,12 +62,9 @@ def prepare_scipy(problem: Problem, method: str, compiled: bool) -> Solve:
             return slope
 
         rates(0.0, start.ravel())
-    elif problem.model.name == AMPLITUDES:
+    else:
         start = problem.amplitudes
         rates = partial(plain_rates, **asdict(problem.constants))
-    else:
-        start = final_of(problem, start)
-        rates = partial(plain_rates_of_pendula, **factors_of(problem))
 
     def solve(rtol):
         options = {"method": method, "rtol": rtol, "atol": absolute * rtol}
@@ -99,34 +82,29 @@ def prepare_scipy(problem: Problem, method: str, compiled: bool) -> Solve:
 # heyoka
 
 
-def neighbours(u, j: int, even: bool):
-    """Return the sum of the neighbours of site j; the half of an even chain mirrors its first."""
-    before = [u[j - 1]] if j > 0 else [u[1]] if even else []
+def neighbours(u, j: int):
+    """Return the sum of the neighbours of site j of half an even chain, which mirrors its first."""
     after = [u[j + 1]] if j + 1 < len(u) else []
-    return sum(after + before)
+    return sum([*after, u[j - 1] if j > 0 else u[1]])
 
 
-def equations(problem: Problem, n: int, reduction: Reduction) -> list:
-    """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B of n sites.
+def equations(problem: Problem, n: int) -> list:
+    """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B of the n sites of half a chain.
 
-    On half a chain |A|^2 and |B|^2 are shared; on the whole one each cubic term is written out as
-    in the manual's examples.
+    Both rates of a site share |A|^2 and |B|^2.
     """
     import heyoka
 
     epsilon, gamma, omega = problem.constants
-    even = reduction.even
     names = [f"{row}_{site}" for row in ("x", "y", "u", "v") for site in range(n)]
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
-    squares = rows[0::2] ** 2 + rows[1::2] ** 2 if even else None
+    squares = rows[0::2] ** 2 + rows[1::2] ** 2
 
     def part(row, j, drive):
-        u, im = rows[row], rows[row ^ 1]
-        linear = epsilon * (neighbours(u, j, even) - 2.0 * u[j]) + omega * u[j]
+        u = rows[row]
+        linear = epsilon * (neighbours(u, j) - 2.0 * u[j]) + omega * u[j]
         linear = linear + drive * (rows[(row + 2) % 4][j] - u[j])
-        if even:
-            return linear + 0.5 * squares[row // 2, j] * u[j]
-        return linear + 0.5 * (u[j] * u[j] + im[j] * im[j]) * u[j]
+        return linear + 0.5 * squares[row // 2, j] * u[j]
 
     rates = [
         part(row + 1, j, -gamma) if row % 2 == 0 else -part(row - 1, j, gamma)
@@ -136,7 +114,7 @@ def equations(problem: Problem, n: int, reduction: Reduction) -> list:
     return list(zip(rows.ravel(), rates, strict=True))
 
 
-def equations_of_pendula(problem: Problem, n: int, reduction: Reduction) -> list:
+def equations_of_pendula(problem: Problem, n: int) -> list:
     """Return the same of the rows x, x', y, y', with the drive as a function of t."""
     import heyoka
 
@@ -146,7 +124,7 @@ def equations_of_pendula(problem: Problem, n: int, reduction: Reduction) -> list
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
 
     def force(x, other, j):
-        bonds = factors["coupling"] * (neighbours(x, j, reduction.even) - 2.0 * x[j])
+        bonds = factors["coupling"] * (neighbours(x, j) - 2.0 * x[j])
         return bonds + drive * (other[j] - x[j]) - heyoka.sin(x[j])
 
     found = []
@@ -156,17 +134,17 @@ def equations_of_pendula(problem: Problem, n: int, reduction: Reduction) -> list
     return found
 
 
-def prepare_heyoka(problem: Problem, reduction: Reduction) -> Solve:
-    """Return heyoka's integrator, one compiled for each tolerance outside of the measured time.
+def prepare_heyoka(problem: Problem) -> Solve:
+    """Return heyoka's integrator of half the chain, compiled for each tolerance before it is timed.
 
     It runs in compact mode, because the default one compiles for minutes.
     """
-    _, start, end = begin(problem, reduction)
+    _, start, end = begin(problem, HALF)
     import heyoka
 
     start, compiled = start[:, 1:-1], {}
     written = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model.name]
-    system = written(problem, start.shape[1], reduction)
+    system = written(problem, start.shape[1])
 
     def solve(rtol):
         if rtol not in compiled:
@@ -179,17 +157,12 @@ def prepare_heyoka(problem: Problem, reduction: Reduction) -> Solve:
         outcome, seconds = timed(lambda: integrator.propagate_until(end))
         if outcome[0] != heyoka.taylor_outcome.time_limit:
             raise RuntimeError(f"heyoka gave up: {outcome[0]}")
-        return final_of(problem, with_ghosts(integrator.state), reduction), seconds
+        return final_of(problem, with_ghosts(integrator.state), HALF), seconds
 
     return solve
 
 
-HEYOKA = Peer(
-    "heyoka, whole chain", needs("heyoka", "heyoka"), partial(prepare_heyoka, reduction=WHOLE)
-)
-HEYOKA_HALF = Peer(
-    "heyoka, half chain", needs("heyoka", "heyoka"), partial(prepare_heyoka, reduction=HALF)
-)
+HEYOKA = Peer("heyoka, half chain", needs("heyoka", "heyoka"), prepare_heyoka)
 
 
 # SUNDIALS and numbalsoda
@@ -225,9 +198,9 @@ def prepare_cvode(problem: Problem) -> Solve:
     return solve
 
 
-def prepare_numbalsoda(problem: Problem, reduction: Reduction) -> Solve:
-    """Return DOP853 on the library's real state of the whole or of half the chain."""
-    chain, start, end = begin(problem, reduction)
+def prepare_numbalsoda(problem: Problem) -> Solve:
+    """Return DOP853 on the library's real state of half the chain."""
+    chain, start, end = begin(problem, HALF)
     from numbalsoda import dop853
 
     start = start.ravel()
@@ -245,7 +218,7 @@ def prepare_numbalsoda(problem: Problem, reduction: Reduction) -> Solve:
         )
         if not success:  # it then returns plausible numbers all the same
             raise RuntimeError("numbalsoda's dop853 gave up")
-        return final_of(problem, u[-1], reduction), seconds
+        return final_of(problem, u[-1], HALF), seconds
 
     solve(1e-3)  # compiles the driver
     return solve
@@ -263,22 +236,14 @@ PEERS = {
     "scipy_dop853": _scipy("DOP853", compiled=True),
     "scipy_lsoda": _scipy("LSODA", compiled=True),
     "scipy_radau": _scipy("Radau", compiled=True),
-    "heyoka_full": HEYOKA,
-    "heyoka_half": HEYOKA_HALF,
+    "heyoka_half": HEYOKA,
     "cvode_adams": Peer("SUNDIALS CVODE, Adams", needs("sksundae", "scikit-sundae"), prepare_cvode),
-    **{
-        f"numbalsoda_dop853{ending}": Peer(
-            f"numbalsoda DOP853, {part} chain",
-            needs("numbalsoda", "numbalsoda"),
-            partial(prepare_numbalsoda, reduction=reduction),
-        )
-        for ending, part, reduction in (("", "whole", WHOLE), ("_half", "half", HALF))
-    },
+    "numbalsoda_dop853_half": Peer(
+        "numbalsoda DOP853, half chain", needs("numbalsoda", "numbalsoda"), prepare_numbalsoda
+    ),
 }
 OF_PENDULA = {
-    "scipy_dop853_numpy": PEERS["scipy_dop853_numpy"]._replace(title="SciPy DOP853, NumPy"),
-    "scipy_dop853": PEERS["scipy_dop853"]._replace(title="SciPy DOP853, compiled"),
-    "heyoka_full": HEYOKA,
-    "heyoka_half": HEYOKA_HALF,
+    "scipy_dop853": PEERS["scipy_dop853"],
+    "heyoka_half": HEYOKA,
 }
 """Those that take Newton's equations."""

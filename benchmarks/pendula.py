@@ -61,5 +61,5 @@ def measure(
         "case": Variable(("case",), np.array(list(problems))),
         **name_contestants({**OURS, **peers}),
         **by_point(FIELDS, found),
-        **by_pair(pairs, list(peers), "rad"),
+        **by_pair(pairs, list(peers)),
     }

@@ -13,7 +13,6 @@ import tempfile
 from pathlib import Path
 
 from latticode.kernels.sources import describe_machine
-from pendula.report.words import markdown, write_markdown
 
 from .timing import timed
 
@@ -72,14 +71,11 @@ def _megabytes(folder: Path) -> int:
     return round(sum(path.stat().st_size for path in files) / 1e6)
 
 
-def measure_reproduction(data: str, table: str) -> None:
-    """Measure in a copy of the project; write what was measured as JSON and as a table."""
+def measure_reproduction(data: str) -> None:
+    """Measure in a copy of the project, and write what was measured as JSON."""
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder) / "project"
         shutil.copytree(ROOT, project, ignore=LEFT_OUT)
         measured = measure(project)
     Path(data).write_text(json.dumps(measured, indent=1) + "\n", encoding="utf-8")
-    runs = measured["runs"].items()
-    rows = [(RUNS[name], f"{one['wall']:.1f}", f"{one['processor']:.1f}") for name, one in runs]
-    write_markdown(table, markdown(["run", "wall time, s", "processor time, s"], rows))
-    print(Path(table).read_text(encoding="utf-8"))
+    print(json.dumps(measured["runs"], indent=1))

@@ -1,28 +1,19 @@
 """The one timer of all benchmarks: repetitions after a warm-up, and two runs that take turns.
 
-`timeit` measures a callable from outside. Here a run tells its own seconds, because Octave reports
-its time from another process, and because other integrators must be reset between runs, which is
-not part of what they are measured at.
+`timeit` measures a callable from outside. Here a run tells its own seconds, because other
+integrators must be reset between runs, which is not part of what they are measured at.
 """
 
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 Run = Callable[[], float]
 """A run that returns the seconds that it took."""
-
-
-class Times(NamedTuple):
-    """The median, the least and the largest of repeated runs, in seconds."""
-
-    median: float
-    least: float
-    most: float
 
 
 class TooLongError(Exception):
@@ -36,25 +27,9 @@ def timed(action: Callable[[], Any]) -> tuple[Any, float]:
     return result, perf_counter() - start
 
 
-def clocked(action: Callable[[], Any]) -> Run:
-    """Return `action` as a run that tells its seconds instead of its result."""
-    return lambda: timed(action)[1]
-
-
-def repeat(
-    run: Run, least: int, most: int | None = None, enough: float = 0.0, warm: bool = False
-) -> Times:
-    """Repeat a run, after one that warms up unless it is `warm` already, and return the times.
-
-    There are at least `least` repetitions; more follow, up to `most`, until all of them together
-    took `enough` seconds.
-    """
-    if not warm:
-        run()
-    times = []
-    while len(times) < least or (sum(times) < enough and len(times) < (most or least)):
-        times.append(run())
-    return Times(float(np.median(times)), min(times), max(times))
+def repeat(run: Run, count: int) -> float:
+    """Return the median of the seconds of `count` runs."""
+    return float(np.median([run() for _ in range(count)]))
 
 
 def in_turns(one: Run, other: Run, turns: int, block: float) -> np.ndarray:

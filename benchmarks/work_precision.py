@@ -1,6 +1,6 @@
 """The dataset of speed against error: each solver and peer, each case, each accuracy."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from itertools import product
 
 import numpy as np
@@ -8,22 +8,18 @@ from latticode.datasets.netcdf import Variable
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem
 
-from .contestants import OURS, Comparison, Contestant, cheapest, compete
+from .contestants import OURS, Contestant, Point, cheapest, compete
 from .problems import REGIME_OF, REGIMES
 
 POINT_FIELDS = {
     "accuracy": ("tolerance or step that was asked for", "1"),
     "seconds": ("median time of a run without outputs", "s"),
-    "least": ("least time of a run", "s"),
-    "most": ("largest time of a run", "s"),
     "error": ("error of an amplitude at the horizon, the largest", "1"),
 }
 PAIR_FIELDS = {
     "ratio": "time of the peer over that of our best solver, median of pairs",
     "ratio_least": "least ratio of a pair",
     "ratio_most": "largest ratio of a pair",
-    "peer_error": "error of the peer in the pairs",
-    "our_error": "error of our best solver in the pairs",
 }
 
 
@@ -82,7 +78,7 @@ def name_contestants(contestants: Mapping[str, Contestant]) -> dict[str, Variabl
 
 
 def by_point(
-    fields: Mapping[str, tuple], found: Mapping[str, Mapping[str, list[Iterable]]]
+    fields: Mapping[str, tuple], found: Mapping[str, Mapping[str, list[Point]]]
 ) -> dict[str, Variable]:
     """Return one variable a field over (case, contestant, point), NaN beyond the last point.
 
@@ -101,27 +97,22 @@ def by_point(
 
 
 def by_pair(
-    pairs: Mapping[str, Mapping[str, Comparison | None]], peers: list[str], unit: str = "1"
+    pairs: Mapping[str, Mapping[str, np.ndarray | None]], peers: list[str]
 ) -> dict[str, Variable]:
-    """Return how the peers compare with our best solver; errors are in `unit`."""
+    """Return how the peers compare with our best solver."""
     table = np.full((len(PAIR_FIELDS), len(pairs), len(peers)), np.nan)
-    best = np.full((len(pairs), len(peers)), "", dtype="U32")
     for (i, case), (j, name) in product(enumerate(pairs), enumerate(peers)):
-        if pair := pairs[case][name]:
-            ratios, errors = pair.ratios, (pair.peer_point.error, pair.our_point.error)
-            table[:, i, j] = np.median(ratios), ratios.min(), ratios.max(), *errors
-            best[i, j] = pair.ours
+        if (ratios := pairs[case][name]) is not None:
+            table[:, i, j] = np.median(ratios), ratios.min(), ratios.max()
     count = np.isfinite(table[0]).sum(axis=0)
     logarithms = np.nansum(np.log(table[0]), axis=0)
     mean = np.where(count > 0, np.exp(logarithms / np.maximum(count, 1)), np.nan)
-    units = {"peer_error": unit, "our_error": unit}
     return {
         "peer": Variable(("peer",), np.array(peers), "peer"),
-        "our_best": Variable(("case", "peer"), best, "our solver in the pairs"),
         "mean_ratio": Variable(("peer",), mean, "geometric mean of the ratios over the cases"),
         "reached_cases": Variable(("peer",), count, "cases in which the error was reached"),
         **{
-            name: Variable(("case", "peer"), values, PAIR_FIELDS[name], units.get(name, "1"))
+            name: Variable(("case", "peer"), values, PAIR_FIELDS[name])
             for name, values in zip(PAIR_FIELDS, table, strict=True)
         },
     }

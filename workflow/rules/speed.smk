@@ -4,7 +4,7 @@
 rule speed:
     "Speed against error of every solver and installed peer, and what runs cost (takes minutes)"
     input:
-        expand("<results>/speed/{name}.md", name=["work_precision", "cost", "pendula"]),
+        datasets("speed", "work_precision", "cost", "pendula"),
         expand("<results>/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS),
 
 
@@ -21,11 +21,8 @@ use rule dataset as work_precision with:
         problems={case: SETTINGS.problem(case) for case in PAPER_CASES},
 
 
-use rule job as speed_pendula with:
+use rule dataset as speed_pendula with:
     "Part of speed: every solver and installed peer on Newton's equations, timed"
-    output:
-        data="<results>/speed/pendula.nc",
-        table="<results>/speed/pendula.md",
     pathvars:
         made="speed/pendula",
     threads: workflow.cores
@@ -34,13 +31,10 @@ use rule job as speed_pendula with:
         problems={case: SETTINGS.problem(case) for case in REGIMES["regular"].cases},
 
 
-use rule job as cost with:
+use rule dataset as cost with:
     "Part of speed: longer and longer chains, timed"
     input:
         kernels=kernels("dop853", "taylor"),
-    output:
-        data="<results>/speed/cost.nc",
-        table="<results>/speed/cost.md",
     pathvars:
         made="speed/cost",
     threads: workflow.cores
@@ -48,25 +42,21 @@ use rule job as cost with:
         call=function("benchmarks.jobs.measure_cost"),
 
 
-use rule job as speed_pages with:
-    "Part of speed: what was timed, as a table to read and as figures"
+use rule figure as speed_figure with:
+    "Part of speed: what was timed, a figure for each kind of motion"
     input:
-        work_precision="<results>/speed/work_precision.nc",
-    output:
-        work_precision_table="<results>/speed/work_precision.md",
-        files=[file for name in SPEED_FIGURES for file in figure_files(f"<results>/figures/{name}")],
+        measured="<results>/speed/work_precision.nc",
     pathvars:
-        made="speed/pages",
+        made=f"figures/speed_{{regime,{one_of(REGIMES)}}}",
     params:
-        call=function("benchmarks.jobs.show_speed"),
-        regimes=list(REGIMES),
+        call=function("benchmarks.figures.draw_work_precision"),
+        regime="{regime}",
 
 
 use rule job as reproduction with:
     "The times of the whole reproduction, from nothing and with compiled kernels"
     output:
         data="<results>/speed/reproduction.json",
-        table="<results>/speed/reproduction.md",
     pathvars:
         made="speed/reproduction",
     threads: workflow.cores

@@ -1,0 +1,92 @@
+"""A Taylor method in C++: this project's once more, by hand (taylor.cpp).
+
+It shows how near the compiled Python comes to it. It goes through four sites at a time, and where
+the processor has AVX-512 also through eight.
+"""
+
+import ctypes
+import os
+import shutil
+import subprocess
+import tempfile
+from functools import cache, partial
+from pathlib import Path
+
+from pendula.problem import Problem
+
+from .peer import HALF, Peer, Solve, begin, final_of, with_ghosts
+from .timing import timed
+
+
+def lacks_compiler() -> str | None:
+    """Return in words why no C++ is compiled."""
+    return None if shutil.which("g++") else "g++ is not on the PATH"
+
+
+SOURCE = Path(__file__).with_name("taylor.cpp")
+OPTIONS = ("-std=c++17", "-O3", "-shared", "-fPIC")
+
+
+def target() -> str:
+    """Return the option that lets GCC compile for the processor that numba compiles for."""
+    name = os.environ.get("NUMBA_CPU_NAME", "native")
+    return f"-march={'x86-64' if name == 'generic' else name}"
+
+
+@cache
+def lacks_avx512() -> str | None:
+    """Return in words why vectors of eight numbers are not compared."""
+    if why := lacks_compiler():
+        return why
+    asked = ["g++", target(), "-dM", "-E", "-x", "c++", os.devnull]
+    done = subprocess.run(asked, capture_output=True, text=True)
+    return None if "__AVX512F__" in done.stdout else "code for this processor has no AVX-512"
+
+
+@cache
+def compiled(contract: str, lanes: int):
+    """Return the C function `solve` with vectors of `lanes` numbers.
+
+    GCC joins a product and a sum where `contract` is "fast".
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder) / "taylor.so"
+        chosen = [target(), f"-DLANES={lanes}", f"-ffp-contract={contract}"]
+        command = ["g++", *OPTIONS, *chosen, str(SOURCE), "-o", str(library)]
+        subprocess.run(command, check=True, capture_output=True)
+        function = ctypes.CDLL(str(library)).solve  # stays loaded when the folder goes
+    number, integer = ctypes.c_double, ctypes.c_long
+    function.restype = integer
+    function.argtypes = [*[number] * 3, integer, ctypes.c_void_p, *[number] * 3]
+    return function
+
+
+def prepare_taylor(problem: Problem, contract: str, lanes: int = 4) -> Solve:
+    """Return the solver of half the chain, compiled into a temporary folder."""
+    _, start, end = begin(problem, HALF)
+    function, numbers = compiled(contract, lanes), tuple(problem.constants)
+
+    def solve(rtol):
+        y = start[:, 1:-1].copy()
+        where, sites = y.ctypes.data, y.shape[1]
+        steps, seconds = timed(lambda: function(*numbers, sites, where, end, rtol, rtol))
+        if steps < 0:
+            raise RuntimeError("the Taylor method in C++ gave up")
+        return final_of(problem, with_ghosts(y), HALF), seconds
+
+    return solve
+
+
+PEERS = {
+    "cpp_taylor": Peer(
+        "Taylor in C++, no contraction", lacks_compiler, partial(prepare_taylor, contract="off")
+    ),
+    "cpp_taylor_contracted": Peer(
+        "Taylor in C++, contracted", lacks_compiler, partial(prepare_taylor, contract="fast")
+    ),
+    "cpp_taylor_eight": Peer(
+        "Taylor in C++, no contraction, vectors of eight",
+        lacks_avx512,
+        partial(prepare_taylor, contract="off", lanes=8),
+    ),
+}
