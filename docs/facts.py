@@ -104,7 +104,8 @@ def speed(data: xr.Dataset) -> dict:
             for case in best["case"].values
         ],
         "peers": [
-            [str(titles[str(one["peer"].values)]), number(one["mean_ratio"]),
+            [str(titles[str(one["peer"].values)]), number(ratio := float(one["mean_ratio"]))
+             + (f" ({number(1 / ratio)} times faster)" if ratio < 1 else ""),
              number(one["reached_cases"])]
             for one in peers
         ],

@@ -114,8 +114,18 @@ def gather(results: Results) -> dict[str, Any]:
         "largest_bound": largest_bound(results),
         "radius": upward(results["certified/breathers"]["radius"].max()),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
+        "by_hand": by_hand(results[f"{KEPT}/speed/work_precision"]),
         "full_run": full_run(results),
     }
+
+
+def by_hand(speed: xr.Dataset) -> str:
+    """Return in words how fast the fastest Taylor method in C++ is beside our best solver."""
+    of_cpp = [str(name).startswith("cpp_taylor") for name in speed["peer"].values]
+    ratio = float(speed["mean_ratio"][of_cpp].min())
+    if ratio < 1:
+        return f"is {number(1 / ratio)}{MARK} times faster"
+    return f"takes {number(ratio)}{MARK} times as long"
 
 
 def counts(rows: list[dict]) -> dict[str, str]:
