@@ -5,10 +5,7 @@ import pytest
 from flint import arb, ctx
 from latticode.equations.ends import DIRICHLET
 from on_pendula import TIGHT, final, pendula, slope, start, undriven_energy
-from pendula.models.pendula import (
-    at_time,
-    make_pendula,
-)
+from pendula.models.pendula import at_time, make_pendula
 from scipy.integrate import solve_ivp
 
 BOUNDARIES = ("dirichlet", "free", "periodic")
@@ -21,8 +18,8 @@ def test_the_phase_of_the_drive_is_as_exact_late_as_early(t):
     with ctx.workprec(200):
         phase = 2 * (1 + 8 * arb(0.3) ** 2).sqrt() * arb(t)
         cosine, sine = float(phase.cos()), float(phase.sin())
-    assert abs(driven.drive / driven.strength - cosine) < 5e-16
-    assert abs(driven.quadrature / driven.strength - sine) < 5e-16
+    assert abs(driven.drive / driven.clock.strength - cosine) < 5e-16
+    assert abs(driven.quadrature / driven.clock.strength - sine) < 5e-16
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)

@@ -10,7 +10,6 @@ energy. A state has the rows Re A, Im A, Re B, Im B, or the first two alone wher
 (tests/test_same_bits.py).
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -68,31 +67,19 @@ def mean_i_dt(p, *fields: Value) -> list[Value]:
     ]
 
 
-def traced(i_dt, states: int = 1) -> Model:
-    """Return the model of a function of A and B, or of those of several states."""
-    fields = [f"{name}{i}" for i in range(states) for name in "AB"]
-    return Model(fields=fields, parameters=dict.fromkeys(Chain._fields[:3], 1.0), i_dt=i_dt)
-
-
-def field_of(model: Model) -> Callable:
-    """Return the function (constants, seen) -> (Re F, Im F) for A, where i A' = F.
-
-    See `generated.load_function`; `seen` counts A as field 0 and B as field 1.
-    """
-    re_rate, im_rate = model.rates[:2]
-    return load_function((neg(im_rate), re_rate))
-
-
-EQUATIONS = traced(i_dt)
-AMPLITUDES = Model(fields=("A", "B"), parameters=EQUATIONS.parameters, i_dt=i_dt, name="amplitudes")
+PARAMETERS = dict.fromkeys(Chain._fields[:3], 1.0)
+AMPLITUDES = Model(fields=("A", "B"), parameters=PARAMETERS, i_dt=i_dt, name="amplitudes")
 """(4) as problems have it; `integrations` says how it is integrated."""
-field = field_of(EQUATIONS)
-linear_field = field_of(traced(lambda p, a, b: [linear(p, a, b), linear(p, b, a)]))
-"""F of (4), and its linear terms; for B with A and B exchanged."""
-continue_series = load_series(EQUATIONS).continue_in_waves
+MEANS = [f"{name}{i}" for i in range(3) for name in "AB"]
+CONSERVING = Model(fields=MEANS, parameters=PARAMETERS, i_dt=mean_i_dt)
+_re_rate, _im_rate = AMPLITUDES.rates[:2]
+field = load_function((neg(_im_rate), _re_rate))
+"""The function (constants, seen) -> (Re F, Im F) for A, where i A' = F; for B with both exchanged.
+
+See `generated.load_function`; `seen` counts A as field 0 and B as field 1."""
+continue_series = load_series(AMPLITUDES).continue_in_waves
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
-rates_at_site = load_rule(EQUATIONS.rates, "y")
-write_rates = at_every_site(rates_at_site)
+write_rates = at_every_site(load_rule(AMPLITUDES.rates, "y"))
 
 
 @kernel
@@ -102,7 +89,7 @@ def rates(chain, y, dy):
     write_rates(chain, (y,), dy)
 
 
-write_tangent_rates = at_every_site(load_rule(EQUATIONS.tangent().rates[4:], "y", "w"))
+write_tangent_rates = at_every_site(load_rule(AMPLITUDES.tangent().rates[4:], "y", "w"))
 
 
 @kernel
@@ -115,9 +102,7 @@ def tangent_rates(chain, y, w, dw):
     write_tangent_rates(chain, (y, w), dw)
 
 
-write_midpoint_rates = at_every_site(
-    load_rule(traced(mean_i_dt, 3).rates[8:], "old", "new", "mean")
-)
+write_midpoint_rates = at_every_site(load_rule(CONSERVING.rates[8:], "old", "new", "mean"))
 
 
 @kernel

@@ -34,14 +34,20 @@ PI = "3.14159265358979323846264338327950288419716939937511"
 # --- The system, and what drives it -------------------------------------------------------------
 
 
+class Clock(NamedTuple):
+    """The drive 2 gamma mu^2 cos(2 omega t) as a function of t."""
+
+    strength: float  # 2 gamma mu^2
+    frequency: float  # 2 omega
+    turns: float  # turns in a unit of t, omega / pi ...
+    turns_rest: float  # ... and what rounding took from it
+
+
 class Pendula(NamedTuple):
     """Parameters of the equations, the drive at one time, and the kinds of the two ends."""
 
     coupling: float  # C
-    strength: float  # 2 gamma mu^2, the largest drive
-    frequency: float  # 2 omega, of the drive
-    turns: float  # the drive's turns in a unit of t, omega / pi ...
-    turns_rest: float  # ... and what rounding took from it
+    clock: Clock
     drive: float  # D(t)
     quadrature: float  # 2 gamma mu^2 sin(2 omega t), for the derivatives of D
     left: int
@@ -64,10 +70,9 @@ def turns_of_drive(omega: float, mu: float) -> tuple[float, float]:
 def make_pendula(constants, mu: float, ends: tuple[int, int]) -> Pendula:
     """Return the parameters of the kernels from the `Constants` of (4) and mu."""
     square = mu * mu
-    omega = frequency(constants.omega, mu)
-    turns = turns_of_drive(constants.omega, mu)
-    strength = 2.0 * constants.gamma * square
-    return Pendula(constants.epsilon * square, strength, 2.0 * omega, *turns, strength, 0.0, *ends)
+    strength, omega = 2.0 * constants.gamma * square, frequency(constants.omega, mu)
+    clock = Clock(strength, 2.0 * omega, *turns_of_drive(constants.omega, mu))
+    return Pendula(constants.epsilon * square, clock, strength, 0.0, *ends)
 
 
 def angles_of(amplitudes: np.ndarray, omega: float, mu: float) -> np.ndarray:
@@ -77,12 +82,6 @@ def angles_of(amplitudes: np.ndarray, omega: float, mu: float) -> np.ndarray:
     """
     size = 2.0 * mu
     return np.array([size * amplitudes.real, (-size * frequency(omega, mu)) * amplitudes.imag])
-
-
-def amplitudes_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: float):
-    """Return the complex amplitudes whose `angles_of` are these, up to rounding."""
-    size = 2.0 * mu
-    return complex_of(angles / size, velocities / (-size * frequency(omega, mu)))
 
 
 def swings_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: float) -> np.ndarray:
@@ -119,36 +118,19 @@ def rest_of_product(a, b, product):
 @kernel
 def at_time(pendula, t):
     """Return the pendula as they are driven at the time t."""
-    turns = pendula.turns * t
-    rest = rest_of_product(pendula.turns, t, turns) + pendula.turns_rest * t
+    coupling, clock, _, _, left, right = pendula
+    turns = clock.turns * t
+    rest = rest_of_product(clock.turns, t, turns) + clock.turns_rest * t
     sine, cosine = sine_and_cosine(TURN * ((turns - np.rint(turns)) + rest))
-    return Pendula(
-        pendula.coupling,
-        pendula.strength,
-        pendula.frequency,
-        pendula.turns,
-        pendula.turns_rest,
-        pendula.strength * cosine,
-        pendula.strength * sine,
-        pendula.left,
-        pendula.right,
-    )
+    return Pendula(coupling, clock, clock.strength * cosine, clock.strength * sine, left, right)
 
 
 @kernel
 def pendula_of_tile(pendula, at_left_end, at_right_end):
     """Return the pendula of a tile, which end as the whole chain does where it reaches an end."""
-    return Pendula(
-        pendula.coupling,
-        pendula.strength,
-        pendula.frequency,
-        pendula.turns,
-        pendula.turns_rest,
-        pendula.drive,
-        pendula.quadrature,
-        pendula.left if at_left_end else DIRICHLET,
-        pendula.right if at_right_end else DIRICHLET,
-    )
+    coupling, clock, drive, quadrature, left, right = pendula
+    left = left if at_left_end else DIRICHLET
+    return Pendula(coupling, clock, drive, quadrature, left, right if at_right_end else DIRICHLET)
 
 
 # --- The equations as a traced model, and what is generated from it -----------------------------
@@ -198,6 +180,6 @@ def continue_series(pendula, series):
     cosine, sine = pendula.drive, pendula.quadrature
     for k in range(ORDER + 1):
         m[d + k] = cosine
-        share = pendula.frequency / (k + 1)
+        share = pendula.clock.frequency / (k + 1)
         cosine, sine = -share * sine, share * cosine
     continue_in_waves(pendula, series)

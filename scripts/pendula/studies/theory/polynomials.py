@@ -15,7 +15,7 @@ from latticode.equations.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbo
 from latticode.equations.graph import evaluate
 from latticode.equations.model import Model
 
-from pendula.models.amplitudes import EQUATIONS
+from pendula.models.amplitudes import AMPLITUDES
 
 SITES = 3
 CONSTANTS = ("epsilon", "gamma", "omega")
@@ -51,7 +51,7 @@ def rational(x: float) -> fmpq:
 
 
 def rates(
-    ends: str, state=STATE, model: Model = EQUATIONS, functions=None, **constants
+    ends: str, state=STATE, model: Model = AMPLITUDES, functions=None, **constants
 ) -> np.ndarray:
     """Return the rates of a state, shaped alike, with other constants than their indeterminates.
 
@@ -76,7 +76,7 @@ def rates(
 def linear_rates(ends: str, state=STATE) -> np.ndarray:
     """Return the rates of (4), linearised at zero: its derivative there, along a state."""
     both = np.concatenate([0 * state, state])
-    return rates(ends, both, EQUATIONS.tangent())[len(state) :]
+    return rates(ends, both, AMPLITUDES.tangent())[len(state) :]
 
 
 def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
