@@ -153,7 +153,7 @@ FAULTS = [
     data("checks/ensembles", "members", shift("swept_members", 1)),
     data("checks/members", "start", scale("l2_start", 1.01)),
     # Proved and predicted
-    data("certified/fig2_small", "proven bound times 0.01", scale("bound", 0.01)),
+    data("certified/breathers", "proven radius times 0.01", scale("radius", 0.01)),
     data("checks/cases", "bound of Theorem 1", scale("theorem_1", 1.01)),
     data("checks/solvers", "drift of a regular case", scale("drift", 10.0, case="fig2_small")),
     data("unbounded/fronts", "linear speed", scale("linear_speed", 1.05)),
