@@ -17,6 +17,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+BEGAN = time.monotonic()
 FAILED = "failed: "
 """How the reason of a failure begins in a log, above its traceback."""
 
@@ -144,8 +145,7 @@ def run(body: Callable, snakemake) -> None:
     """Call `body` with Snakemake's object.
 
     Where it fails, so does the job, and its log says why, with the traceback. The last line of a
-    log is the time that the job took, its start included, and its largest memory; they are in no
-    dataset, because they differ between two runs.
+    log is the time that the job took and its largest memory.
     """
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -185,26 +185,10 @@ def say(error: Exception) -> str:
 
 
 def _took(log: _Log) -> None:
-    log.write(f"{TOOK}{_age():.1f} s, largest memory: {_memory():.0f} MB\n")
+    log.write(f"{TOOK}{time.monotonic() - BEGAN:.1f} s, largest memory: {_memory():.0f} MB\n")
 
 
 def _memory() -> float:
     """Return the largest memory that this process has held so far, in MB."""
     unit = 1 if sys.platform == "darwin" else 1024  # of getrusage, in bytes
     return 1e-6 * unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-
-
-def _age() -> float:
-    """Return for how many seconds this process has run.
-
-    On Linux psutil would be wrong by up to a second: it adds the time from boot to start, which is
-    exact, to the time of boot, which Linux tells in whole seconds.
-    """
-    if sys.platform == "linux":
-        with open("/proc/self/stat", encoding="utf-8", errors="replace") as file:
-            fields = file.read().rpartition(")")[2].split()  # the name in () may hold spaces
-        started = int(fields[19]) / os.sysconf("SC_CLK_TCK")  # proc(5): starttime
-        return time.clock_gettime(time.CLOCK_BOOTTIME) - started
-    import psutil  # here, since it takes longer than some jobs
-
-    return time.time() - psutil.Process().create_time()

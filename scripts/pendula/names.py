@@ -13,7 +13,6 @@ NAMES.update(
         # coordinates
         "tau": "slow time",
         "snapshot_tau": "slow time of the snapshots",
-        "growth_tau": "slow time",
         "component": "pendulum of each pair",
         "half_width": "half-width M of the chain of 2M + 1 pairs",
         "quantity": "pendulum of each pair, or both",
@@ -32,24 +31,10 @@ NAMES.update(
         "energy": "conserved energy H of equation (8)",
         "modulus": "modulus of the amplitude on a site",
         "amplitude": "amplitude on a site",
-        # what several studies have of their own
+        # of the studies
         "family": "family",
-        "frequency": "frequency lambda",
-        "power": "power P",
-        "share": "share of",
-        "size": "size of",
         "final": "amplitude at the end time",
-        "bound": "bound",
-        "end": "end of the time window",
-        "error": "error",
-        "order": "order in mu of the error",
-        "span": "span of",
-        "region": "region",
-        "kind": "kind of",
         "distance": "distance",
-        "contraction": "contraction",
-        "exponent": "exponent of",
-        "antisymmetric_power": "power",
     }
 )
 WAYS["make"] = "run snakemake"

@@ -1,17 +1,15 @@
 """The library for notebooks: cases, their runs and sweeps as xarray datasets, and checks of them.
 
 Everything is dimensionless, as in the paper (Phys. Lett. A 381 (2017) 3884, arXiv 1708.06134):
-time is tau = mu^2 t / 2 of its expansion (3), amplitudes are A_n and B_n of its equations (4),
-rates are per unit of tau. Datasets are those that the workflow writes, by the same code.
-Figures are matplotlib's: a notebook shows the one that a cell ends with, and saves it by
-`figure.savefig("mine.pdf")`.
+time is tau = mu^2 t / 2 of its expansion (3), amplitudes are A_n and B_n of its equations (4).
+Datasets are those that the workflow writes, by the same code: components are "A" and "B", and a run
+keeps the energy H of equation (8). Those of the pendula are "x" and "y" in rad, without energy, and
+their parts "angle" and "velocity". Figures are matplotlib's.
 """
-
-from collections.abc import Iterable
 
 import xarray as xr
 from latticode import notebook
-from latticode.notebook import draw_breather, draw_survey, read, survey
+from latticode.notebook import draw_breather, draw_survey, read, simulate, survey, sweep
 
 from pendula.configuration import cases
 from pendula.configuration.cases import takes_model
@@ -36,8 +34,6 @@ __all__ = [
 class Case(cases.Case):
     """One initial-value problem of the paper's equations, checked when it is made.
 
-    They are the equations (4) of the amplitudes, or Newton's equations (1) of the pendula.
-
     Keys and defaults are those of a case in YAML:
 
     omega: detuning Omega, the only key without a default.
@@ -46,18 +42,11 @@ class Case(cases.Case):
     boundary: "dirichlet" (A = B = 0 beyond the ends), "free" or "periodic".
     initial: {site: (A, B)} in complex numbers, at rest elsewhere. {0: (1, 0.1)}.
     end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
-    snapshot_step: in tau; how often the moduli on all sites are kept, whole output steps.
-        They divide the run. Left out, 200 snapshots or more are spread over it.
+    snapshot_step: in tau; how often moduli on all sites are kept. Left out, 200 times or more.
     solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre" or "auto",
-        or a dict with the controls, such as {"name": "auto", "error": 1e-9}. The pendula have
-        "taylor", "dop853", "ode45", "kahan_li" and "auto".
-    model: "amplitudes", or "pendula"; these need mu, and start from the angles and velocities that
-        the expansion (3) makes of `initial`.
-    mu: the small parameter of (3); angles have the size of 2 mu A.
-
-    A `latticode.Model`, or the path of its file, may stand for the model. The case then has
-    `parameters` in place of epsilon, gamma, omega and mu: {name: a number, or one for each site},
-    and `initial` has a value for each field.
+        or a dict with the controls. The pendula have "kahan_li", and no energy-conserving schemes.
+    model: "amplitudes", or "pendula", which need the small parameter mu; or a `latticode.Model` or
+        the path of its file, and then `parameters` in place of the constants.
 
     Raises ConfigurationError, with every fault in words.
 
@@ -86,64 +75,6 @@ class Case(cases.Case):
         return Case(**{**self.model_dump(), **keys})
 
 
-def simulate(case: Case, name: str = "case", hours: float | None = None):
-    """Integrate a case and return its trajectory as an xarray.Dataset.
-
-    Coordinates: tau (time,), component ("A", "B"), site (-M..M), part ("re", "im").
-    Variables, all without units (those of the pendula, ("x", "y") and ("angle", "velocity"), are
-    in rad, and have no energy):
-
-    linf, l2 (component, tau): max_n |A_n| and sqrt(sum_n |A_n|^2); the same of B.
-    energy (tau): the conserved H of equation (8).
-    modulus (component, site, snapshot): |A_n|, |B_n| at the times `snapshot`, as snapshot_tau has.
-    final (part, component, site): the amplitudes at end_time.
-
-    Attributes: every parameter, the solver's controls and its work, `name` as "case". All but
-    `final` is what `snakemake results/trajectories/{name}.nc` writes.
-
-    A run that would take more than `hours` (1 if they are left out) or 8 GB of memory is refused
-    before it starts; one of some minutes says first what it takes.
-
-    Raises ConfigurationError for such a run; IntegrationError, with the reason, where the solver
-    cannot reach end_time with the digits that were asked for.
-
-    >>> run = simulate(Case(omega=8, end_time=10))
-    >>> run["l2"].shape, run["modulus"].shape
-    ((2, 401), (2, 61, 201))
-    >>> bool(abs(run["energy"] - run["energy"][0]).max() < 1e-11)
-    True
-    """
-    return notebook.simulate(case, name, hours)
-
-
-def sweep(
-    case: Case,
-    half_widths: Iterable[int],
-    windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
-    name: str = "sweep",
-    hours: float | None = None,
-):
-    """Integrate a case on chains of many half-widths; return maxima and means of its norms.
-
-    `windows` are (start, end) in tau, both included, on output steps; the case is run to the end
-    of the last one, whatever its end_time. The defaults are the windows of the paper.
-
-    Returns an xarray.Dataset with l2 and linf (half_width, quantity, statistic, window), without
-    units: quantity is "A", "B" or "pair" (the root of the sum of squares in l2, the larger in
-    linf), statistic "max" or "mean" (over time, trapezoidal), windows are named "[10, 50]". Of the
-    pendula quantity is "x", "y" or "pair", in rad. Attributes as in `simulate`. The same as
-    `snakemake results/sweeps/{name}.nc` writes.
-
-    Raises ConfigurationError for windows off the grid, initial data outside a chain, or a sweep
-    that would take more than `hours` (1 if they are left out); IntegrationError as `simulate`.
-
-    >>> peaks = sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])
-    >>> peaks["l2"].sel(quantity="pair", statistic="max", window="[1, 5]").shape
-    (3,)
-    """
-    return notebook.sweep(case, half_widths, windows, name, hours)
-
-
 def check(case: Case, run=None):
     """Set a run beside the paper's lemmas and theorems, and measure how far it can be trusted.
 
@@ -162,9 +93,8 @@ def check(case: Case, run=None):
 def draw_norms(run, checks=None):
     """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
 
-    `run` is a trajectory as `pendula.simulate` or `pendula.read` return it. With the `checks` that
-    `pendula.check` made of it, their second run is drawn below it in pale colours, and a mark shows
-    the divergence time. The layout is that of a row of Figs 2 to 4 of the paper.
+    With the `checks` that `pendula.check` made of a run, their second run is drawn below it in pale
+    colours, and a mark shows the divergence time.
 
     >>> from pendula import Case, simulate
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
@@ -192,9 +122,8 @@ def draw_spacetime(run):
 def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):
     """Draw the norms of the pair (A, B) against the half-width M: l-infinity left, l2 right.
 
-    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`. Windows
-    are named as in the dataset; where one is left out, the first is taken. The layout is that of
-    Figs 5 and 6 of the paper.
+    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`; where
+    one is left out, the first window is taken.
 
     >>> from pendula import Case, sweep
     >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)

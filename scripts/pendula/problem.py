@@ -39,12 +39,6 @@ class Constants:
         """Return the constants that a mapping holds, such as the attributes of a dataset."""
         return cls(**{name: float(values[name]) for name in ("epsilon", "gamma", "omega")})
 
-    def scaled(self, factor: float) -> "Constants":
-        """Return all three times a factor, as another unit of time makes them."""
-        return Constants(
-            epsilon=factor * self.epsilon, gamma=factor * self.gamma, omega=factor * self.omega
-        )
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem(problem.Problem):
@@ -63,10 +57,17 @@ class Problem(problem.Problem):
             object.__setattr__(self, "model", _model_of(self.model))
         super().__post_init__()
         if self.model.name in MODELS:
-            require_model(self.model.name, self.mu, self.constants.omega)
+            self._require_mu()
             if kind_of(self.boundary) == ANTIPERIODIC:
                 text = f"the paper's equations take {', '.join(BOUNDARIES)}"
                 raise ValueError(f"{self.boundary}: {text}; give a model of your own")
+
+    def _require_mu(self) -> None:
+        mu, omega = self.mu, self.constants.omega
+        if self.model.name == PENDULA and not (mu is not None and 0.0 < mu < np.inf):
+            raise ValueError(f"the pendula need a positive mu, not {mu}")
+        if self.model.name == PENDULA and not 1.0 + mu * mu * omega > 0.0:
+            raise ValueError(f"1 + mu^2 Omega must be positive: mu is {mu:g}, Omega {omega:g}")
 
     @classmethod
     def of(cls, values: Mapping) -> Self:
@@ -114,14 +115,6 @@ def _model_of(name: str) -> Model:
     if name not in NAMED:
         raise ValueError(f"there is no model {name!r}; there are {', '.join(NAMED)}")
     return NAMED[name]
-
-
-def require_model(model: str, mu: float | None, omega: float) -> None:
-    """Raise ValueError if mu does not fit the model."""
-    if model == PENDULA and not (mu is not None and 0.0 < mu < np.inf):
-        raise ValueError(f"the pendula need a positive mu, not {mu}")
-    if model == PENDULA and not 1.0 + mu * mu * omega > 0.0:
-        raise ValueError(f"1 + mu^2 Omega must be positive: mu is {mu:g}, Omega {omega:g}")
 
 
 def by_name(problems: Mapping[str, Mapping]) -> dict[str, Problem]:

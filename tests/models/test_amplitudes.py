@@ -11,11 +11,10 @@ import plain
 import pytest
 from dimers import METHODS, chain
 from hypothesis import given, settings
-from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unpack
+from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, pack, unpack
 from latticode.simulation.simulate import simulate
 from oracle import (
     BOUNDARIES,
-    CASES,
     SOLVERS,
     boundaries,
     chains,
@@ -82,9 +81,8 @@ def test_energy_is_conserved_and_exchange_of_a_and_b_exchanges_the_bits(z, numbe
         np.testing.assert_array_equal(exchanged.final, straight.final[::-1], err_msg=name)
 
 
-@pytest.mark.parametrize("rtol", [1e-3, 1e-7])
-def test_ode45_of_real_unknowns_takes_the_published_steps(rtol):
-    z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 4.0, 3), (0.7, 1.3, -4.0)
+def test_ode45_of_real_unknowns_takes_the_published_steps():
+    rtol, z, times, numbers = 1e-5, 2 * random_chain(3), np.linspace(0.0, 4.0, 3), (0.7, 1.3, -4.0)
 
     def rates_of_parts(x):
         u = slope(x[0] + 1j * x[1], numbers, "free")
@@ -111,15 +109,3 @@ def test_a_step_of_delfour_fortin_and_payre_solves_their_equation(boundary):
     solver = SOLVERS["delfour_fortin_payre"] | {"step": h}
     new = run(solver, z, boundary=boundary, end_time=h, output_step=h).final
     np.testing.assert_allclose(new, z + h * mean_slope(z, new, PAPER, boundary), atol=1e-13)
-
-
-@pytest.mark.parametrize("tolerance", [1e-10, 1e-14])
-def test_they_keep_the_energy_to_the_tolerance_of_the_iteration(tolerance):
-    """At most H's slope (below 1e3 here) times the tolerance a step, over 4000 steps of chaos."""
-    omega, pair = CASES["fig4_large"]
-    z = np.zeros((2, 61), complex)
-    z[:, 30] = pair
-    solver = SOLVERS["delfour_fortin_payre"] | {"step": 0.005, "tolerance": tolerance}
-    kept = find_reduction(z)
-    found = run(solver, z, (1.0, 1.0, omega), reduction=kept, end_time=20.0).energy
-    assert np.abs(found - found[0]).max() < min(4000 * 1e3 * tolerance, 1e-5)
