@@ -14,10 +14,9 @@ from latticode.datasets.json_files import load_json
 from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
 from pendula.article.values import UPWARD, counts, upward
-from pendula.report.words import case_of, number, percent, with_error
+from pendula.report.words import case_of, number, with_error
 
 from benchmarks import reproduction
-from benchmarks import scale as scale_of
 
 BASELINE = Path(__file__).resolve().parents[1] / "tests/baseline"
 
@@ -42,9 +41,7 @@ def topics(baseline: Baseline) -> dict[str, dict]:
         "hard_cases": hard_cases(baseline["checks/hard_cases"]),
         "speed": speed(baseline["speed/work_precision"]),
         "speeds": speeds(baseline),
-        "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
         "full_run": full_run(_kept("reproduction")),
-        "mutation": mutation(_kept("mutation")),
     }
 
 
@@ -131,27 +128,6 @@ def speeds(baseline: Baseline) -> dict:
     }  # fmt: skip
 
 
-def scale(measured: dict) -> dict:
-    """Return what a survey of many runs and a very long chain took."""
-    survey, solvers = measured["survey"], ("dop853", "taylor")
-    chains = [measured[name] for name in solvers]
-    return {
-        "processor": survey["machine"]["processor"],
-        "runs": f"{survey['runs']:,}",
-        "half_width": str(survey["half_width"]),
-        "survey_end": number(survey["end_time"]),
-        "milliseconds": number(survey["milliseconds_a_run"], 2),
-        "minutes": number(survey["runs"] * survey["milliseconds_a_run"] / 6e4, 2),
-        "megabytes": f"{survey['megabytes']:.0f}",
-        "sites": f"{chains[0]['sites']:,}",
-        "chain_end": number(chains[0]["end_time"]),
-        "chains": [
-            [SOLVER_NAMES[name], number(one["microseconds_a_site"], 2), f"{one['megabytes']:.0f}"]
-            for name, one in zip(solvers, chains, strict=True)
-        ],
-    }
-
-
 def full_run(measured: dict) -> dict:
     """Return the wall and processor time of whole runs in seconds, and their disk space in MB."""
     return {
@@ -164,10 +140,3 @@ def full_run(measured: dict) -> dict:
             for name, one in measured["runs"].items()
         ],
     }
-
-
-def mutation(kept: dict) -> dict[str, str]:
-    """Return which part of the mutants of decisive modules the tests noticed, and when."""
-    shares = {name: percent(kept[name], 3) for name in ("score", "low", "high", "confidence")}
-    sizes = {name: f"{kept[name]:,}" for name in ("modules", "mutants", "sample")}
-    return shares | sizes | {"date": kept["date"]}

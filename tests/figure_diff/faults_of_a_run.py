@@ -176,7 +176,7 @@ FAULTS = [
         "curve ends early",
         line(0, 0, lambda c: c.set_data(c.get_xdata()[:1500], c.get_ydata()[:1500])),
     ),
-    drawn("fronts", "unit of the speed", lambda figure: figure.axes[2].set(ylabel="speed")),
+    drawn("fig3", "another label", lambda figure: figure.axes[2].set(ylabel="norm")),
     # Figures of wrong data
     drawn("fig4", "l2 thrice that of the run", gathered=scale("l2", 3.0)),
     drawn("fig4", "reversed in time", gathered=reverse("l2", "linf")),
