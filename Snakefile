@@ -150,6 +150,11 @@ for target in workflow.rules:
         target.message = f"Ready: {target.docstring}"
 
 
+onstart:
+    if workflow.executor_plugin.name == "slurm":
+        refuse_what_slurm_never_starts()
+
+
 # Said when Snakemake has ended, below its own last lines
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:

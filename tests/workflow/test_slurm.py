@@ -2,10 +2,12 @@
 
 import re
 
+import pytest
 import yaml
 from helpers import ROOT, package, planned, run_ready
 from pendula.configuration.cases import Case
 from pendula.configuration.cost import estimate
+from requests_of_slurm import never_started
 
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/profile.yaml").read_text())
 THIS_MACHINE = {"cores", "scheduler", "executor", "forked-modules"}
@@ -82,6 +84,28 @@ def test_what_the_user_sets_for_a_rule_wins_and_leaves_others_as_they_were(tmp_p
     said = run_ready([*command, *wish, *targets], tmp_path)
     for asked in ("trajectory 4000 16", "map_fates 1000 300", "measure_sensitivity 1000 75"):
         assert f"\n{asked}\n" in f"\n{said.stdout}", said.stderr
+
+
+SINFO = "short*|2:00:00\nlong|2-00:00:30\nfree|infinite\nshort*|2:00:00\nbrief|30:00\n"
+"""As sinfo lists four partitions, one in two rows since its nodes differ."""
+
+
+@pytest.mark.parametrize(
+    ("partitions", "minutes", "limit"),
+    [
+        *((None, 120, None), (None, 121, 120), ("short", 200, 120), ("long", 2880, None)),
+        *(("long", 2881, 2880.5), ("free", 1e6, None), ("brief", 31, 30), (None, None, None)),
+        *(("brief,short", 31, None), ("brief,short", 121, 120), ("unknown", 9999, None)),
+    ],
+)
+def test_a_request_above_the_limit_of_its_partitions_is_told(partitions, minutes, limit):
+    """Slurm would let such a job wait for ever, and Snakemake for the job."""
+    said = never_started([("fates", partitions, 1), ("fates", partitions, minutes)], SINFO)
+    assert len(said) == (limit is not None)
+    if said:
+        assert f"fates asks for {minutes} minutes" in said[0] and f"allows {limit:g}," in said[0]
+        assert f"the partition {partitions or 'that is the default'} of Slurm" in said[0]
+    assert never_started([("fates", partitions, minutes)], "") == []  # where sinfo says nothing
 
 
 def test_the_lines_that_a_user_uncomments_leave_a_profile():

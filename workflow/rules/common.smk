@@ -41,6 +41,7 @@ if "MPLBACKEND" in os.environ:
     os.environ.update(MPLBACKEND="agg")
 
 from reasons import why_jobs_failed
+from requests_of_slurm import never_started, partitions_of_slurm
 
 from benchmarks.problems import REGIMES
 from pendula import __version__
@@ -160,6 +161,18 @@ def what_failed(logs):
 def from_outside(path):
     """Return a path as it is for the user, who may have called Snakemake with --directory."""
     return os.path.join(workflow.overwrite_workdir or "", path)
+
+
+def refuse_what_slurm_never_starts():
+    """Stop before the first job if Slurm would keep one waiting for ever, in silence."""
+    if os.environ.get("SNAKEMAKE_SLURM_PARTITIONS") or workflow.executor_settings.partition_config:
+        return  # the plugin chooses partitions
+    requests = [
+        (job.rule.name, job.resources.get("slurm_partition"), job.resources.get("runtime"))
+        for job in workflow.dag.needrun_jobs()
+    ]
+    if refused := never_started(requests, partitions_of_slurm()):
+        stop("\n".join(refused))
 
 
 # --- Names of files -------------------------------------------------------------------------------
