@@ -17,6 +17,7 @@ from pendula.article.values import UPWARD, counts, upward
 from pendula.report.words import case_of, number, with_error
 
 from benchmarks import reproduction
+from benchmarks import scale as scale_of
 
 BASELINE = Path(__file__).resolve().parents[1] / "tests/baseline"
 
@@ -41,6 +42,7 @@ def topics(baseline: Baseline) -> dict[str, dict]:
         "hard_cases": hard_cases(baseline["checks/hard_cases"]),
         "speed": speed(baseline["speed/work_precision"]),
         "speeds": speeds(baseline),
+        "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
         "full_run": full_run(_kept("reproduction")),
     }
 
@@ -126,6 +128,27 @@ def speeds(baseline: Baseline) -> dict:
             for sites in cost["sites"].values
         ],
     }  # fmt: skip
+
+
+def scale(measured: dict) -> dict:
+    """Return what a survey of many runs and a very long chain took."""
+    survey, solvers = measured["survey"], ("dop853", "taylor")
+    chains = [measured[name] for name in solvers]
+    return {
+        "processor": survey["machine"]["processor"],
+        "runs": f"{survey['runs']:,}",
+        "half_width": str(survey["half_width"]),
+        "survey_end": number(survey["end_time"]),
+        "milliseconds": number(survey["milliseconds_a_run"], 2),
+        "minutes": number(survey["runs"] * survey["milliseconds_a_run"] / 6e4, 2),
+        "megabytes": f"{survey['megabytes']:.0f}",
+        "sites": f"{chains[0]['sites']:,}",
+        "chain_end": number(chains[0]["end_time"]),
+        "chains": [
+            [SOLVER_NAMES[name], number(one["microseconds_a_site"], 2), f"{one['megabytes']:.0f}"]
+            for name, one in zip(solvers, chains, strict=True)
+        ],
+    }
 
 
 def full_run(measured: dict) -> dict:

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+import yaml
 from facts import BASELINE
 from held_digits import blurred, unlike
 from pendula.article import write
@@ -40,6 +41,18 @@ def test_each_linked_number_leads_to_its_dataset(page):
     links = re.findall(r'href="([^"]*\.nc)" class="n"', page)
     assert len(links) > 80
     assert all((BASELINE / link.removeprefix(f"{write.KEPT}/")).exists() for link in links)
+
+
+def test_the_metadata_have_what_the_journal_asks_for():
+    found = yaml.safe_load(write.describe(write.source(Accepted(), "")))
+    required = (
+        "title authors affiliations keywords code data replication abstract bibliography type"
+    )
+    required += " domain language review contributors dates article journal"
+    assert list(found) == required.split()
+    assert found["title"].startswith("[Re] ") and len(found["abstract"].split()) > 100
+    assert all({"name", "orcid", "email", "affiliations"} == one.keys() for one in found["authors"])
+    assert {key for one in found["replication"] for key in one} == {"cite", "bib", "url", "doi"}
 
 
 def test_a_run_of_other_cases_has_a_notice():

@@ -11,6 +11,7 @@ use rule job as article with:
     output:
         html="<results>/article.html",
         pdf="<results>/article.pdf",
+        metadata="<results>/article.yaml",
     pathvars:
         made="article",
     params:

@@ -1,4 +1,4 @@
-"""The article as PDF, HTML and Markdown.
+"""The article as PDF, HTML and Markdown, with the metadata that the journal asks for.
 
 Its source, article.md.j2, is Markdown with formulas in TeX. Pandoc turns it into HTML with MathML,
 and into the language of Typst, which sets the PDF with the fonts that come with it.
@@ -11,6 +11,7 @@ from typing import Any
 
 import pypandoc
 import typst
+import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from latticode.datasets import complete_or_absent
 
@@ -39,16 +40,20 @@ cannot be decided must be marked."""
 
 def write_article(
     datasets: list[str], pictures: list[str], ledger: str, kept: list[str],
-    differs: Mapping[str, str], html: str, pdf: str,
+    differs: Mapping[str, str], html: str, pdf: str, metadata: str,
 ) -> None:  # fmt: skip
-    """Write both files of the article.
+    """Write the three files of the article.
 
     `kept` are committed files that it quotes. `differs` says where the configuration is not the
     paper's: then there is a notice in place of the article, which would tell of other cases.
     """
     results = Results([*datasets, *pictures, ledger, *kept], html, differs=differs)
     text = source(results, VECTORS)
-    made = {html: page(results).encode(), pdf: typeset(text, _folder(results))}
+    made = {
+        html: page(results).encode(),
+        pdf: typeset(text, _folder(results)),
+        metadata: describe(text).encode(),
+    }
     for path, content in made.items():
         with complete_or_absent(path) as partial:
             Path(partial).write_bytes(content)
@@ -77,6 +82,14 @@ def typeset(text: str, folder: Path) -> bytes:
 def markdown(results: Results) -> str:
     """Return the article as a page of docs/, with the accepted pictures."""
     return source(results, f"{KEPT}/figures/{{}}.png", captions_below=True)
+
+
+def describe(text: str) -> str:
+    """Return what the journal asks authors of the article in Markdown for, as YAML."""
+    given = yaml.safe_load((HERE / "metadata.yaml").read_text(encoding="utf-8"))
+    abstract = text.split("**Abstract.**")[1].split("\n\n")[0]
+    given |= {"title": TITLE, "abstract": " ".join(abstract.split())}
+    return yaml.safe_dump(given, sort_keys=False, allow_unicode=True)
 
 
 def source(
@@ -134,5 +147,6 @@ def _folder(results: Results) -> Path:
 
 def _converted(text: str, kind: str, template: str, *options: str) -> str:
     """Return Markdown in another language, in the template of this folder."""
-    layout = ("--wrap=none", f"--template={HERE / template}", f"--variable=title:{TITLE}")
+    layout = ("--wrap=none", f"--template={HERE / template}", f"--variable=title:{TITLE}",
+              f"--metadata-file={HERE / 'metadata.yaml'}")  # fmt: skip
     return pypandoc.convert_text(text, kind, MARKDOWN, [*layout, *options])

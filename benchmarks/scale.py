@@ -1,0 +1,85 @@
+"""What large computations take: a survey of many runs, and one very long chain.
+
+They take minutes and gigabytes, so no rule makes them. `python -m benchmarks.scale` measures them
+one after another on one core, each in a process of its own, and writes benchmarks/scale.json, which
+docs/source quotes.
+"""
+
+import json
+import resource
+import sys
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+from latticode.kernels.sources import describe_machine
+from latticode.simulation.simulate import simulate
+from latticode.simulation.survey import Survey
+from latticode.simulation.survey_runs import run_survey
+from pendula.notebook import Case
+
+from .cost import noisy_chain
+
+WRITTEN = Path(__file__).with_name("scale.json")
+MAP = {"omega": np.linspace(-6, 6, 1000), "initial.0.0": np.linspace(0.1, 2.0, 100)}
+HALF_CHAIN, END_TIME = 500_000, 10.0
+
+
+def survey() -> dict[str, float]:
+    """Return what a map of the paper's chain over Omega and the first amplitude takes."""
+    case = Case(omega=-4, half_width=30, end_time=50)
+    problem, plan = case.kind.of(case.problem()), Survey(MAP, ("max_l2", "mean_l2"), (10.0, 50.0))
+    simulate(problem)  # compiles
+    found, seconds = timed(lambda: run_survey(problem, plan))
+    runs = found["max_l2"][..., 0].size
+    return {
+        "runs": runs,
+        "half_width": 30,
+        "end_time": 50,
+        "milliseconds_a_run": 1e3 * seconds / runs,
+    }
+
+
+def chain(solver: str) -> dict[str, float]:
+    """Return what a long chain takes whose sites all move from the start."""
+    simulate(noisy_chain(1001, solver))  # compiles
+    long = noisy_chain(2 * HALF_CHAIN + 1, solver).changed(end_time=END_TIME, output_step=END_TIME)
+    _, seconds = timed(lambda: simulate(long))
+    return {
+        "sites": long.sites,
+        "end_time": END_TIME,
+        "microseconds_a_site": 1e6 * seconds / long.sites / END_TIME,
+    }
+
+
+JOBS = {"survey": (survey,), "dop853": (chain, "dop853"), "taylor": (chain, "taylor")}
+
+
+def timed(action: Callable):
+    """Return what `action()` returns, and its processor time in seconds."""
+    start = process_time()
+    return action(), process_time() - start
+
+
+def measured(what: Callable, *given) -> dict[str, float]:
+    """Return what `what` returns, with all its processor time and the largest memory in MB."""
+    found = what(*given)
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return found | {"megabytes": kilobytes / 1e3, "machine": describe_machine()}
+
+
+def main(*names: str) -> None:
+    """Measure what is named, or all, and write it into the file."""
+    found = json.loads(WRITTEN.read_text(encoding="utf-8")) if WRITTEN.exists() else {}
+    for name in names or JOBS:
+        with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+            found[name] = pool.submit(measured, *JOBS[name]).result()
+        print(name, found[name], flush=True)
+        WRITTEN.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
