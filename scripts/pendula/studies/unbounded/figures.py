@@ -64,8 +64,8 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     for case in data["case"].values:
         one, look = data.sel(case=case), LOOKS[str(case)]
         tau = one["tau"]
-        _draw_band(rate, tau, one["l2"] ** 2 / one["tau"], look, name_case(one))
-        rate.plot(tau, one["law"] / one["tau"], **LAW)
+        _draw_band(rate, tau, one["l2"] ** 2 / tau, look, name_case(one))
+        rate.plot(tau, one["law"] / tau, **LAW)
         _draw_band(linf, tau, one["linf"], look)
     rate.set_yscale("log")
     rate.set_xscale("log")
@@ -82,10 +82,10 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_band(axes: Axes, tau, bands: xr.DataArray, look: dict, label: str = "") -> None:
+def _draw_band(axes: Axes, tau, bands: xr.DataArray, look: dict, label: str | None = None) -> None:
     """Draw the mean of an ensemble and the range of its members."""
     mean, low, high = (bands.sel(band=bound) for bound in ("mean", "lowest", "highest"))
-    axes.plot(tau, mean, label=label or None, **look)
+    axes.plot(tau, mean, label=label, **look)
     axes.fill_between(tau, low, high, color=look["color"], alpha=0.3, lw=0)
 
 

@@ -45,8 +45,7 @@ def resolution(tau: np.ndarray) -> float:
     """Return how well the speed of a front can be known from its places at `tau`.
 
     Places that are off by half a site either way change the slope of least squares by at most 3/2
-    sites over the time of the fit. All members of an ensemble have one front, so they make it no
-    better.
+    sites over the time of the fit, in all members alike.
     """
     return 1.5 / ((1.0 - SETTLED) * float(tau[-1]))
 
@@ -102,12 +101,8 @@ def law_of(run, thermal) -> np.ndarray:
     way; v_1 is predicted, v_2 is measured, and zero where no second front has formed. NaN where no
     front is pulled or no state was solved.
     """
-    delay, first, second = (
-        run["predicted_delay"].values,
-        run["predicted_speed"].values,
-        second_speeds(run)[0],
-    )
-    second = np.where(np.isfinite(second), second, 0.0)
+    delay, first = run["predicted_delay"].values, run["predicted_speed"].values
+    second = np.nan_to_num(second_speeds(run)[0])
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     rates = 2.0 * (second * both + (first - second) * alone)
     lost, tau = 2.0 * alone * delay, np.maximum(run["tau"].values, 1.0)
@@ -142,7 +137,7 @@ def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     of_speed, limits = "in sites per unit of tau", "half of the 95 % limits of that"
     found = {
         "omega": (omegas["omega"].values, ""),
-        "front_speed": (first, f"speed of the first front less its delay, {of_speed}"),
+        "front_speed": (first, f"speed of the first front with its delay added back, {of_speed}"),
         "front_speed_error": (first_error, f"{limits}, or what the places of the front resolve"),
         "linear_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
         "second_front_speed": (second, f"speed of the second front, {of_speed}; NaN: none"),

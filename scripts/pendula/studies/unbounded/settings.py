@@ -27,8 +27,6 @@ from pendula.configuration.schema import Configuration, Faults
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
 
-Nodes = Annotated[Whole, Field(ge=8, le=100)]
-
 OMEGAS = "omegas"
 """The ensemble over Omega, beside those of cases."""
 
@@ -49,7 +47,7 @@ class Settings(Model):
     seed: Natural
     cases: Names
     omegas: model(case=Name, values=Numbers)
-    nodes: Nodes
+    nodes: Annotated[Whole, Field(ge=8, le=100)]
     short: Size
     long: Size
 
