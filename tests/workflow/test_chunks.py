@@ -9,7 +9,7 @@ SURVEY = {"case": "fig3_small", "axes": {"omega": [-5, -4, -3]}}
 
 
 def test_chunks_split_the_runs_of_a_study_into_jobs(tmp_path):
-    datasets = {"fates": 1, "sensitivity": 1, "unbounded": 6, "fig5_left": 2}
+    datasets = {"fates": 1, "sensitivity": 1, "unbounded": 5, "fig5_left": 2}
     jobs = planned(ROOT, tmp_path, *datasets, "--config", "chunks=8")
     assert jobs["part"] == 8 * sum(datasets.values())
 
