@@ -49,51 +49,44 @@ INTERRUPTED = 130
 """The exit status of a job that Ctrl-C ended, as shells give it."""
 
 
-class _Log:
-    """A log that a full disk does not stop: the job's own message is then still on the screen."""
+class _Output:
+    """What a job says: on the screen and in its log, which a full disk does not stop."""
 
-    def __init__(self, path: str):
+    def __init__(self, screen, path: str):
+        self.screen = screen
         self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115, closed by `close`
+        self.shown = time.monotonic()
 
-    def write(self, text: str) -> int:
+    def log(self, text: str) -> bool:
+        """Write to the log alone; return whether the disk had room."""
         try:
             self.file.write(text)
             self.file.flush()
         except OSError:
-            return 0
+            return False
+        return True
+
+    def step(self, text: str) -> None:
+        """Write to the log, and to the screen if it showed no step for a while."""
+        if time.monotonic() - self.shown > OFTEN:
+            self.shown = time.monotonic()
+            self.write(text)
+        else:
+            self.log(text)
+
+    def write(self, text: str) -> int:
+        self.log(text)
+        self.screen.write(text)
+        self.screen.flush()
         return len(text)
 
     def flush(self) -> None:
         """All is written at once."""
 
     def close(self) -> None:
+        self.log(f"{TOOK}{time.monotonic() - BEGAN:.1f} s, largest memory: {_memory():.0f} MB\n")
         with suppress(OSError):
             self.file.close()
-
-
-class _Tee:
-    """Write to the screen and to the log at once."""
-
-    def __init__(self, screen, log):
-        self.streams = [screen, log]
-        self.shown = time.monotonic()
-
-    def step(self, text: str) -> None:
-        """Write to the log, and to the screen if it showed no step for a while."""
-        late = time.monotonic() - self.shown > OFTEN
-        if late:
-            self.shown = time.monotonic()
-        (self if late else self.streams[1]).write(text)
-
-    def write(self, text: str) -> int:
-        for stream in self.streams:
-            stream.write(text)
-            stream.flush()
-        return len(text)
-
-    def flush(self) -> None:
-        for stream in self.streams:
-            stream.flush()
 
 
 NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed", "chunks", "chunk")
@@ -149,30 +142,27 @@ def run(body: Callable, snakemake) -> None:
     """
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    path = snakemake.log[0]
-    log = _Log(path)
-    sys.stdout = sys.stderr = _Tee(sys.__stderr__, log)
+    said = sys.stdout = sys.stderr = _Output(sys.__stderr__, snakemake.log[0])
     try:
         body(snakemake)
     except Exception as error:
         told = f"{FAILED}{say(error)}\n"
-        if not log.write(told + traceback.format_exc()):  # the end of the run tells what logs say
+        if not said.log(told + traceback.format_exc()):  # the end of the run tells what logs say
             sys.__stderr__.write(told)
         sys.exit(1)
     except KeyboardInterrupt:
         print("interrupted: run the same command again to continue")
-        log.write(traceback.format_exc())
-        _took(log)
+        said.log(traceback.format_exc())
+        said.close()
         os._exit(INTERRUPTED)  # at once: a thread may be compiling, and is not waited for
     finally:
         sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
-        _took(log)
-        log.close()
+        said.close()
 
 
 def step(text: str) -> None:
     """Say how far a long job is: all steps stand in its log, and some on the screen."""
-    if isinstance(sys.stdout, _Tee):
+    if isinstance(sys.stdout, _Output):
         sys.stdout.step(f"{text}\n")
     else:
         print(text)
@@ -182,10 +172,6 @@ def say(error: Exception) -> str:
     """Return an error in words; one that is not ours is named too, since its words may be few."""
     ours = type(error).__module__.startswith(("pendula", "latticode"))
     return str(error) if ours else f"{type(error).__name__}: {error}"
-
-
-def _took(log: _Log) -> None:
-    log.write(f"{TOOK}{time.monotonic() - BEGAN:.1f} s, largest memory: {_memory():.0f} MB\n")
 
 
 def _memory() -> float:

@@ -29,16 +29,6 @@ def of_wave(offset):
     return np.minimum(mathieu.first_tongue(offset), mathieu.second_tongue(offset))
 
 
-def test_a_band_is_as_stable_as_its_weakest_wave():
-    rng = np.random.default_rng(5)
-    for _ in range(30):
-        low, high = np.sort(rng.uniform(-0.9, 2.9, 2))
-        within = of_wave(np.linspace(low, high, 400))
-        assert mathieu.band_threshold(low, high) <= within.min()
-        edges = of_wave(np.array([low, high])).min() if low > 0 or high < 0 else 0.0
-        assert mathieu.band_threshold(low, high) == pytest.approx(edges, rel=1e-14)
-
-
 def test_only_a_drive_that_beats_the_strings_loses_pendula():
     """By Mathieu's equation: a <= 4 epsilon mu^2 / omega^2 is stable up to q = b_1(a)."""
     of_paper = [Constants.of(one) for one in paper()["cases"].values()]
