@@ -24,6 +24,8 @@ from latticode.datasets.netcdf import read
 from latticode.drawing import style
 from pendula.figure_diff import baseline
 from pendula.ledger.changes import put, scale, shift
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 ROOT = Path(__file__).resolve().parents[2]
 TAIL = slice(40, None)
@@ -85,6 +87,19 @@ def content(file: str, name: str, change: Callable[[bytes], bytes]) -> Fault:
         (run.made / file).write_bytes(change((run.made / file).read_bytes()))
 
     return Fault(name, file, plant)
+
+
+def pixels(stem: str, name: str, other: str) -> Fault:
+    """Return the fault of a picture with the pixels of another, and all that it says of itself."""
+
+    def plant(run: Run):
+        path, about = run.made / f"figures/{stem}.png", PngInfo()
+        with Image.open(path) as image:
+            for key, said in image.text.items():
+                about.add_text(key, said)
+        Image.open(run.made / f"figures/{other}.png").save(path, pnginfo=about)
+
+    return Fault(name, f"figures/{stem}.png", plant)
 
 
 def reverse(*names: str, along: str = "tau") -> Callable:
@@ -167,6 +182,7 @@ FAULTS = [
     drawn("fig4", "reversed in time", gathered=reverse("l2", "linf")),
     drawn("fig6", "negative", gathered=scale("l2", -1.0)),
     # Pictures
+    pixels("fig4_spacetime", "pixels of another figure", "fig3_spacetime"),
     content("figures/fig4.png", "half a file", lambda found: found[: len(found) // 2]),
     # Ledger and tables
     row("ensemble_fig4_settles", "verdict", entry("verdict", to="not reproduced")),

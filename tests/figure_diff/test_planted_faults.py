@@ -60,6 +60,18 @@ def flip(found: bytes) -> bytes:
     return found[:middle] + bytes([found[middle] ^ 1]) + found[middle + 1 :]
 
 
+def paint(run):
+    """Darken a picture, and leave what it says of itself."""
+    from PIL import Image
+    from PIL.PngImagePlugin import PngInfo
+
+    with Image.open(run.made / PICTURE) as image:
+        about = PngInfo()
+        for key, said in image.text.items():
+            about.add_text(key, said)
+        image.point(lambda shade: shade // 2).save(run.made / PICTURE, pnginfo=about)
+
+
 def of_older_run(kind: str) -> Callable:
     """Return a plant: all files of a figure are drawn from other data, but one kind is older."""
 
@@ -136,6 +148,7 @@ FAULTS = [
     drawn("other limit in the PDF", "figures/fig2.pdf", limit=9),
     Fault("axis four times as long", "figures/fig4.json",
           lambda run: made_up.put(run.made, "fig4", made_up.norms(True, seed=1), limit=32)),
+    Fault("painted picture", PICTURE, paint),
     content(
         "painted PDF", "figures/fig2.pdf", lambda f: f.replace(b"%PDF-1.4", b"%PDF-1.5"), DIFFERENT
     ),

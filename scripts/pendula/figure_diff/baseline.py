@@ -149,7 +149,7 @@ class Comparison:
         found = compare_shown.hash_of(name, new.read_bytes())
         same = found == accepted
         if name.startswith(FIGURES) and name.endswith(PICTURES):
-            return compare_shown.compare_picture(new, same, self._beside(name, ".json"))
+            return compare_shown.compare_picture(new, kept, same, self._beside(name, ".json"))
         if name.startswith(FIGURES):
             return compare_shown.compare_description(kept, new, self._beside(name, ".nc"))
         if same:

@@ -18,9 +18,9 @@ from pendula.ledger.claim import CHANGE, FACTOR, FEWEST, NEARLY_ALL, Control, ch
 from pendula.ledger.criterion import (
     Above,
     AllOf,
-    AtLeast,
     Below,
     Finding,
+    NeverLevels,
     UndecidableError,
     judge,
 )
@@ -31,7 +31,6 @@ from pendula.models.bounds import theorem_2_constants
 from .claims import LEVEL
 
 SECTION = 5
-LEVELS_OFF = "the half-width from which it is level"
 SAME = Cutoff(
     0.9973,
     "three standard errors, which the means of one law exceed a few times in a thousand",
@@ -188,7 +187,7 @@ def ensemble_fig5_conjecture(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
     growth, levels = growth_and_levels(found)
     grows = Above(1.0, *growth, says="lower confidence limit of longest over shortest chain")
-    criterion, measured = AllOf(grows, AtLeast(np.inf, *levels, says=LEVELS_OFF)), growth | levels
+    criterion, measured = AllOf(grows, NeverLevels(*levels)), growth | levels
     seen = [level for level in levels.values() if np.isfinite(level)]
     fails = ""
     if grows.holds(measured) and seen:
@@ -287,7 +286,7 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
         f"from M = {max(found, default=np.nan):.0f} on the ensemble means{of} agree within their"
         " confidence intervals, because the front does not reach the ends"
     )
-    return judge(measured, AtLeast(np.inf, *levels, says=LEVELS_OFF), fails=fails)
+    return judge(measured, NeverLevels(*levels), fails=fails)
 
 
 @fig6(

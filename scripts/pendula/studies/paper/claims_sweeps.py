@@ -30,6 +30,7 @@ from pendula.ledger.criterion import (
     AtMost,
     Below,
     Finding,
+    Levels,
     UndecidableError,
     judge,
     undecided,
@@ -62,7 +63,7 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
         "level_from": levelling(half_widths, values, LEVEL.value),
     }
     steady = Below(CONSTANT, "largest_rise", says="largest rise in between")
-    return measured, AllOf(Above(CONSTANT, fall), steady, Below(np.inf, "level_from"))
+    return measured, AllOf(Above(CONSTANT, fall), steady, Levels("level_from"))
 
 
 @claim(
