@@ -64,6 +64,11 @@ def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run):
     assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].says
 
 
+def test_times_of_a_machine_are_no_part_of_the_report(run):
+    run.edit(REPORT, "96 s", "77 s")
+    assert run.findings()[REPORT].status == Status.IDENTICAL
+
+
 def test_code_for_a_processor_is_no_part_of_the_live_page_where_it_stands_once():
     pages = [b'{"code": "%s", "sites": 61}' % code for code in (b"AA==", b"AB==")]
     assert comparable("live.html", pages[0]) == comparable("live.html", pages[1]) != pages[0]

@@ -44,14 +44,30 @@ def row(name: str) -> dict:
     return next(one for one in ROWS if one["name"] == name)
 
 
-def test_the_page_begins_with_the_verdicts(written):
+def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
     held = row("fig5_decreases") | {"verdict": "confirmed"}
     text = plain(written([held, held | {"name": "other", "verdict": "not reproduced"}]))
-    first, second = (
-        text.index("2 claims of the paper: 1 confirmed, 1 not"),
-        text.index("Fig 1. fig1"),
-    )
-    assert first < second
+    assert "2 claims of the paper: 1 confirmed, 1 not reproduced." in text
+    table = text[text.index("figure verdict claims") :]
+    assert "Fig 1 : fig1 is shown a drawing none" in table
+    assert "holds, except for 1 of the claims 1 confirmed , 1 not reproduced" in table
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "said"),
+    [
+        (("confirmed",), "holds 1 confirmed"),
+        (("confirmed with a caveat",), "holds with a caveat 1"),
+        (("not reproduced",), "does not hold 1"),
+        (("cannot be decided",), "does not hold 1 cannot"),
+        (("confirmed", "not applicable"), "not applicable 1 confirmed"),
+    ],
+)
+def test_a_figure_has_the_verdict_of_its_claims(written, verdicts, said):
+    rows = [row("fig5_decreases") | {"name": f"row{n}", "verdict": one}
+            for n, one in enumerate(verdicts)]  # fmt: skip
+    (line,) = re.findall(r'<a href="#figures/fig5">.*?</tr>', written(rows), re.DOTALL)
+    assert f"fig5 is shown {said}" in plain(line)
 
 
 def test_claims_on_a_figure_are_those_of_the_paper_alone():

@@ -44,7 +44,7 @@ def compare(
         return Status.IDENTICAL, ""
     was = read(kept)
     found = list(differences(name, was, content, accepted["variables"], chaos))
-    if faults := [each.says for each in found if each.is_fault]:
+    if faults := [each.says for each in found if each.is_fault] or [*values.jumps(was, content)]:
         return Status.DIFFERENT, "; ".join(faults[:3])
     if beyond := [each.says for each in found if each.beyond]:
         count = sum(each.beyond for each in found)

@@ -32,19 +32,23 @@ NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
-CODE = rb'"code": "[\w+/=]*"'
-"""What the live page holds of the machine, once: code that numba writes for the processor. The bits
-of this code are compared where it runs."""
+OF_THE_MACHINE = {
+    "report.html": rb'<section id="run">(?:(?!</?section).)*</section>',
+    "live.html": rb'"code": "[\w+/=]*"',
+}
+"""What two pages hold of the machine, each once: processor, versions and times of jobs; and code
+that numba writes for the processor, whose bits are compared where it runs."""
 
-FREE = {"because", "rests_on", "ticks"}
-"""Entries of a ledger whose words follow measured numbers; those of a figure that follow limits."""
+FREE = {"because", "rests_on"}
+"""Entries of a ledger whose words follow measured numbers."""
 
-PLACES = {"measured", "limits", "x", "y", "extent", "points", "points_at", "stands_at"}
-"""Entries whose numbers follow the data."""
+PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
+"""Entries of a description whose numbers follow the data."""
 
-LOOSE, FEW = 0.7, 0.01
-"""How far such a number may follow chaos, as a part of the largest one beside it or of one; and a
-number of points, as a part of it."""
+LOOSE, FEW, LARGE = 0.4, 0.01, 10.0
+"""How far such a place may follow chaos, as a part of the larger end, and a number of points; how
+many times larger than one, or than it was, a measured number may be. Bands and bars may reach twice
+as far, and an axis follows what its panel shows, because one long bar doubles it."""
 
 IN_TAGS = rb'<script type="application/json".*?</script>|<[^>]*>'
 """What stands between the words of a page: tags, and the data of the live page."""
@@ -55,11 +59,13 @@ Known = Mapping[str, Status]
 
 
 def comparable(name: str, content: bytes) -> bytes:
-    """Return what is compared of the file `name` of a run: of the live page all but its CODE.
+    """Return what is compared of the file `name` of a run: of a page, not what is of the machine.
 
     A mark stays in its place, so that it cannot be lost; where it stands twice, all is compared.
     """
-    around = re.split(CODE, content) if name == "live.html" else [content]
+    if name not in OF_THE_MACHINE:
+        return content
+    around = re.split(OF_THE_MACHINE[name], content, flags=re.DOTALL)
     return b"(of the machine)".join(around) if len(around) == 2 else content
 
 
@@ -85,7 +91,7 @@ def compare(new: Path, was: str, datasets: Known) -> tuple[Status, str]:
         return Status.DAMAGED, "has a wrong checksum, or none: it was edited or damaged"
     beyond, may_differ = 0, not set(datasets.values()) <= {Status.IDENTICAL}
     for path, *pair in _differences(before, after):
-        judged = _judge(path, *pair, before, datasets) if may_differ else Status.DIFFERENT
+        judged = _judge(path, *pair, (before, after), datasets) if may_differ else Status.DIFFERENT
         if judged == Status.DIFFERENT:
             return judged, f"reads {_beside(*map(str, pair))} ({'.'.join(map(str, path))})"
         beyond += judged == Status.BEYOND
@@ -115,11 +121,11 @@ def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, 
         yield path, was, now
 
 
-def _judge(path: tuple, was: Any, now: Any, before: Any, datasets: Known) -> Status:
-    """Return whether one entry of a text, `before`, may read `now` in place of `was`."""
+def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> Status:
+    """Return whether one entry of `texts`, before and after, may read `now` in place of `was`."""
     entries = {part for part in path if isinstance(part, str)}
-    chaotic = _follows_chaos(path, entries, before, datasets)
-    if chaotic and entries & FREE:
+    chaotic = _follows_chaos(path, entries, texts[0], datasets)
+    if chaotic and (entries & FREE or ("ticks" in entries and "x" not in entries)):
         return Status.BEYOND
     if chaotic and "measured" in entries and {was, now} & {None, "infinite"}:
         return Status.BEYOND
@@ -129,23 +135,38 @@ def _judge(path: tuple, was: Any, now: Any, before: Any, datasets: Known) -> Sta
     off = [(float(a), float(b)) for a, b in pairs if not _close(a, b)]
     if all(values.are_roundings(*pair) for pair in off):
         return Status.BEYOND if off else Status.WITHIN
-    if isinstance(was, str):
-        may_be = chaotic and entries & {"text", "title"}
+    if chaotic and "measured" in entries:
+        may_be = all(abs(b) <= LARGE * max(abs(a), 1.0) for a, b in off)
+    elif chaotic and isinstance(was, str):
+        may_be = bool(entries & {"text", "title"})
+    elif chaotic and entries & PLACES and not {"x", "limits"} <= entries:
+        may_be = _is_near(path, was, now, *texts)
     else:
-        may_be = chaotic and entries & PLACES and _is_near(path, was, now, before)
+        may_be = False
     return Status.BEYOND if may_be else Status.DIFFERENT
 
 
-def _is_near(path: tuple, was: float, now: float, before: Any) -> bool:
-    """Return whether a number, of which `before` was its text, follows chaos and no more.
-
-    Limits along x do not, and a number of points changes by gaps or late starts alone.
-    """
-    if path[-1] == "points":
-        return abs(now - was) <= max(2.0, FEW * was)
-    beside = _entry(before, path[:-1])
+def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bool:
+    """Return whether a limit or an end of a curve follows chaos, on the scale of its axis."""
+    if path[-1] == "points":  # gaps in a logarithm, or a state that has just formed
+        return abs(now - was) <= max(2.0 if "areas" in path else 1.0, FEW * was)
+    panels = [_entry(text, path[:2]) for text in (before, after)]
+    if "y" in path and panels[0]["y"].get("scale") == "log":
+        return 1 / values.SCATTER <= now / was <= values.SCATTER
+    beside, grown = _entry(before, path[:-1]), 1.0
     largest = max(map(abs, beside if isinstance(beside, list) else [was]))
-    return not {"x", "limits"} <= {*path} and abs(now - was) <= LOOSE * max(1.0, largest, abs(now))
+    if "limits" in path and "y" in path:
+        reached, reaches = map(_reach, panels)
+        grown = reaches / reached if reached else 1.0
+    is_bar = "areas" in path or ("curves" in path and _entry(before, path[:4])["line"] == "None")
+    off, allowed = now - was * grown, LOOSE * largest * grown
+    return -allowed <= off <= (largest if is_bar else allowed)
+
+
+def _reach(panel: Mapping[str, Any]) -> float:
+    """Return how far from zero the curves, bands and bars of a panel reach."""
+    shown = [*panel.get("curves", ()), *panel.get("areas", ())]
+    return max((abs(end) for one in shown for end in one.get("y", ())), default=0.0)
 
 
 def _entry(whole: Any, path: tuple) -> Any:

@@ -2,9 +2,9 @@
 
 A regular number may be off by TOLERANCE of the largest of its row, an error of rounding by a
 factor, and a proven bound by a part of itself. A number that rests on chaos differs from one right
-run to the next, but within limits: it keeps its sign, over a row it differs by less than it is
-large, and a long row leaves its range by little. These limits are about twice what runs show whose
-epsilon is moved by its last bits (`.ci/elsewhere moved`).
+run to the next, but within limits: it keeps its sign and its range, over a row it differs by less
+than it is large, and its steps in time are not much longer. These limits are about twice what runs
+show whose epsilon is moved by its last bits (`.ci/elsewhere moved`).
 """
 
 import re
@@ -28,13 +28,21 @@ PROVEN, PROVEN_APART = re.compile("bound|radius"), 0.01
 SCATTERED = re.compile("error|deviation|correlation|width|drift|uncertainty")
 """Names of what a few runs say of their own scatter, which is uncertain itself."""
 
-APART, SCATTER, SMALL = 0.6, 4.0, 0.01
-"""By which part of itself a chaotic row may differ on average, and by what factor one of numbers of
-both signs or of scatter. What is SMALL beside the largest of the variable may be anything."""
+SIGNED = re.compile("correlation|energy|region_mean")
+"""Names of what may have either sign."""
 
-LONG, RANGES, ROUNDED = 20, 2.0, 1e-5
-"""A row of so many numbers stays within so many times its range, which is known to the seven digits
-that are accepted."""
+APART, SCATTER, LONG, SMALL = 0.6, 4.0, 100, 0.01
+"""Limits of the mean difference of chaotic rows, and of their scatter; LONG rows also keep their
+range. What is SMALL beside the largest of the variable may be anything."""
+
+ROUNDED = 1e-5
+"""How far equal numbers may be apart, relative to the largest: accepted ones have seven digits."""
+
+TIMES = ("tau", "snapshot", "snapshot_tau")
+STEP, FEWEST = 3.0, 20
+"""How much larger a step in time may be than the largest accepted one, and twice that of what is
+SCATTERED: one excursion of a chaotic run makes the largest step of its drift. FEWEST times make a
+run."""
 
 
 def fault(
@@ -46,10 +54,28 @@ def fault(
     for row in rows(now, data):
         old, new, rests = (np.atleast_1d(each[row]) for each in (before, after, chaotic))
         says = _of_regular(key, old[~rests], new[~rests], largest, is_exact)
-        says = says or _of_chaotic(key, old[rests], new[rests], largest)
+        says = says or (rests.any() and _of_chaotic(key, old[rests], new[rests], SMALL * largest))
         if says:
             return f"{key} {says}"
     return ""
+
+
+def jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
+    """Yield a message for each variable that changes too much from one time to the next.
+
+    Its largest change there is compared with that of the accepted run (see STEP).
+    """
+    for key, variable in was.variables.items():
+        times = [dim for dim in TIMES if variable.sizes.get(dim, 0) >= FEWEST]
+        for dim in times if variable.dtype.kind == "f" else ():
+            axis, rounded = variable.get_axis_num(dim), ROUNDED * hashes.largest(variable.values)
+            longest = STEP * (2.0 if SCATTERED.search(str(key)) else 1.0)
+            steps = [abs(np.diff(data[key].values, axis=axis)) for data in (was, now)]
+            for row in rows(variable, was):
+                before, after = (hashes.largest(each[row]) for each in steps)
+                if after > longest * before + rounded:
+                    yield f"{key} jumps along {dim}"
+                    break
 
 
 def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
@@ -87,26 +113,24 @@ def are_roundings(was: float, now: float) -> bool:
     return large < ROUNDING and large < FACTOR * small
 
 
-def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, largest: float) -> str:
+def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float) -> str:
     """Return what no right run of a chaotic case has, though nobody knows its numbers."""
     if np.isfinite(old).all() and not np.isfinite(new).all():
         return "has NaN or infinity where there was none"
-    both, small = np.isfinite(old) & np.isfinite(new), SMALL * largest
+    both = np.isfinite(old) & np.isfinite(new)
     old, new = old[both], new[both]
     if not old.size:
         return ""
-    is_scatter = bool(SCATTERED.search(key))
-    if not is_scatter and old.min() >= 0 and new.min() < -small:
+    if not SIGNED.search(key) and old.min() >= 0 > new.min():
         return "is negative, as it never was"
     size, new_size, apart = (float(abs(each).mean()) for each in (old, new, new - old))
-    if is_scatter or min(old.min(), new.min()) < 0 < max(old.max(), new.max()):
+    differs = f"rests on chaos, but differs by too much: {new_size:.3g} in place of {size:.3g}"
+    if SCATTERED.search(key) or old.min() < 0 < old.max() or new.min() < 0 < new.max():
         is_alike = 1 / SCATTER <= (new_size + small) / (size + small) <= SCATTER
-    else:
-        is_alike = apart <= APART * size + small
-    if not is_alike:
-        return f"rests on chaos, but differs by too much: {new_size:.3g} in place of {size:.3g}"
+        return "" if is_alike else differs
+    if apart > APART * size + small:
+        return differs
     outside = max(new.max() - old.max(), old.min() - new.min())
-    ranges = RANGES * (SCATTER if is_scatter else 1.0)
-    if old.size >= LONG and outside > ranges * np.ptp(old) + ROUNDED * largest:
+    if old.size >= LONG and outside > np.ptp(old) + small:
         return f"leaves the range of the accepted values by {outside:.2g}"
     return ""

@@ -1,14 +1,21 @@
-"""The report of a run: verdicts, figures, claims and datasets, as the files tell them."""
+"""The report of a run: verdicts, figures, claims, datasets and times, as the files tell them."""
 
+import re
+from collections import Counter
 from collections.abc import Mapping
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from latticode.datasets import complete_or_absent
 from latticode.datasets.json_files import load_json
+from latticode.kernels.sources import describe_machine
+from markupsafe import Markup
 
 from pendula.ledger.criterion import Verdict
+from pendula.ledger.rows import on_figure
 from pendula.ledger.tables import counted
+from pendula.sources import TOOK
 
 from .described import Dataset, Figure, dataset, figure
 from .page import render
@@ -18,6 +25,7 @@ TITLE = "Coupled pendula under a PT-symmetric drive"
 PAPERS = [f"fig{n}" for n in range(1, 7)]
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
 """Claims with these verdicts are folded; readers look for the others first."""
+PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2")
 
 
 class Table(NamedTuple):
@@ -54,13 +62,15 @@ def write_report(
     rows = load_json(ledger)["rows"]
     papers = [shown.pop(name) for name in PAPERS]
     sections = [
-        Section("figures", "The figures of the paper", figures=papers),
+        Section("figures", "The figures of the paper", tables=[_overview(rows, papers)],
+                figures=papers),
         *_claims(rows),
         Section("more", "More figures", False, figures=[*shown.values()]),
         _datasets([dataset(Path(path), folder) for path in datasets]),
+        _run(folder / "logs"),
     ]  # fmt: skip
     title = f"{TITLE}: the paper, {'with other settings' if differs else 'replicated'}"
-    first = {"counts": counted(rows), "differs": [*differs.values()]}
+    first = {"verdict": counted(rows)[0], "differs": [*differs.values()]}
     write_page(html, "report.html.j2", title, sections, **first)
 
 
@@ -71,11 +81,42 @@ def write_page(html: str, template: str, title: str, sections: list[Section], **
         Path(partial).write_text(page, encoding="utf-8")
 
 
+def _overview(rows: list[dict], figures: list[Figure]) -> Table:
+    """Return Figs 1 to 6 with the verdicts on the paper's claims about them, all with links."""
+    return Table(
+        "Whether what the paper says of each figure holds for our curves, and its claims",
+        ("figure", "verdict", "claims"),
+        [_of_figure(which, one, on_figure(rows, which)) for which, one in enumerate(figures, 1)],
+    )
+
+
+def _of_figure(which: int, shown: Figure, rows: list[dict]) -> tuple:
+    name = Markup('<a href="#{}">Fig {}</a>: {}').format(shown.stem, which, shown.headline)
+    if not rows:
+        return name, "a drawing", "none"
+    first = {row["verdict"]: row["name"] for row in reversed(rows)}
+    count = Counter(row["verdict"] for row in rows)
+    links = [
+        Markup('<a href="#claim_{}">{} {}</a>').format(first[one], count[one], one)
+        for one in map(str, Verdict) if one in count
+    ]  # fmt: skip
+    failing = len(rows) - count[Verdict.CONFIRMED] - count[Verdict.CAVEAT]
+    if count[Verdict.NOT_APPLICABLE]:
+        says = "not applicable"
+    elif failing == len(rows):
+        says = "does not hold"
+    elif failing:
+        says = f"holds, except for {failing} of the claims"
+    else:
+        says = "holds with a caveat" if count[Verdict.CAVEAT] else "holds"
+    return name, says, Markup(", ").join(links)
+
+
 def _claims(rows: list[dict]) -> list[Section]:
     """Return the claims that are not confirmed, and those of each other verdict folded."""
     others = [row for row in rows if row["verdict"] not in FOLDED]
     title = "Claims that are not reproduced, do not carry over, or cannot be decided"
-    found = [Section("claims", title, claims=list(map(_claim, others)))]
+    found = [Section("claims", title, lines=counted(rows), claims=list(map(_claim, others)))]
     for verdict in FOLDED:
         if own := [_claim(row) for row in rows if row["verdict"] == verdict]:
             name = verdict.replace(" ", "_")
@@ -112,3 +153,32 @@ def _datasets(found: list[Dataset]) -> Section:
     for one in found:
         by_folder.setdefault(one.link.partition("/")[0], []).append(one)
     return Section("datasets", f"{len(found)} datasets", False, datasets=by_folder)
+
+
+def _run(logs: Path) -> Section:
+    """Return the versions and the times of a run whose logs lie below a folder."""
+    times = run_times(logs)
+    total = sum(seconds for _, seconds, _ in times)
+    versions = describe_machine() | {name: version(name) for name in PACKAGES}
+    return Section(
+        "run", "How it was run", False,
+        tables=[
+            Table("Processor and versions", ("what", "which"), [*versions.items()]),
+            Table(
+                f"Wall times and largest memory of the jobs: {total:.0f} s in all, start-up "
+                "included; several ran side by side", ("job", "s", "MB"),
+                [(name, f"{seconds:.1f}", memory) for name, seconds, memory in times],
+            ),
+        ],
+    )  # fmt: skip
+
+
+def run_times(logs: Path) -> list[tuple[str, float, str]]:
+    """Return the wall time in s and the memory in MB of each job with a log, the longest first."""
+    found = []
+    for log in sorted(logs.rglob("*.log")):
+        last = log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
+        if took := re.match(rf"{TOOK}([\d.]+) s, largest memory: (\d+) MB", last):
+            name = log.relative_to(logs).with_suffix("").as_posix()
+            found.append((name, float(took[1]), took[2]))
+    return sorted(found, key=lambda job: (-job[1], job[0]))
