@@ -6,7 +6,6 @@ from pendula.studies.chaos import figures as chaos
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
 from pendula.studies.pendula import figures as pendula
-from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
 
@@ -53,13 +52,11 @@ FIGURES = {
     "pendula_over_the_top": (
         pendula.draw_over_the_top, pendula.gather_over_the_top, "pendula/over_the_top",
     ),
-    "bounds": (bounds_figure.draw_bounds, bounds_figure.gather_bounds,
-               "checks/cases", "checks/samples",
-               "checks/sharpness", "checks/chain_growth"),
+    "bounds": (theory.draw_bounds, theory.gather_bounds, "checks/cases"),
     "stability_chart": (
         theory.draw_chart,
-        lambda *charts: theory.gather_chart(*charts, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
-        "checks/chart", "checks/short_chart", "checks/windows",
+        lambda chart: theory.gather_chart(chart, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
+        "checks/chart",
     ),
     "fronts": (unbounded.draw_fronts, unbounded.gather_fronts, "unbounded/fronts"),
     "growth_law": (

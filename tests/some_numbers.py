@@ -19,9 +19,8 @@ from pendula.studies.unbounded.measured import measure_fronts
 from pendula.studies.unbounded.thermal import solve_thermal
 
 CHECKS = {
-    "windows": {},  # bisection
-    "samples": {"count": 2, "sizes": [3]},  # random numbers
-    "sharpness": {"sizes": [3, 9]},  # extrapolation
+    "threshold": {"sizes": [3, 5, 9], "end_time": 5.0},  # random numbers
+    "sharpness": {"sites": 9},
 }
 """One check for each kind of function in `numerics`, with what makes it take no time."""
 NODES = 6
@@ -33,7 +32,7 @@ NAMES = (*CHECKS, "fronts", "thermal", "proofs")
 def make(given: Path, made: Path, *every: str) -> None:
     """Write the datasets of NAMES to the folder `made`, or with all checks of the theory."""
     theory = chosen("theory")
-    arguments = theory.arguments("stability") | theory.arguments("bounds")
+    arguments = theory.arguments("theory")
     smaller = {name: {} for name in arguments} if every else CHECKS
     checks = {name: run_check(name, arguments[name] | less) for name, less in smaller.items()}
     datasets = {name: xarray.Dataset.from_dict(check) for name, check in checks.items()}

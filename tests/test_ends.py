@@ -12,7 +12,7 @@ from oracle import BOUNDARIES, random_chain
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.problem import PENDULA
-from pendula.studies.theory.equations import right_hand_side, total_energy
+from pendula.studies.theory.equations import total_energy
 from pendula.studies.theory.polynomials import energy as exact_energy
 from problems import make_problem
 
@@ -43,7 +43,6 @@ TAUGHT = {
     "kernels": lambda boundary: simulate(problem(boundary), WHOLE).final,
     "series": lambda boundary: simulate(problem(boundary, solver="taylor"), WHOLE).final,
     "pendula": pendula,
-    "rates": lambda boundary: right_hand_side(problem("free").constants, boundary, Z),
     "energy": lambda boundary: total_energy(problem("free").constants, boundary, Z),
     "region": lambda boundary: proven_region(-1.0, 0.5, problem("free").constants, boundary),
     "bound": lambda boundary: best_bound(-1.0, 0.5, 7, problem("free").constants, boundary),

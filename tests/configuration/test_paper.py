@@ -74,7 +74,7 @@ def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
         (("chaos", "members", "tolerance"), 1e-3, True),
         (("cases", "fig2_small", "snapshot_step"), 0.2, False),
         (("sweeps", "fig5_left", "windows"), [[10, 60]], True),
-        (("theory", "samples", "count"), 4, False),
+        (("theory", "chart", "sites"), 9, False),
         (("theory", "not_shown", "omega"), 7.0, True),
     ],
 )

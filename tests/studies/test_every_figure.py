@@ -83,12 +83,6 @@ def plot(request, tmp_path_factory):
         return Plot(request.param, figure, described(figure, read(file)), file)
 
 
-MORE_DIGITS = {
-    "stability_chart": (".panels.1.y.ticks", ".panels.2.x.ticks"),
-}
-"""What rounded datasets change in a figure: ticks at an end of an axis, as they stand."""
-
-
 def accepted(name: str) -> dict:
     """Return the accepted description of a figure; what shows a user's own run is drawn again."""
     if name in OWN:
@@ -101,8 +95,7 @@ def test_saved_data_show_what_is_accepted_whatever_the_users_style(plot):
     """Each text, colour, stroke and axis, and the ranges of each curve."""
     kept, shown = (without(OF_ROWS, each) for each in (accepted(plot.name), plot.shown))
     apart = differing(kept, shown | {"data": ""}, 1e-3)
-    rounded = MORE_DIGITS.get(plot.name, "none")
-    assert {at: pair for at, pair in apart.items() if not at.startswith(rounded)} == {}
+    assert apart == {}
 
 
 LEAST = 100

@@ -34,7 +34,7 @@ def test_comparing_failing_and_accepting_by_name(finished, clone):
     assert f" identical; see {results}/figure_diff/index.html" in said(result)
     assert b"1234.5" in report.read_bytes()
 
-    flipped = ["checks/dependence.nc", "claims/theory.json", "figures/fig5.png", "report.html"]
+    flipped = ["checks/threshold.nc", "claims/theory.json", "figures/fig5.png", "report.html"]
     for name in flipped:
         flip(results / name)
     (finished / MY_BASELINE / "tables/claims.md").write_text("edited")

@@ -24,7 +24,7 @@ use rule job as figure_diff with:
 
 
 use rule job as accept_figures with:
-    'Takes this run as the baseline, or the files in --config accept="fig3 checks/samples"'
+    'Takes this run as the baseline, or the files in --config accept="fig3 checks/chart"'
     input:
         results=accepted_files,
     output:

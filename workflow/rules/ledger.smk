@@ -1,6 +1,5 @@
 # The ledger of the paper's claims. Each part is decided as soon as its datasets are there, and then the
 # parts are joined: so an edit decides again only what rests on it.
-NOT_DECIDING = ("not_shown", "short_chart")  # but in the article
 RESTS_ON = {  # by part: the datasets that its claims rest on
     "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
     "solvers": [
@@ -8,10 +7,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
         *checks("cases", "lyapunov", "members", "solvers"),
         *checks("ensembles", "ensembles_second", "ensembles_finer"),
     ],
-    "theory": [
-        *(*TRAJECTORIES, *checks("lyapunov")),
-        *checks(*(name for name in THEORY_CHECKS if name not in NOT_DECIDING)),
-    ],
+    "theory": checks("lyapunov", *PROVED, *GROUPS["theory"]),
     "chaos": [
         *(*datasets("sweeps", "fig5_left", "fig6_left"), *datasets("breathers", "sensitivity")),
         *checks("ensembles", "ensembles_uneven", "members", "lifetimes"),

@@ -22,24 +22,14 @@ use rule dataset as check_not_shown with:
         checks=SETTINGS.theory.arguments("not_shown"),
 
 
-use rule check_not_shown as check_stability with:
-    "Lemma 1: dispersion, thresholds, and measured growth rates of the chain at rest"
+use rule check_not_shown as check_theory with:
+    "Lemma 1, the sharpness of Theorems 1 to 3, and errors of their proofs"
     output:
-        checks(*GROUPS["stability"]),
+        checks(*GROUPS["theory"]),
     pathvars:
-        made="checks/stability",
+        made="checks/theory",
     params:
-        checks=SETTINGS.theory.arguments("stability"),
-
-
-use rule check_not_shown as check_bounds with:
-    "Lemma 2 and Theorems 1 to 3: errors of their proofs, and how near data come to their bounds"
-    output:
-        checks(*GROUPS["bounds"]),
-    pathvars:
-        made="checks/bounds",
-    params:
-        checks=SETTINGS.theory.arguments("bounds"),
+        checks=SETTINGS.theory.arguments("theory"),
 
 
 use rule dataset as check_observed with:
@@ -53,11 +43,9 @@ use rule dataset as check_observed with:
 
 
 use rule figure as stability_chart with:
-    "Lemma 1: where the chain at rest is unstable, and the windows of stability of finite chains"
+    "Lemma 1: where the chain at rest is unstable"
     input:
         chart="<results>/checks/chart.nc",
-        short_chart="<results>/checks/short_chart.nc",
-        windows="<results>/checks/windows.nc",
     pathvars:
         made="figures/stability_chart",
     params:
@@ -70,10 +58,7 @@ use rule figure as bounds with:
     "Theorems 1 to 3: observed norms against their bounds"
     input:
         cases="<results>/checks/cases.nc",
-        samples="<results>/checks/samples.nc",
-        sharpness="<results>/checks/sharpness.nc",
-        growth="<results>/checks/chain_growth.nc",
     pathvars:
         made="figures/bounds",
     params:
-        call=function("pendula.studies.theory.bounds_figure.draw_bounds"),
+        call=function("pendula.studies.theory.figures.draw_bounds"),

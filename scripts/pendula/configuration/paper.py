@@ -14,12 +14,9 @@ from typing import Any
 
 FILE = Path(__file__).with_suffix(".json")
 
-FREE = {
-    *("seed", "draw", "snapshot_step", "long"),
-    *("count", "samples", "sites", "points"),
-}
+FREE = {"seed", "draw", "snapshot_step", "long", "sites", "points"}
 """Keys that change no statement: other draws of a case, another look at it, longer studies, and how
-thoroughly the theory is tried on data of all kinds. Its controls find a test that is too weak."""
+thoroughly the theory is tried. Its controls find a test that is too weak."""
 AT_LEAST = {"members", "swept_members", "nodes"}
 """Sizes of ensembles and grids: larger ones are still about the same case."""
 AT_MOST = {"tolerance"}

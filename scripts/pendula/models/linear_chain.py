@@ -105,24 +105,3 @@ def finite_threshold(omega, epsilon: float, sites: int, boundary: str):
 def finite_rate(omega, gamma, epsilon: float, sites: int, boundary: str):
     """Return the largest growth rate of a chain of N sites."""
     return growth_rate(2.0 * finite_threshold(omega, epsilon, sites, boundary), gamma)
-
-
-def stable_windows(gamma: float, epsilon: float, sites: int, boundary: str) -> np.ndarray:
-    """Return the intervals of Omega in [0, 4 epsilon] where the finite chain is stable, (., 2).
-
-    Between two neighbouring eigenvalues of the Laplacian Omega is stable as long as it keeps a
-    distance of more than 2 |gamma| from both; the band's edges are no eigenvalues of a Dirichlet
-    chain, so that a window may reach them.
-    """
-    levels = np.unique(np.round(epsilon * curvatures(sites, boundary), 14))
-    low = np.concatenate([[0.0], levels + 2.0 * abs(gamma)])
-    high = np.concatenate([levels - 2.0 * abs(gamma), [4.0 * epsilon]])
-    windows = np.stack([np.maximum(low, 0.0), np.minimum(high, 4.0 * epsilon)], axis=1)
-    return windows[windows[:, 1] > windows[:, 0]]
-
-
-def widest_gamma(epsilon: float, sites: int, boundary: str) -> float:
-    """Return the largest |gamma| at which any window of stability is left in [0, 4 epsilon]."""
-    levels = epsilon * np.sort(curvatures(sites, boundary))
-    inner = np.diff(levels).max(initial=0.0) / 4.0
-    return float(max(inner, levels[0] / 2.0, (4.0 * epsilon - levels[-1]) / 2.0))

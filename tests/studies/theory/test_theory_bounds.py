@@ -1,34 +1,27 @@
-"""The explicit constants of Theorems 1 to 3, and how near data come to their bounds."""
+"""The explicit constants of Theorems 1 to 3, how near data come to their bounds, and Lemma 1."""
 
-from dataclasses import astuple, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from pendula.models.bounds import (
-    coercivity,
     extent,
-    lipschitz,
     proven_region,
     theorem_1_bound,
     theorem_2_constants,
     theorem_3_bound,
     widened_barrier,
-    widened_delta_0,
+    widened_bound,
     with_positive_coupling,
 )
+from pendula.models.linear_chain import finite_rate, gamma_0, growth_rate, infinite_rate
+from pendula.studies.theory.checks import run_check
 from pendula.studies.theory.equations import one_pair, total_energy
-from pendula.studies.theory.sharpness import reached
+from pendula.studies.theory.sharpness import largest_of_energy
 from problems import constants_of
 
 NEGATIVE, POSITIVE = constants_of((1.0, 1.0, -4.0)), constants_of((1.0, 1.0, 8.0))
-OTHERS = (
-    (0.5, 0.2, -1.0),
-    (1.5, 2.0, -4.5),
-    (0.3, 1.9, -4.0),
-    (1.0, 1.5, -4.0),  # the gap a is 2/3 of gamma, below 2/5 of it, and 1/2 of it:
-    (1.0, 2.5, -6.0),  # the top of the barrier has another formula from 1/2 down, and at 1/2 both
-    (1.0, 2.0, -5.0),
-)
+OTHERS = ((0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0))
 each_constants = pytest.mark.parametrize("constants", [NEGATIVE, *map(constants_of, OTHERS)])
 
 
@@ -44,8 +37,7 @@ def start_of(omega, pair):
     [
         (8.0, (1.0, 0.1), "dirichlet", "theorem 1"),
         (8.0, (5.0, 1.0), "dirichlet", "theorem 1"),
-        (-4.0, (0.3, 0.1), "dirichlet", "theorem 2"),
-        (-4.0, (0.75, 0.0), "dirichlet", "theorem 2 by its energy"),
+        (-4.0, (0.75, 0.0), "dirichlet", "theorem 2"),
         (-4.0, (1.0, 0.1), "dirichlet", "theorem 2 widened"),
         (-4.0, (1.0, 0.1), "free", "none"),  # a constant there has no gradient
         (-4.0, (5.0, 1.0), "dirichlet", "none"),
@@ -56,28 +48,28 @@ def test_region_of_each_case(omega, pair, boundary, region):
     assert proven_region(*start_of(omega, pair), boundary) == region
 
 
-@each_constants
-def test_coercivity_takes_the_worst_split_between_a_and_b(constants):
-    epsilon, gamma, omega = astuple(constants)
-    angle = np.linspace(0.0, np.pi / 4, 20001)
-    for power in (0.5, 3.0, 7.0, 12.0):
-        p, q = power * np.cos(angle) ** 2, power * np.sin(angle) ** 2
-        split = abs(omega) * power - gamma * (np.sqrt(p) + np.sqrt(q)) ** 2
-        split = split - (p**3 + q**3) / (64 * epsilon)
-        assert coercivity(power, constants) == pytest.approx(split.min(), abs=1e-6)
-
-
 def test_exact_values_of_the_bounds():
-    assert (extent(NEGATIVE), lipschitz(NEGATIVE, 2.0)) == (10.0, 16.0)
+    assert extent(NEGATIVE) == 10.0
     assert theorem_1_bound(5.5, POSITIVE) == 2.75
     assert theorem_1_bound(-1.0, constants_of((1.0, 1.0, 6.0))) == np.inf
     assert theorem_2_constants(NEGATIVE) == (0.4, 10.0)
-    assert proven_region(-1.0, 0.399, NEGATIVE, "dirichlet") == "theorem 2"
-    assert proven_region(-1.0, 0.4, NEGATIVE, "dirichlet") == "theorem 2 by its energy"
     assert theorem_3_bound(-1200.0 * (1 + 1e-9), 6, NEGATIVE) == 240.0
     assert theorem_3_bound(-1200.0 + 12.0 * 9.0, 6, NEGATIVE) == 24.0 * 13.0
-    assert widened_barrier(NEGATIVE) == pytest.approx((8.394, 13.399), abs=1e-3)
-    assert widened_delta_0(NEGATIVE) == pytest.approx(1.340, abs=1e-3)
+
+
+@each_constants
+def test_the_widened_bound_is_where_the_energy_allows_no_more(constants):
+    """The depth a P - P^3 / (64 epsilon) of its P is the energy's, and its barrier is the top."""
+    a = -constants.omega - 2.0 * constants.gamma
+    powers = np.linspace(0.0, 2.0 * widened_barrier(constants)[0], 4001)
+    depths = a * powers - powers**3 / (64.0 * constants.epsilon)
+    top, barrier = widened_barrier(constants)
+    assert (top, barrier) == pytest.approx((powers[depths.argmax()], depths.max()), rel=1e-3)
+    energies = -barrier * np.array([0.01, 0.5, 0.99])
+    found = widened_bound(energies, 0.0, constants)
+    np.testing.assert_allclose(a * found - found**3 / (64.0 * constants.epsilon), -energies)
+    assert (found < top).all()
+    assert widened_bound(-1.01 * barrier, 0.0, constants) == np.inf
 
 
 @each_constants
@@ -89,7 +81,6 @@ def test_signs_that_a_change_of_variables_turns_do_not_matter(constants):
     assert with_positive_coupling(staggered) == constants
     for bound in (widened_barrier, theorem_2_constants, extent):
         assert bound(other) == bound(staggered) == bound(constants)
-    assert theorem_1_bound(1.0, constants_of((-1.0, 1.0, 4.0))) == 0.5
 
 
 # --- What data reach ------------------------------------------------------------------------------
@@ -101,9 +92,34 @@ def test_a_tiny_wave_reaches_what_the_linear_equations_say(sites):
 
     -H / P is kappa - 2 gamma where P is largest; at the other end of the band all signs turn.
     """
-    edge = 4.0 * np.sin(0.5 * np.pi / (sites + 1)) ** 2
-    kappa = 4.0 + edge  # of both: Omega = -4 and 8 lie as far from the band
-    assert reached("theorem_1", POSITIVE, sites) == pytest.approx(2.0 / (kappa - 2.0), rel=1e-6)
-    assert reached("theorem_2", NEGATIVE, sites) == pytest.approx(2.0 / (kappa - 2.0), rel=1e-6)
+    reached = run_check("sharpness", {"sites": sites})["data_vars"]["reached"]["data"]
+    kappa = 4.0 + 4.0 * np.sin(0.5 * np.pi / (sites + 1)) ** 2  # as far from the band at both Omega
     growth = (kappa + 2.0) / (kappa - 2.0)
-    assert reached("theorem_2_ball", NEGATIVE, sites) == pytest.approx(growth / 5.0, rel=1e-6)
+    assert reached[:3] == pytest.approx([2 / (kappa - 2), 2 / (kappa - 2), growth / 5.0], rel=1e-6)
+
+
+def test_the_largest_power_of_an_energy_has_that_energy():
+    sites, energy = 7, -2.5
+    power = largest_of_energy(constants_of((1.0, 1.0, 0.0)), sites, energy)
+    wave = np.sqrt(0.5 * power / sites) * (-1.0) ** np.arange(sites)
+    found = total_energy(constants_of((1.0, 1.0, 0.0)), "dirichlet", np.stack([wave, -wave]) + 0j)
+    assert found == pytest.approx(energy)
+
+
+# --- Lemma 1 --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("gamma", [0.3, 1.0, 2.5])
+def test_the_infinite_rate_is_the_largest_over_all_waves_and_that_of_a_long_chain(gamma):
+    omegas = np.array([-4.0, -1.0, 0.5, 3.0, 8.0])
+    kappa = 4.0 * np.sin(np.linspace(0.0, np.pi, 4001) / 2) ** 2
+    largest = growth_rate(kappa[:, None] - omegas, gamma).max(axis=0)
+    np.testing.assert_allclose(infinite_rate(omegas, gamma, 1.0), largest, atol=1e-5)
+    long = finite_rate(omegas, gamma, 1.0, 2001, "dirichlet")
+    np.testing.assert_allclose(long, largest, atol=1e-4)
+
+
+def test_gamma_0_is_half_of_the_distance_to_the_band():
+    """The band of a negative coupling lies below zero."""
+    np.testing.assert_array_equal(gamma_0(np.array([-4, 0, 2, 4, 5, 8]), 1.0), [2, 0, 0, 0, 0.5, 2])
+    np.testing.assert_array_equal(gamma_0(np.array([-6, -4, -2, 0, 2]), -1.0), [1, 0, 0, 0, 1])

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from oracle import BOUNDARIES, hamiltonian
+from oracle import BOUNDARIES, hamiltonian, slope
 from pendula.studies.theory import derivation, polynomials
-from pendula.studies.theory.equations import right_hand_side
 from pendula.studies.theory.identities import IDENTITIES, prove_identities
 from pendula.studies.theory.polynomials import (
     CONSTANTS,
@@ -15,7 +14,6 @@ from pendula.studies.theory.polynomials import (
     STATE,
     rational,
 )
-from problems import constants_of
 
 NUMBERS = (0.5, 0.75, -1.25)
 Z = np.random.default_rng(5).integers(-8, 9, (2, polynomials.SITES, 2)) / 4 @ (1.0, 1j)
@@ -37,12 +35,11 @@ def test_each_statement_leaves_nothing_and_each_wrong_twin_something():
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_the_polynomials_are_the_equations_and_the_energy(boundary):
-    constants = constants_of(NUMBERS)
     found = np.vectorize(at_numbers, otypes=[float])(polynomials.rates(boundary).ravel())
     re, im = found.reshape(STATE.shape).swapaxes(0, 1)
-    np.testing.assert_allclose(re + 1j * im, right_hand_side(constants, boundary, Z), rtol=1e-13)
+    np.testing.assert_allclose(re + 1j * im, slope(Z, NUMBERS, boundary), rtol=1e-13)
     energy = at_numbers(polynomials.energy(boundary))
-    assert energy == pytest.approx(hamiltonian(Z, constants, boundary), rel=1e-13)
+    assert energy == pytest.approx(hamiltonian(Z, NUMBERS, boundary), rel=1e-13)
 
 
 def test_the_accelerations_are_those_of_newtons_equations():

@@ -36,7 +36,7 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.models.bounds import proven_region, theorem_2_constants, widened_bound
+from pendula.models.bounds import proven_region, theorem_2_constants
 from pendula.problem import Constants
 
 SECTION = 5
@@ -105,12 +105,10 @@ def fig5_theorem_2(case, sweep) -> Finding:
     swept = np.square(sweep["l2"].sel(quantity="pair").values).max()
     observed = max(float(swept), total_power(case).max())
     delta_0, c_0 = theorem_2_constants(parameters)
-    widened = widened_bound(energy, start, parameters)
     measured = {
         "delta": start,
         "delta_0": delta_0,
         "P_over_C0_delta": observed / (c_0 * start),
-        "P_over_widened_bound": observed / widened,
     }
     caveat = ""
     if region == "theorem 2 widened":

@@ -1,5 +1,8 @@
 """Section 2: the equations, their symmetries, and their derivation from Newton's equations."""
 
+from collections.abc import Callable, Mapping
+from functools import wraps
+
 import numpy as np
 from latticode.measures.confidence import student
 from latticode.measures.growth import PARTS
@@ -20,15 +23,34 @@ from pendula.ledger.cutoff import Cutoff
 
 SECTION = 2
 
-# ASSUME: an order counts as a whole number if it is nearer to that than to another.
-NEAR = Cutoff(0.5, "an order counts as the nearest whole number")
 SIGNIFICANT = Cutoff(0.05, "the level that is customary in statistics, for all spectra together")
 
 
-def proved(identities, *names: str) -> Finding:
-    """Require that nothing is left of these statements, with any ends."""
-    left = {f"terms_left_of_{name}": identities["terms"].sel(identity=name).max() for name in names}
-    return judge(left, AtMost(0, *left, says="terms left of the identity"))
+IDENTITIES = checks("identities")
+
+
+def by_algebra(
+    place: str, says: str, twins: Mapping[str, str], kind=Kind.IDENTITY, caveat=""
+) -> Callable:
+    """Return a decorator: the claim holds if nothing is left of the statements in `twins`.
+
+    By statement this has what its wrong twin says, which a control puts in its place. The function
+    only names the claim, and says why these statements decide it.
+    """
+
+    def declare(function: Callable) -> Callable:
+        @wraps(function)
+        def decide(identities) -> Finding:
+            left = {
+                f"terms_left_of_{name}": identities["terms"].sel(identity=name).max()
+                for name in twins
+            }
+            return judge(left, AtMost(0, *left, says="terms left of the identity"), caveat)
+
+        controls = tuple(twin(name, wrong) for name, wrong in twins.items())
+        return claim(place, says, IDENTITIES, controls, kind=kind)(decide)
+
+    return declare
 
 
 def twin(name: str, says: str) -> Control:
@@ -39,24 +61,19 @@ def twin(name: str, says: str) -> Control:
         terms = identities["terms"].where(~here, identities["twin_terms"])
         return identities.assign(terms=terms)
 
-    return Control(says, {"checks/identities": wrong})
+    return Control(says, wrong)
 
 
-IDENTITIES = checks("identities")
-
-
-@claim(
+@by_algebra(
     "Section 2, (7) and (8)",
     "The equations are the Hamiltonian system of the energy H, which is conserved.",
-    IDENTITIES,
-    controls=(
-        twin("(7)", "the energy of another Omega: its gradient"),
-        twin("conservation of (8)", "the energy of another Omega: its rate"),
-    ),
-    kind=Kind.IDENTITY,
+    {
+        "(7)": "the energy of another Omega: its gradient",
+        "conservation of (8)": "the energy of another Omega: its rate",
+    },
 )
-def hamiltonian(identities) -> Finding:
-    return proved(identities, "(7)", "conservation of (8)")
+def hamiltonian():
+    """The rates are those by the gradient of H, along which H has no rate."""
 
 
 @claim(
@@ -141,98 +158,75 @@ def one_integral(lyapunov) -> Finding:
     return judge(measured, criterion, caveat, fails)
 
 
-@claim(
+@by_algebra(
     "Section 2, (9) to (11)",
     "In the variables u, v the equations take the form (10), which is invariant under the action of"
     " P and T and Hamiltonian with a modified energy.",
-    IDENTITIES,
-    controls=(
-        twin("(10)", "form (10) with half of the drive"),
-        twin("(11)", "P without T"),
-        twin("(11) by P and T together", "T without P"),
-        twin("energy of (10)", "the energy with u and v as their own conjugate variables"),
-    ),
-    kind=Kind.IDENTITY,
+    {
+        "(10)": "form (10) with half of the drive",
+        "(11)": "P without T",
+        "energy of (10)": "the energy with u and v as their own conjugate variables",
+    },
+    caveat="the symmetry is that of P and T together; P alone is none",
 )
-def pt_form(identities) -> Finding:
-    symmetry = ["(11)", "(11) by P and T together"]
-    finding = proved(identities, "(10)", *symmetry, "energy of (10)")
-    alone = identities["twin_terms"].sel(identity=symmetry).min()
-    caveat = "the symmetry is that of P and T together; neither alone is one" if alone > 0 else ""
-    return judge(finding.measured, finding.criterion, caveat, finding.because)
+def pt_form():
+    """The change (9) turns (4) into (10), and H / 8 is its energy."""
 
 
-@claim(
+@by_algebra(
     "Section 2, before (7)",
     "The equations are invariant under the exchange of A and B.",
-    IDENTITIES,
-    controls=(twin("exchange of A and B", "the exchange of A and iB"),),
-    kind=Kind.IDENTITY,
+    {"exchange of A and B": "the exchange of A and iB"},
 )
-def exchange(identities) -> Finding:
-    return proved(identities, "exchange of A and B")
+def exchange():
+    """The rates of the exchanged state are the exchanged rates."""
 
 
-@claim(
+@by_algebra(
     "Section 2, (5) and after (6)",
     "A = B is an invariant reduction on which the drive has no effect and gauge symmetry holds.",
-    IDENTITIES,
-    controls=(
-        twin("A = B is kept", "A = B in place of which there is A = -B"),
-        twin("(5) without drive", "A = -B, on which the drive acts"),
-        twin("phases on A = B", "a gauge symmetry where A = -B"),
-    ),
-    kind=Kind.IDENTITY,
+    {
+        "A = B is kept": "A = B in place of which there is A = -B",
+        "(5) without drive": "A = -B, on which the drive acts",
+        "phases on A = B": "a gauge symmetry where A = -B",
+    },
 )
-def synchronised(identities) -> Finding:
-    return proved(identities, "A = B is kept", "(5) without drive", "phases on A = B")
+def synchronised():
+    """Where A = B both rates are those of the scalar equation without a drive."""
 
 
-@claim(
+@by_algebra(
     "Section 2, (6)",
     "In Newton's equations a chain with x = y keeps x = y, and the drive does not affect it.",
-    IDENTITIES,
-    controls=(twin("x = y is kept", "x = -y, which is kept but driven"),),
-    kind=Kind.IDENTITY,
+    {"x = y is kept": "x = -y, which is kept but driven"},
 )
-def pendula_synchronised(identities) -> Finding:
-    return proved(identities, "x = y is kept")
+def pendula_synchronised():
+    """Both accelerations are alike and have no drive."""
 
 
-@claim(
+@by_algebra(
     "Section 2, after (8)",
     "H is inherited from the energy of Newton's equations.",
-    IDENTITIES,
-    controls=(twin("H from the energy of (1)", "the energy of another Omega"),),
-    kind=Kind.IDENTITY,
+    {"H from the energy of (1)": "the energy of another Omega"},
 )
-def inherited(identities) -> Finding:
+def inherited():
     """In the frame that turns with the pendula, averaged over a turn, it is -H at mu^4."""
-    return proved(identities, "H from the energy of (1)")
 
 
-@claim(
+@by_algebra(
     "Introduction; Section 6",
     "The drive acts at the 1:2 resonance with the frequency of each pendulum.",
-    IDENTITIES,
-    controls=(twin("1:2 resonance", "a drive at the frequency of the pendula"),),
-    kind=Kind.IDENTITY,
+    {"1:2 resonance": "a drive at the frequency of the pendula"},
 )
-def resonance(identities) -> Finding:
-    return proved(identities, "1:2 resonance")
+def resonance():
+    """Only a drive at twice the frequency gives the terms of (4)."""
 
 
-@claim(
+@by_algebra(
     "Section 2, (2) to (4)",
     "The amplitudes of the expansion obey (4), where tau = mu^2 t / 2 and the drive D = 2 gamma"
     " mu^2 cos 2 omega t gives the term gamma (conj B - conj A).",
-    IDENTITIES,
-    controls=(
-        twin("(4) from (1) by (3)", "the slow time mu^2 t"),
-        twin("(4) from (1) by the drive (2)", "a drive of the opposite sign"),
-    ),
-    kind=Kind.IDENTITY,
+    {"(4) from (1) by (3)": "the slow time mu^2 t"},
 )
-def amplitude_equations(identities) -> Finding:
+def amplitude_equations():
     """What (1) leaves of order mu^3 has no first harmonic, and only then with (4) and this tau."""
-    return proved(identities, "(4) from (1) by (3)", "(4) from (1) by the drive (2)")

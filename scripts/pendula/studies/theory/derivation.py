@@ -146,10 +146,6 @@ def _odd(values: Mapping, x):
 
 IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
     "(4) from (1) by (3)": (first_harmonic, lambda ends: first_harmonic(ends, 2 * SLOW)),
-    "(4) from (1) by the drive (2)": (
-        first_harmonic,
-        lambda ends: first_harmonic(ends, drive=-DOUBLE),
-    ),
     "1:2 resonance": (first_harmonic, lambda ends: first_harmonic(ends, drive=COSINE)),
     "H from the energy of (1)": (inherited, lambda ends: inherited(ends, OMEGA + 1)),
     "x = y is kept": (synchronised, lambda ends: synchronised(ends, -1)),

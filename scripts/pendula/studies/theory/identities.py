@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 from flint import fmpq
 from latticode.datasets.checks import describe, table, variable
-from latticode.equations.ends import neighbours
 from latticode.equations.model import Model, Value, abs2, conj, lap
 
 from pendula.problem import BOUNDARIES
@@ -154,21 +153,6 @@ def determinant(drive: int):
     return found - apart * (apart + (drive * g) ** 2)
 
 
-def second_rates(ends, factor: int, drive: int):
-    """Return L^2 w - (`drive` gamma)^2 w + K^2 w of the linear L where B = `factor` A.
-
-    K has the kappa of all waves as its eigenvalues; it is symmetric.
-    """
-
-    def minus_k(state):
-        right, left = neighbours(state, ends)
-        return scaled(EPSILON, right + left - 2 * state) + scaled(OMEGA, state)
-
-    state = alike(factor)
-    twice = linear_rates(ends, linear_rates(ends, state))
-    return twice + minus_k(minus_k(state)) - scaled((drive * GAMMA) ** 2, state)
-
-
 def balance(ends, factor: int = 1):
     """Return dP/dtau less `factor` times the balance equation in the proof of Lemma 2."""
     x, y = STATE[0] - STATE[1]
@@ -210,10 +194,6 @@ IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
         lambda ends: equivariance(ends, lambda w: conjugate(exchanged(w)), -1, model=PT),
         lambda ends: equivariance(ends, exchanged, model=PT),
     ),
-    "(11) by P and T together": (
-        lambda ends: equivariance(ends, lambda w: exchanged(conjugate(w)), -1, model=PT),
-        lambda ends: equivariance(ends, conjugate, -1, model=PT),
-    ),
     "energy of (10)": (
         lambda ends: pt_hamiltonian(ends, exchanged),
         lambda ends: pt_hamiltonian(ends, lambda slope: slope),
@@ -223,14 +203,6 @@ IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
         lambda ends: of_a_wave(ends, 2 * EPSILON * SINE**2 - OMEGA),
     ),
     "(15)": (lambda ends: determinant(2), lambda ends: determinant(1)),
-    "first roots of (15)": (
-        lambda ends: second_rates(ends, 1, 0),
-        lambda ends: second_rates(ends, 1, 2),
-    ),
-    "second roots of (15)": (
-        lambda ends: second_rates(ends, -1, 2),
-        lambda ends: second_rates(ends, -1, 1),
-    ),
     "balance of P": (balance, lambda ends: balance(ends, 2)),
     **derivation.IDENTITIES,
     **inequalities.IDENTITIES,

@@ -13,6 +13,7 @@ import numpy as np
 from flint import fmpq
 
 from .polynomials import (
+    APART,
     EPSILON,
     GAMMA,
     OMEGA,
@@ -23,6 +24,7 @@ from .polynomials import (
     densities,
     energy,
     joined,
+    linear_rates,
     rates,
 )
 
@@ -47,14 +49,33 @@ def pairs(values: np.ndarray):
     return sum((a * b for a, b in combinations(np.ravel(values), 2)), start=ZERO)
 
 
+def driven(change, state, factor: int) -> list:
+    """Return `factor` gamma |state|^2 less and more a `change`, less the squares of the drive."""
+    together, (x, y) = state[0] + state[1], state[0] - state[1]
+    power = factor * GAMMA * densities(state).sum()
+    return [
+        power - s * change - 2 * GAMMA * ((together**2).sum() + ((x - s * y) ** 2).sum())
+        for s in (1, -1)
+    ]
+
+
 def growth(ends, factor: int = 4):
     """Return what is left of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
-    together, (x, y) = STATE[0] + STATE[1], STATE[0] - STATE[1]
-    change, power = 2 * (STATE * rates(ends)).sum(), densities().sum()
-    squares = [2 * GAMMA * ((together**2).sum() + ((x - s * y) ** 2).sum()) for s in (1, -1)]
+    return driven(2 * (STATE * rates(ends)).sum(), STATE, factor)
+
+
+def parting(ends, factor: int = 4):
+    """Return what is left of a bound on the rate of |d|^2, for solutions at a distance d nearby.
+
+    It is `factor` gamma |d|^2, and the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
+    """
+    (re, im), (x, y) = STATE.swapaxes(0, 1), APART.swapaxes(0, 1)
+    along, across = re * x + im * y, im * x - re * y  # of A times the conjugate of d
+    quartic = (densities() * densities(APART)).sum()
+    bounds = driven(2 * (APART * linear_rates(ends, APART, STATE)).sum(), APART, factor)
     return [
-        factor * GAMMA * power - s * change - square
-        for s, square in zip((1, -1), squares, strict=True)
+        bound + quartic - ((along - s * across) ** 2).sum()
+        for s, bound in zip((1, -1), bounds, strict=True)
     ]
 
 
@@ -129,6 +150,7 @@ IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
     "(17)": (laplacian, lambda ends: laplacian(ends, LESS)),
     "(18)": (of_products, lambda ends: of_products(ends, LESS)),
     "(19)": (growth, lambda ends: growth(ends, 2)),
+    "distance of two solutions": (parting, lambda ends: parting(ends, 2)),
     "(21)": (above_band, lambda ends: above_band(ends, 1)),
     "(22)": (embedding, lambda ends: embedding(ends, LESS)),
     "(25)": (below_band, lambda ends: below_band(ends, 1)),

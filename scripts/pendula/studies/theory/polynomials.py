@@ -21,7 +21,9 @@ SITES = 3
 CONSTANTS = ("epsilon", "gamma", "omega")
 OTHERS = ("mu", "cosine", "sine", "kappa")
 """Indeterminates of single identities: mu of (2), cos and sin of omega t, the kappa of (14)."""
-ROWS = tuple(f"{part}{field}{n}" for field in "AB" for part in ("Re ", "Im ") for n in range(SITES))
+ROWS = tuple(
+    f"{part} {field}{n}" for field in "ABab" for part in ("Re", "Im") for n in range(SITES)
+)
 CONTEXT = fmpq_mpoly_ctx.get((*CONSTANTS, *OTHERS, *ROWS), "degrevlex")
 GENS = CONTEXT.gens()
 EPSILON, GAMMA, OMEGA, MU, COSINE, SINE, KAPPA = GENS[:7]
@@ -36,7 +38,8 @@ def filled(values: Iterable, shape=(2, 2, SITES)) -> np.ndarray:
     return found
 
 
-STATE = filled(GENS[7:])
+STATE, APART = filled(GENS[7:19]), filled(GENS[19:])
+"""A state, and the distance of another solution from it."""
 
 
 def scaled(by, values: np.ndarray) -> np.ndarray:
@@ -73,9 +76,9 @@ def rates(
     return filled((one for row in found for one in row), shape)
 
 
-def linear_rates(ends: str, state=STATE) -> np.ndarray:
-    """Return the rates of (4), linearised at zero: its derivative there, along a state."""
-    both = np.concatenate([0 * state, state])
+def linear_rates(ends: str, state=STATE, at=None) -> np.ndarray:
+    """Return the rates of (4), linearised at zero or `at` a state: its derivative along `state`."""
+    both = np.concatenate([0 * state if at is None else at, state])
     return rates(ends, both, AMPLITUDES.tangent())[len(state) :]
 
 
@@ -136,7 +139,7 @@ def conjugate(state: np.ndarray) -> np.ndarray:
 
 def put(found, state: np.ndarray):
     """Return a polynomial with another state in the place of the indeterminate one."""
-    return found.compose(*GENS[:7], *state.ravel())
+    return found.compose(*GENS[:7], *state.ravel(), *GENS[19:])
 
 
 def terms_left(found) -> int:
