@@ -1,4 +1,4 @@
-"""What a run says that is false of it: its report, ledger, tables and figures.
+"""What a run says that is false of it: its ledger, report and figures.
 
 Users edit the paper's cases, and then a sentence that is true of the paper's may be false. What was
 run is read from the attributes of the datasets, which the sentences do not pass through. Each check
@@ -79,7 +79,7 @@ def _same(key: str, about: dict, of_paper: dict) -> bool:
 def false_sentences(folder_of_run: Path | str) -> list[str]:
     """Return what is false of all that a run says; `folder_of_run` holds its `results`."""
     run = Run(Path(folder_of_run))
-    return [one for check in (ledger, controls, notice, figures, tables) for one in check(run)]
+    return [one for check in (ledger, notice, figures) for one in check(run)]
 
 
 # --- The ledger -----------------------------------------------------------------------------------
@@ -100,11 +100,14 @@ def cases_of(run: Run, name: str, on: tuple[str, ...]) -> set[str]:
 
 
 def ledger(run: Run):
-    """A claim that rests on an edited case has no verdict but "not applicable"."""
+    """A claim that rests on an edited case has no verdict, and one whose control fails neither."""
     for claim in all_claims():
         row = run.claims[claim.name]
         if row["verdict"] not in DECIDED:
             continue
+        for one in row["controls"]:
+            if one["passes"] is False:
+                yield f"{row['name']} is {row['verdict']}, and its control {one['fed']} is wrong"
         for name in claim.needs:
             folder = name.partition("/")[0]
             keys = RUN_BY.get(folder, DATA | {"boundary", "half_width"})
@@ -112,19 +115,6 @@ def ledger(run: Run):
                 keys = keys - {"solver"}
             for case in run.others(keys, cases_of(run, name, claim.on)):
                 yield f"the claim {claim.name} is {row['verdict']}, and {case} is edited"
-
-
-def controls(run: Run):
-    """A control that came out wrong leaves no verdict; one that is fed an edited case, neither."""
-    for row in run.rows("claims.json"):
-        for one in row["controls"]:
-            if one["passes"] is False and row["verdict"] in DECIDED:
-                yield f"{row['name']} is {row['verdict']}, and its control {one['fed']} is wrong"
-            fed = re.search(r"\b(small|large) case at Omega = (-?[\d.]+)", one["fed"])
-            for case in CASES if fed and one["verdict"] != "not applicable" else ():
-                is_it = case.endswith(fed[1]) and float(CASES[case]["omega"]) == float(fed[2])
-                if is_it and run.edited[case] & (DATA | {"boundary"}):
-                    yield f"{row['name']} was fed {one['fed']}, and {case} is edited"
 
 
 # --- The report -----------------------------------------------------------------------------------
@@ -152,7 +142,7 @@ def _wrong_values(run: Run, text: str, where: str):
                 yield f"{where} says {case}.{key} ({now} in place of {was}), which was not run"
 
 
-# --- Figures and tables ---------------------------------------------------------------------------
+# --- Figures ---------------------------------------------------------------------------
 
 
 def figures(run: Run):
@@ -183,12 +173,3 @@ def figures(run: Run):
         yield from _wrong_values(run, comment, name)
         if "the paper's initial conditions" in text and run.others(DATA):
             yield f"{name} names data as the paper's, and {run.others(DATA)[0]} is edited"
-
-
-def tables(run: Run):
-    """The tables have the ledger's verdicts, and nothing that the paper states of edited cases."""
-    for path in sorted((run.results / "tables").glob("claims*.md")):
-        for row in run.rows("claims.json") if path.stem == "claims" else ():
-            line = f"| {row['says']} | {row['verdict']} |".replace("|γ", "\\|γ")
-            if line not in path.read_text("utf-8").replace("\\|", "|"):
-                yield f"{path.name} has another verdict on {row['name']}"

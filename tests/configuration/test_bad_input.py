@@ -62,15 +62,12 @@ DIGITS = "1" * 400
     ("text", "words"),
     [
         ("[" * 40 + "]" * 40, "line 1: is nested more than 30 deep"),
-        ("{" * 4000, "line 1: is nested more than 30 deep"),
         (f"cases: {{mine: {{omega: {DIGITS}}}}}", "omega: is a whole number of 400 digits, too"),
         (f"cases: {{mine: {{omega: {'1' * 5000}}}}}", f"{'1' * 60} is not a number that can be"),
-        (f"cases: {{mine: {{omega: 1, half_width: {DIGITS}}}}}", "whole number of 400 digits"),
-        (f"cases: {{mine: {{omega: 1, initial: {{0: [{DIGITS}, 0]}}}}}}", "number of 400 digits"),
         (f"cases: {{mine: {{omega: 1, initial: {{{DIGITS}: [1, 0]}}}}}}", "number of 400 digits"),
         (f"cases: {{mine: {{omega: {'9' * 60}x}}}}", f"is '{'9' * 59}..., not a number"),
     ],
-    ids=range(8),
+    ids=range(5),
 )
 def test_what_is_too_long_to_print_is_told_in_a_short_line(text, words, tmp_path):
     (line,) = faults(text, tmp_path)

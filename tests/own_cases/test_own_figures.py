@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from latticode.drawing import runs, style
+from latticode.drawing import style
 from pendula.own_cases import figures
 
 
@@ -31,25 +31,6 @@ def test_titles_say_every_parameter(diverging):
     for sign, value in {r"\Omega": 8, r"\gamma": 1, r"\epsilon": 1, "M": 2}.items():
         assert f"${sign} = {value}$" in left.get_title("left")
     assert right.get_title("left") == "$(A_{0}, B_{0}) = (1, 0.1)$,  ends at rest"
-
-
-@pytest.mark.filterwarnings("error")
-def test_a_chain_at_rest_is_drawn_at_zero_and_without_a_warning(make_trajectory):
-    figure = figures.draw_norms(figures.gather_norms(make_trajectory(scale=0.0)))
-    for axes in figure.axes:
-        assert axes.get_ylim() == (0, 1) and not np.any(axes.get_lines()[0].get_ydata())
-
-
-def test_a_sweep_has_a_panel_for_each_norm(make_sweep):
-    figure = figures.draw_sweep(runs.gather_sweep(make_sweep(), mean_window="[10, 40]"))
-    sweep = make_sweep().sel(quantity="pair")
-    for axes, name in zip(figure.axes, ["linf", "l2"], strict=True):
-        full, hollow = (line.get_ydata() for line in axes.get_lines())
-        assert np.array_equal(full, sweep[name].sel(statistic="max", window="[10, 50]"))
-        assert np.array_equal(hollow, sweep[name].sel(statistic="mean", window="[10, 40]"))
-        assert list(axes.get_xticks()) == [5, 10, 20]
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert ["infty" in label for label in labels] == [True, True, False, False]
 
 
 @pytest.mark.parametrize("initial", ['{"-12": [1.234567, "-0.3456789+0.456789j"]}', "{}"])

@@ -6,6 +6,7 @@ from latticode import Model, save, survey
 from latticode.drawing import style
 from latticode.drawing.surveys import draw_survey, gather_survey
 from pendula import Case, check, simulate
+from pendula.own_cases import answers
 from pendula.own_cases.page import write_report, write_table
 
 KINDS = "png", "pdf", "nc", "json"
@@ -33,6 +34,8 @@ def test_the_papers_equations_as_a_model_of_ones_own_give_the_papers_run(tmp_pat
     found = check(own, run)
     assert float(found["largest_difference"]) < 1e-10
     assert float(found["conserved_drift"][0]) < 1e-11
+    said = dict(answers.of_case(found, True))
+    assert "largest relative change of H" in said and said["a localised state"]
     late = float(check(paper, expected)["exponent"])
     assert float(found["exponent"]) == pytest.approx(late, abs=0.1)
 
