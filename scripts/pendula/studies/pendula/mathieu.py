@@ -11,7 +11,7 @@ square roots of real numbers, whose bits are the same on every machine.
 import numpy as np
 
 DEPTH = 12
-"""Terms of a continued fraction; twice as many change no bit (tests/studies/pendula)."""
+"""Terms of a continued fraction; twice as many change no bit."""
 MOST = 1_000
 """Iterations after which something is wrong; they need ten."""
 ROUNDING = 2.0**-49
