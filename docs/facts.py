@@ -13,7 +13,7 @@ import xarray as xr
 from latticode.datasets.json_files import load_json
 from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
-from pendula.article.values import UPWARD, counts, upward
+from pendula.article.values import counts, upward
 from pendula.report.words import case_of, number, with_error
 
 from benchmarks import reproduction
@@ -69,7 +69,6 @@ def proved(baseline: Baseline) -> dict:
         "until": number(min(float(one["tau"][-1]) for one in curves)),
         "states": str(breathers.sizes["proof"]),
         "radius": upward(breathers["radius"].max()),
-        "unique": number(float(breathers["unique_radius"].min()) / UPWARD, 2),
         "stable": str(int((breathers["stable"] == 1).sum())),
         "unstable": str(int((breathers["stable"] == 0).sum())),
         "chain_sites": number(2 * breathers.attrs["chain_half_width"] + 1),

@@ -23,7 +23,7 @@ from latticode.measures.spreading import fit_exponent  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
-from pendula.studies.breathers.figures import MAPS, SAME_RUNS  # noqa: E402
+from pendula.studies.breathers.figures import SAME_RUNS  # noqa: E402
 from pendula.studies.unbounded.measured import speeds  # noqa: E402
 
 GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
@@ -117,24 +117,20 @@ def _omegas(run: xr.Dataset, fronts: xr.Dataset) -> dict[str, Variable]:
 
 
 def keep_breathers(results: Path, folder: Path) -> None:
-    """Keep the shares of the long studies of fates and of sensitivity, and the maps of fates."""
+    """Keep the map of the long study of fates, and the shares of that of sensitivity."""
     fates, spread = (
         read(results / f"long/breathers/{name}.nc") for name in ("fates", "sensitivity")
     )
-    whole = ("omega", "plane", "fate_name", "area", "area_low", "area_high", *AXES, *MAPS)
+    whole = ("omega", "a0", "b0", "fate")
     shares = ("size", "share", "share_low", "share_high")
     kept = {
         **{name: _as_it_is(fates[name]) for name in whole},
         **{name: _as_it_is(spread[name]) for name in shares},
     }
     about = {name: fates.attrs[name] for name in (*SAME_RUNS, "solver")}
-    about |= {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
-    about["members"] = spread.attrs["members"]
+    about |= {"points": fates.sizes["a0"], "members": spread.attrs["members"]}
     title = "The long study of breathers, reduced to what the documents quote and a figure shows"
     _write(folder / "breathers.nc", title, kept, **about)
-
-
-AXES = ("a0", "b0", "turned_a0", "phase")
 
 
 def _as_it_is(values: xr.DataArray) -> Variable:

@@ -3,7 +3,7 @@
 import numpy as np
 from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
-from pendula.studies.breathers.periodic import Breather, family_of, shoot, single_site
+from pendula.studies.breathers.periodic import Breather, find
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
@@ -12,12 +12,7 @@ ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
 
 def at_twelve(constants: Constants, family: str, half_width: int) -> Breather:
     """Return the breather of a family at the frequency 12."""
-    return shoot(constants, 12.0, single_site(constants, 12.0, family, half_width))
-
-
-def members(constants: Constants, family: str, *frequencies, least=8, most=48) -> list[Breather]:
-    """Return the breathers of a family from the highest frequency down."""
-    return list(family_of(constants, family, frequencies, {"least": least, "most": most}))
+    return find(family, constants, 12.0, half_width)
 
 
 def unfolded(data: np.ndarray) -> np.ndarray:

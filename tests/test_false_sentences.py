@@ -73,10 +73,6 @@ PLANTED = [
     ((replaced("figures/fig2.json", "Not the paper's", "As"),), "fig2 and its data do not both"),
     ((dataset("figures/fig2", lambda figure: figure.drop_attrs(deep=False)),),
      "of fig2 do not say that fig2_small.end_time"),
-    ((run_with("fig2_small", gamma=0.5),
-      replaced("figures/fates.json", "initial conditions of Figs 2 to 4",
-               "the paper's initial conditions")),
-     "fates names data as the paper's"),
 ]  # fmt: skip
 
 

@@ -15,7 +15,7 @@ def test_what_is_kept_has_the_form_of_what_is_quoted(tmp_path):
         kept, known = ({key: one.dims for key, one in data.variables.items()}
                        for data in (found[name], quoted))  # fmt: skip
         assert kept.items() <= known.items()
-    assert (found["breathers"]["area"] == dataset("breathers/fates")["area"]).all()
+    assert (found["breathers"]["fate"] == dataset("breathers/fates")["fate"]).all()
     chain, long = found["unbounded"], dataset("quoted/unbounded")
     assert chain["power_behind"].equals(dataset("unbounded/fronts")["power_behind"])
     off = {"speed": 0.05, "exponent": 0.05}

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from accepted import dataset
-from latticode.datasets.netcdf import as_xarray
 from pendula.configuration.schema import PAPER_CASES
-from pendula.studies.breathers.fate_contents import _shares
 from pendula.studies.theory.bounds import check_cases
 from pendula.studies.unbounded.measured import measure_fronts
 
@@ -16,14 +14,7 @@ def of(folder, names):
     return {name: dataset(f"{folder}/{name}") for name in names}
 
 
-def areas():
-    """Return the shares of area of the accepted maps of fates."""
-    fates = dataset("breathers/fates")
-    return as_xarray(_shares(fates["fate"].values, fates["turned_fate"].values), {})
-
-
 MADE = {
-    "breathers/fates": areas,
     "checks/cases": lambda: xr.Dataset.from_dict(check_cases(of("trajectories", PAPER_CASES))),
     "unbounded/fronts": lambda: measure_fronts(*of("unbounded", ("omegas", "thermal")).values()),
 }

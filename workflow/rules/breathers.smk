@@ -54,7 +54,7 @@ use rule dataset as map_fates with:
     resources:
         **asked(cost_of_study),
     params:
-        call=function("pendula.studies.breathers.fate_contents.map_fates"),
+        call=function("pendula.studies.breathers.fates.map_fates"),
         problems={
             omega: run_of(
                 "fig4_small",
@@ -64,12 +64,11 @@ use rule dataset as map_fates with:
             )
             for omega in FATES.omegas
         },
-        case_problems={case: run_of(case, **RUN_OF_FATES) for case in cases_on_one_pair()},
-        given=lambda wildcards: FATES.grid(FATES.long if wildcards.size else FATES),
+        amplitudes=lambda wildcards: FATES.amplitudes(of_size(FATES, wildcards).points),
 
 
 use rule figure as draw_fates with:
-    "Maps of what becomes of initial conditions on one pair"
+    "A map of what becomes of initial conditions on one pair"
     input:
         fates="<results>/{size}breathers/fates.nc",
     pathvars:

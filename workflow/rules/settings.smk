@@ -91,16 +91,6 @@ def points_of_cases():
     return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
 
 
-def cases_on_one_pair():
-    """Return the paper's cases that have real data on one pair."""
-
-    def on_one_pair(initial):
-        (site, pair), *others = initial.items()
-        return not (others or site or any(complex(one).imag for one in pair))
-
-    return [case for case in PAPER_CASES if on_one_pair(SETTINGS.problem(case)["initial"])]
-
-
 def certified_problem(case):
     """Return a case as a problem whose solver is not asked; stop where it is not even."""
     from pendula.problem import Problem  # this and the next for a target of its own alone

@@ -110,6 +110,7 @@ def gather(results: Results) -> dict[str, Any]:
             for name, ratio in over_thermal(study).items()
         },
         "largest_bound": largest_bound(results),
+        "area_of": lambda fate: area_of(numbers, fate),
         "radius": upward(results["certified/breathers"]["radius"].max()),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
         "by_hand": by_hand(results[f"{KEPT}/speed/work_precision"]),
@@ -182,6 +183,15 @@ def largest_bound(results: Results) -> str:
     """Return the largest proven distance of a computed curve from the true one, rounded upward."""
     proofs = (results[f"{KEPT}/proofs/{case}"] for case in PAPER_CASES)
     return upward(max(one["bound"].max() for one in proofs))
+
+
+def area_of(numbers: Numbers, fate: str) -> Quote:
+    """Return for which part of the data with A_0 and B_0 unequal a run at Omega = -4 ends so."""
+    name = f"{QUOTED}breathers"
+    fates = numbers.results[name].sel(omega=-4.0)
+    place = fates["fate"].attrs["flag_meanings"].split().index(fate)
+    part = (fates["fate"] == place).where(fates["a0"] != fates["b0"]).mean()
+    return numbers.long(name, percent(float(part)))
 
 
 def upward(bound: float) -> str:

@@ -24,8 +24,6 @@ AT_MOST = {"tolerance"}
 
 DATA = ("model", "epsilon", "gamma", "omega", "initial")
 """What of a case decides a solution on an infinite chain."""
-MAPS = "the maps"
-"""What a statement on fates is on that looks at the maps alone, and at no case of the paper."""
 
 Differences = Mapping[str, str]
 """By dotted path, in words, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in place of
@@ -128,7 +126,7 @@ def concerning(
 
 # --- What datasets rest on ------------------------------------------------------------------------
 
-ALL_CASES = ("cases", "lyapunov", "members", "solvers", "trust", "fates", "remainder")
+ALL_CASES = ("cases", "lyapunov", "members", "solvers", "trust", "remainder")
 """Datasets of all cases of the paper."""
 
 
@@ -176,8 +174,7 @@ def _sections(folder: str, stem: str) -> list[str]:
         own = "ensembles" if stem.startswith("ensembles") else stem
         return [path for path in (f"theory.{own}", f"chaos.{own}") if _at(path)]
     if folder == "breathers":
-        parts = ["periodic", stem] if stem == "fates" else [stem]
-        return [f"breathers.{part}" for part in ("epsilon", "gamma", *parts)]
+        return [f"breathers.{part}" for part in ("epsilon", "gamma", stem)]
     return [f"{folder}.{stem}"]
 
 

@@ -6,8 +6,7 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
 from pendula.studies.breathers import fates, figures, sensitivity
-from pendula.studies.breathers.fate_contents import map_fates
-from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS
+from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS, map_fates
 
 
 def pair_problem(omega, a, b, end_time=30.0, **changes):
@@ -82,31 +81,23 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
     assert fates.keep_fate(problem) == {"fate": expected}
-    share = sensitivity.shares(problem, [0.0], 2, 1).value
-    assert share.tolist() == [float(expected == SPREADS)]
-
-
-def test_a_map_of_phases_turns_b_alone():
-    """At phase 0 the data are real: those of the other map."""
-    problem = pair_problem(-4.0, 1.0, 1.0, 20.0)
-    amplitudes, phases = np.array([1.0, 3.0, 4.0]), np.pi * np.array([-0.5, 0.0, 0.5])
-    _, found = fates.run_maps({-4.0: problem}, amplitudes[:1], amplitudes, phases, 0.2)
-    assert found.shape == (1, 3, 3) and len(set(found.ravel().tolist())) > 1
-    for row, a in enumerate(amplitudes):
-        for column, b in enumerate((-0.2j * a, 0.2 * a, 0.2j * a)):
-            alone = fates.keep_fate(problem.changed(initial=[[a], [b]]))
-            assert found[0, row, column] == alone["fate"]
-
-
-# --- Shares of an area, and maps beside a finer one -----------------------------------------------
+    found = as_xarray(*sensitivity.sensitivity_contents("one", problem, [0.0], 2, 1))
+    assert found["share"].values.tolist() == [float(expected == SPREADS)]
 
 
 def maps(points, **changes):
-    """Return maps at Omega = -4 and 8 of so many real amplitudes, and of as many phases."""
-    cells = [5.0 * (np.arange(one) + 0.5) / one for one in (points, 2)]
-    phases = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
+    """Return the map at Omega = -4 and 8 of so many real amplitudes."""
+    amplitudes = 5.0 * (np.arange(points) + 0.5) / points
     problems = {omega: pair_problem(omega, 1.0, 1.0, 10.0, **changes) for omega in (-4, 8)}
-    return as_xarray(*map_fates(problems, {"one": problems[8]}, *cells, phases, 0.2))
+    return as_xarray(*map_fates(problems, amplitudes))
+
+
+def test_a_map_has_the_fate_of_each_of_its_data():
+    found = maps(3).sel(omega=-4)
+    for a in found["a0"].values:
+        for b in found["b0"].values:
+            alone = fates.keep_fate(pair_problem(-4, a, b, 10.0))["fate"]
+            assert found["fate"].sel(a0=a, b0=b) == alone
 
 
 def test_a_finer_map_is_drawn_if_it_is_of_the_same_runs():
@@ -114,7 +105,6 @@ def test_a_finer_map_is_drawn_if_it_is_of_the_same_runs():
     assert figures.gather_fates(coarse)["fate"].shape == (2, 3, 3)
     assert figures.gather_fates(coarse, fine)["fate"].shape == (2, 9, 9)
     assert (fine["fate"][:, 1::3, 1::3].values == coarse["fate"].values).all()
-    assert coarse["case_fate"].values.tolist() == [DISPERSES]
     for other in (maps(9, half_width=29), fine.sel(omega=[8])):
         assert figures.gather_fates(coarse, other)["fate"].shape == (2, 3, 3)
     assert [name.split()[0] for name in figures.KINDS] == list(fates.FATES)

@@ -1,9 +1,10 @@
 """Steady states: closed forms of one pair, the chain, its spectrum, and where there is none."""
 
 import pytest
+from latticode.localised.breathers import NoStateError, exponents
 from pendula.models.pairs import FAMILIES, pair
+from pendula.models.steady import localised
 from pendula.problem import Constants
-from pendula.studies.breathers import steady
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
 
@@ -12,17 +13,13 @@ def numbers(epsilon=1.0, gamma=1.0, omega=-4.0):
     return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
 
 
-def found_on(family, constants, half_width):
-    """Return the problem and the state of a family, or None."""
-    return next(steady.continued(family, constants, [half_width]), None)
-
-
 def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
     """At Omega = 2 gamma, 0, -gamma, -2 gamma and -3 gamma."""
     for family, end in zip(FAMILIES, (2.0, 0.0, -1.0, -2.0, -3.0), strict=True):
         assert pair(family, 1.0, end - 1e-9) is not None
         assert pair(family, 1.0, end + 1e-9) is None
-        assert found_on(family, numbers(omega=end + 0.5), 30) is None
+        with pytest.raises(NoStateError, match="no pair"):
+            localised(family, numbers(omega=end + 0.5), 30)
 
 
 @pytest.mark.parametrize(("family", "epsilon", "omega", "stable"), [
@@ -34,5 +31,6 @@ def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
     (EQUAL, 0.01, -4.0, False),
 ])  # fmt: skip
 def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, epsilon, omega, stable):
-    for problem, state in steady.continued(family, numbers(epsilon, 1.0, omega), (20, 40)):
-        assert (steady.growth(problem, state) == 0.0) is stable
+    for half_width in (20, 40):
+        found = localised(family, numbers(epsilon, 1.0, omega), half_width)
+        assert bool(exponents(*found).real.max() <= 0.0) is stable

@@ -5,20 +5,23 @@ import pytest
 from flint import arb, arb_mat, ctx
 from pendula.models.pairs import FAMILIES
 from pendula.studies.certified import balls, existence
-from pendula.studies.certified.existence import RefusedError, prove
-from pendula.studies.certified.states import Chain, find_state
+from pendula.studies.certified.existence import Chain, RefusedError, prove
+from pendula.studies.certified.proved_breathers import find
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
 HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
 FAR = HERE._replace(half_width=22)
 
 
-def proved(family, chain=HERE, state=None, **how):
-    state = find_state(chain, family) if state is None else state
-    return prove(chain, family.drive(chain.gamma), state, **how)
+def find_state(chain, family):
+    return find(chain.gamma, chain.half_width, {"family": family.name, **chain._asdict()})[-1]
 
 
-def refined(chain, s, whole):
+def proved(family, chain, state):
+    return prove(chain, family.drive(chain.gamma), state)
+
+
+def better(chain, s, whole):
     """Return the state of a finite chain to some sixty digits, by Newton's method."""
     u = arb_mat([[arb(float(x))] for x in whole])
     for _ in range(2):
@@ -35,11 +38,11 @@ def test_the_true_state_lies_within_the_radius_and_not_within_a_small_part_of_it
     longer[:, : HERE.half_width + 1] = state = find_state(HERE, family)
     whole = np.concatenate([longer[:, :0:-1], longer], axis=1).ravel()
     with ctx.workprec(200):
-        true = refined(FAR, family.drive(FAR.gamma), whole)
+        true = better(FAR, family.drive(FAR.gamma), whole)
         distance = max(
             balls.upper(abs(x - arb(float(y)))) for x, y in zip(true, whole, strict=True)
         )
-    radius = proved(family, state=state).radius
+    radius = proved(family, HERE, state)
     assert distance <= radius < 1e-10
     assert radius < 20.0 * distance
 
@@ -106,13 +109,13 @@ def test_inside_a_band_the_outside_does_not_contract(family, omega):
 def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
     state = find_state(HERE, EQUAL)
     off = np.array([1e-10, 1e-6, 1e-3])
-    radii = [proved(EQUAL, state=state * (1.0 + one)).radius for one in off]
+    radii = [proved(EQUAL, HERE, state * (1.0 + one)) for one in off]
     sizes = np.abs(state).max() * off
     assert np.all(radii >= sizes) and np.all(radii < 3.0 * sizes)
     with pytest.raises(RefusedError, match="residual"):
-        proved(EQUAL, state=1.3 * state)
+        proved(EQUAL, HERE, 1.3 * state)
     with pytest.raises(RefusedError, match="zero"):
-        proved(EQUAL, state=0.0 * state)
+        proved(EQUAL, HERE, 0.0 * state)
 
 
 def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
@@ -121,24 +124,11 @@ def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
         eta = arb(0.4975) * arb(0.5025) / 2
         there = existence.Estimates(eta, arb(0.5), arb(1), arb(1e-12))
         with pytest.raises(RefusedError, match="residual"):
-            existence.radii(there)
-        radius, unique = existence.radii(there._replace(eta=0.9 * eta))
-    assert 0.342 < radius < 0.36 < 0.49 < unique < 0.658
-
-
-def test_a_large_radius_allows_a_slower_decay_or_none():
-    """d = 6 for s = 1: the cubic term takes half of the square of the radius from it."""
-    with balls.precision():
-        found = existence._decay(HERE, 1.0, arb(2))
-        assert found == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-12)
-        with pytest.raises(RefusedError, match="decay"):
-            existence._decay(HERE, 1.0, arb(3))
+            existence.radius_of(there)
+        assert 0.342 < existence.radius_of(there._replace(eta=0.9 * eta)) < 0.36
 
 
 def test_the_sign_of_epsilon_does_not_open_a_band():
-    """For epsilon = -1 it is [-4, 0]; outside of it, the tail decays as for epsilon = 1."""
-    state, other = find_state(HERE, EQUAL), HERE._replace(epsilon=-1.0)
+    """For epsilon = -1 it is [-4, 0]."""
     with pytest.raises(RefusedError, match="band"):
-        proved(EQUAL, other._replace(omega=-3.0), state)
-    alone = other._replace(epsilon=-1e-3, omega=-4.0)
-    assert 0.0 < proved(EQUAL, alone, find_state(alone, EQUAL)).decay < 1e-3
+        proved(EQUAL, HERE._replace(epsilon=-1.0, omega=-3.0), find_state(HERE, EQUAL))

@@ -1,22 +1,23 @@
 """The datasets of steady and of periodic breathers, rounded where LAPACK decides the last bits."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from latticode.datasets.checks import rounded
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
-from latticode.localised.breathers import TOLERANCE
+from latticode.localised.breathers import TOLERANCE, exponents
 
 from pendula.many_cases import COMPONENTS
-from pendula.models.pairs import FAMILIES
+from pendula.models.pairs import FAMILIES, pair
+from pendula.models.steady import localised
 from pendula.problem import Constants
 
-from . import multipliers, periodic, steady, waves
+from . import multipliers, periodic
 
 PARTS = Variable(("part",), ["re", "im"])
-DIGITS, GROWTH_DIGITS, LEAST_DIGITS = 10, 7, 7
-"""Significant digits of states, of rates, which come from roots of eigenvalues, and of minima."""
+DIGITS, GROWTH_DIGITS = 10, 7
+"""Significant digits of states, and of rates, which come from roots of eigenvalues."""
 RATE = "largest rate of growth of a perturbation"
 
 
@@ -27,33 +28,21 @@ def kept(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
     return Variable(dimensions, rounded(values, digits), words, attributes=about)
 
 
-def _rates(over: tuple[str, ...], values: np.ndarray) -> dict[str, Variable]:
-    """Return rates of growth, (2, ...), on half of the half-width and on all of it."""
-    return {
-        "growth": kept(over, values[1], RATE, GROWTH_DIGITS),
-        "growth_half": kept(over, values[0], f"{RATE} on half of the half-width", GROWTH_DIGITS),
-    }
-
-
 def steady_contents(
     epsilon: float, gamma: float, omegas: Sequence[float], half_width: int
 ) -> Contents:
-    """Return all families at each Omega; NaN where a family does not exist.
-
-    Rates of growth are also found on half of `half_width`.
-    """
-    halves = half_width // 2, 2 * (half_width // 2)
+    """Return all families at each Omega; NaN where a pair has no state of a family."""
     shape = (len(FAMILIES), len(omegas))
-    amplitude, power = np.full((2, 2, *shape), np.nan), np.full(shape, np.nan)
-    rates = np.full((2, *shape), np.nan)  # on each of the two chains
-    for i, family in enumerate(FAMILIES):
-        for j, omega in enumerate(omegas):
-            constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-            for k, (problem, state) in enumerate(steady.continued(family, constants, halves)):
-                rates[k, i, j] = steady.growth(problem, state)
-                parts = state.parts(problem)
-                amplitude[:, :, i, j] = parts[:, :, halves[k]].T
-                power[i, j] = np.sum(parts**2)
+    amplitude, (power, rates) = np.full((2, 2, *shape), np.nan), np.full((2, *shape), np.nan)
+    for at in np.ndindex(shape):
+        family, omega = FAMILIES[at[0]], omegas[at[1]]
+        if pair(family, gamma, omega) is None:
+            continue
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        problem, state = localised(family, constants, half_width)
+        parts = state.parts(problem)
+        amplitude[(..., *at)], power[at] = parts[:, :, half_width].T, np.sum(parts**2)
+        rates[at] = max(0.0, float(exponents(problem, state).real.max()))
     over = ("family", "omega")
     variables = {
         "part": PARTS,
@@ -62,7 +51,7 @@ def steady_contents(
         "omega": Variable(("omega",), np.array(omegas, dtype=float)),
         "amplitude": kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
         "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
-        **_rates(over, rates),
+        "growth": kept(over, rates, RATE, GROWTH_DIGITS),
     }
     about = {"epsilon": epsilon, "gamma": gamma, "residual": TOLERANCE}
     return variables, {"title": "Steady states localised at one pair", **about}
@@ -70,28 +59,24 @@ def steady_contents(
 
 def periodic_contents(
     epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
-    half_widths: Mapping[str, int],
+    half_width: int,
 ) -> Contents:  # fmt: skip
-    """Return the three families at each Omega and frequency; NaN where a family does not exist.
-
-    `half_widths` has the least and the most that a chain may have. Rates of growth are also found
-    on half of the half-width that a breather needs.
-    """
-    frequencies = sorted(frequencies)
+    """Return the three families at each Omega and frequency; NaN where a family does not exist."""
     shape = (len(periodic.FAMILIES), len(omegas), len(frequencies))
-    amplitude, power, rates = (np.full((2, *shape), np.nan) for _ in range(3))
-    least = np.full((len(periodic.INSTANTS), *shape[:2]), np.nan)
+    amplitude, power = (np.full((2, *shape), np.nan) for _ in range(2))
+    least, rates = (np.full(shape, np.nan) for _ in range(2))
     given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
-    for j, constants in enumerate(given):
-        for i, family in enumerate(periodic.FAMILIES):
-            found = [*periodic.family_of(constants, family, frequencies, half_widths)]
-            for one in found:
-                at = (slice(None), i, j, frequencies.index(one.frequency))
-                amplitude[at], power[at] = one.data[:, 0], periodic.power(one.data)
-                rates[at] = multipliers.growth(periodic.on_half(one)), multipliers.growth(one)
-            if found:
-                least[:, i, j] = [periodic.least_power(found, one) for one in periodic.INSTANTS]
+    for at in np.ndindex(shape):
+        family, constants, frequency = periodic.FAMILIES[at[0]], given[at[1]], frequencies[at[2]]
+        if (one := periodic.find(family, constants, frequency, half_width)) is None:
+            continue
+        amplitude[(slice(None), *at)], power[(slice(None), *at)] = (
+            one.data[:, 0],
+            periodic.power(one.data),
+        )
+        least[at], rates[at] = periodic.least_power(one), multipliers.growth(one)
     over = ("family", "omega", "frequency")
+    largest = "power P of each component, the largest of a period"
     variables = {
         "component": COMPONENTS,
         "family": Variable(("family",), list(periodic.FAMILIES), "family of periodic breathers"),
@@ -100,22 +85,14 @@ def periodic_contents(
             ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
         ),
         "highest_wave": Variable(
-            ("omega",), [waves.highest(one) for one in given], "highest frequency of linear waves"
-        ),
-        "instant": Variable(
-            ("instant",), list(periodic.INSTANTS), "instant of the period, seen from A and B"
+            ("omega",), list(map(periodic.highest_wave, given)), "highest frequency of linear waves"
         ),
         "amplitude": kept(
             ("component", *over), amplitude, "amplitude on a site, site 0, when both are real"
         ),
-        "power": kept(
-            ("component", *over), power, "power P of each component, the largest of a period"
-        ),
-        "least_power": kept(
-            ("instant", *over[:2]), least, "least P of a family, at and between its frequencies",
-            LEAST_DIGITS,
-        ),
-        **_rates(over, rates),
-    }  # fmt: skip
+        "power": kept(("component", *over), power, largest),
+        "least_power": kept(over, least, "power P of both components, the least of a period"),
+        "growth": kept(over, rates, RATE, GROWTH_DIGITS),
+    }
     about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
     return variables, {"title": "Periodic breathers localised at one pair", **about}

@@ -20,11 +20,12 @@ factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B keep theirs. Wh
 no wave has a bound, and all growth counts.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
-from latticode.measures.confidence import Limits, share_limits
-from latticode.numerics.elementary import complex_of, cos, sin
+from latticode.datasets.netcdf import Variable
+from latticode.datasets.stated import describe_run
+from latticode.datasets.trajectories import Contents
 from latticode.simulation.lattice import find_reduction, unpack
 from latticode.simulation.runs import Run, run_all
 from latticode.simulation.simulate import integrate
@@ -108,57 +109,31 @@ def keep_fate(problem: Problem) -> dict[str, int]:
     return {"fate": fate_of(problem, unpack(y, reduction))}
 
 
-# --- Maps -----------------------------------------------------------------------------------------
+# --- A map ----------------------------------------------------------------------------------------
 
 
-def run_maps(
-    problems: Mapping[float, Problem], amplitudes: np.ndarray, turned: np.ndarray,
-    phases: np.ndarray, ratio: float, run: Run = run_all,
-) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Return two maps of fates of data on the central pair, for the detuning of each problem.
+def map_fates(
+    problems: Mapping[float, Problem], amplitudes: Sequence[float], run: Run = run_all
+) -> Contents:
+    """Return the fate of data on one pair at each detuning, that of the problem under it.
 
-    The first map is over `amplitudes`, those of A_0 and of B_0: (omega, A_0, B_0). Exchanging A and
-    B changes no fate, so that one half of it is run. The second one is over A_0 from `turned` and
-    the phase of B_0, with |B_0| = `ratio` A_0: (omega, A_0, phase).
+    A_0 and B_0 go over `amplitudes`. Exchanging A and B changes no fate, so that one half of the
+    map is run.
     """
     rows, columns = np.tril_indices(len(amplitudes))
-    sizes = ratio * turned[:, None]
-    others = complex_of(sizes * cos(phases), sizes * sin(phases))
-    a = np.concatenate([amplitudes[rows], np.repeat(turned, len(phases))])
-    b = np.concatenate([amplitudes[columns], others.ravel()])
-    survey = Survey({"omega": list(problems), "initial.0.0, initial.0.1": np.stack([a, b], -1)})
-    on_one_pair = next(iter(problems.values())).changed(initial=np.ones((2, 1)))
-    fates = run(Surveyed(on_one_pair, survey), keep_fate)["fate"].reshape(survey.shape)
-    first = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=int)
-    first[:, rows, columns] = first[:, columns, rows] = fates[:, : rows.size]
-    return first, fates[:, rows.size :].reshape(-1, *others.shape)
-
-
-# --- Shares of an area ----------------------------------------------------------------------------
-
-
-def shares_of_area(fates: np.ndarray, mirrored: bool = False) -> Limits:
-    """Return the share of each fate in the area that a grid of data covers, with limits, (fate,).
-
-    The points sample the area evenly. Where neighbours have one fate, so has all between them;
-    where they have not, a point is a draw. So the variance of a share p of n points is v / n, with
-    v half of the mean square of the difference between neighbours in place of p (1 - p), to which
-    it comes where fates are scattered (successive differences: Wolter, J. Am. Stat. Assoc. 79
-    (1984) 781). The limits are those of Clopper and Pearson for so many draws as have this
-    variance. What a longer run or chain would change is not in them.
-
-    In a `mirrored` map each point but for the diagonal stands twice and counts once. The diagonal,
-    A_0 = B_0, has no area and is left out.
-    """
-    found = []
-    for number in range(len(FATES)):
-        counted = (fates == number).astype(float)
-        if mirrored:
-            np.fill_diagonal(counted, np.nan)
-        points = np.isfinite(counted).sum() / (2 if mirrored else 1)
-        share = float(np.nanmean(counted))
-        squares = [np.diff(counted, axis=axis).ravel() ** 2 for axis in (0, 1)]
-        between = 0.5 * float(np.nanmean(np.concatenate(squares)))
-        draws = points * share * (1.0 - share) / between if between else points
-        found.append(share_limits(share * draws, draws)._replace(value=share))
-    return Limits(*np.transpose(found))
+    data = np.array(amplitudes)[np.stack([rows, columns], -1)]
+    survey = Survey({"omega": list(problems), "initial.0.0, initial.0.1": data})
+    (one, *_) = problems.values()
+    fates = run(Surveyed(one.changed(initial=np.ones((2, 1))), survey), keep_fate)["fate"]
+    mapped = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=np.int8)
+    mapped[:, rows, columns] = mapped[:, columns, rows] = fates.reshape(survey.shape)
+    flags = {"flag_values": np.arange(len(FATES), dtype=np.int8), "flag_meanings": " ".join(FATES)}
+    variables = {
+        "omega": Variable(("omega",), np.array(list(problems))),
+        "a0": Variable(("a0",), amplitudes, "initial amplitude A_0 of the centre"),
+        "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
+        "fate": Variable(("omega", "a0", "b0"), mapped, "fate of the data", attributes=flags),
+    }
+    about = describe_run("pairs", one, one.solver)
+    about = {key: value for key, value in about.items() if key not in ("omega", "initial", "case")}
+    return variables, about | {"title": "What becomes of data on one pair"}

@@ -16,11 +16,6 @@ nu = (mu + 1 / mu) / 2 are the eigenvalues of -a: half as many, and a breather i
 lie in [-1, 1]. The multipliers over a whole period are the squares of mu. The shift along the
 solution has nu = 1. There mu has a Jordan block, and an error d of the map would show as sqrt(d);
 nu is simple and exact, so that it is set to 1.
-
-Finite chains. On an infinite chain the waves of (15) fill intervals of nu, and what is localised
-lies outside of them or off the circle. On a finite chain the waves are single multipliers, and a
-localised one that runs through them makes a row of isolated quartets, which come and go with the
-length of the chain. So rates of growth are found on half of the chain too.
 """
 
 import numpy as np
@@ -45,8 +40,8 @@ def traces(breather: Breather, parity: str) -> np.ndarray:
     alike = exchange_sign(breather.data) != 0
     directions, nothing = _directions(sites, first, alike), np.empty((0, 4, sites))
     bundle = (nothing, directions) if first else (directions, nothing)
-    steps, state = breather.finer * STEPS, real_data(breather.data)
-    ends = flow(breather.constants, state, *bundle, breather.quarter, steps)[1:]
+    state = real_data(breather.data)
+    ends = flow(breather.constants, state, *bundle, breather.quarter, STEPS)[1:]
     ends = ends[:, :, first:].reshape(2, -1, 2, 2, sites - first)  # (part, start, A or B, part, n)
     if alike:
         ends = np.concatenate([ends, ends[:, :, ::-1]], axis=1)

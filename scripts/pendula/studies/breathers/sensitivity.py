@@ -20,10 +20,11 @@ from pendula.problem import Problem
 from .fates import SPREADS, keep_fate
 
 
-def shares(
-    problem: Problem, sizes: Sequence[float], members: int, seed: int, run: Run = run_all
-) -> Limits:
-    """Return the share that spreads for each relative size of the change, (size,)."""
+def sensitivity_contents(
+    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
+    run: Run = run_all,
+) -> Contents:  # fmt: skip
+    """Return the share that spreads for each relative size of the change."""
     # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
     drawn = [
@@ -32,19 +33,8 @@ def shares(
         for one in draw_members(at_the_end_alone, size, members, [seed, number])
     ]
     spread = (run(drawn, keep_fate)["fate"] == SPREADS).reshape(len(sizes), members).sum(axis=1)
-    return Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
-
-
-def sensitivity_contents(
-    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
-    run: Run = run_all,
-) -> Contents:  # fmt: skip
-    """Return the share that spreads by the size of a change."""
-    share, by_size, said = (
-        shares(problem, sizes, members, seed, run),
-        ("size",),
-        "share of runs that spread",
-    )
+    share = Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
+    by_size, said = ("size",), "share of runs that spread"
     variables = {
         "size": Variable(by_size, np.array(sizes), "size of a random change of the data, relative"),
         "share": Variable(by_size, share.value, said),

@@ -36,16 +36,9 @@ r of u. Proof: |DT(v)| <= q(|v - u|) by 1 and 4, so that |T(v) - u| <= eta + the
 0 to r = p(r) + r <= r. T maps the closed ball into itself and contracts it. Its only fixed point is
 a zero of F since A is injective; and every zero of F is a fixed point of T.
 
-Uniqueness further out. If p(r) <= 0 and p(R) < 0 for some R > r, no other zero lies within R.
-Proof: p is convex on [0, R], hence negative on (r, R]. A zero v at the distance t in (r, R] would
-give t = |T(v) - u| <= p(t) + t < t.
-
-It is localised. Let q = 2 epsilon / (d - r^2 / 2) < 1 and rho = q / (1 + sqrt(1 - q^2)). Then the
-true state v has |v_n| <= |v_M| rho^(n - M) for n >= M and lies in l2. Proof: beyond the block
-|v_n| <= r, and C + v_n^2 / 2 has an inverse of at most 1 / (d - r^2 / 2); so
-|v_n| <= (q/2) (|v_{n+1}| + |v_{n-1}|). The sequence z_n = |v_M| rho^(n - M) has equality there. Let
-the bounded sequence |v_n| - z_n, zero at n = M, have a positive supremum t over n > M: then
-t <= (q/2) 2 t < t, which is absurd. The same holds for n <= -M.
+It is localised: the true state tends to zero. Proof: F, DF and A map sequences that tend to zero to
+such. They are a closed subspace, u is one of them, and so all of the above finds a zero of F among
+them within r of u, which is the only one.
 
 Symmetries. F commutes with n -> -n, with X, and with u -> -u, which keep |.|. If u has a symmetry
 to the last bit, uniqueness gives it to the true state.
@@ -60,19 +53,15 @@ import numpy as np
 from flint import arb, arb_mat
 
 from . import balls
-from .states import Chain
-
-FURTHER_IN = (0.99, 0.9, 0.75, 0.5)
-"""Parts of a root at which R is tried."""
 
 
-class Proof(NamedTuple):
-    """What is proved of the state near to the given one: doubles rounded to the safe side."""
+class Chain(NamedTuple):
+    """The constants of the equations, as doubles, and the half-width M of a chain."""
 
-    radius: float  # r: a true state lies within it
-    unique: float  # R: no other state lies within it
-    contraction: float  # Z
-    decay: float  # rho, the factor from site to site beyond the block; 0 on a finite chain
+    epsilon: float
+    gamma: float
+    omega: float
+    half_width: int
 
 
 class Estimates(NamedTuple):
@@ -88,21 +77,40 @@ class RefusedError(ArithmeticError):
     """There is no proof; the message says which inequality fails."""
 
 
-def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> Proof:
-    """Prove that a true steady state is near to `state`, even, (component, site 0..M), of doubles.
+def refined(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
+    """Return a state of ten digits after a step of Newton's method, which doubles them.
 
-    `s` is the drive on a and b. On the infinite chain, or on the finite one of M = `half_width`.
-    Raises RefusedError where an inequality of the theorem cannot be shown.
+    The step is so small that its rounding is lost: the result has the same bits on every machine.
     """
     with balls.precision():
-        whole = np.concatenate([state[:, :0:-1], state], axis=1)
-        u = [arb(float(value)) for value in whole.ravel()]
-        found = estimate(chain, s, u, infinite)
-        radius, unique = radii(found)
+        u = on_the_whole(state)
+        k, miss = (
+            np.array([float(x.mid()) for x in matrix.entries()])
+            for matrix in (slope(chain, s, u), residual(chain, s, u))
+        )
+    step = np.linalg.solve(k.reshape(len(u), -1), miss).reshape(2, -1)
+    return state - step[:, chain.half_width :]
+
+
+def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> float:
+    """Return r such that one true steady state lies within r of `state`.
+
+    This is even, (component, site 0..M), of doubles, and `s` is the drive on a and b. On the
+    infinite chain, or on the finite one of M = `half_width`. Raises RefusedError where an
+    inequality of the theorem cannot be shown.
+    """
+    with balls.precision():
+        u = on_the_whole(state)
+        radius = radius_of(estimate(chain, s, u, infinite))
         if not arb(radius) < _largest(map(abs, u)):
             raise RefusedError("the enclosure of the state contains zero")
-        decay = _decay(chain, s, arb(radius)) if infinite else 0.0
-        return Proof(radius, unique, balls.upper(found.z), decay)
+        return radius
+
+
+def on_the_whole(state: np.ndarray) -> list[arb]:
+    """Return an even state on the sites -M..M, components in turn."""
+    whole = np.concatenate([state[:, :0:-1], state], axis=1)
+    return [arb(float(value)) for value in whole.ravel()]
 
 
 def estimate(chain: Chain, s: float, u: list[arb], infinite: bool) -> Estimates:
@@ -164,37 +172,23 @@ def distance(chain: Chain, s: float) -> arb:
     return arb.min(*moduli)
 
 
-def radii(estimates: Estimates) -> tuple[float, float]:
-    """Return r and R of the theorem, each shown by its inequalities.
+def radius_of(estimates: Estimates) -> float:
+    """Return r of the theorem, shown by its inequalities.
 
-    Where to try them is no matter of proof: r a little above the smaller root of p without its last
-    term, and R a little below the larger root of p without eta, or further in.
+    Where to try it is no matter of proof: a little above the smaller root of p without its last
+    term.
     """
     eta, z, bent, cubic = estimates
     room = 1 - z
     if not room > 0:
         raise RefusedError("the inverse is not near enough: the slope may be singular")
-
-    def p(r: arb) -> arb:
-        return eta - room * r + bent * r * r / 2 + cubic * r * r * r / 3
-
     under = room * room - 2 * bent * eta
     radius = balls.upper(1.01 * 2 * eta / (room + under.sqrt())) if under > 0 else np.inf
     r = arb(radius)
-    if not (p(r) <= 0 and z + bent * r + cubic * r * r < 1):
+    p = eta - room * r + bent * r * r / 2 + cubic * r * r * r / 3
+    if not (p <= 0 and z + bent * r + cubic * r * r < 1):
         raise RefusedError("the residual is too large for the slope and the curvature")
-    root = ((bent * bent / 4 + 4 * cubic * room / 3).sqrt() - bent / 2) / (2 * cubic / 3)
-    tried = (balls.lower(part * root) for part in FURTHER_IN)
-    return radius, next((out for out in tried if out > radius and p(arb(out)) < 0), radius)
-
-
-def _decay(chain: Chain, s: float, r: arb) -> float:
-    """Return an upper bound of rho."""
-    epsilon, away = abs(balls.decimal(chain.epsilon)), distance(chain, s)
-    ratio = 2 * epsilon / (away - r * r / 2)
-    if not (away > r * r / 2 and ratio < 1):
-        raise RefusedError("the state may not decay: the radius is too large")
-    return balls.upper(ratio / (1 + (1 - ratio * ratio).sqrt()))
+    return radius
 
 
 def _moduli(matrix: arb_mat) -> arb_mat:

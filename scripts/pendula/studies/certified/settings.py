@@ -55,6 +55,8 @@ class Breathers(Model):
 
     def faults(self) -> Faults:
         """Yield the states that single pairs of pendula do not have."""
+        if self.half_widths.chain > self.half_widths.block:
+            yield "half_widths.chain", "is larger than `block`"
         named = {family.name: family for family in FAMILIES}
         for key, states in (("proofs", self.proofs), ("wrong", self.wrong)):
             for i, state in enumerate(states):

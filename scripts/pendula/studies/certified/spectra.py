@@ -25,7 +25,7 @@ such states into sums a + b (1 - X = 0) and differences a - b (1 - X = 2). In th
 around the squares of the given doubles that contain those of the true state.
 """
 
-from typing import NamedTuple
+from enum import IntEnum
 
 import numpy as np
 from flint import acb, acb_mat, arb, arb_mat
@@ -33,36 +33,34 @@ from flint import acb, acb_mat, arb, arb_mat
 from pendula.models.pairs import Family
 
 from . import balls
-from .states import Chain, Verdict
+from .existence import Chain
 
 
-class Spectrum(NamedTuple):
-    """What the enclosures prove; the rates are those of the fastest growing perturbation."""
+class Verdict(IntEnum):
+    """Whether a state is proved stable, as datasets keep it."""
 
-    verdict: Verdict
-    growth_low: float
-    growth_high: float
+    UNDECIDED = -1
+    UNSTABLE = 0
+    STABLE = 1
 
 
-def decide(chain: Chain, family: Family, state: np.ndarray, radius: float) -> Spectrum:
+def decide(chain: Chain, family: Family, state: np.ndarray, radius: float) -> Verdict:
     """Decide on all true states within `radius` of `state`, (component, site 0..M), and its family.
 
     The state is one of the finite chain, even, and has A = B or A = -B exactly if the family says.
     """
+    found = set()
     with balls.precision():
         u = [[balls.within(value, radius) for value in row] for row in state]
-        found = []
         for even in (True, False):
             for block, sums in blocks(chain, family, u, even):
                 zero = family.kind == "equal" and sums and even
-                found.append(judge(eigenvalues(block), zero))
-    low, high = (max(getattr(one, name) for one in found) for name in Spectrum._fields[1:])
-    verdicts = {one.verdict for one in found}
+                found.add(judge(eigenvalues(block), zero))
     order = (Verdict.UNSTABLE, Verdict.UNDECIDED, Verdict.STABLE)
-    return Spectrum(next(one for one in order if one in verdicts), low, high)
+    return next(one for one in order if one in found)
 
 
-def judge(boxes: list[acb] | None, zero: bool) -> Spectrum:
+def judge(boxes: list[acb] | None, zero: bool) -> Verdict:
     """Decide by boxes of eigenvalues of a real matrix, one in each; None: they were not isolated.
 
     `zero` says that zero is known to be an eigenvalue.
@@ -70,25 +68,19 @@ def judge(boxes: list[acb] | None, zero: bool) -> Spectrum:
     if boxes is None or any(
         one.overlaps(other) for i, one in enumerate(boxes) for other in boxes[:i]
     ):
-        return Spectrum(Verdict.UNDECIDED, 0.0, np.inf)
+        return Verdict.UNDECIDED
     at_zero = [i for i, box in enumerate(boxes) if box.contains(0)]
     known = at_zero if zero and len(at_zero) == 1 else []
-    verdict, low, high = Verdict.STABLE, 0.0, 0.0
+    verdict = Verdict.STABLE
     for i, box in enumerate(boxes):
-        if i in known:
-            continue
         mirror = box.conjugate()
         real = not any(mirror.overlaps(other) for j, other in enumerate(boxes) if j != i)
-        if real and box.real < 0:
+        if i in known or (real and box.real < 0):
             continue
-        rate = abs((acb(box.real) if real else box).sqrt().real)
-        high = max(high, balls.upper(rate))
-        grows = box.real > 0 if real else not box.imag.contains(0)
-        if grows:
-            verdict, low = Verdict.UNSTABLE, max(low, balls.lower(rate))
-        elif verdict is Verdict.STABLE:
-            verdict = Verdict.UNDECIDED
-    return Spectrum(verdict, low, high)
+        if box.real > 0 if real else not box.imag.contains(0):
+            return Verdict.UNSTABLE
+        verdict = Verdict.UNDECIDED
+    return verdict
 
 
 def eigenvalues(block: arb_mat) -> list[acb] | None:

@@ -1,0 +1,43 @@
+"""Steady states of the chain that are localised at one pair, and where there is none.
+
+A steady state of (4), steady in the rotating frame of (3), obeys
+
+    epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n + gamma (conj B_n - conj A_n)
+        + |A_n|^2 A_n / 2 = 0                                                                (S)
+
+and the same with A and B exchanged. The families of one pair (see `pairs`) are continued from
+epsilon = 0 by what the library does with any model (`latticode.localised.breathers`).
+
+Where there is none. Multiply (S) by conj A and its partner by conj B, sum over the chain and take
+the real part:
+
+    -epsilon (|dA|^2 + |dB|^2) + Omega P - gamma Re sum (A_n - B_n)^2
+        + (1/2) sum (|A_n|^4 + |B_n|^4) = 0,
+
+where |dA|^2 = sum |A_{n+1} - A_n|^2 <= 4 |A|^2 and |A - B|^2 <= 2 (|A|^2 + |B|^2). The left side is
+at least (Omega - 4 epsilon - 2 gamma) P plus a sum of fourth powers, which is positive unless all
+is zero. So for Omega >= 4 epsilon + 2 gamma no steady state but zero lies in l2, localised or not.
+"""
+
+import numpy as np
+from latticode.localised.breathers import NoStateError, State, coupled, flat
+
+from pendula.problem import Constants, Problem
+
+from .pairs import Family, pair
+
+
+def localised(family: Family, constants: Constants, half_width: int) -> tuple[Problem, State]:
+    """Return a family's even state, and the chain on which it is one.
+
+    Raises NoStateError where the pair has no such state, or the family does not reach this epsilon.
+    """
+    ends = pair(family, constants.gamma, constants.omega)
+    if ends is None:
+        raise NoStateError(f"no pair has a state {family.name} at Omega = {constants.omega:g}")
+    data = np.array(ends).reshape(2, 1) * (1j if family.imaginary else 1.0)
+    problem = Problem(
+        parameters=vars(constants), half_width=half_width, boundary="dirichlet", initial=data,
+        end_time=1.0, output_step=1.0, solver={},
+    )  # fmt: skip
+    return problem, coupled(problem, State(flat(problem.amplitudes, even=True), even=True), None)
