@@ -2,11 +2,9 @@
 
 import re
 
-import numpy as np
 import pytest
 import yaml
 from facts import BASELINE
-from held_digits import blurred, unlike
 from pendula.article import write
 from pendula.ledger.rows import load
 from render import Accepted
@@ -75,18 +73,3 @@ def test_another_verdict_gives_a_notice(monkeypatch, claim, verdict):
     monkeypatch.setattr(write, "load", lambda _: changed)
     text = write.markdown(Accepted())
     assert text.count(f"is: {verdict}.") == 1 and "## Introduction" not in text
-
-
-class Blurred(Accepted):
-    """The accepted results with every number moved by half of the last digit that is held."""
-
-    def __getitem__(self, name):
-        if name not in self._read:
-            self._read[name] = blurred(super().__getitem__(name), np.random.default_rng(len(name)))
-        return self._read[name]
-
-
-def test_it_prints_no_digit_that_its_datasets_do_not_hold():
-    one, other = (write.markdown(results()).splitlines() for results in (Accepted, Blurred))
-    assert len(one) > 300
-    assert [pair for pair in zip(one, other, strict=True) if unlike(*pair)] == []

@@ -58,22 +58,6 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
     assert compared >= 36
 
 
-@pytest.mark.parametrize("solver", ["dop853", "taylor"])
-def test_time_and_memory_grow_with_the_chain_as_they_were_measured(solver):
-    """The measured chains are noise of order one, which the data here are like."""
-    cost = read(SPEED / "cost.nc").sel(solver=solver)
-    for sites in (61, 201, 1001, 10_001, 100_001):
-        half = sites // 2
-        end = min(50.0, max(1.0, 40_000 / sites))
-        given = problem(
-            half_width=half, initial={0: (2.5, 0.1)}, end_time=end, output_step=end,
-            solver={"name": solver, "rtol": 1e-10, "atol": 1e-10},
-        )  # fmt: skip
-        found, one = estimate(given), cost.sel(sites=sites)
-        assert 1 / FACTOR < found.seconds / (float(one["seconds"]) * sites * end) < FACTOR
-        assert 1 / FACTOR < found.memory / (float(one["memory"]) * sites) < FACTOR
-
-
 @pytest.mark.parametrize(
     ("change", "key"),
     [

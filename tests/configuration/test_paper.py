@@ -82,18 +82,6 @@ def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):
     assert bool(differences(edited(*place, value=value))) is apart
 
 
-def test_an_edited_case_leaves_sentences_on_other_cases_alone():
-    differs = differences(edited("cases", "fig2_small", "omega", value=1.0))
-    apart = {claim.name for claim in all_claims() if reason(differs, claim.needs, claim.on)}
-    assert {"fig2_bounded", "fig3_alike", "stable_is_regular"} <= apart
-    assert not apart & {
-        "ensemble_fig3_grows",
-        "ensemble_fig4_settles",
-        "theorem_1",
-        "fig4_unstable",
-    }
-
-
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
     for name in needed():
         assert rests_on(name) or name == "checks/identities", name  # which hold for all constants

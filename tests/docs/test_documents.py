@@ -10,10 +10,8 @@ import re
 from pathlib import Path
 
 import facts
-import numpy as np
 import pytest
 import render
-from held_digits import blurred, unlike
 
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATES = render.pages()
@@ -106,29 +104,6 @@ TYPED = [
 
 def test_a_typed_number_is_found():
     assert [text for text in TYPED if not typed_numbers(text)] == []
-
-
-def flat(known, place="") -> dict[str, str]:
-    """Return the texts of facts by their places."""
-    if isinstance(known, str):
-        return {place: known}
-    items = known.items() if isinstance(known, dict) else enumerate(known)
-    return {at: text for key, one in items for at, text in flat(one, f"{place}.{key}").items()}
-
-
-class Blurred(facts.Baseline):
-    """The same datasets with every number moved by half of the last digit that its file holds."""
-
-    def __missing__(self, name):
-        self[name] = blurred(super().__missing__(name), np.random.default_rng(len(self)))
-        return self[name]
-
-
-def test_no_page_prints_a_digit_that_the_file_behind_it_does_not_hold(baseline):
-    """Moved by half of their last digit, numbers print alike but for the last printed place."""
-    before, after = (flat(facts.topics(data)) for data in (baseline, Blurred()))
-    assert {name: (text, after[name]) for name, text in before.items()
-            if unlike(text, after[name])} == {}  # fmt: skip
 
 
 def test_every_link_leads_to_a_file():

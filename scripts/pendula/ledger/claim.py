@@ -163,7 +163,6 @@ def _in(folder: str) -> Callable[..., tuple[str, ...]]:
 checks, runs = _in("checks"), _in("trajectories")
 sweeps, unbounded = _in("sweeps"), _in("unbounded")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
-LARGE = runs("fig2_large", "fig3_large", "fig4_large")
 
 
 def late(trajectory, start: float = SETTLED):
