@@ -9,7 +9,7 @@ from latticode.equations.ends import ENDS, neighbours
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.simulate import simulate
 from oracle import BOUNDARIES, random_chain
-from pendula.models.bounds import best_bound, proven_region
+from pendula.models.bounds import find_bounds, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.problem import PENDULA
 from pendula.studies.theory.equations import total_energy
@@ -45,7 +45,7 @@ TAUGHT = {
     "pendula": pendula,
     "energy": lambda boundary: total_energy(problem("free").constants, boundary, Z),
     "region": lambda boundary: proven_region(-1.0, 0.5, problem("free").constants, boundary),
-    "bound": lambda boundary: best_bound(-1.0, 0.5, 7, problem("free").constants, boundary),
+    "bound": lambda boundary: find_bounds(-1.0, 0.5, 7, problem("free").constants, boundary),
 }
 NAMED = {
     "problem": problem,

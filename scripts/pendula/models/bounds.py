@@ -40,11 +40,11 @@ def extent(constants: Constants) -> float:
     return abs(k.omega) + 2.0 * abs(k.gamma) + 4.0 * k.epsilon
 
 
-def theorem_1_bound(energy, constants: Constants):
+def theorem_1_bound(energy: float, constants: Constants) -> float:
     """Return C of Theorem 1; infinite outside its range of parameters."""
     k = with_positive_coupling(constants)
     gap = k.omega - 2.0 * abs(k.gamma) - 4.0 * k.epsilon
-    return np.asarray(energy) / gap if gap > 0 else np.full(np.shape(energy), np.inf)
+    return float(energy) / gap if gap > 0 else np.inf
 
 
 def theorem_2_gap(constants: Constants) -> float:
@@ -59,16 +59,14 @@ def theorem_2_constants(constants: Constants) -> tuple[float, float]:
     return (a * a / c, 2.0 * c / a) if a > 0 else (0.0, np.inf)
 
 
-def theorem_2_bound(energy, start, constants: Constants):
+def theorem_2_bound(energy: float, start: float, constants: Constants) -> float:
     """Return the smaller root of f(P) = -H for data with P(0) = `start`; infinite outside."""
     a = theorem_2_gap(constants)
-    energy, start = np.broadcast_arrays(np.asarray(energy, float), np.asarray(start, float))
-    if a == 0:
-        return np.full(energy.shape, np.inf)
-    inside = (start < 2.0 * a) & (-energy < a * a)
-    root = np.sqrt(np.where(inside, 1.0 + energy / (a * a), 0.0))
+    if not (start < 2.0 * a and -energy < a * a):
+        return np.inf
+    root = np.sqrt(1.0 + float(energy) / (a * a))
     # -H / a^2 = (1 - root)(1 + root): this form keeps the digits of small data
-    return np.where(inside, 2.0 * -energy / a / (1.0 + root), np.inf)
+    return float(2.0 * -energy / a / (1.0 + root))
 
 
 def widened_barrier(constants: Constants) -> tuple[float, float]:
@@ -78,7 +76,7 @@ def widened_barrier(constants: Constants) -> tuple[float, float]:
     return top, 2.0 * a * top / 3.0
 
 
-def widened_bound(energy, start, constants: Constants):
+def widened_bound(energy: float, start: float, constants: Constants) -> float:
     """Return the smaller root of a P - P^3 / (64 epsilon) = -H by bisection; infinite outside.
 
     On Z, and on a chain with sites at rest beyond its ends, max |A_n|^2 <= |A| |grad A| in l2, so
@@ -86,49 +84,45 @@ def widened_bound(energy, start, constants: Constants):
     and g = |grad A|, epsilon g^2 - p^(3/2) g / 4 >= -p^3 / (64 epsilon). This does not hold on a
     ring or with free ends, where a constant has no gradient.
     """
-    epsilon, a = with_positive_coupling(constants).epsilon, theorem_2_gap(constants)
     top, barrier = widened_barrier(constants)
-    energy, start = np.broadcast_arrays(np.asarray(energy, float), np.asarray(start, float))
-    low, high = np.zeros(energy.shape), np.full(energy.shape, top)
+    if not (start < top and -energy < barrier):
+        return np.inf
+    part, low, high = -float(energy) / (1.5 * barrier), 0.0, 1.0
     for _ in range(60):
-        middle = 0.5 * (low + high)
-        below = 64.0 * epsilon * (a * middle + energy) < middle * middle * middle
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return np.where((start < top) & (-energy < barrier), high, np.inf)
+        middle = 0.5 * (low + high)  # of P / top
+        if middle - middle * middle * middle / 3.0 < part:
+            low = middle
+        else:
+            high = middle
+    return top * high
 
 
-def theorem_3_bound(energy, sites: int, constants: Constants):
+def theorem_3_bound(energy: float, sites: int, constants: Constants) -> float:
     """Return C_N of Theorem 3."""
     c = extent(constants)
     # a state at the very bottom of H may round below it
-    inner = np.maximum(0.0, c * c + np.asarray(energy, float) / (2.0 * sites))
-    return 4.0 * sites * (c + np.sqrt(inner))
+    inner = max(0.0, c * c + float(energy) / (2.0 * sites))
+    return float(4.0 * sites * (c + np.sqrt(inner)))
+
+
+def find_bounds(
+    energy: float, start: float, sites: int, constants: Constants, boundary: str
+) -> dict[str, float]:
+    """Return the bounds on P for data with this H and P(0); infinite is what does not apply."""
+    at_rest = kind_of(boundary) == DIRICHLET
+    return {
+        "theorem_1": theorem_1_bound(energy, constants),
+        "theorem_2": theorem_2_bound(energy, start, constants),
+        "widened": widened_bound(energy, start, constants) if at_rest else np.inf,
+        "theorem_3": theorem_3_bound(energy, sites, constants),
+    }
 
 
 def proven_region(energy: float, start: float, constants: Constants, boundary: str) -> str:
     """Return which theorem bounds P independently of N, in the words of the ledger."""
-    at_rest = kind_of(boundary) == DIRICHLET
-    if np.isfinite(theorem_1_bound(energy, constants)):
-        return "theorem 1"
-    if np.isfinite(theorem_2_bound(energy, start, constants)):
-        return "theorem 2"
-    if at_rest and np.isfinite(widened_bound(energy, start, constants)):
-        return "theorem 2 widened"
-    return "none"
-
-
-def best_bound(
-    energy: float, start: float, sites: int, constants: Constants, boundary: str
-) -> float:
-    """Return the smallest of the bounds that hold for these data."""
-    bounds = [
-        theorem_1_bound(energy, constants),
-        theorem_2_bound(energy, start, constants),
-        theorem_3_bound(energy, sites, constants),
-    ]
-    if kind_of(boundary) == DIRICHLET:
-        bounds.append(widened_bound(energy, start, constants))
-    return float(min(bounds))
+    found = find_bounds(energy, start, 1, constants, boundary)
+    regions = {"theorem_1": "theorem 1", "theorem_2": "theorem 2", "widened": "theorem 2 widened"}
+    return next((words for name, words in regions.items() if np.isfinite(found[name])), "none")
 
 
 def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:

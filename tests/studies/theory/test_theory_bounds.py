@@ -65,10 +65,10 @@ def test_the_widened_bound_is_where_the_energy_allows_no_more(constants):
     depths = a * powers - powers**3 / (64.0 * constants.epsilon)
     top, barrier = widened_barrier(constants)
     assert (top, barrier) == pytest.approx((powers[depths.argmax()], depths.max()), rel=1e-3)
-    energies = -barrier * np.array([0.01, 0.5, 0.99])
-    found = widened_bound(energies, 0.0, constants)
-    np.testing.assert_allclose(a * found - found**3 / (64.0 * constants.epsilon), -energies)
-    assert (found < top).all()
+    for energy in (-0.01 * barrier, -0.99 * barrier):
+        found = widened_bound(energy, 0.0, constants)
+        depth = a * found - found**3 / (64.0 * constants.epsilon)
+        assert depth == pytest.approx(-energy) and found < top
     assert widened_bound(-1.01 * barrier, 0.0, constants) == np.inf
 
 

@@ -5,17 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 from latticode.datasets.checks import describe, tabulate, variable
-from latticode.equations.ends import DIRICHLET, kind_of
 from latticode.measures.norms import total_power
 
-from pendula.models.bounds import (
-    best_bound,
-    proven_region,
-    theorem_1_bound,
-    theorem_2_bound,
-    theorem_3_bound,
-    widened_bound,
-)
+from pendula.models.bounds import find_bounds, proven_region
 from pendula.problem import Constants
 
 NUMBERS = {
@@ -37,19 +29,11 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
     sites = 2 * int(trajectory.attrs["half_width"]) + 1
     energy, power = float(trajectory["energy"][0]), total_power(trajectory)
     start, observed = float(power[0]), np.float64(power.max())
-    at_rest = kind_of(boundary) == DIRICHLET
-    best = best_bound(energy, start, sites, constants, boundary)
-    numbers = {
-        "start": start,
-        "observed": observed,
-        "theorem_1": theorem_1_bound(energy, constants),
-        "theorem_2": theorem_2_bound(energy, start, constants),
-        "widened": widened_bound(energy, start, constants) if at_rest else np.inf,
-        "theorem_3": theorem_3_bound(energy, sites, constants),
-        "ratio": observed / best,
-    }
+    bounds = find_bounds(energy, start, sites, constants, boundary)
+    ratio = float(observed / min(bounds.values()))
     region = proven_region(energy, start, constants, boundary)
-    return {"region": region, **{name: float(value) for name, value in numbers.items()}}
+    found = {"region": region, "start": start, "observed": float(observed), "ratio": ratio}
+    return found | bounds
 
 
 def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:

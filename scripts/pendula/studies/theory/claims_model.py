@@ -135,12 +135,8 @@ def one_integral(lyapunov) -> Finding:
     # those that lie nearer to zero than exponents to each other
     between = 2.0 * size.max("index") / size.notnull().sum("index")
     told = 0.5 * (size + wider * error < between).sum("index")
-    measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max(), "wider_limits": wider}
+    measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
     measured["most_resolved_pairs"] = told.max()
-    measured |= {
-        f"pairs_{case}_{half_width}": count
-        for (case, half_width), count in zip(pairs["spectrum"].values, pairs.values, strict=True)
-    }
     if measured["most_resolved_pairs"] <= 1.0 < measured["most_pairs"]:
         many = [f"{c}, M = {m}" for c, m in pairs["spectrum"].values[pairs.values > 1.0]]
         return undecided(
