@@ -97,8 +97,10 @@ def _in_place(names: Names, change: Callable, at: Mapping) -> Change:
 
 def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names) -> xr.Dataset:
     """Return the variables with their numbers in this order along a coordinate, which stays."""
-    moved = [data[name] for name in _each(names) or data if along in data[name].dims]
-    return data.assign({one.name: one.copy(data=one.isel({along: order}).values) for one in moved})
+    chosen = {name: data.variables[name] for name in _each(names) or data}
+    return data.assign(
+        {n: one.isel({along: order}) for n, one in chosen.items() if along in one.dims}
+    )
 
 
 def _each(names: Names) -> tuple[str, ...]:
