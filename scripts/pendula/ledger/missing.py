@@ -16,9 +16,9 @@ FEWEST = 3
 """So many samples at least: any two of them make a line."""
 SERIES = (
     "tau piece_tau long_tau end output generation step half_width sites gamma frequency size "
-    "initial start_amplitude a0 b0 distance decay sample point proof wave modulus mu"
+    "initial start_amplitude a0 b0 distance decay sample point proof wave modulus"
 )
-"""The coordinates along which a claim is on many samples; along mu those that find an order."""
+"""The coordinates along which a claim is on many samples."""
 MEANT = "NaN: "
 """Long names with these words say what NaN means; the functions that read these variables know."""
 
@@ -34,12 +34,12 @@ def missing(
         f"{what} of {name}"
         for name in names
         if isinstance(datasets[name], xr.Dataset)
-        for what in _missing(name, datasets[name], on)
+        for what in _missing(datasets[name], on)
     )
 
 
 @once
-def _missing(name: str, dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
+def _missing(dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
     several = [along for along in ("case", "sweep") if along in dataset.indexes]
     read = {along: [one for one in dataset[along].values if one in on] for along in several}
     dataset = dataset.sel(read) if any(read.values()) else dataset
@@ -49,6 +49,5 @@ def _missing(name: str, dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
         if MEANT not in values.attrs.get("long_name", "") and values.dtype.kind in "fc"
         if np.isnan(values.values).any()
     ]
-    series = [one for one in SERIES.split() if name.startswith("checks/") or one != "mu"]
-    few = [one for one in series if dataset.sizes.get(one, FEWEST) < FEWEST]
+    few = [one for one in SERIES.split() if dataset.sizes.get(one, FEWEST) < FEWEST]
     return [*unknown, *(f"{along} has fewer than {FEWEST} samples" for along in few)]

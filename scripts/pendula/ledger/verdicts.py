@@ -141,7 +141,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
         "kind": str(claim.kind),
         "decided_by": list(claim.needs),
         "function": f"{claim.decide.__module__}.{claim.name}",
-        "measured": _plain(finding),
+        "measured": {name: plain(value) for name, value in finding.measured.items()},
         "criterion": str(finding.criterion or ""),
         "verdict": str(finding.verdict),
         "because": finding.because,
@@ -155,7 +155,6 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
                 "must": control.must,
                 "verdict": str(fed.verdict),
                 "because": fed.because,
-                "measured": _plain(fed),
                 "passes": passes(control, fed),
             }
             for control, fed in controls
@@ -176,10 +175,6 @@ def _severe(finding: Finding, moved: list[str], controls: list[tuple[Control, Fi
     because = f"{finding.because}; {rests}" if finding.because else rests
     kept = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
     return finding._replace(because=because, verdict=kept)
-
-
-def _plain(finding: Finding) -> dict:
-    return {name: plain(value) for name, value in finding.measured.items()}
 
 
 def plain(value: float) -> float | str:
