@@ -15,11 +15,11 @@ include: "workflow/rules/base.smk"
 # Figures that a job draws with others, or for a longer study too, so that no rule has their name
 MADE_TOGETHER = {
     "fig2": "Fig 2: norms against time, in the paper at Omega = 8, for small and large amplitudes",
-    "fig2_spacetime": "Where the chain moves in the cases of fig2, made together with it",
+    "fig2_spacetime": "Where the chain moves in the cases of fig2",
     "fig3": "Fig 3: norms against time, in the paper at Omega = -4, for small and large amplitudes",
-    "fig3_spacetime": "Where the chain moves in the cases of fig3, made together with it",
+    "fig3_spacetime": "Where the chain moves in the cases of fig3",
     "fig4": "Fig 4: norms against time, in the paper at Omega = 0, for small and large amplitudes",
-    "fig4_spacetime": "Where the chain moves in the cases of fig4, made together with it",
+    "fig4_spacetime": "Where the chain moves in the cases of fig4",
     "fig5": "Fig 5: norms against half-width for small amplitudes",
     "fig6": "Fig 6: norms against half-width for large amplitudes",
     "pendula_over_the_top": "First passages of the pendula over the top",

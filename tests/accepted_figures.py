@@ -34,8 +34,8 @@ def gather_sweeps(figure: str, windows: tuple[str, str], norms: list[str]):
 FIGURES = {
     "fig1": (chain_figure.draw, chain_figure.gather),
     "fig2": (paper.draw_norms, lambda: gather_norms("fig2")),
-    "fig3": (paper.draw_norms, lambda bands: gather_norms("fig3", bands), "checks/ensembles"),
-    "fig4": (paper.draw_norms, lambda bands: gather_norms("fig4", bands), "checks/ensembles"),
+    "fig3": (paper.draw_norms, lambda bands: gather_norms("fig3", bands), "checks/members"),
+    "fig4": (paper.draw_norms, lambda bands: gather_norms("fig4", bands), "checks/members"),
     **{f"fig{n}_spacetime": (
         paper.draw_spacetime,
         lambda shown, n=n: paper.gather_spacetime(norms_of(f"fig{n}")[0], shown),

@@ -52,7 +52,7 @@ def trajectories(make_trajectory):
     """Return two cases by solvers; the second solver is 2 % off from the start."""
     scales = {
         "ode45": 1.001, "ode45_real": 1.0, "crank_nicolson": 1.02, "crank_nicolson_halved": 1.005,
-        "dop853": 1.0,
+        "taylor": 1.0,
     }  # fmt: skip
     runs = {
         case: {

@@ -23,8 +23,8 @@ def maps(run):
 
 
 def ensembles(run):
-    swept = {"one": {"problem": CASE.plain(), "half_widths": [5, 8], "members": 2}}
-    return measure_ensembles({"a": CASE}, 3, swept, WINDOWS, 1e-3, 1, "even", run)[0]
+    swept = {"problem": CASE.plain(), "half_widths": [5, 8], "members": 2, "windows": 2 * WINDOWS}
+    return measure_ensembles({"one": swept}, 1e-3, 1, run)
 
 
 def sweeps(run):

@@ -13,40 +13,34 @@ use rule dataset as measure_lyapunov with:
     pathvars:
         made="checks/lyapunov",
     params:
-        **values_of(LYAPUNOV, "spans", "members", "size", "seed"),
+        **values_of(LYAPUNOV, "span", "members", "size", "seed"),
         call=function("pendula.studies.chaos.lyapunov.measure_lyapunov"),
         problems=followed(PAPER_CASES, LYAPUNOV.tolerance, "dop853"),
-        short_problems=followed(SPECTRUM.cases, SPECTRUM.tolerance, "dop853"),
-        short_end_times={
-            half_width: times * longest(SPECTRUM.cases)
-            for half_width, times in SPECTRUM.lengths.items()
-        },
+        short_problems=followed(
+            SPECTRUM.cases,
+            SPECTRUM.tolerance,
+            "dop853",
+            half_width=SPECTRUM.half_width,
+            end_time=SPECTRUM.lengths * longest(SPECTRUM.cases),
+        ),
         undriven_end=SPECTRUM.undriven_lengths * longest(SPECTRUM.cases),
 
 
 use rule dataset as measure_ensembles with:
-    "Chaotic cases and sweeps from data that differ in their last digits"
+    "Chaotic sweeps from data that differ in their last digits"
     input:
-        kernels=lambda wildcards: kernels(solver_of_members(wildcards.kind)),
-        chunks=parts_of("checks/ensembles{kind}"),
+        kernels=kernels("taylor"),
+        chunks=parts_of("checks/ensembles"),
     pathvars:
-        made="checks/ensembles{kind,|_uneven|_second|_finer}",
+        made="checks/ensembles",
     params:
-        **values_of(ENSEMBLES, "members", "size", "seed"),
+        **values_of(ENSEMBLES, "size", "seed"),
         call=function("pendula.studies.chaos.ensembles.measure_ensembles"),
-        problems=lambda wildcards: followed(
-            [] if wildcards.kind else ENSEMBLES.cases,
-            ENSEMBLES.tolerance,
-            end_time=longest(ENSEMBLES.cases),
-            output_step=min(SETTINGS.cases[case].output_step for case in ENSEMBLES.cases),
-        ),
-        swept=lambda wildcards: swept(wildcards.kind, ENSEMBLES),
-        windows=in_any(ENSEMBLES.sweeps, "windows"),
-        kind=lambda wildcards: "uneven" if wildcards.kind == "_uneven" else "even",
+        swept=swept(ENSEMBLES),
 
 
 use rule dataset as measure_members with:
-    "Ensembles of every case, reduced to the numbers that sentences of the paper are about"
+    "Ensembles of every case: bands of its norms, and the numbers that sentences of the paper are about"
     input:
         kernels=kernels("taylor"),
         chunks=parts_of("checks/members"),
@@ -59,7 +53,8 @@ use rule dataset as measure_members with:
             PAPER_CASES,
             MEMBERS.tolerance,
             end_time=max(end for _, end in MEMBERS.windows),
-            snapshot_every=MEMBERS.every,
+            output_step=MEMBERS.output_step,
+            snapshot_every=1,
         ),
 
 

@@ -101,8 +101,7 @@ OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
-DRAWN = [f"ensembles{kind}" for kind in ("", "_uneven", "_second", "_finer")]
-CHAOS_CHECKS = ["lyapunov", *DRAWN, "members", "lifetimes"]
+CHAOS_CHECKS = ["lyapunov", "ensembles", "members", "lifetimes"]
 CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group), "cases"]
 SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
 SHOWN |= {n: [f"fig{n}_left", f"fig{n}_right"] for n in "56"}
@@ -129,7 +128,9 @@ def runs_by(solver):
 TRAJECTORIES = datasets("trajectories", *PAPER_CASES)
 SWEEPS = datasets("sweeps", *PAPER_SWEEPS)
 SECOND_SWEEPS = datasets(
-    "sweeps", *(f"{sweep}.crank_nicolson" for sweep in ("fig5_left", "fig6_left"))
+    "sweeps",
+    *(f"{sweep}.crank_nicolson" for sweep in ("fig5_left", "fig6_left", "fig6_right")),
+    "fig6_right.crank_nicolson_coarse",
 )
 
 
@@ -188,12 +189,6 @@ def figure_files(stem):
     """Return the same as outputs: `snakemake --report` shows the picture."""
     picture, *others = files_of(stem)
     return [report(picture, category="Figures"), *others]
-
-
-def ensembles_of(*names):
-    """Return the dataset of the ensembles if one of these cases or sweeps has one, else nothing."""
-    made = {*SETTINGS.chaos.ensembles.cases, *SETTINGS.chaos.ensembles.sweeps}
-    return checks("ensembles")[0] if made & set(names) else []
 
 
 def kernels(*solvers):

@@ -1,16 +1,16 @@
 # The ledger of the paper's claims. Each part is decided as soon as its datasets are there, and then the
 # parts are joined: so an edit decides again only what rests on it.
 RESTS_ON = {  # by part: the datasets that its claims rest on
-    "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
+    "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown")],
     "solvers": [
-        *(*datasets("sweeps", "fig5_left", "fig6_left"), *SECOND_SWEEPS),
-        *checks("cases", "lyapunov", "members", "solvers"),
-        *checks("ensembles", "ensembles_second", "ensembles_finer"),
+        *(*datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"), *SECOND_SWEEPS),
+        *checks("cases", "lyapunov", "ensembles", "members", "solvers"),
     ],
     "theory": checks("lyapunov", *PROVED, *GROUPS["theory"]),
     "chaos": [
-        *(*datasets("sweeps", "fig5_left", "fig6_left"), *datasets("breathers", "sensitivity")),
-        *checks("ensembles", "ensembles_uneven", "members", "lifetimes"),
+        *datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"),
+        *(*datasets("trajectories", "fig3_large"), *datasets("breathers", "sensitivity")),
+        *checks("ensembles", "members", "lifetimes"),
     ],
     "breathers": rules.breathers.input.datasets,
     "pendula": [*rules.pendula.input.datasets, *datasets("unbounded", "thermal")],

@@ -11,21 +11,27 @@ use rule figure as fig1 with:
 
 
 use rule figure as norms_in_time with:
-    "Figs 2 to 4: norms against time for small and large amplitudes, and where the chain moves"
+    "Figs 2 to 4: norms against time for small and large amplitudes"
     input:
         runs=expand("<results>/trajectories/fig{{n}}_{size}.nc", size=["small", "large"]),
-        ensembles=lambda wildcards: ensembles_of(*SHOWN[wildcards.n]),
-    output:
-        figure_files("<results>/figures/fig{n,[234]}"),
-        figure_files("<results>/figures/fig{n,[234]}_spacetime"),
+        # the motion in Fig 2 is regular, so that its ensembles are not shown
+        ensembles=lambda wildcards: [] if wildcards.n == "2" else checks("members")[0],
     pathvars:
         made="figures/fig{n,[234]}",
     params:
-        call=function(
-            "pendula.studies.paper.figures.draw_norms",
-            "pendula.studies.paper.figures.draw_spacetime",
-        ),
+        call=function("pendula.studies.paper.figures.draw_norms"),
         committed=lambda wildcards: committed(references=references(*SHOWN[wildcards.n])),
+
+
+use rule figure as spacetime with:
+    "Where the chain moves in the cases of Figs 2 to 4"
+    input:
+        runs=expand("<results>/trajectories/fig{{n}}_{size}.nc", size=["small", "large"]),
+        norms="<results>/figures/fig{n}.nc",
+    pathvars:
+        made="figures/fig{n,[234]}_spacetime",
+    params:
+        call=function("pendula.studies.paper.figures.draw_spacetime"),
 
 
 use rule figure as norms_by_half_width with:
@@ -33,7 +39,7 @@ use rule figure as norms_by_half_width with:
     input:
         left="<results>/sweeps/fig{n}_left.nc",
         right="<results>/sweeps/fig{n}_right.nc",
-        ensembles=lambda wildcards: ensembles_of(*SHOWN[wildcards.n]),
+        ensembles=checks("ensembles")[0],
     pathvars:
         made="figures/fig{n,[56]}",
     params:
@@ -45,7 +51,7 @@ use rule figure as norms_by_half_width with:
 use rule dataset as measure_solvers with:
     "How each solver conserves the energy, how the paper's two differ, and until when to trust each"
     input:
-        kernels=kernels(*COMPILED),
+        kernels=kernels(*(name for name in COMPILED if name != "dop853")),
     output:
         checks("solvers", "trust"),
     pathvars:
@@ -54,7 +60,11 @@ use rule dataset as measure_solvers with:
     params:
         call=function("pendula.studies.paper.solvers.measure_solvers"),
         cases={case: without_solver(SETTINGS.problem(case)) for case in PAPER_CASES},
-        solvers={name: getattr(SETTINGS.solvers, name).model_dump() for name in ALL_SOLVERS},
+        solvers={
+            name: getattr(SETTINGS.solvers, name).model_dump()
+            for name in ALL_SOLVERS
+            if name != "dop853"
+        },
         others=[case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.ode45"])],
         committed=committed(
             references=references(*PAPER_CASES),

@@ -1,8 +1,4 @@
 # The configuration as plain values, as functions of the library take them.
-FINER = 0.25
-"""The finer step of the second solver, over the assumed one."""
-
-
 def values_of(part, *names):
     """Return the settings of these names, or all but those of a longer study, as plain values."""
     plain = part.model_dump()
@@ -36,10 +32,20 @@ def without_solver(problem):
     return {key: value for key, value in problem.items() if key != "solver"}
 
 
-def finer(problem):
-    """Return a problem whose solver takes FINER of its step."""
-    solver = problem["solver"]
-    return {**problem, "solver": {**solver, "step": FINER * solver["step"]}}
+def by_second_solver(sweep, coarse):
+    """Return the problem of a sweep by the paper's second solver.
+
+    A `coarse` run takes two steps from one output time to the next, so that any output step will do.
+    """
+    problem = SETTINGS.swept_problem(sweep, "crank_nicolson")
+    step = {"step": problem["output_step"] / 2} if coarse else {}
+    return {**problem, "solver": {**problem["solver"], **step}}
+
+
+def half_widths_of(sweep):
+    """Return the half-widths of a sweep by the second solver: of a chaotic one, of its ensemble."""
+    chaotic = SETTINGS.chaos.ensembles.sweeps
+    return (chaotic if sweep in chaotic else SETTINGS.sweeps)[sweep].half_widths
 
 
 def followed(cases, tolerance, solver="taylor", **changes):
@@ -50,26 +56,15 @@ def longest(cases):
     return max(SETTINGS.cases[case].end_time for case in cases)
 
 
-def in_any(sweeps, key):
-    """Return what the sweeps have under `key`, each once: all are run over all of it."""
-    return sorted({value for name in sweeps for value in getattr(SETTINGS.sweeps[name], key)})
-
-
-def solver_of_members(kind):
-    """Return the solver of a kind of ensembles: the paper's second one, with either step."""
-    return "crank_nicolson" if kind in ("_second", "_finer") else "taylor"
-
-
-def swept(kind, ensembles):
-    """Return by sweep what a kind of ensembles runs, each to the end of the last window of any."""
-    key = {"": "sweeps", "_finer": "second"}.get(kind, kind.removeprefix("_"))
-    found, drawn = {}, getattr(ensembles, key)
-    end_time = max(end for _, end in in_any(drawn, "windows"))
-    for name, one in drawn.items():
-        problem = run_of(SETTINGS.sweeps[name].case, ensembles.tolerance, end_time=end_time)
-        if (solver := solver_of_members(kind)) != "taylor":
-            problem["solver"] = SETTINGS.swept_problem(name, solver)["solver"]
-        found[name] = {"problem": finer(problem) if kind == "_finer" else problem, **dict(one)}
+def swept(ensembles):
+    """Return by sweep what its ensemble runs, to the end of the windows that are drawn."""
+    found = {}
+    for name, one in ensembles.sweeps.items():
+        sweep, chosen = SETTINGS.sweeps[name], {"output_step": ensembles.output_step}
+        windows = [list(window) for window in (sweep.drawn.max, sweep.drawn.mean)]
+        chosen["end_time"] = max(end for _, end in windows)
+        problem = run_of(sweep.case, ensembles.tolerance, **chosen)
+        found[name] = {"problem": problem, "windows": windows, **dict(one)}
     return found
 
 

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from latticode.measures.confidence import CONFIDENCE
-from latticode.measures.levels import levelling
 
 from pendula.configuration.schema import PAPER_CASES
 from pendula.ledger.claim import Kind, Origin
@@ -17,6 +16,7 @@ from pendula.ledger.rows import Ledger, load, on_figure
 from pendula.ledger.tables import tally
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, percent, span, with_error
+from pendula.studies.paper.solvers import ORDER
 
 KEPT = "../tests/baseline"
 """Where committed datasets lie, seen from the article."""
@@ -97,11 +97,9 @@ def gather(results: Results) -> dict[str, Any]:
         "apart": results.quote(
             "checks/solvers", int(np.isfinite(compared["second_divergence"][:, 0]).sum())
         ),
-        "allowed": number((compared["allowed_drift"] / compared["stated_drift"]).max()),
+        "allowed": number(ORDER.number),
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
         "cells": results["checks/chart"]["measured"].size,
-        "runs_level": level_of_runs(results),
-        "means_level": level_of_means(numbers.ledger),
         "mark": MARK,
         "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),
         "omegas": results.quote(LONG, study.sizes["omega"]),
@@ -151,24 +149,6 @@ def regular_error(results: Results, solver: str) -> Quote:
     regular = results["checks/lyapunov"]["chaotic"] == 0
     errors = results["checks/trust"]["difference"].sel(solver=solver).where(regular)
     return results.quote("checks/trust", float(errors.max()), 2)
-
-
-def level_of_means(ledger: Ledger) -> Quote:
-    """Return the half-width from which ensemble means are level, of the kinds of which it is known.
-
-    In some right runs the means of one kind of ensemble are level only on the longest chains.
-    """
-    keys = [f"{kind}_level_from" for kind in ("even", "uneven")]
-    known = {ledger.value("ensemble_fig6_diverges", key): key for key in keys}
-    largest = max(filter(np.isfinite, known), default=np.nan)
-    return ledger.quote("ensemble_fig6_diverges", known.get(largest, keys[0]))
-
-
-def level_of_runs(results: Results) -> Quote:
-    """Return the half-width from which the single runs of Fig 5, right, have one level."""
-    at = {"quantity": "pair", "statistic": "max", "window": "[10, 50]"}
-    norm = results["sweeps/fig5_right"]["l2"].sel(at)
-    return results.quote("sweeps/fig5_right", levelling(norm["half_width"].values, norm.values))
 
 
 def over_thermal(study: xr.Dataset) -> dict[str, xr.DataArray]:

@@ -17,7 +17,7 @@ FILE = Path(__file__).with_suffix(".json")
 FREE = {"seed", "draw", "snapshot_step", "long", "sites", "points"}
 """Keys that change no statement: other draws of a case, another look at it, longer studies, and how
 thoroughly the theory is tried. Its controls find a test that is too weak."""
-AT_LEAST = {"members", "swept_members", "nodes"}
+AT_LEAST = {"members", "nodes"}
 """Sizes of ensembles and grids: larger ones are still about the same case."""
 AT_MOST = {"tolerance"}
 """Smaller values are still about the same case."""
@@ -139,7 +139,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     """
     folder, _, rest = name.partition("/")
     stem, _, solver = rest.partition(".")
-    by = (f"solvers.{solver}",) if solver else ()
+    by = (f"solvers.{solver.removesuffix('_coarse')}",) if solver else ()
     if folder == "sweeps":
         return (*_swept([stem]), *by)
     if stem in paper()["cases"]:
@@ -171,8 +171,7 @@ def _sections(folder: str, stem: str) -> list[str]:
     if stem in ("solvers", "trust"):
         return ["solvers"]
     if folder == "checks":
-        own = "ensembles" if stem.startswith("ensembles") else stem
-        return [path for path in (f"theory.{own}", f"chaos.{own}") if _at(path)]
+        return [path for path in (f"theory.{stem}", f"chaos.{stem}") if _at(path)]
     if folder == "breathers":
         return [f"breathers.{part}" for part in ("epsilon", "gamma", stem)]
     return [f"{folder}.{stem}"]

@@ -1,22 +1,25 @@
-"""Ensembles: members are runs with draws of their own."""
+"""Ensembles of sweeps: members are runs with draws of their own."""
 
 import numpy as np
-from latticode.simulation.runs import run_all
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import pair_l2
-from pendula.studies.chaos.ensembles import draw_swept, run_ensembles
+from pendula.studies.chaos.ensembles import draw_swept, measure_ensembles
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
-WINDOWS = [(0.5, 1.0)]
-PROBLEM = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.5, solver=SOLVER)
+PROBLEM = problem_of("fig4_small", half_width=6, end_time=1.0, output_step=0.25, solver=SOLVER)
 
 
-def test_half_widths_have_draws_of_their_own():
-    long = PROBLEM.changed(end_time=1.0)  # before the ends matter
-    drawn = draw_swept(long, [12, 13], 1e-3, 3, 0, "even")
-    _, swept = run_ensembles([PROBLEM], drawn, WINDOWS, run_all)
-    assert swept["l2"].shape == (6, 3, 2, 1) and [m.half_width for m in drawn[2:4]] == [12, 13]
-    assert not np.allclose(swept["l2"][:3], swept["l2"][3:], rtol=1e-9)
-    alone = simulate(drawn[4], energy=False)
-    np.testing.assert_array_equal(swept["l2"][4, :, 0, 0], pair_l2(alone)[:, 1:].max(axis=1))
+def test_half_widths_have_draws_of_their_own_and_each_reading_its_window():
+    about = {"problem": PROBLEM.plain(), "members": 3, "windows": [(0.5, 1.0), (0.25, 0.5)]}
+    swept = {"a": about | {"half_widths": [12]}, "b": about | {"half_widths": [13]}}
+    data = measure_ensembles(swept, 1e-3, 0)  # before the ends matter
+    means = data["l2_mean"].sel(reading="text")
+    assert np.isnan(means.sel(sweep="a", half_width=13)) and means.notnull().sum() == 2
+    assert not np.isclose(means.sel(sweep="a", half_width=12), means.sel(sweep="b", half_width=13))
+    norms = [pair_l2(simulate(one))[2] for one in draw_swept(PROBLEM, [13], 1e-3, 3, 0)]
+    expected = [
+        np.mean([one[2:].max() for one in norms]),
+        np.mean([one[1:3].mean() for one in norms]),
+    ]
+    np.testing.assert_allclose(data["l2_mean"].sel(sweep="b", half_width=13), expected, rtol=1e-3)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 import xarray as xr
-from accepted import dataset
+from latticode.measures.difference import VISIBLE
 from oracle import CASES, SOLVERS, hamiltonian
 from pendula.ledger.criterion import Verdict
 from pendula.studies.paper import solvers
 from pendula.studies.paper.claims_energy import drifts
-from pendula.studies.paper.claims_second_solver import swept_chance
 from problems import problem_of
+from two_norms import run
 
 
 @pytest.fixture(scope="module")
@@ -25,32 +25,25 @@ def test_the_second_solver_tends_to_the_first_as_the_square_of_its_step(measured
     assert measured["second_step"].values.tolist() == [0.005, 0.0025]
     whole, half = measured["second_difference"].values[0]
     assert whole / half == pytest.approx(4.0, rel=0.05)
-    drift = measured["largest_drift"].sel(case="fig2_small", of="absolute", span="whole")
+    drift = measured["largest_drift"].sel(case="fig2_small", of="absolute")
     assert (
         drift.sel(solver="delfour_fortin_payre") < 1e-8 < 1e-5 < drift.sel(solver="crank_nicolson")
     )
 
 
-def test_a_drift_by_each_reading_and_until_when_it_is_kept(measured, trajectories):
+def test_a_drift_by_each_reading(measured):
     relative, absolute = (measured["largest_drift"].sel(of=of) for of in ("relative", "absolute"))
     start = np.zeros((2, 13), complex)
     start[:, 6] = CASES["fig2_small"][1]
     energy = hamiltonian(start, (1.0, 1.0, CASES["fig2_small"][0]), "dirichlet")
     np.testing.assert_allclose(absolute / abs(energy), relative)
-    runs = {"fig2_small": dict(trajectories["fig2_small"])}
-    for real, at in (("ode45", 3.0), ("ode45_real", 4.0)):
-        run = runs["fig2_small"][real]
-        runs["fig2_small"][real] = run.assign(energy=-0.5 + 2.1e-6 * (run["tau"] >= at))
-    until = solvers.compare_solvers(runs)["kept_until"].isel(case=0)
-    assert until.sel(solver=["ode45", "ode45_real"]).values.tolist() == [[3.0, 3.0], [4.0, 4.0]]
-    assert (until.sel(solver="dop853") == np.inf).all()
+    np.testing.assert_array_equal(measured["drift"].max("tau"), absolute)
 
 
 @pytest.mark.parametrize(
     ("drift", "start", "verdict", "said"),
     [
         ({}, 1.0, Verdict.CONFIRMED, ""),
-        ({("case1", "ode45", "whole"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides in case1"),
         ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides in case1"),
         ({("case1",): 3e-6}, 1.0, Verdict.NOT_REPRODUCED, "by every definition in case1"),
         ({("case1",): 3e-6}, 100.0, Verdict.UNDECIDED, "decides in case1"),
@@ -62,24 +55,39 @@ def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, ver
     axes = {
         "case": ["case0_small", "case1_small"],
         "solver": [*solvers.UNKNOWNS.values()],
-        "of": [*solvers.OF],
-        "span": ["early", "whole"],
+        "of": ["absolute", "relative"],
     }
-    largest = xr.DataArray(np.full((2, 2, 2, 2), 1e-7), axes, list(axes))
+    largest = xr.DataArray(np.full((2, 2, 2), 1e-7), axes, list(axes))
     for (case, *where), value in drift.items():
-        at = dict(zip(("solver", "span"), where, strict=False))
-        largest.loc[{"case": f"{case}_small", **at}] = value
+        largest.loc[{"case": f"{case}_small", **dict(zip(("solver",), where, strict=False))}] = (
+            value
+        )
     largest.loc[{"of": "relative"}] = largest.sel(of="absolute") / start
-    until = ("span", [10.0, 50.0])
-    finding = drifts(xr.Dataset({"largest_drift": largest, "until": until}), "small")
+    finding = drifts(xr.Dataset({"largest_drift": largest}, {"tau": [0.0, 50.0]}), "small")
     assert finding.verdict == verdict and said in finding.because.replace("_small", "")
 
 
-def test_the_most_distant_means_decide_the_chance_of_a_sweep():
-    """Of 24 means one is off by five standard errors, then all agree."""
-    ensembles = dataset("checks/ensembles").sel(half_width=[25, 60, 100])
-    far = ensembles["l2_mean"] + 5.0 * np.hypot(*2 * [ensembles["l2_error"]])
-    here = (ensembles["half_width"] == 60) & (ensembles["statistic"] == "mean")
-    off = ensembles.assign(l2_mean=ensembles["l2_mean"].where(~here, far))
-    assert swept_chance("fig6_right", ensembles, off) < 0.001
-    assert swept_chance("fig6_right", ensembles, ensembles) == 1.0
+def test_each_solver_has_its_horizon():
+    bad = run(changes={("l2", 1, 2): 1.008, ("l2", 1, 6): 1.02})
+    runs = {"case": {"taylor": run(), "ode45": bad, "crank_nicolson": run(omega=7.0)}}
+    found = solvers.trust_solvers(runs, {"case": run()}).sel(case="case")
+    horizons = found["horizon"]
+    assert horizons.sel(solver="ode45") == 3.0
+    assert (horizons.sel(solver="taylor") == np.inf).all()
+    assert horizons.sel(solver="crank_nicolson").isnull().all()
+    assert found["visible"] == VISIBLE
+
+
+@pytest.mark.parametrize(
+    ("omega", "end", "slope", "until"),
+    [(8.0, 5.0, 0.002, 5.0), (8.0, 3.0, 0.008, 1.0), (7.0, 5.0, 0.002, np.nan)],
+)
+def test_a_curve_is_proved_as_long_as_its_bound_is_not_visible(omega, end, slope, until):
+    """The bound is a part of the smallest full scale, that of B, which is 1 in l-infinity."""
+    proved = run(omega=omega).sel(tau=slice(end))
+    proved = proved.assign(bound=slope * proved["tau"], l2=2.0 * proved["l2"])
+    found = solvers.trust_solvers({"case": {"ode45": run()}}, {"case": run()}, {"case": proved})
+    bound = found["proven_bound"].sel(case="case")
+    expected = slope * bound["tau"] if omega == 8.0 else np.nan * bound
+    np.testing.assert_allclose(bound, expected.where(bound["tau"] <= end))
+    np.testing.assert_array_equal(found["proved_until"], [until])

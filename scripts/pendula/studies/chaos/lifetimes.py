@@ -10,9 +10,8 @@ study of breathers: the chain around it may hold most of P. Lives that outlast t
 import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
-from latticode.measures.confidence import Limits, median_limits, share_limits
+from latticode.measures.confidence import median_limits
 from latticode.simulation.ensembles import draw_members
-from latticode.simulation.problem import output_times
 from latticode.simulation.runs import Run, run_all
 from latticode.simulation.simulate import simulate
 
@@ -49,16 +48,6 @@ def shares_alike(modulus: np.ndarray) -> np.ndarray:
     return power[len(power) // 2] <= power.mean(axis=0)
 
 
-def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
-    """Return the share of members still excited at each tau, with exact limits, all (time,).
-
-    No life is censored before the runs end, so that this is the estimate of Kaplan and Meier.
-    """
-    counts = (lives[:, None] > tau).sum(axis=0)
-    known = {int(count): share_limits(int(count), len(lives)) for count in np.unique(counts)}
-    return Limits(*np.array([known[int(count)] for count in counts]).T)
-
-
 def measure_lifetimes(
     problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int,
     run: Run = run_all,
@@ -67,34 +56,19 @@ def measure_lifetimes(
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [one for start in starts for one in draw_members(start, size, members, seed)]
     lives = run(drawn, follow)["life"].reshape(len(amplitudes), members)
-    tau, over = output_times(problem.end_time, 0.5), ("start_amplitude",)
+    medians, over = [median_limits(one) for one in lives], ("start_amplitude",)
+    words = "median life, from order statistics"
     variables = {
         "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
-        "tau": Variable(("tau",), tau),
         "life": Variable(
             (*over, "member"), lives, "time of the transition, infinite if after the end"
         ),
-        **_limits(
-            "surviving", (*over, "tau"), [surviving(one, tau) for one in lives],
-            "share of runs whose central pair is still excited",
-        ),
-        **_limits(
-            "median", over, [median_limits(one) for one in lives],
-            "median life, from order statistics",
-        ),
-    }  # fmt: skip
+        "median": Variable(over, [one.value for one in medians], words),
+        "median_low": Variable(over, [one.low for one in medians], f"{words}, lower limit"),
+        "median_high": Variable(over, [one.high for one in medians], f"{words}, upper limit"),
+    }
     _, shared = describe_cases({"centre": problem})
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "ratio": ratio}
     about |= {"perturbation": size, "members": members, "seed": seed}
     title = "How long the central pair stays excited, against its initial amplitude"
     return variables, {**shared, "title": title, **about}
-
-
-def _limits(name: str, dimensions, limits: list[Limits], words: str) -> dict[str, Variable]:
-    """Return estimates and their two limits as three variables."""
-    value, low, high = np.moveaxis(np.array(limits), 1, 0)
-    return {
-        name: Variable(dimensions, value, words),
-        f"{name}_low": Variable(dimensions, low, f"{words}, lower confidence limit"),
-        f"{name}_high": Variable(dimensions, high, f"{words}, upper confidence limit"),
-    }

@@ -1,4 +1,4 @@
-"""The members of ensembles of every case, each reduced to the numbers that sentences are about.
+"""Ensembles of every case: bands of the norms, and numbers of each member that sentences are about.
 
 The paper's sentences on figures speak of levels, of growth, of how many pendula move. In a chaotic
 case such a number differs from run to run, so that only an ensemble decides, by confidence limits.
@@ -7,14 +7,14 @@ them.
 """
 
 from functools import partial
-from itertools import product
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
+from latticode.datasets.registry import NAMES
 from latticode.datasets.trajectories import Contents
-from latticode.measures.levels import correlation
+from latticode.measures.levels import bands, correlation
 from latticode.numerics.elementary import square_modulus
-from latticode.simulation.ensembles import PERTURBATIONS, draw_members
+from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import name_window
 from latticode.simulation.runs import Run, run_all, shaped
 from latticode.simulation.simulate import simulate
@@ -24,6 +24,8 @@ from pendula.many_cases import COMPONENTS, describe_cases
 from pendula.problem import Problem
 
 PAIR = QUANTITIES.index("pair")
+QUANTILES = (0.1, 0.5, 0.9)
+"""The ends of the band of an ensemble, and its middle."""
 REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
@@ -33,28 +35,28 @@ REDUCED = {
         "root mean square of an amplitude over the window; NaN: no site",
     ),
 }
-"""What each member is reduced to: dimensions after kind, case and member, and in words."""
+"""What each member is reduced to: dimensions after case and member, and in words."""
 
 Window = tuple[float, float]
 
 
 def reduce_run(problem: Problem, windows: list[Window], reach: int) -> dict[str, np.ndarray]:
-    """Run a problem that keeps moduli; return the numbers REDUCED, of the sites up to `reach`.
+    """Run a problem that keeps all moduli; return its norms, and what REDUCED names, up to `reach`.
 
-    With them comes the pair's l2 norm in the last window, "late".
+    The norms are (quantity, time).
     """
     run = simulate(problem, energy=False)
     inside = [(run.tau >= start) & (run.tau <= end) for start, end in windows]
-    l2, linf = pair_l2(run), pair_linf(run)
-    squares, every = run.modulus**2, problem.snapshot_every
-    rms = np.sqrt([squares[..., kept[::every]].mean(axis=-1) for kept in inside])
+    l2, linf, squares = pair_l2(run), pair_linf(run), run.modulus**2
+    rms = np.sqrt([squares[..., kept].mean(axis=-1) for kept in inside])
     beyond = (reach - problem.half_width,) * 2
     return {
+        "l2": l2,
+        "linf": linf,
         "l2_level": np.stack([l2[:, kept].mean(axis=1) for kept in inside], axis=-1),
         "linf_level": np.stack([linf[:, kept].mean(axis=1) for kept in inside], axis=-1),
         "norm_correlation": np.array([correlation(*run.l2[:, kept] ** 2) for kept in inside]),
         "rms": np.pad(rms, ((0, 0), (0, 0), beyond), constant_values=np.nan),
-        "late": l2[PAIR, inside[-1]],
     }
 
 
@@ -67,38 +69,42 @@ def member_numbers(
     problems: dict[str, Problem], windows: list[Window], size: float, members: int, seed: int,
     run: Run = run_all,
 ) -> Contents:  # fmt: skip
-    """Return what REDUCED names of each member of both kinds of each case, and relative widths.
+    """Return bands of the norms of each case, what REDUCED names of each member, and their scatter.
 
-    `problems` are given by case, and keep moduli; the sites are those of the longest chain.
+    `problems` are given by case, and keep all moduli; the sites are those of the longest chain.
     """
-    kinds, reach = list(PERTURBATIONS), max(one.half_width for one in problems.values())
-    drawn = [
-        member
-        for kind, one in product(kinds, problems.values())
-        for member in draw_members(one, size, members, seed, kind)
-    ]
+    tau = next(iter(problems.values())).times
+    reach = max(one.half_width for one in problems.values())
+    drawn = [m for one in problems.values() for m in draw_members(one, size, members, seed)]
     found = run(drawn, partial(reduce_run, windows=windows, reach=reach))
-    found = shaped(found, (len(kinds), len(problems), members))
+    found = shaped(found, (len(problems), members))
     squares = [square_modulus(problem.initial) for problem in problems.values()]
     l2, linf = (np.sqrt([reduce(one) for one in squares]) for reduce in (np.sum, np.max))
+    late = found["l2"][:, :, PAIR, tau >= windows[-1][0]]
     width = "standard deviation of the pair's l2 norm over the members, relative to its mean"
     described, shared = describe_cases(problems)
     variables = {
         **described,
-        "kind": Variable(("kind",), kinds, "kind of the ensemble: runs even in n, or not"),
+        "tau": Variable(("tau",), tau),
+        "quantile": Variable(("quantile",), np.array(QUANTILES), "quantile over the ensemble"),
         "quantity": Variable(("quantity",), list(QUANTITIES)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
         "l2_start": Variable(("case",), l2, "l2 norm of the data, of the pair"),
         "linf_start": Variable(("case",), linf, "l-infinity norm of the data"),
-        "relative_width": Variable(
-            ("kind", "case"), [list(map(relative_width, row)) for row in found["late"]], width
-        ),
+        "relative_width": Variable(("case",), list(map(relative_width, late)), width),
     }
+    for name in ("l2", "linf"):
+        variables[name] = Variable(
+            ("case", "quantile", "component", "tau"),
+            np.array([bands(runs[:, :PAIR], QUANTILES) for runs in found[name]]),
+            f"{NAMES[name]}, quantiles over the ensemble",
+        )
     for name, (rest, long_name) in REDUCED.items():
         values = found[name].astype(np.float32) if name == "rms" else found[name]
-        variables[name] = Variable(("kind", "case", "member", *rest), values, long_name)
-    title = "Members of ensembles of every case, from almost equal data"
+        variables[name] = Variable(("case", "member", *rest), values, long_name)
+    title = "Ensembles of every case, from almost equal data"
     about = {"perturbation": size, "members": members, "seed": seed}
+    about["band_share"] = QUANTILES[-1] - QUANTILES[0]
     return variables, {"title": title, **shared, **about}

@@ -7,7 +7,7 @@ from latticode.measures.levels import correlation
 from latticode.measures.norms import largest, total_power
 from latticode.numerics.elementary import log
 
-from pendula.ledger.changes import repeat, take_from
+from pendula.ledger.changes import take_from
 from pendula.ledger.claim import (
     CHANGE,
     FACTOR,
@@ -55,7 +55,6 @@ UNSTABLE = 3.0
             "the norms of the unstable case",
             {"fig2_small": ("fig4_small", take_from("l2", "linf"))},
         ),
-        Control("the sweep at Omega = 0, beyond the bound", {"fig6_left": "fig5_right"}),
         Control(
             "a run at another Omega, to which Theorem 1 does not apply",
             {"fig2_large": "fig3_large"},
@@ -110,31 +109,17 @@ def share_at_maxima(trajectory) -> np.ndarray:
     return (trajectory["linf"] ** 2).sum("component").values / total_power(trajectory)
 
 
-AS_AT_MINUS_FOUR = Control(
-    "the small case at Omega = -4, which is alike (Fig 3 upper)",
-    {"fig2_small": "fig3_small"},
-    confirms=True,
-)
-"""No wrong case: what small data do where the chain at rest is stable holds at both Omega."""
-
-
 @fig2_upper(
     "The l2 norm oscillates between A and B.",
     controls=(
         Control("the large case, where A and B are separate", "fig2_large"),
         Control("the unstable case at Omega = 0", "fig4_small"),
-        Control("norms of A and B in phase", repeat("component", "A", at="B", names="l2")),
-        AS_AT_MINUS_FOUR,
     ),
 )
 def fig2_exchange(small) -> Finding:
     a, b = late(small)["l2"].values ** 2
-    measured = {"correlation": correlation(a, b), "swing_of_A": float(np.ptp(a) / np.mean(a))}
     against = Below(ANTICORRELATED, "correlation", says="correlation of |A|^2 and |B|^2")
-    return judge(
-        measured,
-        AllOf(against, Above(CHANGE, "swing_of_A", says="range of |A|^2 over its mean")),
-    )
+    return judge({"correlation": correlation(a, b)}, against)
 
 
 @fig2_upper(
@@ -142,10 +127,7 @@ def fig2_exchange(small) -> Finding:
     "and stay so.",
     controls=(
         Control("the large case, where B stays small", "fig2_large"),
-        Control("the small case at Omega = 0, which grows", "fig4_small"),
         Control("the large case at Omega = 0, whose norms do not fall", "fig4_large"),
-        Control("the large case at Omega = -4, whose norms do not fall", "fig3_large"),
-        AS_AT_MINUS_FOUR,
     ),
 )
 def fig2_maxima(small) -> Finding:
@@ -172,7 +154,6 @@ def fig2_maxima(small) -> Finding:
     controls=(
         Control("the small case, where A and B exchange P and spread", "fig2_small"),
         Control("the large case at Omega = -4, where A and B mix and spread", "fig3_large"),
-        Control("the large case at Omega = 0", "fig4_large"),
     ),
 )
 def fig2_separate(large) -> Finding:
@@ -182,18 +163,12 @@ def fig2_separate(large) -> Finding:
         "smallest_A_kept": settled["linf"].sel(component="A").min() / start,
         "B_over_A": settled["l2"].sel(component="B").max() / settled["l2"].sel(component="A").min(),
         "all_other_A": np.sqrt(np.maximum(0.0, a["l2"] ** 2 - a["linf"] ** 2)).max() / start,
-        "largest_B": large["linf"].sel(component="B").max() / start,
     }
     small = 1.0 / MUCH.value
     criterion = AllOf(
         Above(KEPT, "smallest_A_kept", says="least l-infinity norm of A over its initial value"),
         Below(small, "B_over_A", says="l2 norm of B over that of A"),
-        Below(
-            small,
-            "all_other_A",
-            "largest_B",
-            says="l2 of all other A_n, and largest |B_n|, over A_0",
-        ),
+        Below(small, "all_other_A", says="l2 of all other A_n over A_0"),
     )
     return judge(measured, criterion)
 
@@ -269,7 +244,6 @@ def region_of(run) -> str:
     "Zero is linearly unstable at Omega = 0.",
     runs("fig4_small"),
     controls=(
-        Control("a stable run at Omega = 8", "fig2_small"),
         Control("a stable run at Omega = -4", "fig3_small"),
         Control("the large case at Omega = 0", "fig4_large", undecided=True),
     ),

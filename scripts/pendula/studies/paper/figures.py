@@ -18,8 +18,7 @@ from matplotlib.figure import Figure
 from pendula.drawing import KEPT, draw_cases, name_case
 
 SIZES = ["small", "large"]
-BAND = [0.05, 0.5, 0.95]
-"""The quantiles of an ensemble that are drawn: the ends of its band, and its middle."""
+BAND = "80 %"
 MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
 NORMS_CAPTION = (
@@ -30,8 +29,7 @@ NORMS_CAPTION = (
 PARTS_CAPTION = (
     " A dashed line marks the time from which a run differs from its reference by "
     f"{100 * VISIBLE:g} % of full scale. The rows below such a run show the reference, and the "
-    f"median and the band with {100 * (BAND[-1] - BAND[0]):g} % of the runs of a perturbed "
-    "ensemble."
+    f"median and the band with {BAND} of the runs of a perturbed ensemble."
 )
 SPACETIME_CAPTION = (
     "Moduli |Aₙ| (left) and |Bₙ| (right) over time and sites, small initial amplitudes above and "
@@ -66,7 +64,7 @@ def gather_norms(
     """Return the norms of two trajectories, of small and of large data, beside the references.
 
     A trajectory whose parameters are not those of its reference stands alone: there the norms of
-    the reference are NaN. Of cases that have an ensemble, its BAND is beside them as well.
+    the reference are NaN. With `ensembles` the bands of the cases are beside them as well.
     """
     cases = [_beside(run, true) for run, true in zip(runs, references, strict=True)]
     if ensembles is not None:
@@ -88,14 +86,11 @@ def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
 
 
 def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
-    """Return the bands of a case, NaN where it has no ensemble, and the number of their runs."""
+    """Return the bands of the ensemble of a case, and the number of its runs."""
     drawn = xr.Dataset({"members": xr.Variable((), ensembles.attrs["members"], MEMBERS)})
-    every = ensembles.sel(quantity=run["component"].values, quantile=BAND)
-    every = every.rename(quantity="component").reindex(case=[run.attrs["case"]]).isel(case=0)
-    for name in NORMS:
-        band = every[name].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
-        drawn[f"band_{name}"] = band.drop_vars("case")
-    return drawn
+    every = ensembles[list(NORMS)].sel(case=run.attrs["case"], drop=True)
+    every = every.reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
+    return drawn.assign({f"band_{name}": every[name] for name in NORMS})
 
 
 @style.styled
@@ -124,9 +119,9 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     found = [Strip("", run)]
     if known:
         found.append(Strip("true_", "reference, in multiprecision"))
-    if "band_l2" in case and case["band_l2"].notnull().any():
+    if "band_l2" in case:
         runs = f"{int(case['members'])} perturbed runs"
-        found.append(Strip("band_", f"{runs}: median, 5 to 95 %"))
+        found.append(Strip("band_", f"{runs}: median, {BAND}"))
     return found
 
 
@@ -180,14 +175,10 @@ def gather_sweeps(
     data = panels.join_sweeps(sweeps, readings, list(norms), KEPT)
     if ensembles is not None:
         names = [sweep.attrs["case"] for sweep in sweeps.values()]
-        counts = ensembles["swept_members"].where(ensembles["sweep"].isin(names))
-        data["members"] = counts.max().assign_attrs(MEMBERS)
-        moments = [f"{name}_{moment}" for name in norms for moment in ("mean", "deviation")]
-        every = ensembles.sel(quantity="pair", drop=True).reindex(half_width=data["half_width"])
-        every = every[moments].reindex(sweep=names)
-        read = every.sel(statistic=data["statistic"], window=data["window"])
-        for name in moments:
-            values = read[name].transpose("sweep", "reading", "half_width").values
+        every = ensembles.reindex(sweep=names, half_width=data["half_width"])
+        data["members"] = every["swept_members"].max().assign_attrs(MEMBERS)
+        for name in (f"{norm}_{moment}" for norm in norms for moment in ("mean", "deviation")):
+            values = every[name].transpose("sweep", "reading", "half_width").values
             data[name] = ("panel", "reading", "half_width"), values, every[name].attrs
     return data.assign_attrs(caption=SWEEPS_CAPTION)
 
@@ -214,20 +205,8 @@ DIFFERENCE = "largest difference of the norms up to this time"
 BOUND = "largest proven bound of the error of the certified curve up to this time"
 UNKNOWN = "no reference of this case is known"
 PROVEN = {"color": style.BLUE, "lw": 1.0, "marker": "*", "markersize": 8}
-DRAWN = [
-    "ode45",
-    "ode45_real",
-    "dop853",
-    "delfour_fortin_payre",
-    "crank_nicolson",
-]  # noisy below smooth
-# the curves of the two implicit schemes nearly coincide: dashes of one lie on a band of the other
-BAND_AND_DASHES = {
-    "crank_nicolson": {"linewidth": 2.4, "markersize": 8},
-    "delfour_fortin_payre": {"dashes": (3, 2), "linewidth": 0.9},
-}
-MARKED = {"dop853": 0.88, "taylor": 0.94}
-"""Where solvers have their marks whose errors are near the bound, which has its mark at the end."""
+DRAWN = ["ode45", "ode45_real", "taylor", "delfour_fortin_payre", "crank_nicolson"]
+"""Noisy curves below smooth ones."""
 
 
 def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
@@ -259,8 +238,7 @@ def draw_drift(data: xr.Dataset) -> Figure:
 def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
     for i, solver in enumerate(DRAWN):
         curve = panels.positive(case["drift_so_far"].sel(solver=solver))
-        look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver]}
-        look |= {"markersize": 4, "markeredgecolor": "white", "markeredgewidth": 0.5}
+        look = _look(solver) | {"markeredgecolor": "white", "markeredgewidth": 0.5}
         every = max(curve.size // 4, 1)
         marked = every * (i + 1) // 6, every  # the marks of the solvers stand apart
         label = SOLVER_NAMES[solver]
@@ -271,22 +249,18 @@ def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
 
 
 def _look(solver: str) -> dict:
-    look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver], "markersize": 5}
-    return look | BAND_AND_DASHES.get(solver, {})
+    return {"color": style.COLOURS[solver], "marker": style.MARKERS[solver], "markersize": 5}
 
 
-def _draw_difference(
-    axes: Axes, difference: xr.DataArray, label: str, look: dict, mark, share: float = 1.0
-) -> None:
-    """Draw a curve and its mark at a point (tau, height).
+def _draw_difference(axes: Axes, difference: xr.DataArray, label: str, look: dict, mark) -> None:
+    """Draw a curve and its mark at a point (tau, height), or near the end of the curve if None.
 
-    If this is None, it stands where this share of the curve ends. A mark at an infinite time is not
-    seen.
+    A mark at an infinite time is not seen.
     """
     curve = panels.positive(difference)
     axes.plot(curve["tau"], curve, markevery=[], label=label, **look)
     at_end = mark is None
-    last = round(share * curve.size) - 1
+    last = round(0.95 * curve.size) - 1
     point = (float(curve["tau"][last]), float(curve[last])) if at_end else mark
     axes.plot(*point, **look, markeredgecolor="white", zorder=3, clip_on=not at_end)
 
@@ -322,8 +296,7 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
         one = case.sel(solver=solver)
         time, error = float(one["horizon"]), one["largest_so_far"]
         mark = (time, visible) if np.isfinite(time) or not (error > 0).any() else None
-        share = MARKED.get(solver, 1.0)
-        _draw_difference(axes, error, SOLVER_NAMES[solver], _look(solver), mark, share)
+        _draw_difference(axes, error, SOLVER_NAMES[solver], _look(solver), mark)
     if np.isfinite(case["proved_until"]):
         bound = case["largest_bound"].sel(tau=slice(case["proved_until"]))
         _draw_difference(axes, bound, "bound proved for another curve", PROVEN, None)

@@ -96,13 +96,11 @@ def no_gauge(identities) -> Finding:
 
 
 def without_drive(lyapunov):
-    """Return the spectra with those of the shortest chain at gamma = 0 in their place."""
+    """Return the spectra with those at gamma = 0 in their place."""
     if "exponents_undriven" not in lyapunov:
         raise UndecidableError("there are no spectra at gamma = 0")
-    short = lyapunov.isel(spectrum_half_width=[0])
-    along = {"spectrum_half_width": short["spectrum_half_width"].values}
     names = ("exponents", "exponents_error")
-    return short.assign({name: short[f"{name}_undriven"].expand_dims(along) for name in names})
+    return changes.take(**{name: f"{name}_undriven" for name in names})(lyapunov)
 
 
 def with_another_pair(lyapunov):
@@ -125,24 +123,22 @@ def with_another_pair(lyapunov):
 )
 def one_integral(lyapunov) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
-    along = ("spectrum_case", "spectrum_half_width")
     # With a second integral at least four exponents of a spectrum vanish, and one of these beyond
     # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
-    spectra = int(np.prod([lyapunov.sizes[name] for name in along]))
-    level = 1.0 - SIGNIFICANT.value / (4 * spectra)
+    level = 1.0 - SIGNIFICANT.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(PARTS - 1, level) / student(PARTS - 1)
-    pairs = (0.5 * (size <= wider * error).sum("index")).stack(spectrum=along)
+    pairs = 0.5 * (size <= wider * error).sum("index")
     # those that lie nearer to zero than exponents to each other
-    between = 2.0 * size.max("index") / size.notnull().sum("index")
+    between = 2.0 * size.max("index") / size.sizes["index"]
     told = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
     measured["most_resolved_pairs"] = told.max()
     if measured["most_resolved_pairs"] <= 1.0 < measured["most_pairs"]:
-        many = [f"{c}, M = {m}" for c, m in pairs["spectrum"].values[pairs.values > 1.0]]
+        many = ", ".join(map(str, pairs["spectrum_case"].values[pairs.values > 1.0]))
         return undecided(
             measured,
-            f"each integral makes a pair of Lyapunov exponents vanish, and in {len(many)} spectra "
-            f"({'; '.join(many)}) the runs are too short to exclude that a second pair vanishes",
+            "each integral makes a pair of Lyapunov exponents vanish, and on a short chain the runs"
+            f" of {many} are too short to exclude that a second pair vanishes",
         )
     caveat = (
         "each integral makes a pair of Lyapunov exponents vanish, and on short chaotic chains "
