@@ -46,7 +46,7 @@ DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]
 
 STEADY = [
     *("*omega", "*:case_[ab]0", "*:start", "*_start", "*:until", "*:true_*", "*_undriven"),
-    "*:stated_drift",
+    *("*:stated_drift", "*:allowed_drift"),
     *("*:theorem_*", "*:widened", "*:proved_until", "*:proven_bound", "*:largest_bound"),
     *("*:linear_speed", "*:predicted_[dr]*", "*:predicted_speed", "*:thermal*_power"),
     "pendula/remainder:error",  # it ends before chaos
