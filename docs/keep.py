@@ -59,10 +59,7 @@ def keep_passages(results: Path, folder: Path) -> None:
     long = read(results / "long/pendula/over_the_top.nc")
     last, tau = long.isel(tau=-1), long["tau"].values
     names = [name for name in last if str(name).startswith(PASSAGES)]
-    kept = {
-        str(name): Variable(("mu",), last[name].values, last[name].attrs["long_name"])
-        for name in ["mu", *names]
-    }
+    kept = {str(name): _as_it_is(last[name]) for name in ["mu", *names]}
     about = {"members": long.sizes["member"], "end_time": tau[-1], "settled": long.attrs["settled"]}
     title = "The long study of pendula that go over the top, reduced to what the documents quote"
     _write(folder / "pendula.nc", title, kept, **about)
