@@ -7,7 +7,7 @@ from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
 
 from pendula import names  # noqa: F401, so that datasets have the paper's words
-from pendula.problem import Constants, Problem
+from pendula.problem import Problem
 
 COMPONENTS = Variable(("component",), ["A", "B"])
 
@@ -28,10 +28,3 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
     for name in [name for name in ("epsilon", "gamma") if name not in shared]:
         variables[name] = Variable(("case",), [float(one[name]) for one in each])
     return variables, shared
-
-
-def constants_of(dataset, case: str) -> Constants:
-    """Return the constants of one of the cases that `describe_cases` has described."""
-    one = dataset.sel(case=case)
-    own = {name: one[name] for name in ("epsilon", "gamma", "omega") if name in one}
-    return Constants.of({**dataset.attrs, **own})

@@ -12,10 +12,6 @@ from collections.abc import Mapping
 from enum import StrEnum
 from typing import NamedTuple, SupportsFloat
 
-import numpy as np
-
-from .cutoff import Cutoff
-
 Measured = Mapping[str, float]
 RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
@@ -220,18 +216,3 @@ def undecided(measured: Measured, because: str) -> Finding:
 def not_applicable(because: str) -> Finding:
     """Return the finding on a claim whose case was not run, since the configuration differs."""
     return Finding({}, None, Verdict.NOT_APPLICABLE, because)
-
-
-def within_tolerance(check, *names: str) -> Finding:
-    """Return the finding of a check that holds when these variables keep their tolerances."""
-    measured = {name: float(np.max(check[name].values)) for name in names}
-    limits = [AtMost(tolerance(check, name), name) for name in names]
-    return judge(measured, AllOf(*limits))
-
-
-def tolerance(check, name: str) -> Cutoff:
-    """Return what the check itself allows a variable."""
-    return Cutoff(
-        float(check[name].attrs["tolerance"]),
-        f"the tolerance that the check states with {in_words(name)}",
-    )
