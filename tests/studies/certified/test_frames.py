@@ -177,7 +177,7 @@ def test_what_no_column_follows_grows_at_the_rate_of_the_linearised_flow(right):
     _, chain, ((step, *_), *_), _ = right
     tube = frames.begin(chain, 0.0)
     tube = tube._replace(z=np.zeros_like(tube.z), w=np.array([1e-20, 0.0, 0.0, 0.0]))
-    p = fixed_point.doubles(step, chain, ORDER)
+    p = fixed_point.doubles(step, chain)
     largest = np.sqrt((p**2).sum(axis=1).max(axis=(1, 2))).sum()
     h, rate = float(chain.interval / step.pieces), 2.0 * 0.7 + 0.9 / 2.0 + largest**2 / 2.0
     found = frames.advance(tube, step, chain, 0.0).w[0]

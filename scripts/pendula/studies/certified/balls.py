@@ -34,20 +34,10 @@ def within(value: float, radius: float) -> arb:
 
 def upper(ball: arb) -> float:
     """Return a double that is not below any number of the ball."""
-    return _outward(ball.upper(), math.inf)
-
-
-def lower(ball: arb) -> float:
-    """Return a double that is not above any number of the ball."""
-    return _outward(ball.lower(), -math.inf)
-
-
-def _outward(end: arb, side: float) -> float:
-    """Return the double next to an exact number, on its side towards `side`."""
+    end = ball.upper()
     if not end.is_finite():
-        return side
+        return math.inf
     rational = end.fmpq()
     exact = Fraction(int(rational.p), int(rational.q))
     near = float(exact)
-    inside = near < exact if side > 0 else near > exact
-    return math.nextafter(near, side) if inside else near
+    return math.nextafter(near, math.inf) if near < exact else near

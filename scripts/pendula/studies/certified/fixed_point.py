@@ -143,7 +143,8 @@ def taylor(state: list[list[int]], chain: Chain, step: Fraction, order: int) -> 
         factor = step / (k + 1)
         for n in range(count):
             own_x, own_y, half = x[n], y[n], halves[n]
-            half.append(_square(own_x, own_y, k) >> (bits + 1))
+            square = sum(map(mul, own_x, own_x[::-1])) + sum(map(mul, own_y, own_y[::-1]))
+            half.append(square >> (bits + 1))
             back = half[::-1]
             real = exact[0][n] // q + (sum(map(mul, back, own_x)) >> bits)
             imaginary = exact[1][n] // q + (sum(map(mul, back, own_y)) >> bits)
@@ -151,17 +152,6 @@ def taylor(state: list[list[int]], chain: Chain, step: Fraction, order: int) -> 
             own_x.append(imaginary * factor.numerator // factor.denominator)
             own_y.append(-real * factor.numerator // factor.denominator)
     return [x, y]
-
-
-def _square(x: list[int], y: list[int], k: int) -> int:
-    """Return the coefficient k of x^2 + y^2, equal products once."""
-    half = (k + 1) // 2
-    total = sum(map(mul, x[:half], x[: k - half : -1] if half else []))
-    total += sum(map(mul, y[:half], y[: k - half : -1] if half else []))
-    total *= 2
-    if k % 2 == 0:
-        total += x[k // 2] ** 2 + y[k // 2] ** 2
-    return total
 
 
 def scaled_linear(values, chain: Chain) -> tuple[int, list[list]]:
@@ -212,8 +202,7 @@ def jump(state: list[list[int]], after: Step, chain: Chain) -> float:
     return as_double(sum(abs(last - own[0]) for last, own in ends), Fraction(1, 2**chain.bits))
 
 
-def doubles(step: Step, chain: Chain, order: int) -> np.ndarray:
-    """Return the terms to an order as nearest doubles, (order, part, component, site)."""
-    unit = 2**chain.bits
-    found = [[[value / unit for value in own[: order + 1]] for own in part] for part in step.terms]
+def doubles(step: Step, chain: Chain) -> np.ndarray:
+    """Return the terms as nearest doubles, (order, part, component, site)."""
+    found = [[[value / 2**chain.bits for value in own] for own in part] for part in step.terms]
     return np.moveaxis(np.array(found), 2, 0).reshape(-1, 2, 2, chain.sites)

@@ -143,7 +143,7 @@ def distances(tube: Tube) -> np.ndarray:
 
 def advance(tube: Tube, step: Step, chain: Chain, jumped: float, order: int = ORDER) -> Tube:
     """Return the tube at the end of a step that starts `jumped` from where the tube is."""
-    coefficients = doubles(step, chain, len(step.terms[0][0]))
+    coefficients = doubles(step, chain)
     sizes = UP * np.sqrt(np.max(np.sum(coefficients**2, axis=1), axis=(1, 2))) + TINY
     h = float(chain.interval / step.pieces)
     terms = tangents(tube.matrix, coefficients, h, chain, order)

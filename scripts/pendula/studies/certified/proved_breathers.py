@@ -35,12 +35,12 @@ class Proved(NamedTuple):
 
 def breathers_contents(
     gamma: float, half_widths: Mapping[str, int], proofs: Sequence[Mapping],
-    wrong: Sequence[Mapping],
+    wrong: Sequence[float],
 ) -> Contents:  # fmt: skip
     """Return the proofs of the given `family`, `omega` and `epsilon`, and radii of wrong states.
 
     `half_widths` has that of the `block` of the infinite chain and that of the finite `chain`.
-    States of `wrong` are found at `omega` and tested at `tested_at`.
+    The first state is tested at the Omegas of `wrong` too.
     """
     block, end = half_widths["block"], half_widths["chain"]
     infinite, finite, stable = [], [], []
@@ -51,10 +51,8 @@ def breathers_contents(
         state = existence.refined(chain, family.drive(gamma), state[:, : end + 1])
         finite.append(prove(chain, family, state, infinite=False))
         stable.append(decide(chain, family, finite[-1]))
-    refused = []
-    for one in wrong:
-        family, chain, state = find(gamma, block, one)
-        refused.append(prove(chain._replace(omega=float(one["tested_at"])), family, state).radius)
+    family, chain, state = find(gamma, block, proofs[0])
+    refused = [prove(chain._replace(omega=one), family, state).radius for one in wrong]
     of = ("proof",)
     amplitude = f"{NAMES['amplitude']}; divided by i in the imaginary families"
     variables = {
