@@ -18,8 +18,6 @@ from pendula.problem import Constants
 STEPS, FINE_STEPS = 16, 40
 """Steps of a quarter of a period. With the fewer ones, perturbations have multipliers that stay the
 same to 1e-10 with twice as many. With the others, the period of a solution closes to 1e-11."""
-TOGETHER = 64
-"""Tangent vectors that are carried at once: so many have their slopes in the cache."""
 STAGES, SLOPES = 13, 16
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""
@@ -69,20 +67,11 @@ def flow(
     has all of them in this order, (1 + vectors, 4, M + 1).
     """
     chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
-    found = []
-    for vectors, even in ((evens, True), (odds, False)):
-        for first in range(0, len(vectors), TOGETHER):
-            parts = np.concatenate([state[None], vectors[first : first + TOGETHER]])
-            found.append(_carried(chain, parts, even, duration, steps)[1:])
-    alone = _carried(chain, state[None], True, duration, steps)
-    return np.concatenate([alone, *found])
-
-
-def _carried(chain, parts: np.ndarray, even: bool, duration: float, steps: int) -> np.ndarray:
-    bundle = aligned((ROWS * len(parts), parts.shape[2] + 2))
+    given = np.concatenate([state[None], evens, odds])
+    bundle = aligned((ROWS * len(given), given.shape[2] + 2))
     bundle[:] = 0.0
-    bundle[:, 1:-1] = parts.reshape(-1, parts.shape[2])
+    bundle[:, 1:-1] = given.reshape(-1, given.shape[2])
     work = aligned((SLOPES + 1, *bundle.shape))
     work[:] = 0.0
-    carry(chain, bundle, (len(parts) - 1) * even, duration, steps, work)
-    return bundle[:, 1:-1].reshape(parts.shape).copy()
+    carry(chain, bundle, len(evens), duration, steps, work)
+    return bundle[:, 1:-1].reshape(given.shape).copy()
