@@ -9,24 +9,12 @@ from pendula.studies.pendula import mathieu, threshold
 from scipy.integrate import solve_ivp
 from scipy.special import mathieu_a, mathieu_b
 
-MUS = (0.05, 0.1, 0.2, 0.3)
-OFFSETS = np.array([-0.9, -0.5, -0.1, -1e-3, 1e-3, 0.1, 0.5, 1.0, 1.4])
-
 
 def test_tongues_are_those_of_scipy():
-    """Where b_1, a_1 or b_2 is 1 + offset."""
-    low, high, second = OFFSETS[OFFSETS < 0], OFFSETS[OFFSETS > 0], np.array([-0.9, 0.5, 2.0, 2.9])
-    for curve, order, tongue, offset in (
-        (mathieu_b, 1, mathieu.first_tongue, low),
-        (mathieu_a, 1, mathieu.first_tongue, high),
-        (mathieu_b, 2, mathieu.second_tongue, second),
-    ):
-        np.testing.assert_allclose(curve(order, tongue(offset)), 1.0 + offset, rtol=0, atol=2e-15)
-
-
-def of_wave(offset):
-    """Return the q up to which the wave with a = 1 + offset is stable."""
-    return np.minimum(mathieu.first_tongue(offset), mathieu.second_tongue(offset))
+    """Where b_1 or a_1 is 1 + offset."""
+    for curve, offset in ((mathieu_b, [-0.9, -0.5, -0.1, -1e-3]), (mathieu_a, [1e-3, 0.1, 0.5, 1])):
+        found = curve(1, mathieu.first_tongue(offset))
+        np.testing.assert_allclose(found, 1.0 + np.array(offset), rtol=0, atol=2e-15)
 
 
 def test_only_a_drive_that_beats_the_strings_loses_pendula():
@@ -60,7 +48,7 @@ def multiplier(omega, mu, gamma, curvature, epsilon=1.0):
     return abs(np.linalg.eigvals(np.transpose(runs))).max()
 
 
-@pytest.mark.parametrize("mu", MUS)
+@pytest.mark.parametrize("mu", [0.05, 0.2])
 @pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (8.0, 4.0)])
 def test_the_edge_of_the_band_is_the_first_to_lose_stability(omega, curvature, mu):
     found = float(threshold.pendula_threshold(omega, mu, 1.0))
@@ -75,7 +63,7 @@ def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, gr
     sites, omega, mu = 5, 8.0, 0.2
     angle = np.pi * sites / (sites + 1)
     square, curvature = 1.0 / (mu * mu) + omega, 4.0 * np.sin(angle / 2) ** 2
-    gamma = factor * 0.5 * square * float(of_wave((curvature - omega) / square))
+    gamma = factor * 0.5 * square * float(mathieu.first_tongue((curvature - omega) / square))
     wave = {n - 2: 1e-12 * np.sin(angle * (n + 1)) for n in range(sites)}
     run = simulate(Problem.of({
         "epsilon": 1.0, "gamma": gamma, "omega": omega, "half_width": 2, "boundary": "dirichlet",

@@ -32,12 +32,13 @@ class Threshold(Model):
     mus: Positives
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield where Mathieu's equation is not known well enough."""
+        """Yield where a wave comes near the second resonance of the drive, which is at a = 4."""
         mu, omega = max(self.mus), min(self.omegas)
-        if 4.0 * squared_frequency(omega, mu) <= 1.0:
-            where = f"has {omega:g}, and at mu = {mu:g} every wave there lies"
-            way_out = f"take an Omega above {-0.75 / (mu * mu):.4g}, or a smaller mu"
-            yield "omegas", f"{where} above the second resonance of the drive: {way_out}"
+        if mu * mu * (4.0 * self.epsilon - omega) > squared_frequency(omega, mu):
+            least = 0.5 * (4.0 * self.epsilon - 1.0 / (mu * mu))
+            where = f"has {omega:g}, and at mu = {mu:g} some waves there lie"
+            way_out = f"take an Omega above {least:.4g}, or a smaller mu"
+            yield "omegas", f"{where} near the second resonance of the drive: {way_out}"
 
 
 class Followed(Model):

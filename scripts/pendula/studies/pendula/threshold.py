@@ -21,8 +21,7 @@ from .mathieu import band_threshold, squared_frequency
 def pendula_threshold(omega, mu, epsilon: float) -> np.ndarray:
     """Return gamma_0(mu) of the infinite chain of pendula, on which s covers [0, 4].
 
-    It is zero where a wave is at a resonance of the drive, and NaN where all waves lie above the
-    second one.
+    It is zero where a wave is at the first resonance of the drive; none may be near the second.
     """
     square = squared_frequency(omega, mu) / (mu * mu)
     found = band_threshold(-omega / square, (4.0 * epsilon - omega) / square)
