@@ -17,7 +17,6 @@ ALLOWED = {
     ("localised/breathers.py", "@"): "what is found is rounded before it is stored",
     ("configuration/cost.py", "**"): "what a run will take is an estimate that is told to people",
     ("numerics/elementary.py", "**"): "powers of Decimal, by its own arithmetic",
-    ("numerics/quadrature.py", "**"): "powers of Fraction, which are exact",
 }
 """What a module may use, with the reason."""
 

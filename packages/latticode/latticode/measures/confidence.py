@@ -66,17 +66,6 @@ def chance_of_draw(value, mean, deviation, members: int):
     return np.round(2.0 * special.stdtr(members - 1, -score), 6)
 
 
-def chance_of_difference(means, errors, members):
-    """Return the chance that two means are at least as far apart, by Welch's test.
-
-    `means` and their standard `errors` are pairs of numbers or arrays of one shape, over `members`
-    normal draws each.
-    """
-    parts = [error * error for error in errors]
-    score = np.abs(means[1] - means[0]) / np.sqrt(sum(parts))
-    return np.round(2.0 * special.stdtr(_freedom(parts, members), -score), 6)
-
-
 def _freedom(parts, draws):
     """Return Welch's degrees of freedom of a difference, from the squared errors of both means."""
     below = sum(part * part / (count - 1) for part, count in zip(parts, draws, strict=True))

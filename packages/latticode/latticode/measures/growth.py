@@ -1,17 +1,10 @@
-"""Growth: local exponents of time, rates of tangent vectors with their errors; what is chaotic."""
-
-from itertools import pairwise
+"""Growth: rates of tangent vectors with their errors, and what is chaotic."""
 
 import numpy as np
 
-from latticode.numerics.elementary import exp, interpolated, log
+from latticode.numerics.elementary import exp, log
 
-from .confidence import mean_limits
 from .difference import VISIBLE, first_above
-from .spreading import lay_line
-
-POINTS = 60
-"""Points of a fit, equally spaced in log tau, so that no decade of time outweighs another."""
 
 MANY = float(log(100.0))
 """The logarithm of a growth over the second half of a run that no power law reaches: tau^6 grows by
@@ -21,26 +14,6 @@ ERRORS = 3.0
 PARTS = 8
 ROUNDING = 2.0**-53
 """Relative error of one rounded operation in double precision."""
-
-
-def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.ndarray, list]:
-    """Return the middle time of each of the last octaves, and the exponent there, as Limits.
-
-    It is the mean slope of log values (member, time) over log tau, with its limits over the
-    members. An offset bends it: a curve that is steady from some time on has it at the end only.
-    """
-    edges = tau[-1] * np.ldexp(1.0, -np.arange(octaves, -1, -1))
-    found = []
-    for first, last in pairwise(edges):
-        kept = tau <= last * (1.0 + 1e-9)
-        lines = [lay_line(*_log_points(tau[kept], series[kept], first)) for series in values]
-        found.append(mean_limits([line.slope for line in lines]))
-    return np.sqrt(edges[:-1] * edges[1:]), found
-
-
-def _log_points(tau: np.ndarray, values: np.ndarray, start: float):
-    x = np.linspace(log(max(start, tau[tau > 0][0])), log(tau[-1]), POINTS)
-    return x, interpolated(x, log(tau[tau > 0]), log(values[tau > 0]))
 
 
 def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarray:

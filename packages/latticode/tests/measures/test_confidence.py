@@ -55,13 +55,6 @@ def test_one_more_draw_has_every_chance_alike(stats):
     assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == round(known, 6)
 
 
-def test_the_chance_of_a_difference_is_that_of_welch(stats):
-    one, other = RNG.normal(2.0, 3.0, size=8), RNG.normal(4.0, 1.0, size=5)
-    errors = [each.std(ddof=1) / np.sqrt(each.size) for each in (one, other)]
-    found = confidence.chance_of_difference([one.mean(), other.mean()], errors, [8, 5])
-    assert found == round(stats.ttest_ind(one, other, equal_var=False).pvalue, 6)
-
-
 def test_limits_of_a_rate_are_those_of_chi_squared(stats):
     """Two of four lives end, after 1 and 2; with two of 3 and more that makes 9 lived in all."""
     found = confidence.event_rate([1.0, np.inf, 2.0, np.inf], 0.0, 3.0)

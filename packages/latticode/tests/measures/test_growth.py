@@ -5,7 +5,6 @@ import pytest
 from latticode.measures.growth import (
     amplification,
     is_chaotic,
-    local_exponents,
     mean_rate,
     mean_rate_error,
     predict,
@@ -26,20 +25,6 @@ def test_what_grows_with_the_solution_or_within_its_error_is_no_chaos():
     jumps = np.where(tau < 50.0, 0.0, 6.0)  # all of the growth lies in one part
     assert not is_chaotic(tau, jumps, np.ones_like(tau))
     assert not is_chaotic(tau, 2.0 * tau, np.zeros_like(tau))
-
-
-def test_a_local_exponent_is_the_slope_through_sixty_points_of_its_octave():
-    """Where a curve bends, as one with an offset does, the points decide."""
-    tau = np.linspace(0.0, 400.0, 1601)
-    values = np.array([tau + 100.0, tau + 120.0])
-    middles, found = local_exponents(tau, values, 2)
-    np.testing.assert_allclose(middles, [100.0 * np.sqrt(2.0), 200.0 * np.sqrt(2.0)])
-    for limits, first in zip(found, (100.0, 200.0), strict=True):
-        x = np.linspace(np.log(first), np.log(2.0 * first), 60)
-        bent = [np.interp(x, np.log(tau[1:]), np.log(one[1:])) for one in values]
-        slopes = [np.polyfit(x, y, 1)[0] for y in bent]
-        assert limits.value == pytest.approx(np.mean(slopes), rel=1e-9)
-        assert limits.half == pytest.approx(12.7062 * abs(slopes[1] - slopes[0]) / 2, rel=1e-5)
 
 
 def test_a_growth_by_a_hundred_over_half_of_the_run_is_the_limit():
