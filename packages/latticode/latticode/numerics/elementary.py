@@ -155,13 +155,6 @@ def geometric(start: float, stop: float, count: int) -> np.ndarray:
         return np.array([start, *(float(first * ratio**step) for step in steps), stop], float)
 
 
-def interpolated(x, points: np.ndarray, values: np.ndarray):
-    """Return piecewise linear values at `x`, within the rising `points`, as np.interp does."""
-    i = np.clip(np.searchsorted(points, x, side="right") - 1, 0, len(points) - 2)
-    slope = (values[i + 1] - values[i]) / (points[i + 1] - points[i])
-    return np.where(x >= points[-1], values[-1], slope * (x - points[i]) + values[i])[()]
-
-
 def fifth_root(x: float) -> float:
     """Return x^(1/5) of one number x > 0, with an error below 1 ulp; 0, inf and NaN stay.
 

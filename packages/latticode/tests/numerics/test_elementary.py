@@ -106,12 +106,6 @@ def test_complex_numbers():
     assert e.product(2.0, 3.0 - 1j) == 6.0 - 2j and isinstance(e.modulus(3.0 + 4j), float)
 
 
-def test_interpolation_is_that_of_numpy():
-    points, heights = np.sort(wide), near
-    x = np.concatenate([np.linspace(points[0], points[-1], 999), points])
-    assert np.array_equal(e.interpolated(x, points, heights), np.interp(x, points, heights))
-
-
 def values():
     """Return what each function gives on many arguments."""
     found = {name: getattr(e, name)(arguments) for name, (arguments, _, _) in EXACT.items()}
