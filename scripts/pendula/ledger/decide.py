@@ -5,7 +5,7 @@ from latticode.datasets.netcdf import read
 
 from pendula.report.words import write_markdown
 
-from .tables import in_short, tables
+from .tables import counted, tables
 from .verdicts import evaluate, needed
 
 
@@ -22,7 +22,7 @@ def decide_claims(
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
     rows = evaluate(sources, differs, modules)
     write_json(part, {"rows": rows})
-    print(in_short(rows))
+    print(*counted(rows), sep="\n")
 
 
 def join_claims(parts: list[str], ledger: str, table: str) -> None:
@@ -35,5 +35,5 @@ def tabulate_claims(parts: list[str], table: str) -> list[dict]:
     rows = [row for path in parts for row in load_json(path)["rows"]]
     rows.sort(key=lambda row: row["section"])
     write_markdown(table, *tables(rows))
-    print(in_short(rows))
+    print(*counted(rows), sep="\n")
     return rows

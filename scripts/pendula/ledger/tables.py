@@ -28,13 +28,6 @@ def counted(rows: list[dict]) -> list[str]:
     ]
 
 
-def in_short(rows: list[dict]) -> str:
-    """Return how many rows have each verdict, and how many controls came out as required."""
-    asked = [one["passes"] for row in rows for one in row["controls"] if one["passes"] is not None]
-    controls = f"{sum(asked)} of {len(asked)} controls came out as required"
-    return "\n".join([*counted(rows), controls])
-
-
 def tables(rows: list[dict]) -> list[str]:
     """Return the parts of a page on these rows of the ledger."""
     claims = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
