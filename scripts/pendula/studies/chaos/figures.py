@@ -45,6 +45,6 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
     if not known.all():
         axes.plot(a0[~known], low[~known], marker="^", label="lower bound of the median", **look)
     axes.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
     axes.set(yscale="log", xlabel="initial amplitude $A_0$", ylabel=r"time $\tau$")
     return figure
