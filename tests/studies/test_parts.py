@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 from latticode.simulation.runs import joined, run_part
-from pendula.studies.breathers.fates import run_maps
+from pendula.studies.breathers.fates import map_fates
 from pendula.studies.chaos.ensembles import measure_ensembles
 from pendula.studies.paper.runs import run_sweep
 from pendula.studies.unbounded.long_runs import spread_case
@@ -18,8 +18,7 @@ WINDOWS = [(1.0, 2.0)]
 
 
 def maps(run):
-    a, phases = np.array([1.0, 3.0]), np.array([0.5, 1.0])
-    return dict(zip("ab", run_maps({-4: CASE, 8: CASE}, a, a, phases, 0.2, run), strict=True))
+    return map_fates({-4: CASE, 8: CASE}, [1.0, 3.0], run)[0]
 
 
 def ensembles(run):
