@@ -20,11 +20,14 @@ is zero. So for Omega >= 4 epsilon + 2 gamma no steady state but zero lies in l2
 """
 
 import numpy as np
-from latticode.localised.breathers import NoStateError, State, coupled, flat
+from latticode.localised.breathers import NoStateError, State, coupled, flat, newton, widened
 
 from pendula.problem import Constants, Problem
 
 from .pairs import Family, pair
+
+SHORT = 8
+"""Half-width of the chain on which a state is continued, before it is found on the whole one."""
 
 
 def localised(family: Family, constants: Constants, half_width: int) -> tuple[Problem, State]:
@@ -37,7 +40,9 @@ def localised(family: Family, constants: Constants, half_width: int) -> tuple[Pr
         raise NoStateError(f"no pair has a state {family.name} at Omega = {constants.omega:g}")
     data = np.array(ends).reshape(2, 1) * (1j if family.imaginary else 1.0)
     problem = Problem(
-        parameters=vars(constants), half_width=half_width, boundary="dirichlet", initial=data,
-        end_time=1.0, output_step=1.0, solver={},
+        parameters=vars(constants), half_width=min(SHORT, half_width), boundary="dirichlet",
+        initial=data, end_time=1.0, output_step=1.0, solver={},
     )  # fmt: skip
-    return problem, coupled(problem, State(flat(problem.amplitudes, even=True), even=True), None)
+    state = coupled(problem, State(flat(problem.amplitudes, even=True), even=True), None)
+    problem = problem.changed(half_width=half_width)
+    return problem, newton(problem, widened(problem, state), None)
