@@ -28,8 +28,8 @@ NORMS_CAPTION = (
 )
 PARTS_CAPTION = (
     " A dashed line marks the time from which a run differs from its reference by "
-    f"{100 * VISIBLE:g} % of full scale. The rows below such a run show the reference, and the "
-    f"median and the band with {BAND} of the runs of a perturbed ensemble."
+    f"{100 * VISIBLE:g} % of full scale. The row below such a run shows the median and the band "
+    f"with {BAND} of the runs of a perturbed ensemble."
 )
 SPACETIME_CAPTION = (
     "Moduli |Aₙ| (left) and |Bₙ| (right) over time and sites, small initial amplitudes above and "
@@ -97,8 +97,8 @@ def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
 def draw_norms(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, small data above and large below, A red and B blue.
 
-    A run that leaves its reference has the reference and the ensemble in strips of their own below
-    it, and a dashed line shows the divergence time. Elsewhere the reference lies under the run.
+    A run that leaves its reference has the ensemble in a strip of its own below it, and a dashed
+    line shows the divergence time. Elsewhere the reference lies under the run.
     """
     cases = [data.sel(initial_size=size) for size in data["initial_size"].values]
     figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
@@ -113,16 +113,10 @@ def draw_norms(data: xr.Dataset) -> Figure:
 
 def _strips(case: xr.Dataset) -> list[Strip]:
     run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
-    known = bool(case["true_l2"].notnull().any())
-    if known and not strips.diverges(case):
+    if case["true_l2"].notnull().any() and not strips.diverges(case):
         return [Strip("", run, under="true_")]
-    found = [Strip("", run)]
-    if known:
-        found.append(Strip("true_", "reference, in multiprecision"))
-    if "band_l2" in case:
-        runs = f"{int(case['members'])} perturbed runs"
-        found.append(Strip("band_", f"{runs}: median, {BAND}"))
-    return found
+    ensemble = [Strip("band_", f"{int(case['members'])} perturbed runs: median, {BAND}")]
+    return [Strip("", run), *(ensemble if "band_l2" in case else [])]
 
 
 def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
