@@ -115,8 +115,10 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
     if case["true_l2"].notnull().any() and not strips.diverges(case):
         return [Strip("", run, under="true_")]
-    ensemble = [Strip("band_", f"{int(case['members'])} perturbed runs: median, {BAND}")]
-    return [Strip("", run), *(ensemble if "band_l2" in case else [])]
+    found = [Strip("", run)]
+    if "band_l2" in case:
+        found.append(Strip("band_", f"{int(case['members'])} perturbed runs: median, {BAND}"))
+    return found
 
 
 def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
