@@ -1,7 +1,6 @@
 """The dataset of steady breathers with their proofs: existence and stability."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -25,14 +24,6 @@ DIGITS = 10
 """Decimals of a state as LAPACK finds it, which are the same on every machine."""
 
 
-class Proved(NamedTuple):
-    """What is proved near a computed state."""
-
-    state: np.ndarray  # (component, site 0..M)
-    radius: float  # infinite where nothing is proved
-    refusal: str  # why nothing is proved
-
-
 def breathers_contents(
     gamma: float, half_widths: Mapping[str, int], proofs: Sequence[Mapping],
     wrong: Sequence[float],
@@ -43,16 +34,21 @@ def breathers_contents(
     The first state is tested at the Omegas of `wrong` too.
     """
     block, end = half_widths["block"], half_widths["chain"]
-    infinite, finite, stable = [], [], []
+    states, radii, refusals, chain_radii, stable = [], [], [], [], []
     for one in proofs:
         family, chain, state = find(gamma, block, one)
-        infinite.append(prove(chain, family, state))
+        radius, refusal = prove(chain, family, state)
+        states.append(state)
+        radii.append(radius)
+        refusals.append(refusal)
         chain = chain._replace(half_width=end)
         state = existence.refined(chain, family.drive(gamma), state[:, : end + 1])
-        finite.append(prove(chain, family, state, infinite=False))
-        stable.append(decide(chain, family, finite[-1]))
+        radius, _ = prove(chain, family, state, infinite=False)
+        chain_radii.append(radius)
+        proved = np.isfinite(radius)
+        stable.append(spectra.decide(chain, family, state, radius) if proved else Verdict.UNDECIDED)
     family, chain, state = find(gamma, block, proofs[0])
-    refused = [prove(chain._replace(omega=one), family, state).radius for one in wrong]
+    refused = [prove(chain._replace(omega=one), family, state)[0] for one in wrong]
     of = ("proof",)
     amplitude = f"{NAMES['amplitude']}; divided by i in the imaginary families"
     variables = {
@@ -62,12 +58,12 @@ def breathers_contents(
         "omega": Variable(of, [float(one["omega"]) for one in proofs]),
         "epsilon": Variable(of, [float(one["epsilon"]) for one in proofs]),
         "amplitude": Variable((*of, "component", "site"),
-                              np.array([one.state for one in infinite]), amplitude),
+                              np.array(states), amplitude),
         "radius": Variable(
-            of, [one.radius for one in infinite],
+            of, radii,
             "one true state lies within this l-infinity distance, infinite where none is proved"),
-        "proof_refusal": Variable(of, [one.refusal for one in infinite], "why nothing is proved"),
-        "chain_radius": Variable(of, [one.radius for one in finite],
+        "proof_refusal": Variable(of, refusals, "why nothing is proved"),
+        "chain_radius": Variable(of, chain_radii,
                                  "the same radius on the finite chain"),
         "stable": Variable(
             of, np.array(stable, np.int8),
@@ -92,17 +88,11 @@ def find(gamma: float, half_width: int, given: Mapping) -> tuple[Family, Chain, 
     return family, chain, existence.refined(chain, family.drive(gamma), state)
 
 
-def prove(chain: Chain, family: Family, state: np.ndarray, infinite: bool = True) -> Proved:
-    """Return what is proved of a true state near to the given one."""
+def prove(
+    chain: Chain, family: Family, state: np.ndarray, infinite: bool = True
+) -> tuple[float, str]:
+    """Return within which radius one true state is proved, or infinity and why nothing is."""
     try:
-        radius = existence.prove(chain, family.drive(chain.gamma), state, infinite)
+        return existence.prove(chain, family.drive(chain.gamma), state, infinite), ""
     except existence.RefusedError as error:
-        return Proved(state, np.inf, str(error))
-    return Proved(state, radius, "")
-
-
-def decide(chain: Chain, family: Family, found: Proved) -> Verdict:
-    """Return what is proved of the spectrum of a state on a finite chain."""
-    if not np.isfinite(found.radius):
-        return Verdict.UNDECIDED
-    return spectra.decide(chain, family, found.state, found.radius)
+        return np.inf, str(error)
