@@ -32,7 +32,7 @@ SMALL_ANGLES = 0.15
 SMALL = keep(mu=slice(None, SMALL_ANGLES))
 
 ORDER = Cutoff(0.25, "an order counts as a whole number if it differs from one by up to a quarter")
-SAME = Cutoff(0.1, "P of the thermal state changes by so much if Omega changes by a half")
+SAME = Cutoff(0.05, "P of the thermal state changes by so much if Omega changes by 0.25")
 
 
 def by_mu(dataset, fewest: int = 2):
