@@ -22,7 +22,7 @@ from latticode.kernels.sources import files_of_module, modules_of
 from pendula.ledger.claim import Claim, Origin
 from pendula.ledger.verdicts import all_claims
 
-COMPARED, FIGURES, WRONG = ("trajectories/", "sweeps/"), "figures/", "/wrong/"
+COMPARED, FIGURES = ("trajectories/", "sweeps/"), "figures/"
 ARTICLE = [ROOT / f"scripts/pendula/article/{name}" for name in ("article.md.j2", "values.py")]
 PAGES = [path for like in ("*.py", "source/*", "*.md") for path in ROOT.glob(f"docs/{like}")]
 PAGES = [*(path for path in PAGES if path.stem != "article"), ROOT / "codecheck.yml"]
@@ -125,7 +125,7 @@ def unread(run: Run) -> list[str]:
     for name, made in run.datasets.items():
         if not (readers[name] or name.startswith(COMPARED)):
             told.append(f"{'figure' if name.startswith(FIGURES) else 'dataset'} {name}")
-        elif not name.startswith((FIGURES, *COMPARED)) and WRONG not in name:
+        elif not name.startswith((FIGURES, *COMPARED)):
             alike = [one for one, other in run.datasets.items() if other.function == made.function]
             words = texts.union(*(words for one in alike for words in readers[one]))
             told += [f"variable {name}:{one}" for one in made.variables if not is_read(one, words)]

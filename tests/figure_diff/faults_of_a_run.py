@@ -162,7 +162,6 @@ FAULTS = [
     data("checks/lyapunov", "exponent doubled", scale("exponent", 2.0)),
     data("checks/lyapunov", "a chaotic case called regular", put("chaotic", 0)),
     data("checks/lifetimes", "negative lives", scale("life", -1.0)),
-    data("breathers/fates", "amplitude of a case", shift("case_a0", 0.5)),
     # Figures drawn otherwise than their data
     drawn("fig3", "curve reversed in time", line(2, 0, lambda c: c.set_ydata(c.get_ydata()[::-1]))),
     drawn("fig4", "A and B exchanged", drawn_from=reverse("l2", along="component")),
