@@ -37,7 +37,7 @@ OWN = {
     "own_norms": (own.draw_norms, gather_own_norms,
                   "trajectories/fig2_small", "trajectories/fig3_small"),
     "own_spacetime": (own.draw_spacetime, own.gather_spacetime, "trajectories/fig2_small"),
-    "own_sweep": (own.draw_sweep, lambda one: runs.gather_sweep(one, mean_window="[10, 40]"),
+    "own_sweep": (own.draw_sweep, lambda one: runs.gather_sweep(one, mean_window="[10, 50]"),
                   "sweeps/fig5_left"),
 }  # fmt: skip
 

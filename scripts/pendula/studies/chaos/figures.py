@@ -36,7 +36,7 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
         np.minimum(data[f"median{part}"].values, end) for part in ("", "_low", "_high")
     )
     known = np.isfinite(data["median"].values)
-    bars = np.array([middle - low, high - middle])[:, known]
+    bars = np.abs([middle - low, high - middle])[:, known]
     look = {"color": style.BLUE, "linestyle": "none", "markersize": 3.5}
     label = "median"
     axes.errorbar(
