@@ -33,8 +33,12 @@ NAMES.update(
         "amplitude": "amplitude on a site",
         # of the studies
         "family": "family",
+        "power": "power P",
+        "growth": "largest rate of growth of a perturbation",
+        "error": "error",
+        "region": "region",
+        "gamma_0": "gamma_0 of",
         "final": "amplitude at the end time",
-        "distance": "distance",
     }
 )
 WAYS["make"] = "run snakemake"

@@ -32,11 +32,10 @@ TRUST, ROUNDED_ONLY = "checks/trust.nc", "taylor"
 
 RESTS_ON_CHAOS = [
     # Maps and scans over data, some of which lead to chaos
-    *(f"breathers/{name}" for name in ("fates:*fate", "fates:*area*", "sensitivity:*")),
+    *("breathers/fates:*fate", "breathers/sensitivity:*"),
     *("checks/lifetimes:*", "figures/lifetimes:*", "figures/fates:*fate"),
-    # Chains of other lengths, and without ends, at the detuning of a chaotic case
-    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/fronts:*"),
-    *("unbounded/fronts:*", "unbounded/omegas:*"),
+    # Chains without ends, at the detuning of a chaotic case
+    *("figures/fronts:*", "unbounded/fronts:*", "unbounded/omegas:*"),
 ]
 """Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
 the file or along a dimension."""
@@ -45,9 +44,9 @@ DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]
 """Variables that are divided by the largest value of a run: of a chaotic one, it is in the tail."""
 
 STEADY = [
-    *("*omega", "*:case_[ab]0", "*:start", "*_start", "*:until", "*:true_*", "*_undriven"),
-    *("*:stated_drift", "*:allowed_drift"),
-    *("*:theorem_*", "*:widened", "*:proved_until", "*:proven_bound", "*:largest_bound"),
+    *("*omega", "*:start", "*_start", "*:true_*", "*_undriven", "*:stated_drift"),
+    *("*:theorem_*", "*:widened", "*:proved_until", "*:proven_bound", "*:l*_bound"),
+    "checks/trust:*distance",
     *("*:linear_speed", "*:predicted_[dr]*", "*:predicted_speed", "*:thermal*_power"),
     "pendula/remainder:error",  # it ends before chaos
 ]

@@ -37,12 +37,12 @@ DISTANCE = "largest proven distance to the true state"
 )
 def curves_certified(trust) -> Finding:
     """Require that bounds are small, and that no norm is further from the reference than that."""
-    proved = trust.where(trust["largest_bound"].notnull(), drop=True)
+    proved = trust.where(trust["l2_bound"].notnull(), drop=True)
     if not proved.sizes["case"]:
         raise UndecidableError("no curve of these cases is proved")
     measured = {
         "curves": proved.sizes["case"],
-        "largest_bound": proved["largest_bound"].max(),
+        "largest_bound": proved["l2_bound"].max(),
         "largest_distance": proved["distance"].max(skipna=False),
     }
     criterion = AllOf(

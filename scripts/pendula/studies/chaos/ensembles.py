@@ -68,6 +68,7 @@ def measure_ensembles(
         kept = slice(done, done := done + shape[0] * shape[1])
         parts.append(_moments({norm: found[norm][kept].reshape(*shape, -1) for norm in NORMS}, one))
     described = as_xarray(*describe_cases(own)).rename(case="sweep")
+    described["sweep"].attrs["long_name"] = NAMES["sweep"]
     data = xr.merge([described, xr.concat(parts, described["sweep"], join="outer")])
     title = "Ensembles of the chaotic sweeps, from almost equal data"
     return data.assign_attrs({**described.attrs, "title": title, "perturbation": size})

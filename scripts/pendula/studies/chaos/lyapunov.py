@@ -59,7 +59,8 @@ def largest_exponents(
             "one where tangent vectors grow exponentially",
         ),
     }
-    about = {"end_time": end_time, "perturbation": size, "members": members, "seed": seed}
+    about = {"start": start, "end_time": end_time, "perturbation": size}
+    about |= {"members": members, "seed": seed}
     return variables, {"title": "Lyapunov exponents of the cases", **shared, **about}
 
 

@@ -55,7 +55,7 @@ TRUSTED = {
     "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
     "full scale of its norms; NaN: nothing is proved",
     "proved_until": "last tau at which this bound is not visible; NaN: nothing is proved",
-    "largest_bound": "largest proven bound of the certified curve in the l2 norm; NaN: no proof",
+    "l2_bound": "largest proven bound of the certified curve in the l2 norm; NaN: no proof",
     "distance": "largest distance of its norms from the reference, over the bound",
     "late_distance": "the same distance of the curve one output late",
 }
@@ -177,7 +177,7 @@ def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -
     """Return what is proved of a curve of the run's problem, as TRUSTED says."""
     if proved is None or not is_of_same_case(run, proved):
         nothing = {"proven_bound": xr.full_like(run["tau"], np.nan)}
-        names = ("proved_until", "largest_bound", "distance", "late_distance")
+        names = ("proved_until", "l2_bound", "distance", "late_distance")
         return nothing | dict.fromkeys(names, np.nan)
     known = proved[["bound", *NORMS]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
     bound = known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
@@ -190,7 +190,7 @@ def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -
     return {
         "proven_bound": bound,
         "proved_until": known_until(bound.where(bound <= VISIBLE)),
-        "largest_bound": float(proved["bound"].max()),
+        "l2_bound": float(proved["bound"].max()),
         "distance": distance(0),
         "late_distance": distance(1),
     }

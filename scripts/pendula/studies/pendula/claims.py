@@ -86,8 +86,9 @@ def remainder_bounded(remainder) -> Finding:
     That is the condition from which (4) follows: no term of the remainder grows in proportion to t.
     """
     errors = by_mu(remainder)["error"].sel(slow_time=SLOW).isel(mu=[-2, -1])
-    coarse, fine = (errors / errors["mu"] ** 3).transpose("mu", "case")
-    times = float((coarse["mu"] / fine["mu"]) ** 2)
+    mu = errors["mu"]
+    coarse, fine = (errors / (mu * mu * mu)).transpose("mu", "case")
+    times = float(mu[0] * mu[0] / (mu[1] * mu[1]))
     end = float(remainder.attrs["end_time"])
     says = f"growth of the remainder over mu^3 at tau = {end:g} as t grows {times:g} times"
     caveat = f"as mu goes to 0 at a fixed slow time, here up to tau = {end:g}"

@@ -36,7 +36,7 @@ def threshold_contents(epsilon: float, omegas: Sequence[float], mus: Sequence[fl
         "omega": Variable(("omega",), omega),
         "mu": Variable(("mu",), mu),
         "gamma_0": Variable(("omega", "mu"), found,
-                            "threshold of the drive for the infinite chain of pendula",
+                            "gamma_0 of the infinite chain of pendula",
                             attributes={"significant_digits": np.finfo(float).precision}),
         "gamma_0_lemma": Variable(("omega",), gamma_0(omega, epsilon),
                                   "threshold gamma_0 of Lemma 1"),

@@ -8,6 +8,7 @@ import xarray as xr
 from latticode.datasets.checks import describe
 
 from . import errata, sharpness, stability
+from .equations import constants_at
 
 CHECKS = {
     name.removeprefix("check_"): function
@@ -31,4 +32,5 @@ def run_check(name: str, arguments: Mapping[str, Any]) -> dict:
     for key, value in arguments.items():
         if isinstance(value, Mapping) and "points" in value:
             given[key] = np.linspace(value["first"], value["last"], value["points"])
-    return CHECKS[name](**given)
+    found = CHECKS[name](**given)
+    return {**found, "attrs": {"epsilon": constants_at(0.0).epsilon, **found["attrs"]}}

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 from latticode.drawing import panels, style
 from latticode.numerics.elementary import geometric
@@ -37,11 +36,11 @@ def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dat
 
     The law of l2^2 stands beside them where its states were solved.
     """
-    cases = pd.Index([run.attrs["name"] for run in runs], name="case")
+    cases = xr.Variable("case", [run.attrs["name"] for run in runs])
     found = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
     found["band"].attrs["long_name"] = "value over the members of the ensemble"
     found["law"].attrs["long_name"] = "l2^2 by thermal states and speeds of fronts"
-    found["initial"].attrs["long_name"] = "initial data"
+    found["initial"].attrs["long_name"] = "initial {site: [A, B]}"
     return found.assign_attrs(title="Growth of the norms", caption=GROWTH_CAPTION)
 
 
@@ -50,7 +49,7 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     law = law_of(run, thermal)[0] if known else np.full(run.sizes["tau"], np.nan)
     norms = run[["l2", "linf"]].isel(variant=0)
     bands = [norms.min("member"), norms.mean("member"), norms.max("member")]
-    found = xr.concat(bands, pd.Index(BAND, name="band"))
+    found = xr.concat(bands, xr.Variable("band", list(BAND)))
     found = found.assign(omega=run["omega"][0], initial=run.attrs["initial"], law=("tau", law))
     times = geometric(FIRST_TAU, float(run["tau"][-1]), POINTS)
     return found.sel(tau=np.unique(found["tau"].sel(tau=times, method="nearest")))
