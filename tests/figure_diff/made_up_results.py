@@ -71,7 +71,7 @@ def numbers(seed: int = 0) -> dict[str, xr.Dataset]:
         EXPONENTS: dataset({"case": cases}, {"exponent": ("case", [1e-4, 1.73 + 0.01 * draw()])}),
         ROUNDING: dataset({"tau": TAU[:9]}, {"defect": ("tau", 1e-15 * draw(size=9))}),
         BOUND: dataset({"tau": TAU}, {"bound": ("tau", 1e-12 * np.exp(0.1 * TAU))}),
-        MAP: dataset({"half_width": M}, {"area": ("half_width", 1 + 0.1 * draw(size=M.size))}),
+        MAP: dataset({"half_width": M}, {"fate": ("half_width", 1 + 0.1 * draw(size=M.size))}),
     }
 
 
