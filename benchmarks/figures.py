@@ -44,7 +44,7 @@ def draw_work_precision(data: xr.Dataset) -> Figure:
     if len(heights) > 1:
         _draw_peers(figure.add_subplot(grid[1]), data)
     handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4)
+    figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -94,7 +94,7 @@ def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
     axes.set_axisbelow(True)
     axes.set_xscale("log")
     within = f"within an error of $10^{{{np.log10(float(data['target'][0])):.0f}}}$"
-    axes.set_xlabel(f"time over that of the fastest solver here, {within}")
+    axes.set_xlabel(f"time over that of the fastest solver here, {within}", loc="right")
     axes.legend(loc="lower right")
 
 
