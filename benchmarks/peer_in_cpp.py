@@ -19,7 +19,7 @@ from .timing import timed
 
 
 def lacks_compiler() -> str | None:
-    """Return in words why no C++ is compiled."""
+    """Return why C++ cannot be compiled here, or None if it can."""
     return None if shutil.which("g++") else "g++ is not on the PATH"
 
 
@@ -35,7 +35,7 @@ def target() -> str:
 
 @cache
 def lacks_avx512() -> str | None:
-    """Return in words why vectors of eight numbers are not compared."""
+    """Return why vectors of eight numbers cannot be used here, or None if they can."""
     if why := lacks_compiler():
         return why
     asked = ["g++", target(), "-dM", "-E", "-x", "c++", os.devnull]

@@ -117,7 +117,7 @@ def gather(results: Results) -> dict[str, Any]:
 
 
 def by_hand(speed: xr.Dataset) -> str:
-    """Return in words how fast the fastest Taylor method in C++ is beside our best solver."""
+    """Return a phrase that compares the fastest Taylor method in C++ with our best solver."""
     of_cpp = [str(name).startswith("cpp_taylor") for name in speed["peer"].values]
     ratio = float(speed["mean_ratio"][of_cpp].min())
     if ratio < 1:

@@ -2,7 +2,7 @@
 
 `claim`      a claim, as a study declares it above the function that decides it
 `changes`    the verbs that make wrong cases
-`chaos`      what ensembles of almost equal data may say
+`chaos`      what ensembles of nearly equal initial conditions can show
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
 `missing`    what is missing from a dataset, and confirms nothing

@@ -1,10 +1,9 @@
-"""What an ensemble of almost equal data says of the paper's data.
+"""What runs from nearly equal initial conditions can show of the paper's own run.
 
-An ensemble whose data are within a millionth of the paper's cannot see that a change of a hundredth
-would end the motion that it measures. The study of breathers counts which runs spread by the size
-of a change, and a sentence that rests on such an ensemble is held to these counts: it holds
-if most of the data that close do what the paper's do, and it has a caveat if most data at some
-larger distance do not.
+Runs whose initial conditions differ from the paper's by a millionth cannot show that a difference
+of a hundredth would end the motion. The study of breathers counts how many runs spread, by the size
+of the difference. A sentence that rests on nearly equal runs holds only if most runs with so small
+a difference spread, and it has a caveat if most runs with some larger difference do not.
 """
 
 from typing import NamedTuple

@@ -50,7 +50,7 @@ def reading(decide: Callable[[], Any]) -> tuple[Any, set[Cutoff]]:
 
 
 def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> list[str]:
-    """Return in words the moves of the cut-offs that a decision has `read` that turn its `verdict`.
+    """Return which moves of the cut-offs in `read` change the `verdict`, a phrase for each.
 
     `verdict_of` decides again.
     """

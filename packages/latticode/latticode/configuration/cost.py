@@ -72,7 +72,7 @@ class Cost(NamedTuple):
 
     @property
     def words(self) -> tuple[str, str]:
-        """Time and memory in words."""
+        """Time and memory as texts, such as "about 2 minutes" and "1 GB"."""
         time = duration(self.seconds)
         return f"{'' if ' than ' in time else 'about '}{time}", amount(self.memory)
 

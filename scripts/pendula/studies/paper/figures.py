@@ -18,7 +18,6 @@ from matplotlib.figure import Figure
 from pendula.drawing import KEPT, draw_cases, name_case
 
 SIZES = ["small", "large"]
-BAND = "80 %"
 MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
 NORMS_CAPTION = (
@@ -28,8 +27,11 @@ NORMS_CAPTION = (
 )
 PARTS_CAPTION = (
     " A dashed line marks the time from which a run differs from its reference by "
-    f"{100 * VISIBLE:g} % of full scale. The row below such a run shows the median and the band "
-    f"with {BAND} of the runs of a perturbed ensemble."
+    f"{100 * VISIBLE:g} % of full scale."
+)
+BAND_CAPTION = (
+    " The row below such a run shows the median and the band with {} of the runs of a perturbed "
+    "ensemble."
 )
 SPACETIME_CAPTION = (
     "Moduli |Aₙ| (left) and |Bₙ| (right) over time and sites, small initial amplitudes above and "
@@ -67,9 +69,11 @@ def gather_norms(
     the reference are NaN. With `ensembles` the bands of the cases are beside them as well.
     """
     cases = [_beside(run, true) for run, true in zip(runs, references, strict=True)]
+    parts, band = PARTS_CAPTION, ""
     if ensembles is not None:
         cases = [case.assign(_bands(case, ensembles)) for case in cases]
-    caption = NORMS_CAPTION + PARTS_CAPTION * any(map(strips.diverges, cases))
+        band = BAND_CAPTION.format(_share(ensembles))
+    caption = NORMS_CAPTION + (parts + band) * any(map(strips.diverges, cases))
     return style.join(cases, SIZES, "initial_size", KEPT).assign_attrs(caption=caption)
 
 
@@ -91,6 +95,12 @@ def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
     every = ensembles[list(NORMS)].sel(case=run.attrs["case"], drop=True)
     every = every.reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
     return drawn.assign({f"band_{name}": every[name] for name in NORMS})
+
+
+def _share(banded: xr.Dataset) -> str:
+    """Return the part of the runs that a band between quantiles holds, in per cent."""
+    ends = banded["quantile"].values
+    return f"{100 * (ends[-1] - ends[0]):g} %"
 
 
 @style.styled
@@ -117,7 +127,9 @@ def _strips(case: xr.Dataset) -> list[Strip]:
         return [Strip("", run, under="true_")]
     found = [Strip("", run)]
     if "band_l2" in case:
-        found.append(Strip("band_", f"{int(case['members'])} perturbed runs: median, {BAND}"))
+        found.append(
+            Strip("band_", f"{int(case['members'])} perturbed runs: median, {_share(case)}")
+        )
     return found
 
 
