@@ -1,13 +1,10 @@
-"use strict";
-
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 const made = (tag, properties) => Object.assign(document.createElement(tag), properties);
 const largestOf = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
-// --- The solver: the project's compiled kernel, as WebAssembly ----------------------------------
+// --- The solver: the project's compiled kernel, which webassembly.js of the library loads -------
 
-const STACK = 1 << 20; // the constants of a module and its stack lie below, arrays above
 const ENDS = { dirichlet: 0n, free: 1n, periodic: 1n }; // an even solution on a ring sees itself
 const MIRROR = 3n; // the end at the centre of an even chain
 const PARTS = ["a_re", "a_im", "b_re", "b_im"];
@@ -16,30 +13,7 @@ const decoded = (text) => Uint8Array.from(atob(text), (letter) => letter.charCod
 // Return the solver as a function of settings, the step of its outputs, and how many of these lie
 // between two snapshots of the moduli (0: there are none).
 const load = async ({ code, controls, work }) => {
-  const memory = new WebAssembly.Memory({ initial: 1024 });
-  const env = {
-    __linear_memory: memory,
-    __stack_pointer: new WebAssembly.Global({ value: "i32", mutable: true }, STACK),
-    // writes the strides of an array in another shape, as numba's runtime does: all are contiguous
-    numba_attempt_nocopy_reshape: (rank, shape, strides, newRank, ...places) => {
-      const [sizes, steps] = places.slice(0, 2).map((at) => new BigInt64Array(memory.buffer, at, Number(newRank)));
-      sizes.reduceRight((stride, size, axis) => (steps[axis] = stride) * size, 8n);
-      return 1;
-    },
-    // the number next to x > 0: what is added has 0.54 to 1.08 units of its last place
-    numba_nextafter: (x, towards) => x + Math.sign(towards - x) * 1.2e-16 * x,
-  };
-  const { instance } = await WebAssembly.instantiate(decoded(code), { env });
-  let free;
-  // zeros of a shape: the numbers, and what numba passes to a kernel for such an array
-  const array = (...shape) => {
-    const count = shape.reduce((a, b) => a * b, 1);
-    const strides = shape.map((_, axis) => shape.slice(axis + 1).reduce((a, b) => a * b, 8));
-    const [place, numbers] = [free, shape.concat(strides).map(BigInt)];
-    free += (8 * count + 63) & ~63;
-    const values = new Float64Array(memory.buffer, place, count).fill(0);
-    return { values, place, passed: [0, 0, BigInt(count), 8n, place, ...numbers] };
-  };
+  const { clear, array, call } = await loadKernel(decoded(code));
   return (given, { output_step: outputStep, every }) => {
     // half of the chain, since the data are even, and A alone where A = B
     const start = PARTS.map((part) => given[part]);
@@ -47,21 +21,19 @@ const load = async ({ code, controls, work }) => {
     const outputs = Math.round(given.end_time / outputStep);
     const [sites, rows] = [given.half_width + 1, 2 * components];
     const [width, snapshots] = [sites + 2, every ? Math.floor(outputs / every) + 1 : 0];
-    free = STACK;
-    const [outcome, fault, y, times] = [array(5), array(1), array(rows, width), array(outputs + 1)];
+    clear();
+    const [outcome, y, times] = [array(5), array(rows, width), array(outputs + 1)];
     start.slice(0, rows).forEach((value, row) => { y.values[row * width + 1] = value; });
     times.values.forEach((_, i) => { times.values[i] = (given.end_time * i) / outputs; });
     const [linf, l2] = [array(components, outputs + 1), array(components, outputs + 1)];
     const energy = array(outputs + 1);
     const modulus = array(components, sites, snapshots);
-    const error = instance.exports.run(
-      outcome.place, fault.place,
-      given.epsilon, given.gamma, given.omega, MIRROR, ENDS[given.boundary],
-      ...y.passed, ...times.passed, ...controls, ...array(work, rows, width).passed,
-      ...linf.passed, ...l2.passed, ...energy.passed, ...modulus.passed, BigInt(every),
-      ...array(2, width).passed, ...array(1).passed,
+    const error = call(
+      outcome, given.epsilon, given.gamma, given.omega, MIRROR, ENDS[given.boundary],
+      y, times, ...controls, array(work, rows, width),
+      linf, l2, energy, modulus, BigInt(every), array(2, width), array(1),
     );
-    const [status] = new BigInt64Array(memory.buffer, outcome.place, 1);
+    const [status] = new BigInt64Array(outcome.values.buffer, outcome.place, 1);
     if (error || status) {
       throw new Error(`the run stopped at τ = ${outcome.values[1]}: ${data.faults[status] ?? "an error"}`);
     }
@@ -335,32 +307,22 @@ const setPlaying = (since) => {
   byId("numbers").ariaLive = since === null ? "polite" : "off";
   if (since !== null) next = requestAnimationFrame(play);
 };
-const isInSight = (id) => {
-  const { top, bottom } = byId(id).getBoundingClientRect();
-  return bottom > 0 && top < innerHeight;
-};
 const play = (time) => {
   const passed = Math.max(0, Math.min((time - last) / 1000, 0.2));
   if (!isStill.matches) phase += 2 * Math.PI * passed;
   moveTo(now() + passed);
-  setPlaying(now() < settings.end_time && ["pendula", "plots"].some(isInSight) ? time : null);
-};
-const save = (download, text) => {
-  made("a", { href: `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`, download }).click();
-};
-const csv = () => {
-  const columns = [run.tau, ...run.l2, ...run.linf, run.energy];
-  const rows = Array.from(run.tau, (_, i) => columns.map((values) => values[i]));
-  return ["tau,l2_A,l2_B,linf_A,linf_B,energy", ...rows, ""].join("\n");
+  setPlaying(now() < settings.end_time ? time : null);
 };
 const complex = (re, im) => (im ? `"${re}${im < 0 ? "" : "+"}${im}j"` : re);
-const yaml = () => {
+const saveCase = () => {
   const { a_re, a_im, b_re, b_im, ...keys } = settings;
   keys.initial = `{0: [${complex(a_re, a_im)}, ${complex(b_re, b_im)}]}`;
   const { output_step, every } = steps();
   Object.assign(keys, { output_step, snapshot_step: output_step * every, solver: data.solver.named });
   const lines = Object.entries(keys).map(([key, value]) => `    ${key}: ${value}`);
-  return ["# snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
+  const text = ["# snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
+  const href = `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`;
+  made("a", { href, download: "mine.yaml" }).click();
 };
 const begin = async () => {
   solve = await load(data.solver);
@@ -385,8 +347,7 @@ const begin = async () => {
   listen("mu", "input", updateTime);
   listen("perturbation", "input", update);
   listen("compare", "click", compareAll);
-  listen("csv", "click", () => save("mine.csv", csv()));
-  listen("yaml", "click", () => save("mine.yaml", yaml()));
+  listen("yaml", "click", saveCase);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", update);
   const byLink = () => (location.hash === "#same-bits" ? compareAll() : show(location.hash.slice(1)));
   window.addEventListener("hashchange", byLink);

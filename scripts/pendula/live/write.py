@@ -17,7 +17,7 @@ from latticode.datasets import complete_or_absent
 from latticode.datasets.netcdf import read
 from latticode.equations.ends import DIRICHLET, MIRROR
 from latticode.integrators import FAULTS
-from latticode.kernels.webassembly import webassembly
+from latticode.kernels.webassembly import loader, webassembly
 from latticode.measures.difference import VISIBLE
 from latticode.simulation.integration import Solver
 from latticode.simulation.observables import blank_record
@@ -56,7 +56,8 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
     }
     files = (page.HERE / "style.css", HERE / "live.css", HERE / "live.js")
-    common, own, script = (file.read_text(encoding="utf-8") for file in files)
+    common, own, drawing = (file.read_text(encoding="utf-8") for file in files)
+    script = f"{loader()}\n{drawing}"
     text = page.render(
         "live.html.j2",
         HERE,

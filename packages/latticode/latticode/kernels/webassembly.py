@@ -8,11 +8,12 @@ the size that it has here: code that counts bytes from its start, or clears it, 
 The optimiser runs before that, while the code still declares pointers of 8 bytes.
 
 No linker. LLVM makes one object file, whose calls and addresses need no change. It lacks a list of
-exported functions, which is added here; its tables for a linker are left out. The caller provides
-the memory, whose first bytes are constants, and the start of a stack that grows downwards.
+exported functions, which is added here; its tables for a linker are left out. `webassembly.js`
+provides the memory, whose first bytes are constants, and the start of a stack that grows downwards.
 """
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -39,8 +40,7 @@ def webassembly(kernel, *arguments: Any) -> bytes:
     """Return the module of a kernel for the types of `arguments`; its one function is `run`.
 
     It takes the arguments as numba passes them: the address of the result, that of a place for
-    errors, then all numbers of the arguments. An array is passed as two zeros, its number of
-    elements, the bytes of one, its address, its shape and its strides in bytes. Raises
+    errors, then all numbers of the arguments, as the script of `loader` does. Raises
     WebAssemblyError where numba's code rests on the size of pointers or counts references.
     """
     binding.initialize_all_targets()
@@ -60,6 +60,11 @@ def webassembly(kernel, *arguments: Any) -> bytes:
     small = binding.parse_assembly(_for_small_pointers(str(module), str(machine.target_data)))
     place = [one.name for one in small.functions if not one.is_declaration].index(run.name)
     return _exported(machine.emit_object(small), place)
+
+
+def loader() -> str:
+    """Return the JavaScript whose function `loadKernel` makes a module callable."""
+    return Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 
 
 def _code_of(kernel, types: tuple) -> str:

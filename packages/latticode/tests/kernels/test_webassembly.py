@@ -1,9 +1,19 @@
-"""What makes a module of a kernel; the tests of the replication run one in a browser."""
+"""What makes a module of a kernel, and what loads it; the replication runs one in a browser."""
+
+import base64
+import json
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
 from latticode.kernels.compiled import kernel
-from latticode.kernels.webassembly import WebAssemblyError, _for_small_pointers, webassembly
+from latticode.kernels.webassembly import (
+    WebAssemblyError,
+    _for_small_pointers,
+    loader,
+    webassembly,
+)
 
 STRUCTURE = "{ ptr, ptr, i64, double, [3 x i64] }"
 
@@ -43,3 +53,35 @@ def test_a_kernel_that_numba_compiled_in_its_own_way_is_refused():
 
     with pytest.raises(WebAssemblyError, match=r"counts references, .* take numba"):
         webassembly(OfAnotherNumba(), 0.0, np.zeros(1), np.zeros(1))
+
+
+@kernel
+def turned(factor, start, most, grid):
+    """Use what the loader provides: the next number, and an array in another shape."""
+    rows = grid.reshape((2, 3))
+    for i in range(3):
+        rows[1, i] = factor * rows[0, 2 - i] + np.nextafter(start[i], most)
+    return rows[1, 0]
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="there is no node: apt-get install nodejs")
+def test_the_loader_gives_the_bits_of_this_machine(tmp_path):
+    """Of numbers and arrays that a kernel takes, of what it writes and of what it returns."""
+    start, grid = np.array([1.0, 1.9, 1e-300]), np.array([0.1, 0.2, 0.3, 0.0, 0.0, 0.0])
+    given = (1.7, start, np.inf, grid)
+    code = base64.b64encode(webassembly(turned, *given)).decode()
+    script = f"""{loader()}
+    loadKernel(Buffer.from("{code}", "base64")).then(({{ clear, array, call }}) => {{
+      array(7);
+      clear();
+      const [outcome, start, grid] = [array(1), array(3), array(6)];
+      start.values.set({start.tolist()});
+      grid.values.set({grid.tolist()});
+      const error = call(outcome, 1.7, start, Infinity, grid);
+      console.log(JSON.stringify([error, outcome.values[0], ...grid.values]));
+    }});"""
+    (tmp_path / "run.js").write_text(script)
+    ran = subprocess.run(["node", tmp_path / "run.js"], capture_output=True, text=True, check=True)
+    returned = turned(*given)
+    assert json.loads(ran.stdout) == [0, returned, *grid]
+    assert grid[3] == 1.7 * 0.3 + np.nextafter(1.0, 2.0)
