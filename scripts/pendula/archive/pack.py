@@ -9,6 +9,7 @@ import gzip
 import hashlib
 import io
 import json
+import re
 import tarfile
 from pathlib import Path
 from urllib.parse import quote
@@ -87,29 +88,38 @@ def describe(project: Path, members: dict[str, Path]) -> dict:
     Facts come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
     """
     cited = yaml.safe_load((project / "CITATION.cff").read_text("utf-8"))
-    pins = dict(
-        p.split("==") for p in (project / "environment.txt").read_text().split() if "==" in p
-    )
+    pinned = (project / "environment.txt").read_text("utf-8")
     crate = ROCrate(version="1.1")
+
+    def entity(identifier: str, kind: str, name: str) -> ContextEntity:
+        about = {"@type": kind, "name": name}
+        return crate.add(ContextEntity(crate, identifier, properties=about))
+
     rights = [cited["license"], (project / "LICENSE-DATA").read_text("utf-8").split()[1]]
     of_code, of_data = (
-        _entity(crate, f"https://spdx.org/licenses/{name}", "CreativeWork", name=name)
-        for name in rights
+        entity(f"https://spdx.org/licenses/{name}", "CreativeWork", name) for name in rights
     )
+    authors = [
+        ("Organization", one["name"]) if "name" in one
+        else ("Person", f"{one['given-names']} {one['family-names']}")
+        for one in cited["authors"]
+    ]  # fmt: skip
     facts = {
         "name": cited["title"],
         "version": __version__,
-        "author": [_author(crate, author) for author in cited["authors"]],
+        "author": [entity(f"#{name.replace(' ', '-')}", kind, name) for kind, name in authors],
         "license": of_code,
     }
+    paper = cited["references"][0]
     of_root = {
         "description": f"{cited['title']}: code, environment, datasets and figures",
         "datePublished": str(cited["date-released"]),
-        "citation": _paper(crate, cited["references"][0]),
+        "citation": entity(f"https://doi.org/{paper['doi']}", "ScholarlyArticle", paper["title"]),
     }
     for key, value in (facts | of_root).items():
         crate.root_dataset[key] = value
-    language = {"lang": "snakemake", "lang_version": pins["snakemake"]}
+    (release,) = re.findall(r"^snakemake==(\S+)", pinned, re.MULTILINE)
+    language = {"lang": "snakemake", "lang_version": release}
     crate.add_workflow(dest_path="Snakefile", main=True, properties=facts, **language)
     crate.add_file(dest_path="README.md", properties={"about": {"@id": "./"}})
     for name in sorted(name for name in members if name.startswith("results/")):
@@ -120,28 +130,9 @@ def describe(project: Path, members: dict[str, Path]) -> dict:
 def _about(name: str, members: dict[str, Path]) -> dict:
     """Return facts on a result: of a dataset its title, of a figure the dataset that it shows."""
     path, data = members[name], Path(name).with_suffix(".nc").as_posix()
-    kind = FORMATS.get(path.suffix, "text/plain")
-    facts = {"name": path.name, "encodingFormat": kind, "contentSize": str(path.stat().st_size)}
+    facts = {"name": path.name, "encodingFormat": FORMATS.get(path.suffix, "text/plain")}
     if path.suffix == ".nc":
         facts["description"] = read(path).title
     elif data in members:
         facts["isBasedOn"] = {"@id": quote(data)}
     return facts
-
-
-def _paper(crate: ROCrate, paper: dict) -> ContextEntity:
-    words = {"name": paper["title"], "datePublished": str(paper["year"])}
-    words["author"] = [_author(crate, author) for author in paper["authors"]]
-    return _entity(crate, f"https://doi.org/{paper['doi']}", "ScholarlyArticle", **words)
-
-
-def _author(crate: ROCrate, author: dict) -> ContextEntity:
-    """Return an author of CITATION.cff; one who has but one name is an organization."""
-    kind = "Organization" if "name" in author else "Person"
-    name = author.get("name") or f"{author['given-names']} {author['family-names']}"
-    page = author.get("orcid") or author.get("website") or f"#{name.replace(' ', '-')}"
-    return _entity(crate, page, kind, name=name)
-
-
-def _entity(crate: ROCrate, identifier: str, kind: str, **facts) -> ContextEntity:
-    return crate.add(ContextEntity(crate, identifier, properties={"@type": kind, **facts}))
