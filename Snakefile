@@ -48,7 +48,7 @@ include: "workflow/rules/own.smk"
 DATASETS = [
     *TRAJECTORIES,
     *(*SWEEPS, *SECOND_SWEEPS),
-    *checks(*CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
+    *checks("identities", "cases", *THEORY_CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
     *rules.pendula.input.datasets,
     *datasets("unbounded", *SETTINGS.unbounded.names, "thermal", "fronts"),
@@ -88,7 +88,7 @@ rule figures:
 rule theory:
     "The checks of the paper's theory, the ledger of its claims, and their figures"
     input:
-        checks(*CHECKS),
+        checks("identities", "cases", *THEORY_CHECKS),
         expand("<results>/figures/{name}.png", name=["stability_chart", "bounds"]),
         "<results>/claims.json",
 

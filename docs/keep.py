@@ -137,7 +137,7 @@ def _as_it_is(values: xr.DataArray) -> Variable:
 
 
 SECTIONS = ("cases", "sweeps", "solvers")
-SECTIONS += ("chaos", "theory", "breathers", "pendula", "unbounded", "certified")
+SECTIONS += ("chaos", "breathers", "pendula", "unbounded", "certified")
 """The sections of the configuration that claims rest on."""
 
 

@@ -12,6 +12,7 @@ from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load
 from pendula.configuration.paper import differences, paper, reason, rests_on
 from pendula.ledger.verdicts import all_claims, needed
+from pendula.studies.theory.checks import CHECKS
 
 ROOT = Path(__file__).resolve().parents[2]
 EDITS = {
@@ -74,8 +75,6 @@ def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
         (("chaos", "members", "tolerance"), 1e-3, True),
         (("cases", "fig2_small", "snapshot_step"), 0.2, False),
         (("sweeps", "fig5_left", "windows"), [[10, 60]], True),
-        (("theory", "chart", "sites"), 9, False),
-        (("theory", "not_shown", "omega"), 7.0, True),
     ],
 )
 def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):
@@ -84,7 +83,7 @@ def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):
 
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
     for name in needed():
-        assert rests_on(name) or name == "checks/identities", name  # which hold for all constants
+        assert rests_on(name) or name.partition("/")[2] in ("identities", *CHECKS), name
         for path in rests_on(name):
             inner = paper()
             for key in path.split("."):

@@ -6,9 +6,7 @@ from latticode.datasets.json_files import load_json
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.decide import decide_claims, tabulate_claims
 from pendula.ledger.verdicts import all_claims, needed
-from pendula.studies.theory.settings import GROUPS, PROVED
-
-CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group), "cases"]
+from pendula.studies.theory.checks import CHECKS
 
 
 def ledger_of(folder):
@@ -16,7 +14,7 @@ def ledger_of(folder):
 
 
 def test_every_check_is_written_and_holds(full_run):
-    for name in CHECKS:
+    for name in ("identities", "cases", *CHECKS):
         with xr.open_dataset(full_run / f"results/checks/{name}.nc") as check:
             assert broken(check.to_dict()) == {}, name
 

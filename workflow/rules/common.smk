@@ -59,7 +59,6 @@ from latticode.kernels import DISABLED
 from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
 from pendula.sources import SCRIPTS
 from pendula.studies import files_of_part
-from pendula.studies.theory.settings import GROUPS, PROVED
 
 if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
     stop(DISABLED)
@@ -102,7 +101,7 @@ OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "members", "lifetimes"]
-CHECKS = [*PROVED, *(name for group in GROUPS.values() for name in group), "cases"]
+THEORY_CHECKS = ["not_shown", "errata", "chart", "threshold", "sharpness", "chain_growth"]
 SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
 SHOWN |= {n: [f"fig{n}_left", f"fig{n}_right"] for n in "56"}
 

@@ -6,7 +6,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
         *(*datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"), *SECOND_SWEEPS),
         *checks("cases", "lyapunov", "ensembles", "members", "solvers"),
     ],
-    "theory": checks("lyapunov", *PROVED, *GROUPS["theory"]),
+    "theory": checks("lyapunov", "identities", *THEORY_CHECKS),
     "chaos": [
         *datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"),
         *(*datasets("trajectories", "fig3_large"), *datasets("breathers", "sensitivity")),

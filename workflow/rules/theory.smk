@@ -9,29 +9,17 @@ use rule dataset as prove_identities with:
         call=function("pendula.studies.theory.identities.prove_identities"),
 
 
-use rule dataset as check_not_shown with:
-    "Section 5: the sweep for small amplitudes at Omega = 8, which the paper mentions and does not show"
+use rule dataset as check_theory with:
+    "Lemma 1, the sharpness of Theorems 1 to 3, errors of their proofs, and a sweep that the paper does not show"
     input:
         kernels=kernels("taylor"),
     output:
-        checks(*GROUPS["not_shown"]),
-    pathvars:
-        made="checks/not_shown",
-    params:
-        call=function("pendula.studies.theory.checks.run_checks"),
-        checks=SETTINGS.theory.arguments("not_shown"),
-
-
-use rule check_not_shown as check_theory with:
-    "Lemma 1, the sharpness of Theorems 1 to 3, and errors of their proofs"
-    input:
-        kernels=kernels("dop853", "taylor"),
-    output:
-        checks(*GROUPS["theory"]),
+        checks(*THEORY_CHECKS),
     pathvars:
         made="checks/theory",
     params:
-        checks=SETTINGS.theory.arguments("theory"),
+        call=function("pendula.studies.theory.checks.run_checks"),
+        names=THEORY_CHECKS,
 
 
 use rule dataset as check_observed with:

@@ -14,9 +14,8 @@ from typing import Any
 
 FILE = Path(__file__).with_suffix(".json")
 
-FREE = {"seed", "draw", "snapshot_step", "long", "sites", "points"}
-"""Keys that change no statement: other draws of a case, another look at it, longer studies, and how
-thoroughly the theory is tried. Its controls find a test that is too weak."""
+FREE = {"seed", "draw", "snapshot_step", "long", "points"}
+"""Keys that change no statement: other draws of a case, another look at it, and longer studies."""
 AT_LEAST = {"members", "nodes"}
 """Sizes of ensembles and grids: larger ones are still about the same case."""
 AT_MOST = {"tolerance"}
@@ -171,7 +170,7 @@ def _sections(folder: str, stem: str) -> list[str]:
     if stem in ("solvers", "trust"):
         return ["solvers"]
     if folder == "checks":
-        return [path for path in (f"theory.{stem}", f"chaos.{stem}") if _at(path)]
+        return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # those of the theory rest on none
     if folder == "breathers":
         return [f"breathers.{part}" for part in ("epsilon", "gamma", stem)]
     return [f"{folder}.{stem}"]

@@ -1,36 +1,51 @@
-"""The checks by name: config/theory.yaml has the arguments of each."""
+"""The checks that one job makes: starting it costs more than most of them."""
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import xarray as xr
-from latticode.datasets.checks import describe
+from latticode.datasets.checks import describe, table, variable
+from latticode.simulation.problem import write_initial
 
-from . import errata, sharpness, stability
-from .equations import constants_at
+from .equations import ENDS, PAIR, constants_at, one_pair, run, squared_norm
+from .stability import check_chart, check_threshold
+from .theorems import check_chain_growth, check_errata, check_sharpness
+
+HALF_WIDTHS, WINDOW, OMEGA = [5, 10, 20, 40, 60, 80, 120, 140, 160], (10.0, 50.0), 8.0
+SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-14}
+
+
+def check_not_shown() -> dict:
+    """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
+    constants, peaks = constants_at(OMEGA), []
+    for half_width in HALF_WIDTHS:
+        data = one_pair(2 * half_width + 1, PAIR)
+        outputs = round(40 * WINDOW[1])
+        trajectory = run(constants, ENDS, data, WINDOW[1], outputs, solver=SOLVER)
+        inside = trajectory.tau >= WINDOW[0]
+        peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))
+    found = table(
+        f"Largest l2 on [{WINDOW[0]:g}, {WINDOW[1]:g}] at Omega = {OMEGA:g}, small data",
+        {"half_width": HALF_WIDTHS},
+        l2=variable(peaks, ("half_width",), "l2 norm over the chain, largest in the window"),
+    )
+    found["attrs"] |= {**vars(constants), "boundary": ENDS, "initial": write_initial({0: PAIR})}
+    return found
+
 
 CHECKS = {
-    name.removeprefix("check_"): function
-    for module in (errata, stability, sharpness)
-    for name, function in vars(module).items()
-    if name.startswith("check_")
+    "not_shown": check_not_shown,
+    "errata": check_errata,
+    "chart": check_chart,
+    "threshold": check_threshold,
+    "sharpness": check_sharpness,
+    "chain_growth": check_chain_growth,
 }
 
 
-def run_checks(checks: Mapping[str, Mapping[str, Any]]) -> Iterator[xr.Dataset]:
-    """Yield the numbers of each of `checks`, which have their arguments by name."""
-    for name, arguments in checks.items():
-        check = run_check(name, arguments)
+def run_checks(names: Iterable[str]) -> Iterator[xr.Dataset]:
+    """Yield the numbers of the checks of these names."""
+    for name in names:
+        check = CHECKS[name]()
         print(f"Check of the theory: {describe(name, check)}")
-        yield xr.Dataset.from_dict(check)
-
-
-def run_check(name: str, arguments: Mapping[str, Any]) -> dict:
-    """Return the numbers of one check; `arguments` are plain values as in the configuration."""
-    given = dict(arguments)
-    for key, value in arguments.items():
-        if isinstance(value, Mapping) and "points" in value:
-            given[key] = np.linspace(value["first"], value["last"], value["points"])
-    found = CHECKS[name](**given)
-    return {**found, "attrs": {"epsilon": constants_at(0.0).epsilon, **found["attrs"]}}
+        yield xr.Dataset.from_dict(check).assign_attrs(epsilon=constants_at(0.0).epsilon)

@@ -1,8 +1,8 @@
-"""Section 4: Lemma 2, the inequalities, Theorems 1 to 3 and their proofs."""
+"""Section 4: Lemma 2, the inequalities, Theorems 1 to 3, their proofs and how sharp they are."""
 
-from pendula.ledger.changes import exchange, take
+from pendula.ledger.changes import exchange, put, scale, take
 from pendula.ledger.claim import Control, Kind, checks, claim, number
-from pendula.ledger.criterion import Above, AllOf, AtLeast, AtMost, Finding, judge
+from pendula.ledger.criterion import Above, AllOf, AtLeast, AtMost, Finding, judge, undecided
 from pendula.ledger.cutoff import Cutoff
 
 from .claims_model import by_algebra
@@ -12,6 +12,7 @@ SECTION = 4
 # ASSUME: what is said to grow with the chain, as C_N does in proportion to N, has an exponent of N
 # nearer to one than to zero.
 IN_PROPORTION = Cutoff(0.5, '"grows with N": the exponent of N is nearer to 1 than to 0')
+SHARP = Cutoff(0.9, '"sharp": at least 90 % of the bound is reached', ideal=1.0)
 ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
 
 
@@ -217,3 +218,49 @@ def energy_not_useful(check) -> Finding:
     measured = {"shell_exponent": number(check, "shell_exponent", omega=0.0)}
     says = "exponent of N in the largest P of one energy"
     return judge(measured, Above(IN_PROPORTION, "shell_exponent", says=says))
+
+
+@claim(
+    "Section 6; Theorems 1 to 3",
+    "The bounds of Theorems 1, 2 and 3 in terms of the initial energy are sharp.",
+    checks("sharpness"),
+    controls=(Control("bounds 25 % too large", scale("reached", 0.8)),),
+)
+def sharp_theorems(check) -> Finding:
+    measured = {str(form): float(check["reached"].sel(form=form)) for form in check["form"].values}
+    how = (
+        "in the limit of long chains: the bounds of Theorems 1 and 2 are reached by a tiny wave at "
+        "the edge of the band, that of Theorem 3 at Omega = -4 by A = -B = x (-1)^n"
+    )
+    return judge(measured, Above(SHARP, *measured, says="share of each bound that is reached"), how)
+
+
+@claim(
+    "Section 6; Theorem 2, (24)",
+    "The bound C_0 delta of Theorem 2 is sharp.",
+    checks("sharpness"),
+    controls=(
+        Control(
+            "the least C_0 in place of the proof's",
+            take(limit_constant="least_constant"),
+            confirms=True,
+        ),
+        Control("initial conditions of which no P grows", put("least_constant", 1.0)),
+    ),
+)
+def sharp_theorem_2_ball(check) -> Finding:
+    """The paper gives no C_0: it may be the least one, or that of the inequality in its proof."""
+    limit, least = (number(check, name) for name in ("limit_constant", "least_constant"))
+    share = least / limit
+    measured = {"limit_constant": limit, "least_constant": least, "share": share}
+    sharp = AllOf(
+        Above(1.0, "least_constant", says="growth of P"),
+        Above(SHARP, "share", says="share of the bound that is reached"),
+    )
+    if sharp.failing(measured) == ["share"]:
+        return undecided(
+            measured,
+            f"the paper gives no C_0: its inequality gives C_0 = {limit:.3g} as delta goes to 0, "
+            f"of which {share:.0%} is reached, and C_0 = {least:.3g} is enough",
+        )
+    return judge(measured, sharp)

@@ -9,6 +9,7 @@ energy of (1) in the frame that turns with the pendula, averaged over a turn, gi
 from collections.abc import Callable, Mapping
 from math import prod
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from flint import fmpq
@@ -76,14 +77,14 @@ def turning(re: np.ndarray, im: np.ndarray) -> np.ndarray:
     return scaled(COSINE, re) - scaled(SINE, im)
 
 
-def accelerations(ends, x: np.ndarray, functions=SINES, drive=DOUBLE) -> np.ndarray:
+def accelerations(ends, x: np.ndarray, drive=DOUBLE) -> np.ndarray:
     """Return x'' and y'' of the traced equations (1) at the angles x and y, (component, site)."""
     state = np.stack([x, 0 * x], axis=1)
     constants = {"coupling": EPSILON * MU**2, "drive": 2 * GAMMA * MU**2 * drive}
-    return rates(ends, state, pendula.EQUATIONS, functions, **constants)[:, 1]
+    return rates(ends, state, pendula.EQUATIONS, SINES, **constants)[:, 1]
 
 
-def first_harmonic(ends, slow=SLOW, drive=DOUBLE) -> list:
+def first_harmonic(ends, slow, drive=DOUBLE) -> list:
     """Return the first harmonic, by cos and by sin, of what (1) leaves of order mu^3.
 
     The amplitudes obey (4) in a time that goes at the rate `slow` in mu^2 t.
@@ -100,6 +101,11 @@ def first_harmonic(ends, slow=SLOW, drive=DOUBLE) -> list:
     ]
 
 
+def resonance(ends, drive) -> list:
+    """Return the same for another drive."""
+    return first_harmonic(ends, SLOW, drive)
+
+
 def newtons_energy(ends, x: np.ndarray):
     """Return the potential energy of (1) up to the fourth order of the angles."""
     right, left = joined(ends, x)
@@ -109,7 +115,7 @@ def newtons_energy(ends, x: np.ndarray):
     return own + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
 
 
-def inherited(ends, omega=OMEGA) -> list:
+def inherited(ends, omega) -> list:
     """Return what is left of H from Newton's energy, and of (1) as the equations of that energy."""
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
@@ -122,32 +128,20 @@ def inherited(ends, omega=OMEGA) -> list:
     return [averaged(at_order(turning, 4)) + energy(ends, omega=omega), *left]
 
 
-def synchronised(ends, sign: int = 1) -> list:
+def synchronised(ends, sign: int) -> list:
     """Return by how much (1) leaves y = `sign` x, and what the drive does there.
 
-    Any function may stand for the sine: its values are indeterminates.
+    What stands for the sine acts on each angle alone, so that any odd function would do.
     """
-    of_angle = dict(zip(map(str, STATE[0, 0]), STATE[0, 1], strict=True))
-
-    def sine(x):
-        return filled((_odd(of_angle, one) for one in x), x.shape)
-
     x = np.stack([STATE[0, 0], sign * STATE[0, 0]])
-    driven, free = (
-        accelerations(ends, x, SimpleNamespace(sin=sine), drive) for drive in (DOUBLE, ZERO)
-    )
+    driven, free = (accelerations(ends, x, drive) for drive in (DOUBLE, ZERO))
     return [*(driven[1] - sign * driven[0]), *(driven - free).ravel()]
 
 
-def _odd(values: Mapping, x):
-    """Return the value of an odd function at an angle."""
-    return values[str(x)] if str(x) in values else -values[str(-x)]
-
-
-IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
-    "(4) from (1) by (3)": (first_harmonic, lambda ends: first_harmonic(ends, 2 * SLOW)),
-    "1:2 resonance": (first_harmonic, lambda ends: first_harmonic(ends, drive=COSINE)),
-    "H from the energy of (1)": (inherited, lambda ends: inherited(ends, OMEGA + 1)),
-    "x = y is kept": (synchronised, lambda ends: synchronised(ends, -1)),
+IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
+    "(4) from (1) by (3)": (first_harmonic, SLOW, 2 * SLOW),
+    "1:2 resonance": (resonance, DOUBLE, COSINE),
+    "H from the energy of (1)": (inherited, OMEGA, OMEGA + 1),
+    "x = y is kept": (synchronised, 1, -1),
 }
 """See `identities.IDENTITIES`."""

@@ -8,6 +8,7 @@ the drive.
 
 from collections.abc import Callable, Mapping
 from itertools import combinations, permutations
+from typing import Any
 
 import numpy as np
 from flint import fmpq
@@ -59,12 +60,12 @@ def driven(change, state, factor: int) -> list:
     ]
 
 
-def growth(ends, factor: int = 4):
+def growth(ends, factor: int):
     """Return what is left of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
     return driven(2 * (STATE * rates(ends)).sum(), STATE, factor)
 
 
-def parting(ends, factor: int = 4):
+def parting(ends, factor: int):
     """Return what is left of a bound on the rate of |d|^2, for solutions at a distance d nearby.
 
     It is `factor` gamma |d|^2, and the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
@@ -79,32 +80,32 @@ def parting(ends, factor: int = 4):
     ]
 
 
-def laplacian(ends, part=1):
+def laplacian(ends, part):
     """Return what is left of (17)."""
     return 4 * part * densities().sum() - bonds(ends) - sums(ends)
 
 
-def of_products(ends, part=1):
+def of_products(ends, part):
     """Return what is left of (18), squared."""
     a, b = densities()
     both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
     return part * a.sum() * b.sum() - (a * b).sum() - both
 
 
-def embedding(ends, part=1):
+def embedding(ends, part):
     """Return what is left of (22), to the fourth power."""
     a = densities()[0]
     return part * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
 
-def embedding_reversed(ends, part=1):
+def embedding_reversed(ends, part):
     """Return what is left of (27), to the fourth power."""
     a = densities()[0]
     differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
     return part * len(a) * (a**2).sum() - a.sum() ** 2 - differences
 
 
-def above_band(ends, gammas: int = 2):
+def above_band(ends, gammas: int):
     """Return what is left of (21), with `gammas` times gamma in it."""
     squares = densities()
     power, quartic = squares.sum(), (squares**2).sum()
@@ -112,7 +113,7 @@ def above_band(ends, gammas: int = 2):
     return energy(ends) - bound - QUARTER * quartic - GAMMA * along_drive(-1) - EPSILON * sums(ends)
 
 
-def below_band(ends, gammas: int = 2):
+def below_band(ends, gammas: int):
     """Return what is left of (25), where Omega = -|Omega|."""
     squares = densities()
     power = squares.sum()
@@ -121,7 +122,7 @@ def below_band(ends, gammas: int = 2):
     return -energy(ends) - bound - dropped
 
 
-def size_of_energy(ends, gammas: int = 2):
+def size_of_energy(ends, gammas: int):
     """Return what is left of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4, by four signs."""
     squares, h, left = densities(), energy(ends), []
     power, quartic = squares.sum(), (squares**2).sum()
@@ -135,7 +136,7 @@ def size_of_energy(ends, gammas: int = 2):
     return left
 
 
-def quadratic_part(ends, gammas: int = 2):
+def quadratic_part(ends, gammas: int):
     """Return what is left of the lower bound of H in the proof of Theorem 3, by two signs."""
     squares, left = densities(), []
     power, quartic = squares.sum(), (squares**2).sum()
@@ -146,16 +147,16 @@ def quadratic_part(ends, gammas: int = 2):
     return left
 
 
-IDENTITIES: Mapping[str, tuple[Callable, Callable]] = {
-    "(17)": (laplacian, lambda ends: laplacian(ends, LESS)),
-    "(18)": (of_products, lambda ends: of_products(ends, LESS)),
-    "(19)": (growth, lambda ends: growth(ends, 2)),
-    "distance of two solutions": (parting, lambda ends: parting(ends, 2)),
-    "(21)": (above_band, lambda ends: above_band(ends, 1)),
-    "(22)": (embedding, lambda ends: embedding(ends, LESS)),
-    "(25)": (below_band, lambda ends: below_band(ends, 1)),
-    "(27)": (embedding_reversed, lambda ends: embedding_reversed(ends, LESS)),
-    "size of H": (size_of_energy, lambda ends: size_of_energy(ends, 1)),
-    "lower bound for Theorem 3": (quadratic_part, lambda ends: quadratic_part(ends, 1)),
+IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
+    "(17)": (laplacian, 1, LESS),
+    "(18)": (of_products, 1, LESS),
+    "(19)": (growth, 4, 2),
+    "distance of two solutions": (parting, 4, 2),
+    "(21)": (above_band, 2, 1),
+    "(22)": (embedding, 1, LESS),
+    "(25)": (below_band, 2, 1),
+    "(27)": (embedding_reversed, 1, LESS),
+    "size of H": (size_of_energy, 2, 1),
+    "lower bound for Theorem 3": (quadratic_part, 2, 1),
 }
 """See `identities.IDENTITIES`."""

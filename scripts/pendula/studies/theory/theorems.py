@@ -1,0 +1,151 @@
+"""How near data come to the bounds of Theorems 1 to 3, and what is wrong in their proofs."""
+
+import numpy as np
+from latticode.datasets.checks import table, variable
+from latticode.measures.norms import power_of
+from latticode.numerics.elementary import log, square_modulus
+
+from pendula.models.bounds import (
+    extent,
+    theorem_1_bound,
+    theorem_2_bound,
+    theorem_2_constants,
+    theorem_2_gap,
+    theorem_3_bound,
+)
+from pendula.problem import Constants
+
+from .equations import ENDS, PAIR, alternating, constants_at, one_pair, total_energy
+from .stability import edge_wave
+
+TINY = 1e-5
+"""Amplitude of tiny data: the cubic terms change ratios by its square."""
+LONG, SIZES = 513, (11, 81)
+"""The sites of the chain on which data come near to the bounds, and of two that are compared."""
+
+
+def check_sharpness() -> dict:
+    """Find what part of each bound the worst data known reach at Omega = 8 or -4.
+
+    For Theorems 1 and 2 these are tiny: A = -B in the wave at the edge of the band. By the linear
+    equations P goes from its least value to its largest, where the phase is another by a quarter
+    of a turn, and H stays. For Theorem 3 they are A = -B = (-1)^n x at rest with x^2 = 2 c, the
+    state at which its bound is attained where no end breaks the wave and Omega is not positive.
+
+    The paper gives no C_0 of Theorem 2. In the limit of small delta, the inequality of its proof,
+    C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta with |H| <= C delta, gives
+    `limit_constant`, and the wave needs `least_constant`.
+    """
+    above, below = constants_at(8.0), constants_at(-4.0)
+    high, low = (TINY * edge_wave(one.omega, LONG) for one in (above, below))
+    power = power_of(low)
+    least, largest = (total_energy(below, ENDS, z) for z in (low, 1j * low))
+    rough = alternating(LONG, np.sqrt(2.0 * extent(below)))
+    reached = {
+        "theorem_1": power / theorem_1_bound(total_energy(above, ENDS, 1j * high), above),
+        "theorem_2": power / theorem_2_bound(largest, power, below),
+        "theorem_3": power_of(rough)
+        / theorem_3_bound(total_energy(below, ENDS, rough), LONG, below),
+    }
+    limit = extent(below) / theorem_2_gap(below)
+    return table(
+        "What part of the bounds of Theorems 1 to 3 is reached",
+        {"form": list(reached)},
+        sites=variable(LONG, (), "number of sites N"),
+        reached=variable(list(reached.values()), ("form",), "largest P over its bound"),
+        limit_constant=variable(limit, (), "C_0 of the proof of Theorem 2 for tiny data"),
+        least_constant=variable(least / largest, (), "least C_0 that the wave allows"),
+    )
+
+
+def largest_of_energy(constants: Constants, sites: int, energy: float) -> float:
+    """Return the largest P that A = -B = (-1)^n x has at this energy.
+
+    H is N x^4 / 2 and a multiple of x^2.
+    """
+    quartic = 0.5 * sites
+    square = total_energy(constants, ENDS, alternating(sites, 1.0)) - quartic
+    root = np.sqrt(square * square + 4.0 * quartic * energy)
+    return 2.0 * sites * (root - square) / (2.0 * quartic)
+
+
+def check_chain_growth() -> dict:
+    """Compare chains of two SIZES: C_N of Theorem 3, and the largest P of data of one energy.
+
+    The energy is that of one pair. Where the largest P of that energy grows with N, so must each
+    bound in terms of H.
+    """
+    exponents, omegas, dims = [], [0.0, 8.0], ("omega",)
+    for constants in map(constants_at, omegas):
+        energies = [total_energy(constants, ENDS, one_pair(n, PAIR)) for n in SIZES]
+        grown = [
+            [theorem_3_bound(h, n, constants), largest_of_energy(constants, n, h)]
+            for n, h in zip(SIZES, energies, strict=True)
+        ]
+        exponents.append(np.diff(log(grown), axis=0)[0] / log(SIZES[1] / SIZES[0]))
+    of_bound, of_shell = np.transpose(exponents)
+    return table(
+        "What grows with the length of the chain: C_N, and the largest P of one energy",
+        {"omega": omegas},
+        constant_exponent=variable(of_bound, dims, "exponent in N of C_N"),
+        shell_exponent=variable(of_shell, dims, "exponent in N of the largest P of one energy"),
+    )
+
+
+# --- Errors of the proofs, each with the smallest example that anyone can rerun -------------------
+
+
+def check_errata() -> dict:
+    """Gather the errors of the proofs of Theorems 2 and 3, at Omega = -4, on short chains.
+
+    The bound printed in Theorem 3's proof has gamma where 2 gamma is right.
+    """
+    constants, sizes, dims = constants_at(-4.0), np.arange(1, 10, 2), ("sites",)
+    printed, corrected = (
+        np.array([margin(constants, n, drive) for n in sizes]) for drive in (1.0, 2.0)
+    )
+    smallest = sizes[printed < 0.0].min()
+    return table(
+        "Errors in the proofs of Theorems 2 and 3",
+        {"sites": sizes},
+        printed=variable(printed, dims, "H minus the bound with gamma, as printed"),
+        corrected=variable(corrected, dims, "H minus the bound with 2 gamma"),
+        smallest=variable(smallest, (), "smallest chain that breaks the printed bound"),
+        **without_continuity(constants),
+    )
+
+
+def margin(constants: Constants, sites: int, drive: float) -> float:
+    """Return H less its lower bound in Theorem 3's proof, with `drive` gamma, for (-1)^n.
+
+    The quartic terms of both are equal, so that its sign does not depend on the size of the data.
+    """
+    z = alternating(sites, 1.0)
+    quartic = 0.25 * np.sum(square_modulus(z) ** 2)
+    constant = abs(constants.omega) + drive * constants.gamma + 4.0 * constants.epsilon
+    return float(total_energy(constants, ENDS, z) - quartic + constant * power_of(z))
+
+
+def without_continuity(constants: Constants) -> dict:
+    """Find data that satisfy all that the printed end of Theorem 2's proof uses, and break (24).
+
+    For small data, here delta = delta_0 / 2, it uses (25), that -H > 0 is constant, and
+    |H| <= C delta with C = c, and concludes P <= C_0 delta. None of that excludes states beyond the
+    barrier of (25): a pair (x, 0) there has the same energy. What excludes them is that P is
+    continuous and starts below 2 a.
+    """
+    delta_0, c_0 = theorem_2_constants(constants)
+    delta, gap = 0.5 * delta_0, theorem_2_gap(constants)
+    sizes = np.linspace(0.0, 6.0, 20001)[1:]
+    pairs = np.stack([sizes, 0.0 * sizes], axis=1)[:, :, None].astype(complex)
+    powers, depth = sizes**2, -total_energy(constants, ENDS, pairs)
+    premises = (depth > 0.0) & (depth <= extent(constants) * delta)
+    premises &= depth >= gap * powers - 0.25 * powers**2
+    below = powers[premises & (powers < 2.0 * gap)].max()
+    return {
+        "delta_0": variable(delta_0, (), "radius that the inequalities of Theorem 2's proof give"),
+        "allowed_power": variable(c_0 * delta, (), "C_0 delta of the small data"),
+        "largest_power": variable(powers[premises].max(), (), "largest P that its premises allow"),
+        "largest_power_below": variable(below, (), "largest P that they allow below the barrier"),
+        "barrier_power": variable(2.0 * gap, (), "P at the barrier of (25), 2 a"),
+    }
