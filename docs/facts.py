@@ -69,9 +69,6 @@ def proved(baseline: Baseline) -> dict:
         "until": number(min(float(one["tau"][-1]) for one in curves)),
         "states": str(breathers.sizes["proof"]),
         "radius": upward(breathers["radius"].max()),
-        "stable": str(int((breathers["stable"] == 1).sum())),
-        "unstable": str(int((breathers["stable"] == 0).sum())),
-        "chain_sites": number(2 * breathers.attrs["chain_half_width"] + 1),
         "bits": number(breathers.attrs["bits"]),
     }  # fmt: skip
 

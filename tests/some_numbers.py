@@ -18,7 +18,7 @@ from pendula.studies.unbounded.thermal import solve_thermal
 
 NODES = 6
 PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
-"""A steady breather whose proof takes a state, an inverse in balls, and a spectrum."""
+"""A steady breather whose proof takes a state and an inverse in balls."""
 NAMES = (*CHECKS, "fronts", "thermal", "proofs")
 
 
@@ -29,7 +29,7 @@ def make(given: Path, made: Path) -> None:
     for name, data in (datasets | {"fronts": measure_fronts(*runs)}).items():
         save(str(made / f"{name}.nc"), data)
     write(str(made / "thermal.nc"), *solve_thermal(1.0, 1.0, [-1.0], NODES))
-    write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
+    write(str(made / "proofs.nc"), *breathers_contents(1.0, 8, PROVED, []))
 
 
 if __name__ == "__main__":

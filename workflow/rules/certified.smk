@@ -20,7 +20,7 @@ use rule dataset as certify_curve with:
 
 
 use rule dataset as prove_breathers with:
-    "Steady breathers that are proved to exist on the infinite chain, and spectra on a finite one"
+    "Steady breathers that are proved to exist on the infinite chain"
     pathvars:
         made="certified/breathers",
     params:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat, ctx
 from pendula.models.pairs import FAMILIES
-from pendula.studies.certified import balls, existence
+from pendula.studies.certified import existence
 from pendula.studies.certified.existence import Chain, RefusedError, prove
 from pendula.studies.certified.proved_breathers import find
 
@@ -39,9 +39,7 @@ def test_the_true_state_lies_within_the_radius_and_not_within_a_small_part_of_it
     whole = np.concatenate([longer[:, :0:-1], longer], axis=1).ravel()
     with ctx.workprec(200):
         true = better(FAR, family.drive(FAR.gamma), whole)
-        distance = max(
-            balls.upper(abs(x - arb(float(y)))) for x, y in zip(true, whole, strict=True)
-        )
+        distance = max(float(abs(x - arb(y)).upper()) for x, y in zip(true, whole, strict=True))
     radius = proved(family, HERE, state)
     assert distance <= radius < 1e-10
     assert radius < 20.0 * distance
@@ -80,10 +78,10 @@ def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale, epsilon, hal
     """
     chain = HERE._replace(epsilon=epsilon, omega=-4.0 * epsilon, half_width=half_width)
     u = scale * np.random.default_rng(3).uniform(-1.0, 1.0, (2, 2 * half_width + 1))
-    with balls.precision():
+    with ctx.workprec(existence.BITS):
         a, df, wide, miss = dense(chain, s, u, 4)
-        found = existence.estimate(chain, s, [arb(float(x)) for x in u.ravel()], infinite=True)
-        eta, z, bent, cubic = (balls.upper(one) for one in found)
+        found = existence.estimate(chain, s, [arb(float(x)) for x in u.ravel()])
+        eta, z, bent, cubic = (float(one.upper()) for one in found)
 
     def norm(matrix):
         return np.abs(matrix).sum(axis=1).max()
@@ -120,7 +118,7 @@ def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
 
 def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
     """p has its roots at 0.4975 and 0.5025: just below the second one p < 0, but q > 1."""
-    with balls.precision():
+    with ctx.workprec(existence.BITS):
         eta = arb(0.4975) * arb(0.5025) / 2
         there = existence.Estimates(eta, arb(0.5), arb(1), arb(1e-12))
         with pytest.raises(RefusedError, match="residual"):

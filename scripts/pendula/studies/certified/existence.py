@@ -1,4 +1,4 @@
-"""Proofs that steady breathers of (4) exist, on the infinite chain and on finite ones.
+"""Proofs that steady breathers of (4) exist on the infinite chain.
 
 A steady state A = a, B = b or A = i a, B = i b with real a and b, and s = gamma in the real,
 s = -gamma in the imaginary case, is a zero of F on the space of bounded sequences u = (a_n, b_n),
@@ -43,16 +43,23 @@ them within r of u, which is the only one.
 Symmetries. F commutes with n -> -n, with X, and with u -> -u, which keep |.|. If u has a symmetry
 to the last bit, uniqueness gives it to the true state.
 
-The state is not zero, since r < |u| is asked for. On a finite chain of half-width M with the sites
-beyond it at rest there is no outside: the same holds without 2 epsilon / d, E and 1 / d.
+The state is not zero, since r < |u| is asked for.
+
+Numbers are balls, as python-flint's `arb` keeps them: every operation returns a ball that contains
+the result for all numbers of its operands, and a comparison is true only if it holds for all
+numbers of the balls. The arithmetic is that of integers, so that balls have the same bits on every
+machine.
 """
 
 from typing import NamedTuple
 
 import numpy as np
-from flint import arb, arb_mat
+from flint import arb, arb_mat, ctx, fmpq
 
-from . import balls
+from .fixed_point import decimal
+
+BITS = 128
+"""Precision of the midpoints of balls."""
 
 
 class Chain(NamedTuple):
@@ -62,6 +69,12 @@ class Chain(NamedTuple):
     gamma: float
     omega: float
     half_width: int
+
+
+def as_ball(value: float) -> arb:
+    """Return the ball of the decimal fraction that a double prints as: 0.1 is one tenth."""
+    exact = decimal(value)
+    return arb(fmpq(exact.numerator, exact.denominator))
 
 
 class Estimates(NamedTuple):
@@ -82,7 +95,7 @@ def refined(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
 
     The step is so small that its rounding is lost: the result has the same bits on every machine.
     """
-    with balls.precision():
+    with ctx.workprec(BITS):
         u = on_the_whole(state)
         k, miss = (
             np.array([float(x.mid()) for x in matrix.entries()])
@@ -92,16 +105,15 @@ def refined(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
     return state - step[:, chain.half_width :]
 
 
-def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> float:
-    """Return r such that one true steady state lies within r of `state`.
+def prove(chain: Chain, s: float, state: np.ndarray) -> float:
+    """Return r such that one true steady state of the infinite chain lies within r of `state`.
 
-    This is even, (component, site 0..M), of doubles, and `s` is the drive on a and b. On the
-    infinite chain, or on the finite one of M = `half_width`. Raises RefusedError where an
-    inequality of the theorem cannot be shown.
+    This is even, (component, site 0..M), of doubles, and `s` is the drive on a and b. Raises
+    RefusedError where an inequality of the theorem cannot be shown.
     """
-    with balls.precision():
+    with ctx.workprec(BITS):
         u = on_the_whole(state)
-        radius = radius_of(estimate(chain, s, u, infinite))
+        radius = radius_of(estimate(chain, s, u))
         if not arb(radius) < _largest(map(abs, u)):
             raise RefusedError("the enclosure of the state contains zero")
         return radius
@@ -113,35 +125,34 @@ def on_the_whole(state: np.ndarray) -> list[arb]:
     return [arb(float(value)) for value in whole.ravel()]
 
 
-def estimate(chain: Chain, s: float, u: list[arb], infinite: bool) -> Estimates:
+def estimate(chain: Chain, s: float, u: list[arb]) -> Estimates:
     """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
     k, size = slope(chain, s, u), len(u)
-    epsilon, away = abs(balls.decimal(chain.epsilon)), distance(chain, s)
-    if infinite and not 2 * epsilon < away:
+    epsilon, away = abs(as_ball(chain.epsilon)), distance(chain, s)
+    if not 2 * epsilon < away:
         raise RefusedError("the outside does not contract: Omega lies in a band of waves")
     try:
         n = k.inv().mid()  # N
     except ZeroDivisionError:
         raise RefusedError("the slope of the equations has no inverse there") from None
     # indices of both components on the sites -M and M
-    ends = (0, size // 2 - 1, size // 2, size - 1) if infinite else ()
+    ends = (0, size // 2 - 1, size // 2, size - 1)
     unit = arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
     left = _moduli(unit - n * k) * arb_mat([[1]] * size)
     # row sums of |N E|, |N_ij u_j| and |N|
     sums = _moduli(n) * arb_mat([[ends.count(j), abs(x), 1] for j, x in enumerate(u)])
-    z = _largest(left[i, 0] + epsilon * sums[i, 0] for i in range(size))
-    eta = _largest(abs(x) for x in (n * residual(chain, s, u)).entries())
-    bent, plain = (_largest(sums[i, column] for i in range(size)) for column in (1, 2))
-    if infinite:
-        z = _largest([z, 2 * epsilon / away])
-        eta = _largest([eta, *(epsilon * abs(u[j]) / away for j in ends)])
-        plain = _largest([plain, 1 / away])
+    beyond = [epsilon * abs(u[j]) / away for j in ends]
+    eta = _largest([*map(abs, (n * residual(chain, s, u)).entries()), *beyond])
+    within = (left[i, 0] + epsilon * sums[i, 0] for i in range(size))
+    z = _largest([*within, 2 * epsilon / away])
+    bent = _largest(sums[i, 1] for i in range(size))
+    plain = _largest([*(sums[i, 2] for i in range(size)), 1 / away])
     return Estimates(eta, z, 3 * bent, 1.5 * plain)
 
 
 def slope(chain: Chain, s: float, u: list[arb]) -> arb_mat:
     """Return K, the matrix of DF(u) on the sites -M..M, components one after the other."""
-    epsilon, omega, drive = map(balls.decimal, (chain.epsilon, chain.omega, s))
+    epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites = len(u) // 2
     rows = [[arb(0)] * len(u) for _ in u]
     for i, x in enumerate(u):
@@ -155,7 +166,7 @@ def slope(chain: Chain, s: float, u: list[arb]) -> arb_mat:
 
 def residual(chain: Chain, s: float, u: list[arb]) -> arb_mat:
     """Return F(u) on the sites -M..M, a column."""
-    epsilon, omega, drive = map(balls.decimal, (chain.epsilon, chain.omega, s))
+    epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites, zero = len(u) // 2, [arb(0)]
     values = []
     for own, other in ((u[:sites], u[sites:]), (u[sites:], u[:sites])):
@@ -167,7 +178,7 @@ def residual(chain: Chain, s: float, u: list[arb]) -> arb_mat:
 
 def distance(chain: Chain, s: float) -> arb:
     """Return d, below the moduli of the eigenvalues of C."""
-    epsilon, omega, drive = map(balls.decimal, (chain.epsilon, chain.omega, s))
+    epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     moduli = abs(omega - 2 * epsilon), abs(omega - 2 * drive - 2 * epsilon)
     return arb.min(*moduli)
 
@@ -183,7 +194,7 @@ def radius_of(estimates: Estimates) -> float:
     if not room > 0:
         raise RefusedError("the inverse is not near enough: the slope may be singular")
     under = room * room - 2 * bent * eta
-    radius = balls.upper(1.01 * 2 * eta / (room + under.sqrt())) if under > 0 else np.inf
+    radius = float((1.01 * 2 * eta / (room + under.sqrt())).upper()) if under > 0 else np.inf
     r = arb(radius)
     p = eta - room * r + bent * r * r / 2 + cubic * r * r * r / 3
     if not (p <= 0 and z + bent * r + cubic * r * r < 1):
