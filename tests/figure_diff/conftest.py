@@ -28,6 +28,20 @@ class Run(NamedTuple):
         """Compare, and return what was found of each file."""
         return {finding.name: finding for finding in self.judge(**options).findings}
 
+    def anew(self, name: str, known: dict[str, Finding]) -> list[Finding]:
+        """Judge a file, and those of its figure, where all others are `known`.
+
+        Return what is found of it by the accepted bits, and where any bits will do.
+        """
+        comparison = baseline.Comparison(baseline.recorded(self.accepted), *self)
+        comparison.found = dict(known)
+        stem = name.rpartition(".")[0]
+        for beside in sorted(known, key=baseline.place):
+            if beside.startswith(f"{stem}."):
+                comparison.look_at(beside)
+        found = comparison.found[name]
+        return [comparison.strictly(found, any_bits) for any_bits in (False, True)]
+
     def accept(self, names=made_up.NAMES, words=()) -> str:
         """Take the run, or the files that words name, as the baseline; return what is told."""
         return acceptance.accept(names, *self, made_up.CONFIGURATION, words)
@@ -55,11 +69,8 @@ class Run(NamedTuple):
         assert old in text
         path.write_text(text.replace(old, new, 1))
         if sealed and name.startswith("claims"):
-            self.write(name, json.loads(path.read_text()))
-
-    def write(self, name: str, content: dict) -> None:
-        """Write JSON of the run with a checksum of this content."""
-        write_json(self.made / name, {key: content[key] for key in content if key != ENTRY})
+            content = json.loads(path.read_text())
+            write_json(path, {key: content[key] for key in content if key != ENTRY})
 
     def pretend(self, kind: str, package: str) -> None:
         """Make the baseline one that was made with another version of a package."""
@@ -83,7 +94,36 @@ def accepted_run(tmp_path_factory) -> Run:
     return run
 
 
+@pytest.fixture(scope="session")
+def known(accepted_run) -> dict[str, Finding]:
+    """Return what is found of each file of the run."""
+    return accepted_run.findings(any_bits=True)
+
+
+@pytest.fixture(scope="session")
+def moved_run(accepted_run, tmp_path_factory) -> Run:
+    """Return another right run, not to be changed, in which chaos has other last bits."""
+    made = made_up.make_run(tmp_path_factory.mktemp("moved_run") / "results", seed=1)
+    return accepted_run._replace(made=made)
+
+
+@pytest.fixture(scope="session")
+def known_of_moved(moved_run) -> dict[str, Finding]:
+    """Return what is found of each file of the other run."""
+    return moved_run.findings(any_bits=True)
+
+
+def copy_of(run: Run, folder: Path) -> Run:
+    return Run(*(shutil.copytree(path, folder / path.name) for path in run))
+
+
 @pytest.fixture
 def run(accepted_run, tmp_path) -> Run:
     """Return a copy of the run and of its baseline, to be changed."""
-    return Run(*(shutil.copytree(path, tmp_path / path.name) for path in accepted_run))
+    return copy_of(accepted_run, tmp_path)
+
+
+@pytest.fixture
+def moved(moved_run, tmp_path) -> Run:
+    """Return a copy of the other right run and of the baseline, to be changed."""
+    return copy_of(moved_run, tmp_path / "moved")

@@ -18,10 +18,9 @@ def nudge(found):
     return found.assign(l2=found["l2"] * (1 + 1e-9))
 
 
-def test_another_right_run_is_refused_with_the_accepted_bits_alone(run):
+def test_another_right_run_is_refused_with_the_accepted_bits_alone(moved_run):
     """Chaos takes another path in it, in all that rests on it; nothing else moves."""
-    made_up.make_run(run.made, seed=1)
-    strictly, found = run.judge(), run.judge(any_bits=True)
+    strictly, found = moved_run.judge(), moved_run.judge(any_bits=True)
     assert strictly.counts.keys() == {Status.DIFFERENT, Status.IDENTICAL}
     kinds = {Status.BEYOND, Status.WITHIN, Status.IDENTICAL}
     assert not found.faults and found.counts.keys() == kinds
@@ -33,10 +32,7 @@ def test_another_right_run_is_refused_with_the_accepted_bits_alone(run):
 
 @pytest.mark.parametrize(
     ("package", "status"),
-    [
-        *((f"data.{name}", Status.WITHIN) for name in ("numpy", "scipy", "numba", "machine")),
-        *((f"drawing.{name}", Status.DIFFERENT) for name in ("matplotlib", "freetype", "zlib")),
-    ],
+    [("data.numpy", Status.WITHIN), ("drawing.matplotlib", Status.DIFFERENT)],
 )
 def test_another_environment_compares_numbers_where_it_decides_them(run, package, status):
     run.change(REGULAR, nudge)
@@ -52,15 +48,14 @@ def test_pictures_of_other_versions_are_judged_by_their_descriptions(run):
     assert found.status == Status.BEYOND and "its description; that is identical" in found.says
 
 
-def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run):
+def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run, moved):
     run.change(REGULAR, nudge)
     made_up.put_words(run.made, largest=6.60404)  # a last digit follows
     assert run.findings(any_bits=True)[LEDGER].status == Status.WITHIN
     made_up.put_words(run.made, largest=6.70403)  # nothing that moved is so large
     assert run.findings(any_bits=True)[LEDGER].status == Status.DIFFERENT
-    made_up.make_run(run.made, seed=1)
-    made_up.put_words(run.made, largest=6.9, verdict="not reproduced")
-    found = run.findings(any_bits=True)
+    made_up.put_words(moved.made, largest=6.9, verdict="not reproduced")
+    found = moved.findings(any_bits=True)
     assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].says
 
 
