@@ -18,56 +18,63 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts")]
 
-from latticode.datasets.netcdf import Variable, read, write  # noqa: E402
+from latticode.datasets.netcdf import read, save  # noqa: E402
 from latticode.measures.spreading import fit_exponent  # noqa: E402
-from pendula import __version__  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.studies.breathers.figures import SAME_RUNS  # noqa: E402
 from pendula.studies.unbounded.measured import speeds  # noqa: E402
 
-GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
+CASES = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]["cases"]
 QUOTED = ROOT / "tests/baseline/quoted"
-
-
-def keep_unbounded(results: Path, folder: Path) -> None:
-    """Keep exponents, fronts and powers of the long study of the infinite chain."""
-    long = results / "long/unbounded"
-    rows = [_case(read(long / f"{name}.nc")) for name in GIVEN["cases"]]
-    kept = {
-        "case": Variable(("case",), GIVEN["cases"], "case of the paper, on the infinite chain"),
-        **{
-            name: Variable(("case",), [row[name][0] for row in rows], title)
-            for name, (_, title) in rows[0].items()
-        },
-        **_omegas(read(long / "omegas.nc"), read(long / "fronts.nc")),
-    }
-    title = "The long study of the infinite chain, reduced to what the documents quote"
-    _write(folder / "unbounded.nc", title, kept, epsilon=1.0, gamma=1.0, **GIVEN["long"]["solver"])
-
-
-def _write(path: Path, title: str, variables: dict[str, Variable], **attributes) -> None:
-    write(path, variables, {"title": title, **attributes, "version": __version__})
-
-
-PASSAGES = ("passage_rate", "passed")
-"""What is kept of first passages over the top, with confidence intervals; of `passed` the last."""
-
-
-def keep_passages(results: Path, folder: Path) -> None:
-    """Keep shares and rates of the long study of pendula that go over the top."""
-    long = read(results / "long/pendula/over_the_top.nc")
-    last, tau = long.isel(tau=-1), long["tau"].values
-    names = [name for name in last if str(name).startswith(PASSAGES)]
-    kept = {str(name): _as_it_is(last[name]) for name in ["mu", *names]}
-    about = {"members": long.sizes["member"], "end_time": tau[-1], "settled": long.attrs["settled"]}
-    title = "The long study of pendula that go over the top, reduced to what the documents quote"
-    _write(folder / "pendula.nc", title, kept, **about)
-
-
 HALF = "half of its 95 % confidence interval"
 OCTAVES = 2
 """The exponents hold for so many of the last octaves of time."""
+OF_RUNS = ("epsilon", "gamma", "solver", "solver_rtol", "solver_atol")
+OF_FRONTS = [
+    *("second_front_speed", "second_front_speed_error"),
+    *("power_behind", "power_behind_error", "power_between", "power_between_error"),
+    *("thermal_power", "thermal_antisymmetric_power"),
+]
+
+
+def of_unbounded(folder: Path) -> xr.Dataset:
+    """Return exponents, fronts and powers of the infinite chain, by case and by Omega."""
+    about = {"long_name": "case of the paper, on the infinite chain"}
+    cases = [_case(read(folder / f"{name}.nc")) for name in CASES]
+    run, fronts = read(folder / "omegas.nc"), read(folder / "fronts.nc")
+    fits = [_exponent(run, variant).value for variant in range(run.sizes["variant"])]
+    omegas = _numbers({
+        "omega_end": (float(run["tau"][-1]), "slow time at the end of these runs"),
+        "omega_exponent": (xr.DataArray(fits, dims="omega"), "exponent of tau in the l2 norm"),
+    })  # fmt: skip
+    by_case = xr.concat(cases, xr.Variable("case", CASES, about))
+    return _about(xr.merge([by_case, omegas, fronts[OF_FRONTS]]), run, *OF_RUNS)
+
+
+def _case(run: xr.Dataset) -> xr.Dataset:
+    """Return the numbers of a case."""
+    (speed, *_), (error, *_) = speeds(run)
+    exponent = _exponent(run)
+    sites = 2 * int(run["front"].isel(piece_tau=-1).max()) + 1
+    predicted = float(run["predicted_speed"][0])
+    return _numbers({
+        "end": (float(run["tau"][-1]), "slow time at the end"),
+        "sites": (sites, "sites that the front has passed at the end"),
+        "speed": (speed, "speed of the front, sites per unit of tau"),
+        "speed_error": (error, f"{HALF}, or its resolution"),
+        "predicted_speed": (predicted, "speed of linear spreading, sites per unit of tau"),
+        "exponent": (exponent.value, "exponent of tau in the l2 norm"),
+        "exponent_error": (exponent.half, HALF),
+    })  # fmt: skip
+
+
+def _numbers(told: dict[str, tuple]) -> xr.Dataset:
+    """Return a dataset of numbers, each with what it is."""
+    return xr.Dataset({
+        name: xr.DataArray(value).assign_attrs(long_name=meaning)
+        for name, (value, meaning) in told.items()
+    })  # fmt: skip
 
 
 def _exponent(run: xr.Dataset, variant: int = 0):
@@ -77,63 +84,25 @@ def _exponent(run: xr.Dataset, variant: int = 0):
     return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
-def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
-    """Return the numbers of a case, each with what it is."""
-    speed, error = speeds(run)
-    sites = 2 * int(run["front"].isel(piece_tau=-1).max()) + 1
-    predicted, tau = float(run["predicted_speed"][0]), float(run["tau"][-1])
-    exponent = _exponent(run)
-    return {
-        "end": (tau, "slow time at the end"),
-        "sites": (sites, "sites that the front has passed at the end"),
-        "speed": (speed[0], "speed of the front, sites per unit of tau"),
-        "speed_error": (error[0], f"{HALF}, or its resolution"),
-        "predicted_speed": (predicted, "speed of linear spreading, sites per unit of tau"),
-        "exponent": (exponent.value, "exponent of tau in the l2 norm over the last octaves"),
-        "exponent_error": (exponent.half, HALF),
-    }
+def of_pendula(folder: Path) -> xr.Dataset:
+    """Return at the end of the runs the shares, and the rates, of passages over the top."""
+    study = read(folder / "over_the_top.nc")
+    names = [name for name in study.data_vars if name.startswith(("passage_rate", "passed"))]
+    last = study[names].isel(tau=-1, drop=True)
+    return _about(last, study, "members", "end_time", "settled")
 
 
-OF_FRONTS = (
-    *("omega", "second_front_speed", "second_front_speed_error"),
-    *("power_behind", "power_behind_error", "power_between", "power_between_error"),
-    *("thermal_power", "thermal_antisymmetric_power"),
-)
+def of_breathers(folder: Path) -> xr.Dataset:
+    """Return the map of fates, and the shares of runs from perturbed initial conditions."""
+    fates, spread = (read(folder / f"{name}.nc") for name in ("fates", "sensitivity"))
+    shares = spread[["share", "share_low", "share_high"]]
+    kept = _about(xr.merge([fates[["fate"]], shares]), fates, *SAME_RUNS, "solver")
+    return kept.assign_attrs(points=fates.sizes["a0"], members=spread.attrs["members"])
 
 
-def _omegas(run: xr.Dataset, fronts: xr.Dataset) -> dict[str, Variable]:
-    """Return the exponent at each Omega, and what was measured of the fronts."""
-    exponents = [_exponent(run, variant).value for variant in range(run.sizes["variant"])]
-    return {
-        **{name: _as_it_is(fronts[name]) for name in OF_FRONTS},
-        "omega_end": Variable((), float(run["tau"][-1]), "slow time at the end of these runs"),
-        "omega_exponent": Variable(
-            ("omega",), exponents, "exponent of tau in the l2 norm over the last two octaves"
-        ),
-    }
-
-
-def keep_breathers(results: Path, folder: Path) -> None:
-    """Keep the map of the long study of fates, and the shares of that of sensitivity."""
-    fates, spread = (
-        read(results / f"long/breathers/{name}.nc") for name in ("fates", "sensitivity")
-    )
-    whole = ("omega", "a0", "b0", "fate")
-    shares = ("size", "share", "share_low", "share_high")
-    kept = {
-        **{name: _as_it_is(fates[name]) for name in whole},
-        **{name: _as_it_is(spread[name]) for name in shares},
-    }
-    about = {name: fates.attrs[name] for name in (*SAME_RUNS, "solver")}
-    about |= {"points": fates.sizes["a0"], "members": spread.attrs["members"]}
-    title = "The long study of breathers, reduced to what the documents quote and a figure shows"
-    _write(folder / "breathers.nc", title, kept, **about)
-
-
-def _as_it_is(values: xr.DataArray) -> Variable:
-    others = {name: one for name, one in values.attrs.items() if name.startswith("flag_")}
-    about = (values.attrs["long_name"], values.attrs.get("units", "1"), others)
-    return Variable(values.dims, values.values, *about)
+def _about(data: xr.Dataset, study: xr.Dataset, *names: str) -> xr.Dataset:
+    """Return the data with the attributes of a study that are named, alone."""
+    return data.drop_attrs(deep=False).assign_attrs({name: study.attrs[name] for name in names})
 
 
 SECTIONS = ("cases", "sweeps", "solvers")
@@ -167,13 +136,15 @@ def keep_configuration() -> None:
 def main(results: Path, folder: Path = QUOTED) -> None:
     """Keep whatever of the long studies the folder of results holds."""
     folder.mkdir(exist_ok=True)
-    for needed, keep in {
-        "unbounded/omegas.nc": keep_unbounded,
-        "pendula/over_the_top.nc": keep_passages,
-        "breathers/fates.nc": keep_breathers,
+    for (study, last), reduced in {
+        ("unbounded", "omegas"): of_unbounded,
+        ("pendula", "over_the_top"): of_pendula,
+        ("breathers", "fates"): of_breathers,
     }.items():
-        if (results / "long" / needed).exists():
-            keep(results, folder)
+        if (results / f"long/{study}/{last}.nc").exists():
+            title = f"The long study {study}, reduced to what the documents quote"
+            data = reduced(results / "long" / study).assign_attrs(title=title)
+            save(folder / f"{study}.nc", data)
 
 
 if __name__ == "__main__":

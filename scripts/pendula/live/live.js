@@ -313,16 +313,22 @@ const play = (time) => {
   moveTo(now() + passed);
   setPlaying(now() < settings.end_time ? time : null);
 };
+const save = (download, text) => {
+  made("a", { href: `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`, download }).click();
+};
+const csv = () => {
+  const columns = [run.tau, ...run.l2, ...run.linf, run.energy];
+  const rows = Array.from(run.tau, (_, i) => columns.map((values) => values[i]));
+  return ["tau,l2_A,l2_B,linf_A,linf_B,energy", ...rows, ""].join("\n");
+};
 const complex = (re, im) => (im ? `"${re}${im < 0 ? "" : "+"}${im}j"` : re);
-const saveCase = () => {
+const yaml = () => {
   const { a_re, a_im, b_re, b_im, ...keys } = settings;
   keys.initial = `{0: [${complex(a_re, a_im)}, ${complex(b_re, b_im)}]}`;
   const { output_step, every } = steps();
   Object.assign(keys, { output_step, snapshot_step: output_step * every, solver: data.solver.named });
   const lines = Object.entries(keys).map(([key, value]) => `    ${key}: ${value}`);
-  const text = ["# snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
-  const href = `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`;
-  made("a", { href, download: "mine.yaml" }).click();
+  return ["# snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
 };
 const begin = async () => {
   solve = await load(data.solver);
@@ -347,7 +353,8 @@ const begin = async () => {
   listen("mu", "input", updateTime);
   listen("perturbation", "input", update);
   listen("compare", "click", compareAll);
-  listen("yaml", "click", saveCase);
+  listen("csv", "click", () => save("mine.csv", csv()));
+  listen("yaml", "click", () => save("mine.yaml", yaml()));
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", update);
   const byLink = () => (location.hash === "#same-bits" ? compareAll() : show(location.hash.slice(1)));
   window.addEventListener("hashchange", byLink);

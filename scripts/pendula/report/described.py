@@ -2,7 +2,6 @@
 
 import re
 import struct
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,10 +11,8 @@ from latticode.datasets.netcdf import readable
 
 from .words import number
 
-MOST = 40
-"""Of so many values a page shows all, else their range."""
 WORDS = 300
-"""The page shows the beginning of a longer text, such as a model's."""
+"""The page shows the beginning of a longer attribute, such as a model's text."""
 SIZE_OF_PNG = slice(16, 24)
 """The bytes that hold width and height."""
 SHARED = {"Conventions", "version", "history"}
@@ -49,7 +46,6 @@ class Variable(NamedTuple):
     meaning: str
     units: str
     dimensions: str
-    values: str
 
 
 class Dataset(NamedTuple):
@@ -74,37 +70,27 @@ def figure(path: Path, page: Path) -> Figure:
 def dataset(path: Path, page: Path) -> Dataset:
     """Return what the dataset at `path` says, for a page in the folder `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
-        data.set_auto_mask(False)
         about = {name: value for name, value in vars(data).items() if name not in SHARED}
-        told = {name: _in_words(value) for name, value in about.items()}
-        variables = [*_variables(data)]
+        variables = [_variable(one) for one in data.variables.values()]
+    told = {name: _in_words(value) for name, value in about.items()}
     title = told.pop("title", "")
     return Dataset(path.relative_to(page).as_posix(), title, told, variables)
 
 
-def _variables(data: netCDF4.Dataset) -> Iterator[Variable]:
-    for name, one in data.variables.items():
-        about = vars(one)
-        dimensions = " × ".join(f"{k} {n}" for k, n in zip(one.dimensions, one.shape, strict=True))
-        units = about.get("units", "1")
-        yield Variable(
-            name, about.get("long_name", ""), "" if units == "1" else units, dimensions,
-            _values(np.asarray(one[...])),
-        )  # fmt: skip
-
-
-def _values(values: np.ndarray) -> str:
-    """Return all of a few values, of many numbers their range, of many words the first ones."""
-    if values.size > MOST and values.dtype.kind in "fiu":
-        known = values[np.isfinite(values)]
-        return f"{number(known.min())} to {number(known.max())}" if known.size else "none"
-    shown = ", ".join(_in_words(value) for value in values.ravel()[:MOST])
-    return f"{shown}, ..." if values.size > MOST else shown
+def _variable(one: netCDF4.Variable) -> Variable:
+    about = vars(one)
+    dimensions = " × ".join(f"{k} {n}" for k, n in zip(one.dimensions, one.shape, strict=True))
+    units = about.get("units", "1")
+    return Variable(one.name, about.get("long_name", ""), "" if units == "1" else units, dimensions)
 
 
 def _in_words(value: Any) -> str:
-    if isinstance(value, str):
-        return value if len(value) <= WORDS else f"{value[:WORDS]} ..."
     if np.ndim(value):
-        return _values(np.asarray(value))
+        return _shortened(", ".join(map(_in_words, value)))
+    if isinstance(value, str):
+        return _shortened(value)
     return str(value) if isinstance(value, int | np.integer) else number(value, 5)
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= WORDS else f"{text[:WORDS]} ..."
