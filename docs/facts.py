@@ -1,20 +1,20 @@
 """What the README and docs/ quote, as text.
 
-These are the counts of the ledger, a long study, proofs rounded upward, and what was measured of
-speed and of the tests. A function stands for a topic: a template says `{{ long.exponent }}`. No
-number is typed here.
+These are the counts of the ledger, a proof rounded upward, and what was measured of speed. A
+function stands for a topic: a template says `{{ scale.minutes }}`. No number is typed here.
 """
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from latticode.datasets.json_files import load_json
-from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
-from pendula.article.values import counts, upward
-from pendula.report.words import case_of, number, with_error
+from pendula.article.values import KEPT, counts, largest_bound
+from pendula.report.results import Results
+from pendula.report.words import case_of, number
 
 from benchmarks import reproduction
 from benchmarks import scale as scale_of
@@ -22,55 +22,31 @@ from benchmarks import scale as scale_of
 BASELINE = Path(__file__).resolve().parents[1] / "tests/baseline"
 
 
-class Baseline(dict):
-    """The datasets below tests/baseline by their names, each read once."""
+class Accepted(Results):
+    """The accepted results, as pages read those of a run."""
 
-    def __missing__(self, name: str) -> xr.Dataset:
-        self[name] = read(BASELINE / f"{name}.nc")
-        return self[name]
+    def __init__(self):
+        super().__init__((), "")
+
+    def __contains__(self, name: str) -> bool:
+        return self.path(f"{name}.nc").exists()
+
+    def path(self, link: str) -> Path:
+        return BASELINE / link.removeprefix(f"{KEPT}/")
 
 
-def topics(baseline: Baseline) -> dict[str, dict]:
+def topics(accepted: Results) -> dict[str, Any]:
     """Return the facts of every topic."""
+    kept = BASELINE / "quoted/reproduction.json"
     return {
         "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
-        "long": {"exponent": exponent(baseline["quoted/unbounded"])},
-        "proved": proved(baseline),
-        "captions": {
-            name: baseline[f"figures/{name}"].attrs["caption"] for name in ("pendula_over_the_top",)
-        },
-        "hard_cases": hard_cases(baseline["checks/hard_cases"]),
-        "speed": speed(baseline["speed/work_precision"]),
-        "speeds": speeds(baseline),
+        "largest_bound": largest_bound(accepted),
+        "hard_cases": hard_cases(accepted["checks/hard_cases"]),
+        "speed": speed(accepted["speed/work_precision"]),
+        "speeds": speeds(accepted),
         "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
-        "full_run": full_run(_kept("reproduction")),
+        "full_run": full_run(json.loads(kept.read_text(encoding="utf-8"))),
     }
-
-
-def _kept(name: str) -> dict:
-    return json.loads((BASELINE / f"quoted/{name}.json").read_text(encoding="utf-8"))
-
-
-def exponent(study: xr.Dataset) -> str:
-    """Return the exponent with which the norm grows on the infinite chain."""
-    one = study.sel(case="fig4_small")
-    return with_error(float(one["exponent"]), float(one["exponent_error"]))
-
-
-def proved(baseline: Baseline) -> dict:
-    """Return the proven bounds of curves and states."""
-    breathers = baseline["certified/breathers"]
-    curves = [
-        baseline[f"proofs/{path.stem}"] for path in sorted((BASELINE / "proofs").glob("*.nc"))
-    ]
-    return {
-        "count": str(len(curves)),
-        "largest": upward(max(one["bound"].max() for one in curves)),
-        "until": number(min(float(one["tau"][-1]) for one in curves)),
-        "states": str(breathers.sizes["proof"]),
-        "radius": upward(breathers["radius"].max()),
-        "bits": number(breathers.attrs["bits"]),
-    }  # fmt: skip
 
 
 def hard_cases(data: xr.Dataset) -> dict[str, str]:
@@ -107,12 +83,12 @@ def speed(data: xr.Dataset) -> dict:
     }  # fmt: skip
 
 
-def speeds(baseline: Baseline) -> dict:
+def speeds(accepted: Results) -> dict:
     """Return the growth of the cost with the sites in µs, and peers on Newton's equations."""
-    pendula, cost = baseline["speed/pendula"], baseline["speed/cost"]["seconds"]
+    pendula, cost = accepted["speed/pendula"], accepted["speed/cost"]["seconds"]
     titles, ratios = pendula["title"].to_series(), pendula["ratio"].transpose("peer", "case")
     return {
-        "processor": baseline["speed/work_precision"].attrs["processor"],
+        "processor": accepted["speed/work_precision"].attrs["processor"],
         "target": pendula.attrs["compared_at"],
         "peers": [
             [titles[str(one["peer"].values)], " and ".join(map(number, one.dropna("case").values))]

@@ -4,10 +4,9 @@ import re
 
 import pytest
 import yaml
-from facts import BASELINE
+from facts import BASELINE, Accepted
 from pendula.article import write
 from pendula.ledger.rows import load
-from render import Accepted
 
 
 @pytest.fixture(scope="module")
