@@ -8,11 +8,18 @@ has written by then is dropped, so that nobody sees half of a result.
 
 A thread that has done a run waits for the next one: to start one takes as long as a short run.
 To hand over a run costs time too: who makes many runs hands over a function that makes them all.
+
+Between two cores the handing over takes up to half as long as a run of a short chain. So the main
+thread does a run by itself if that run is compiled already, and then the other thread waits: for
+the descriptor to which Python writes every signal at once, whatever the main thread does.
 """
 
 import os
+import signal
+import socket
 import sys
 import threading
+import weakref
 from collections.abc import Callable
 from contextlib import suppress
 from queue import Empty, SimpleQueue
@@ -50,12 +57,53 @@ def _end_of(run: Callable, arguments: tuple) -> tuple[Any, BaseException | None]
         return None, fault
 
 
+class _Watch:
+    """A thread that raises the flag of the main thread's run when Python writes an interrupt."""
+
+    CAUGHT_UP = b"\xff"  # no number of a signal
+
+    def __init__(self):
+        self.stop: np.ndarray | None = None
+        self._reads, self._written = socket.socketpair()
+        self._written.setblocking(False)
+        self._caught_up = SimpleQueue()
+        threading.Thread(target=self._look, daemon=True).start()
+
+    def descriptor(self) -> int:
+        """Return where Python shall write its signals."""
+        return self._written.fileno()
+
+    def _look(self) -> None:
+        while numbers := self._reads.recv(4096):
+            if signal.SIGINT in numbers and self.stop is not None:
+                self.stop[0] = True
+            if self.CAUGHT_UP in numbers:
+                self._caught_up.put(True)
+
+    def catch_up(self) -> None:
+        """Return when all that was written is read, so that it raises the flag of no later run."""
+        self._written.send(self.CAUGHT_UP)
+        self._caught_up.get()
+
+
 _here = threading.local()
 """In a worker: the flag of the run that it does."""
 _idle: list[_Worker] = []
-"""Workers that wait for a run. A fork has none of the threads of its parent."""
+"""Workers that wait for a run."""
+_watch: list[_Watch] = []
+"""What watches the main thread's runs, if it has done any."""
+_done: weakref.WeakSet[Callable] = weakref.WeakSet()
+"""Functions that were called before. For arguments of other types one may still be compiled."""
+
+
+def _forget_threads() -> None:
+    """A fork has none of the threads of its parent."""
+    _idle.clear()
+    _watch.clear()
+
+
 if hasattr(os, "register_at_fork"):  # Windows has no forks
-    os.register_at_fork(after_in_child=_idle.clear)
+    os.register_at_fork(after_in_child=_forget_threads)
 
 
 def interruptible(run: Callable, *arguments) -> Any:
@@ -72,6 +120,50 @@ def interruptible(run: Callable, *arguments) -> Any:
         if stop[0]:
             raise KeyboardInterrupt
         return result
+    if run in _done and _can_be_watched():
+        return _run_watched(run, arguments)
+    result = _run_by_worker(run, arguments)
+    _done.add(run)
+    return result
+
+
+def _can_be_watched() -> bool:
+    """Return whether this is the main thread, and nobody else has taken its interrupts."""
+    if threading.current_thread() is not threading.main_thread():
+        return False
+    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        return False
+    taken = signal.set_wakeup_fd(-1)  # there is no other way to ask
+    if taken != -1:
+        signal.set_wakeup_fd(taken)
+    return taken == -1
+
+
+def _run_watched(run: Callable, arguments: tuple) -> Any:
+    """Return run(*arguments, stop), which this thread calls, while another waits for Ctrl-C.
+
+    Meanwhile an interrupt raises the flag alone: numba kills Python where it raises an exception in
+    a kernel that makes its result.
+    """
+    if not _watch:
+        _watch.append(_Watch())
+    watch, stop = _watch[0], np.zeros(1, np.bool_)
+    signal.signal(signal.SIGINT, lambda number, frame: stop.fill(True))
+    try:
+        watch.stop = stop
+        signal.set_wakeup_fd(watch.descriptor(), warn_on_full_buffer=False)
+        return run(*arguments, stop)
+    finally:
+        # in this order: whatever was written to the descriptor has raised the flag here as well
+        signal.set_wakeup_fd(-1)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        if stop[0]:
+            watch.catch_up()
+            raise KeyboardInterrupt
+
+
+def _run_by_worker(run: Callable, arguments: tuple) -> Any:
+    """Return run(*arguments, stop), which another thread calls, while this one waits for it."""
     stop, worker = np.zeros(1, np.bool_), None
     try:
         worker = _take()

@@ -4,6 +4,7 @@ Where the data are even in n, only the sites 0..M are kept; where A = B, only A.
 are invariants of the equations, and the kernels keep them to the last bit.
 """
 
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -28,8 +29,8 @@ WHOLE = Reduction(even=False, synchronised=False)
 def find_reduction(amplitudes: np.ndarray) -> Reduction:
     """Return the symmetries of the data: exact ones only, so that nothing is approximated."""
     return Reduction(
-        even=amplitudes.shape[1] > 1 and np.array_equal(amplitudes, amplitudes[:, ::-1]),
-        synchronised=np.array_equal(amplitudes[0], amplitudes[-1]),
+        even=amplitudes.shape[1] > 1 and bool((amplitudes == amplitudes[:, ::-1]).all()),
+        synchronised=bool((amplitudes[0] == amplitudes[-1]).all()),
     )
 
 
@@ -67,7 +68,7 @@ def unpack(y: np.ndarray, reduction: Reduction) -> np.ndarray:
 
 def aligned(shape: tuple[int, ...]) -> np.ndarray:
     """Return zeros that start on a cache line: loads that cross lines cost a quarter more."""
-    count = int(np.prod(shape))
+    count = prod(shape)
     memory = np.zeros(count + CACHE_LINE // 8)
-    first = -memory.ctypes.data % CACHE_LINE // 8
+    first = -memory.__array_interface__["data"][0] % CACHE_LINE // 8
     return memory[first : first + count].reshape(shape)

@@ -116,8 +116,8 @@ def integrate(
 
 def find_obstacle(problem: Problem, model: Integration) -> str | None:
     """Return why a problem cannot be integrated, or None if it can."""
-    parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
-    peak = float(parts.max(initial=0.0))  # NaN where there is one
+    parts = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary ones
+    peak = float(np.abs(parts).max(initial=0.0))  # NaN where there is one
     numbers = {k: one for k, one in problem.parameters.items() if isinstance(one, int | float)}
     rates, span = model.rates(problem, peak), float(problem.end_time)
     found = find_fault(numbers, rates, peak, span, problem.solver, model.clock(problem))

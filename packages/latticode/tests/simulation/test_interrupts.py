@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -70,18 +71,21 @@ class LongRun:
         self.record = integration.record(2, problem.sites, self.times.size, 0, False)
         self.record.l2[:] = np.nan
         self.system = integration.system(problem, WHOLE)
+        self.kernel = self.call  # one object, so that a second run finds the first
+        self.thread = None
 
-    def start(self):
-        """Begin the run and wait for it."""
+    def start(self, outputs=4):
+        """Begin the run up to some of its outputs and wait for it."""
         controls = tuple(float(self.controls[key]) for key in self.method.controls)
         work = aligned((self.method.work, *self.state.shape))
         return interruptible(
-            self.kernel, self.system, self.state, self.times, controls, work, self.record
+            self.kernel, self.system, self.state, self.times[:outputs], controls, work, self.record
         )
 
-    def kernel(self, *arguments):
+    def call(self, *arguments):
+        self.thread = threading.get_ident()
         self.outcomes.append(self.method.run(*arguments))
-        return self.outcomes[0]
+        return self.outcomes[-1]
 
     def is_under_way(self) -> bool:
         """Return whether the kernel has come to the output before the last."""
@@ -108,6 +112,16 @@ def test_ctrl_c_ends_a_run_that_would_take_hours(name, ctrl_c):
     assert run.outcomes[0].status == INTERRUPTED and run.outcomes[0].steps > 0
 
 
+@pytest.mark.parametrize("name", SOLVERS)
+def test_ctrl_c_ends_a_run_of_the_main_thread(name, ctrl_c):
+    run = LongRun(name)
+    run.start(outputs=2)
+    press_when(run.is_under_way, ctrl_c)
+    with pytest.raises(KeyboardInterrupt):
+        run.start()
+    assert run.thread == threading.get_ident() and run.outcomes[1].status == INTERRUPTED
+
+
 def test_ctrl_c_ends_all_runs_of_a_pool_of_threads(ctrl_c):
     runs = [LongRun("taylor"), LongRun("dop853")]
     press_when(lambda: all(run.is_under_way() for run in runs), ctrl_c)
@@ -117,12 +131,51 @@ def test_ctrl_c_ends_all_runs_of_a_pool_of_threads(ctrl_c):
     assert [run.outcomes[0].status for run in runs] == [INTERRUPTED] * len(runs)
 
 
-def test_a_fault_of_the_run_reaches_the_caller():
-    def run(stop):
+@pytest.fixture
+def known():
+    """Return a run that was done before: it calls a function, and says in which thread."""
+
+    def run(call, stop):
+        call()
+        return threading.get_ident(), bool(stop[0])
+
+    interruptible(run, lambda: None)
+    return run
+
+
+def test_an_interrupt_ends_one_run_and_not_the_next(known, ctrl_c):
+    for _ in range(100):  # the thread that reads signals must not come late
+        with pytest.raises(KeyboardInterrupt):
+            interruptible(known, ctrl_c)
+        assert interruptible(known, lambda: None) == (threading.get_ident(), False)
+
+
+def test_a_handler_of_ones_own_hears_the_interrupt(known, ctrl_c):
+    heard = []
+    signal.signal(signal.SIGINT, lambda number, frame: heard.append(number))
+    thread, flag = interruptible(known, ctrl_c)
+    assert thread != threading.get_ident() and not flag and heard == [signal.SIGINT]
+
+
+def test_a_descriptor_for_signals_stays_with_who_set_it(known, ctrl_c):
+    reads, writes = socket.socketpair()
+    writes.setblocking(False)
+    with reads, writes:
+        signal.set_wakeup_fd(writes.fileno())
+        thread, _ = interruptible(known, lambda: None)
+        assert signal.set_wakeup_fd(-1) == writes.fileno() and thread != threading.get_ident()
+    interruptible(known, lambda: None)
+    assert signal.set_wakeup_fd(-1) == -1
+
+
+def test_a_fault_of_the_run_reaches_the_caller(known, ctrl_c):
+    def fail():
         raise MemoryError("too large")
 
-    with pytest.raises(MemoryError, match="too large"):
-        interruptible(run)
+    for run in (lambda call, stop: call(), known):
+        with pytest.raises(MemoryError, match="too large"):
+            interruptible(run, fail)
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_a_thread_does_one_run_after_another_and_keeps_no_array():
@@ -135,11 +188,13 @@ def test_a_thread_does_one_run_after_another_and_keeps_no_array():
     assert first != threading.get_ident()
 
 
-def test_a_fork_has_threads_of_its_own():
-    assert interruptible(lambda stop: 3) == 3
+def test_a_fork_has_threads_of_its_own(known, ctrl_c):
+    assert interruptible(known, lambda: None) == (threading.get_ident(), False)
     child = os.fork()
     if not child:
         signal.alarm(HANGS)  # ends the child, whoever waits in it
+        with pytest.raises(KeyboardInterrupt):
+            interruptible(known, ctrl_c)
         os._exit(interruptible(lambda stop: 5))
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 5
 
@@ -169,16 +224,25 @@ def press():
     os.kill(os.getpid(), signal.SIGINT)
     flag[0] = 1.0
 
+def wait_for_flag(stop):
+    return run(flag, total)
+
+if DONE_BEFORE:
+    flag[0] = 1.0
+    interruptible(wait_for_flag)
+    flag[0] = 0.0
 threading.Timer(0.1, press).start()
-interruptible(lambda stop: run(flag, total))
+interruptible(wait_for_flag)
 """
 
 
-def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple():
+@pytest.mark.parametrize("done_before", [False, True])
+def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple(done_before):
     """It kills Python if called as it is: numba makes the tuple by a call of Python, which hears an
-    interrupt, and does not look whether the call worked. In a thread of its own, as all runs are, a
-    kernel returns in peace.
+    interrupt, and does not look whether the call worked. In a thread of its own, or in the main
+    thread while an interrupt raises nothing but the flag, a kernel returns in peace.
     """
     env = {**os.environ, "PYTHONPATH": str(Path(latticode.__file__).parents[1])}
-    done = subprocess.run([sys.executable, "-c", CRASH], capture_output=True, text=True, env=env)
+    code = f"DONE_BEFORE = {done_before}\n{CRASH}"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env)
     assert done.returncode == -signal.SIGINT, done.stderr
