@@ -15,10 +15,7 @@ from oracle import CASES
 from pendula.figure_diff import hashes
 from pendula.live.write import write_live
 from pendula.problem import Problem
-from pendula.studies.breathers.fates import (
-    is_localised,
-    power_by_distance,
-)
+from pendula.studies.breathers.fates import is_localised, power_by_distance
 from pendula.studies.paper.runs import run_case
 from test_report_in_browser import run
 from waiting import wait_for

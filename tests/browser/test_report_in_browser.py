@@ -33,15 +33,6 @@ def test_no_errors_and_no_request_but_the_page_and_its_pictures(report, address)
     assert {url for url in asked if not url.startswith(beside)} == {address}
 
 
-def test_every_picture_loads(report):
-    run(report, "[...document.images].forEach((one) => { one.loading = 'eager' })")
-    decoded = "const done = arguments[0]; Promise.all([...document.images].map("
-    decoded += "(one) => one.decode())).then(() => done('all'), (fault) => done(String(fault)))"
-    assert report.execute_async_script(decoded) == "all"
-    widths = run(report, "[...document.images].map((one) => one.naturalWidth)")
-    assert len(widths) >= 17 and min(widths) > 0
-
-
 def open_all(report) -> None:
     """Unfold all folded parts."""
     run(report, "document.querySelectorAll('details').forEach((one) => { one.open = true })")

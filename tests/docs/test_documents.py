@@ -26,7 +26,6 @@ LEFT_OUT = [
     r"\$\$.*?\$\$|\$(?:[^$\d]|\d(?![\d.])|0\.1\)|10\^\{-6\}|5\.5)+\$",
     r"^## References.*",
     r"\{%.*?%\}",
-    r"<!--.*?-->",
 ]
 NAMES = [
     r"Fig(s|ure)?\s\d+(( to|,| and)\s\d+)*",
@@ -42,7 +41,6 @@ NAMES = [
 ]
 DEFINITIONS = [
     r"Ω = -?\d( and -?\d)?",  # the detuning of a case
-    r"2γ|4ε",  # the bounds of the unstable band
     r"A = B = 0",
     r"printed 0\.1|order of\" 10⁻⁶",  # what the paper prints
 ]
@@ -84,18 +82,15 @@ def test_no_number_is_typed():
     assert {name: typed_numbers(text) for name, text in texts.items() if typed_numbers(text)} == {}
 
 
-TYPED = [
-    "it grows at 1.7 per unit of τ",
-    "Fig 3 shows 35 % of them",
-    "the power is 10⁻⁶",
-    "nine in\nten runs",
-    "at Ω = -4 to τ = 400",
-    "{{ chaos.count }} of 6 cases",
-]
-
-
 def test_a_typed_number_is_found():
-    assert [text for text in TYPED if not typed_numbers(text)] == []
+    typed = (
+        "1.7 per unit of τ",
+        "Fig 3 shows 35 %",
+        "is 10⁻⁶",
+        "nine in\nten runs",
+        "at Ω = -4 to τ = 400",
+    )
+    assert [text for text in typed if not typed_numbers(text)] == []
 
 
 def test_every_link_leads_to_a_file():

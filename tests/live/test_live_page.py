@@ -4,7 +4,6 @@ import re
 
 from helpers import ROOT
 from pendula.article import write as article
-from pendula.figure_diff.compare_shown import comparable
 from pendula.live import write as live
 from pendula.studies.breathers import figures
 
@@ -17,9 +16,3 @@ def test_localised_is_one_word_with_one_definition():
     for text in texts:
         assert defined in re.sub(r"\s+", " ", text.replace("$P$", "P"))
     assert "stays localised" in figures.KINDS
-
-
-def test_the_comparison_of_runs_leaves_out_the_code_for_a_processor():
-    pages = (b'{"code": "AA==", "marks": "%s"}' % marks for marks in (b"B", b"C"))
-    one, other = (comparable("live.html", page) for page in pages)
-    assert b"AA==" not in one and one != other
