@@ -9,9 +9,7 @@ from pendula.ledger.criterion import (
     AtLeast,
     AtMost,
     Below,
-    Levels,
     Near,
-    NeverLevels,
     Verdict,
     WithinFactor,
     judge,
@@ -25,8 +23,6 @@ HELD = [
     (WithinFactor(2.0, "x"), "0.5 < x < 2", [0.51, 1.0, 1.99], [0.5, 2.0, -1.0]),
     (Near(3.0, 0.5, "x"), "x within 0.5 of 3", [2.5, 3.5], [2.4, 3.6]),
     (Near(0.0, 0.5, "x"), "|x| <= 0.5", [-0.5, 0.5], [-0.6, 0.6]),
-    (Levels("x", says="its start"), "its start is finite", [0.0, 5.0], [math.inf, -math.inf]),
-    (NeverLevels("x", says="its start"), "its start is infinite", [math.inf], [0.0, 5.0]),
 ]
 
 

@@ -12,8 +12,7 @@ from latticode.measures.confidence import CONFIDENCE
 from pendula.configuration.schema import PAPER_CASES
 from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import Ledger, load, on_figure
-from pendula.ledger.tables import tally
+from pendula.ledger.rows import Ledger, load, on_figure, tally
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, percent, span, with_error
 from pendula.studies.paper.solvers import ORDER

@@ -35,23 +35,19 @@ class Control(NamedTuple):
     names that the claim needs, and of a name in the same folder.
 
     `confirms` turns the control round, for a claim that is not reproduced: the function must
-    confirm this right case, or it could not have confirmed anything. `undecided` says that the
-    function must leave this case undecided, for example because a bound does not exist there. `on`
-    names the paper's cases and sweeps that the control takes from a dataset of many.
+    confirm this right case, or it could not have confirmed anything. `on` names the paper's cases
+    and sweeps that the control takes from a dataset of many.
     """
 
     says: str
     fed: Mapping[str, Wrong] | Wrong
     confirms: bool = False
-    undecided: bool = False
     on: tuple[str, ...] = ()
 
     @property
     def must(self) -> str:
         """What the function must say of it, in words."""
-        if self.confirms:
-            return "be confirmed"
-        return "be left undecided" if self.undecided else "be rejected"
+        return "be confirmed" if self.confirms else "be rejected"
 
     @property
     def names(self) -> list[str]:

@@ -108,29 +108,6 @@ class Near(Limit):
         return f"{self.words} within {plain(self.limit)} of {plain(self.target)}"
 
 
-class Levels(Limit):
-    """Each half-width from which a curve is level is finite: it does level off."""
-
-    def __init__(self, *names: str, says: str = "the half-width where it levels off"):
-        super().__init__(math.inf, *names, says=says)
-
-    def keeps(self, value: float) -> bool:
-        return math.isfinite(value)
-
-    def __str__(self) -> str:
-        return f"{self.words} is finite"
-
-
-class NeverLevels(Levels):
-    """No curve levels off."""
-
-    def keeps(self, value: float) -> bool:
-        return value == math.inf
-
-    def __str__(self) -> str:
-        return f"{self.words} is infinite"
-
-
 class AllOf(Criterion):
     """Several criteria; every single one must hold."""
 

@@ -1,11 +1,11 @@
-"""Decide the claims of a part of the ledger by datasets, and join the parts."""
+"""Decide the claims of a part of the ledger by datasets, join the parts, and write their table."""
 
 from latticode.datasets.json_files import load_json, write_json
 from latticode.datasets.netcdf import read
 
-from pendula.report.words import write_markdown
+from pendula.report.words import markdown, write_markdown
 
-from .tables import counted, tables
+from .rows import counted
 from .verdicts import evaluate, needed
 
 
@@ -34,6 +34,12 @@ def tabulate_claims(parts: list[str], table: str) -> list[dict]:
     """Write the rows in the order of the paper's sections as Markdown, and return them."""
     rows = [row for path in parts for row in load_json(path)["rows"]]
     rows.sort(key=lambda row: row["section"])
-    write_markdown(table, *tables(rows))
+    claims = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
+    write_markdown(
+        table,
+        "# What the paper says, and what the numbers say",
+        "\n".join(f"- {line}" for line in counted(rows)),
+        markdown(("name", "where", "claim", "verdict"), claims),
+    )
     print(*counted(rows), sep="\n")
     return rows

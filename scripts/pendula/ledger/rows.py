@@ -1,11 +1,14 @@
-"""The rows of a run's ledger, and the numbers that others quote from them."""
+"""The rows of a run's ledger, counts of them, and the numbers that others quote from them."""
 
 import re
+from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from latticode.datasets.json_files import load_json
 
 from .claim import Origin
+from .criterion import Verdict
 
 if TYPE_CHECKING:
     from pendula.report.results import Results
@@ -24,6 +27,25 @@ def on_figure(rows: list[dict], figure: int) -> list[dict]:
     named = re.compile(rf"Figs? [\d, and]*{figure}")
     found = (row for row in rows if named.search(row["place"]))
     return [row for row in found if row["origin"] == Origin.PAPER]
+
+
+def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
+    """Return by origin how many rows have each verdict; what no row has is left out."""
+    counts = Counter((row["origin"], row["verdict"]) for row in rows)
+    by_origin = {
+        str(origin): {str(v): counts[origin, v] for v in Verdict if counts[origin, v]}
+        for origin in Origin
+    }
+    return {origin: counted for origin, counted in by_origin.items() if counted}
+
+
+def counted(rows: list[dict]) -> list[str]:
+    """Return a line for each origin of claims: how many there are, and with which verdicts."""
+    return [
+        f"{sum(verdicts.values())} claims {origin}: "
+        + ", ".join(f"{n} {one.replace('does not', 'do not')}" for one, n in verdicts.items())
+        for origin, verdicts in tally(rows).items()
+    ]
 
 
 class Ledger:

@@ -83,8 +83,6 @@ def passes(control: Control, finding: Finding) -> bool | None:
         return None
     if control.confirms:
         return confirmed(finding)
-    if control.undecided:
-        return finding.verdict == Verdict.UNDECIDED
     judged = finding.criterion.names if finding.criterion else ()
     known = not any(math.isnan(finding.measured[name]) for name in judged)
     return finding.verdict in REFUTED and known

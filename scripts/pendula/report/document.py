@@ -13,8 +13,7 @@ from latticode.kernels.sources import describe_machine
 from markupsafe import Markup
 
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import on_figure
-from pendula.ledger.tables import counted
+from pendula.ledger.rows import counted, on_figure
 from pendula.sources import TOOK
 
 from .described import Dataset, Figure, dataset, figure

@@ -26,7 +26,6 @@ from pendula.ledger.criterion import (
     AtMost,
     Below,
     Finding,
-    Levels,
     UndecidableError,
     judge,
 )
@@ -56,7 +55,8 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
         "level_from": levelling(half_widths, values, LEVEL.value),
     }
     steady = Below(CONSTANT, "largest_rise", says="largest rise in between")
-    return measured, AllOf(Above(CONSTANT, fall), steady, Levels("level_from"))
+    level = Below(np.inf, "level_from", says="half-width where it levels off")
+    return measured, AllOf(Above(CONSTANT, fall), steady, level)
 
 
 @claim(
