@@ -87,12 +87,8 @@ def planned(
 ) -> dict[str, int]:
     """Return the number of jobs of each rule that snakemake would run."""
     result = snakemake(project, directory, "--dry-run", *arguments, settings=settings)
-    assert result.returncode == 0, result.stdout + result.stderr
-    return jobs_in(result.stdout + result.stderr)
-
-
-def jobs_in(text: str) -> dict[str, int]:
-    """Return the number of jobs of each rule in what a dry run said."""
+    text = result.stdout + result.stderr
+    assert result.returncode == 0, text
     if "Nothing to be done" in text:
         return {}
     table = text[text.index("Job stats:") :].split("\n\n")[0].splitlines()[3:]

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from helpers import ROOT, snakemake
+from helpers import ROOT
 
 PARTS = (
     *("Snakefile", "workflow", "packages/latticode", "scripts", "benchmarks", "config"),
@@ -32,16 +32,3 @@ def clone(tmp_path) -> Path:
         else:
             shutil.copy(ROOT / part, copy)
     return tmp_path / "clone"
-
-
-@pytest.fixture(scope="session")
-def looked(made_once) -> Path:
-    """Return what a dry run says in an empty folder: dry_run.txt; the folder is beside it."""
-
-    def make(beside):
-        (beside / "folder").mkdir()
-        result = snakemake(ROOT, beside / "folder", "--dry-run")
-        assert result.returncode == 0, result.stderr
-        (beside / "dry_run.txt").write_text(result.stdout + result.stderr)
-
-    return made_once("looked", make)

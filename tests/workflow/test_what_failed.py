@@ -4,10 +4,10 @@ import pytest
 from helpers import edit, snakemake
 from reasons import WORDLESS, why_jobs_failed
 
-TARGETS = "results/pendula/threshold.nc", "fig1"
+TARGETS = "results/pendula/threshold.nc", "fig1", "results/kernels/dop853.txt"
 
 
-def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_path):
+def test_an_import_that_fails_and_a_signal_are_told_and_the_rest_is_made(clone, tmp_path):
     edit(clone / "scripts/dataset.py", "from latticode.datasets.netcdf", "import absent\nfrom p")
     edit(
         clone / "scripts/figure.py",
@@ -18,8 +18,11 @@ def test_an_import_that_fails_and_a_signal_are_the_reasons_of_a_job(clone, tmp_p
     folder.mkdir()
     result = snakemake(clone, folder, "--keep-going", *TARGETS)
     assert result.returncode == 1
-    last = result.stderr.splitlines()[-4:]
-    assert "ModuleNotFoundError: No module named 'absent'" in last
+    last, log = result.stderr.splitlines()[-4:], folder / "results/logs/pendula/threshold.log"
+    assert (said := "ModuleNotFoundError: No module named 'absent'") in last
+    assert f"  (more in {log})" in last
+    assert log.read_text().startswith(f"failed: {said}\nTraceback")
+    assert (folder / TARGETS[-1]).exists()
     assert any("killed by SIGKILL: the system does this if memory" in line for line in last), last
     assert WORDLESS not in result.stderr
 
