@@ -7,7 +7,6 @@ min_version("9.20")
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/code.smk"
 include: "workflow/rules/settings.smk"
 include: "workflow/rules/base.smk"
 
@@ -32,16 +31,13 @@ FIGURES = [
 ]
 
 
-include: "workflow/rules/trajectories.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/chaos.smk"
 include: "workflow/rules/breathers.smk"
 include: "workflow/rules/pendula.smk"
 include: "workflow/rules/unbounded.smk"
-include: "workflow/rules/certified.smk"
-include: "workflow/rules/hard_cases.smk"
-include: "workflow/rules/reference.smk"
+include: "workflow/rules/exact.smk"
 include: "workflow/rules/own.smk"
 
 
@@ -101,9 +97,7 @@ rule chaos:
 
 
 include: "workflow/rules/ledger.smk"
-include: "workflow/rules/report.smk"
-include: "workflow/rules/article.smk"
-include: "workflow/rules/archive.smk"
+include: "workflow/rules/documents.smk"
 include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/speed.smk"

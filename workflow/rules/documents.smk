@@ -1,0 +1,78 @@
+# The report, a page that runs the paper's solver in a browser, the article, and everything in one file to
+# deposit. The archive is not part of the full run. Unpacked elsewhere, it holds finished results:
+# `snakemake -n` has nothing to do there, `snakemake figures` draws them anew.
+from importlib.metadata import version
+
+
+use rule job as report with:
+    "results/report.html: what the run found, figure by figure and claim by claim, on one page"
+    input:
+        datasets=DATASETS,
+        figures=expand("<results>/figures/{name}.nc", name=FIGURES),
+        ledger="<results>/claims.json",
+    output:
+        html="<results>/report.html",
+    pathvars:
+        made="report",
+    params:
+        call=function("pendula.report.document.write_report"),
+        differs=DIFFERS,
+
+
+use rule job as live with:
+    "results/live.html: a page that integrates the cases of Figs 2 to 4, and compares their bits"
+    input:
+        runs=runs_by("ode45"),
+        trust="<results>/checks/trust.nc",
+    output:
+        html="<results>/live.html",
+    pathvars:
+        made="live",
+    params:
+        call=function("pendula.live.write.write_live"),
+
+
+use rule job as article with:
+    "results/article.pdf and article.html: what reproduces, what does not, and what is new"
+    input:
+        datasets=DATASETS,
+        pictures=expand("<results>/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf"]),
+        ledger="<results>/claims.json",
+    output:
+        html="<results>/article.html",
+        pdf="<results>/article.pdf",
+        metadata="<results>/article.yaml",
+    pathvars:
+        made="article",
+    params:
+        call=function("pendula.article.write.write_article"),
+        committed=committed(
+            kept=[
+                "tests/baseline/quoted/unbounded.nc",
+                *("tests/baseline/quoted/breathers.nc", "tests/baseline/quoted/pendula.nc"),
+                "tests/baseline/quoted/reproduction.json",
+                "tests/baseline/speed/work_precision.nc",
+                *expand("tests/baseline/proofs/{case}.nc", case=PAPER_CASES),
+            ]
+        ),
+        digests=[version(name) for name in ("typst", "pypandoc_binary")],
+        differs=DIFFERS,
+
+
+ARCHIVE = f"<results>/archive/pendula-{__version__}.tar.gz"
+
+
+use rule job as archive with:
+    "Code, environment, datasets, figures and metadata in one file to deposit"
+    input:
+        results=lambda wildcards: sorted({*rules.all.input, *kernels(*COMPILED)}),
+    output:
+        archive=ARCHIVE,
+        checksum=f"{ARCHIVE}.sha256",
+    pathvars:
+        made="archive",
+    params:
+        call=function("pendula.archive.pack.pack_results"),
+        made_by=lambda wildcards: code_of_jobs(),
+        digests=lambda wildcards: {name: digest_of(PROJECT / name) for name in code_files(PROJECT)},
+        configuration=lambda wildcards: config,

@@ -1,0 +1,65 @@
+# What the solvers are held against: curves with a proof, the paper's six cases in multiprecision, and cases
+# where solvers are most likely to fail.
+# The references are not part of the full run. They take about 25 minutes of one core, half of them for
+# fig3_large alone, and `pip install heyoka==7.13.2`, which no other rule needs. To accept what they made:
+# `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
+CERTIFIED = SETTINGS.certified
+
+
+rule certified:
+    "Curves of the paper's cases, proved, which a full run takes as they are committed (long)"
+    input:
+        datasets("certified", *PAPER_CASES),
+
+
+use rule dataset as certify_curve with:
+    "A curve of a case with a proven bound of its distance to the true one: {case}.nc"
+    pathvars:
+        made="certified/<any_case>",
+    params:
+        call=function("pendula.studies.certified.contents.curve_contents"),
+        name="{case}",
+        problem=lambda wildcards: certified_problem(wildcards.case),
+        given=lambda wildcards: CERTIFIED.frames.get(wildcards.case, CERTIFIED.own).model_dump(),
+
+
+use rule dataset as prove_breathers with:
+    "Steady breathers that are proved to exist on the infinite chain"
+    pathvars:
+        made="certified/breathers",
+    params:
+        **values_of(CERTIFIED.breathers),
+        call=function("pendula.studies.certified.proved_breathers.breathers_contents"),
+
+
+use rule dataset as hard_cases with:
+    "Hard cases: digits with their error, or a refusal in words, of every solver"
+    input:
+        kernels=kernels(*ALL_SOLVERS),
+    pathvars:
+        made="checks/hard_cases",
+    params:
+        call=function("pendula.studies.hard_cases.outcomes.hard_cases_contents"),
+        cases=SETTINGS.hard_cases.plain(),
+
+
+rule reference:
+    "The references: cases of the paper in multiprecision (half an hour; needs heyoka)"
+    input:
+        expand("<results>/reference/{name}.nc", name=PAPER_CASES),
+
+
+use rule dataset as reference_case with:
+    "One case, integrated twice: {case}.nc"
+    pathvars:
+        made="reference/<paper_case>",
+    conda:
+        "../envs/reference.yaml"
+    resources:
+        **asked(lambda wildcards: LONG),
+    params:
+        call=function("pendula.studies.reference.verified_run.reference_contents"),
+        name="{case}",
+        problem=lambda wildcards: reference_problem(wildcards.case),
+        snapshots=SETTINGS.reference.snapshots,
+        bits=lambda wildcards: SETTINGS.reference.bits[wildcards.case],
