@@ -124,6 +124,8 @@ def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
         with pytest.raises(RefusedError, match="residual"):
             existence.radius_of(there)
         assert 0.342 < existence.radius_of(there._replace(eta=0.9 * eta)) < 0.36
+        with pytest.raises(RefusedError, match="residual"):  # p(0.202) = 0.002, q < 1
+            existence.radius_of(there._replace(eta=arb(0.08), cubic=arb(1)))
 
 
 def test_the_sign_of_epsilon_does_not_open_a_band():
