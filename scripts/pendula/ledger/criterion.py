@@ -123,7 +123,9 @@ class AllOf(Criterion):
 
 
 def plain(number: float) -> str:
-    """Return a limit: as it is where eight digits suffice, else rounded to four."""
+    """Return a limit: as it is where eight digits suffice, else rounded to four; or in words."""
+    if math.isinf(number):
+        return "infinity"
     texts = (f"{number:.{digits}g}" for digits in range(4, 9))
     return next((text for text in texts if float(text) == number), f"{number:.4g}")
 
