@@ -41,19 +41,11 @@ def topics(accepted: Results) -> dict[str, Any]:
     return {
         "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
         "largest_bound": largest_bound(accepted),
-        "hard_cases": hard_cases(accepted["checks/hard_cases"]),
         "speed": speed(accepted["speed/work_precision"]),
         "speeds": speeds(accepted),
         "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
         "full_run": full_run(json.loads(kept.read_text(encoding="utf-8"))),
     }
-
-
-def hard_cases(data: xr.Dataset) -> dict[str, str]:
-    """Return how many runs there are, are rejected, and did not end as required."""
-    counts = {"runs": data.sizes["row"], "refused": (data["refusal"] != "").sum(),
-              "unexpected": (data["sound"] == 0).sum()}  # fmt: skip
-    return {name: str(int(count)) for name, count in counts.items()}
 
 
 def speed(data: xr.Dataset) -> dict:

@@ -17,7 +17,7 @@ from pendula.live.write import write_live
 from pendula.problem import Problem
 from pendula.studies.breathers.fates import is_localised, power_by_distance
 from pendula.studies.paper.runs import run_case
-from test_report_in_browser import run
+from test_report_in_browser import resize, run
 from waiting import wait_for
 
 BASELINE = ROOT / "tests/baseline"
@@ -179,11 +179,6 @@ def test_a_link_that_the_page_cannot_show_is_told(live, link, said):
 
 
 WINDOWS = [(1400, 900), (1024, 768), (940, 700), (800, 600), (844, 390), (390, 844)]
-
-
-def resize(page, width: int, height: int) -> None:
-    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
-    page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
 
 
 @pytest.mark.parametrize(("width", "height"), [*WINDOWS, (575, 640), (320, 480)])

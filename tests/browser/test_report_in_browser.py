@@ -8,9 +8,9 @@ from waiting import wait_for
 PHONE = 600
 
 
-def resize(browser, width: int) -> None:
-    """Make the screen so many pixels wide; narrow ones are a phone's."""
-    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < PHONE}
+def resize(browser, width: int, height: int = 900) -> None:
+    """Make the screen so many pixels large; narrow ones are a phone's."""
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < PHONE}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
 
 

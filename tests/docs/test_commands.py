@@ -27,7 +27,6 @@ from printed import (
     Reader,
     blocks,
     dry,
-    file_of,
     inline_calls,
     only_targets,
     pages,
@@ -162,13 +161,6 @@ def test_every_block_is_of_a_kind_that_is_tried():
     assert {block.kind for block in ALL} <= set(KINDS)
     assert [block for block in ALL if block.kind == "text"] == [output for _, output in OUTPUTS]
     assert [output.name for command, output in OUTPUTS if command not in RUN] == []
-
-
-@pytest.mark.parametrize("block", [b for b in ALL if b.kind in FILES], ids=lambda block: block.name)
-def test_a_file_that_is_to_be_saved_is_used_on_its_page(block):
-    commands = [other.text for other in PRINTED[block.page] if other.kind == ""]
-    texts = [*commands, *(other.text for other in PRINTED[block.page] if other.kind == "yaml")]
-    assert any(file_of(block) in text.partition("\n")[2] for text in map("\n{}".format, texts))
 
 
 def test_what_is_not_run_exists():

@@ -8,7 +8,6 @@ import pytest
 from accepted import BASELINE
 from html_tags import Tags
 from latticode.datasets.json_files import load_json, sealed
-from pendula.ledger.rows import on_figure
 from pendula.report import document
 from pendula.report.described import Figure
 
@@ -68,14 +67,6 @@ def test_a_figure_has_the_verdict_of_its_claims(written, verdicts, said):
             for n, one in enumerate(verdicts)]  # fmt: skip
     (line,) = re.findall(r'<a href="#figures/fig5">.*?</tr>', written(rows), re.DOTALL)
     assert f"fig5 is shown {said}" in plain(line)
-
-
-def test_claims_on_a_figure_are_those_of_the_paper_alone():
-    one = row("fig5_decreases")
-    own = one | {"name": "own", "place": "Beyond the paper, Fig 5", "origin": "of this project"}
-    both = one | {"name": "both", "place": "Section 5, Figs 2 and 5 left"}
-    found = [[each["name"] for each in on_figure([one, own, both], n)] for n in (2, 5, 6)]
-    assert found == [["both"], ["fig5_decreases", "both"], []]
 
 
 def test_each_claim_is_shown_once_and_the_confirmed_ones_are_folded(written):
