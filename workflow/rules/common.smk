@@ -102,8 +102,6 @@ SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "members", "lifetimes"]
 THEORY_CHECKS = ["not_shown", "errata", "chart", "threshold", "sharpness", "chain_growth"]
-SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
-SHOWN |= {n: [f"fig{n}_left", f"fig{n}_right"] for n in "56"}
 
 
 def datasets(folder, *names):
@@ -235,18 +233,19 @@ def some_own_files(wildcards):
             "the configuration has no case, sweep or survey of your own: give some by "
             "--configfile, as docs/own_cases.md shows"
         )
-    of_case = [*FIGURE_KINDS, "checks.nc", *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
-    of_models = [case for case in OWN_CASES if SETTINGS.cases[case].model not in MODELS]
     made = {"trajectories": OWN_CASES, "sweeps": OWN_SWEEPS, "surveys": OWN_SURVEYS}
+    places = [f"{kind}/{one}" for kind in made for one in made[kind]]
+    of_models = [case for case in OWN_CASES if SETTINGS.cases[case].model not in MODELS]
+    figures = [
+        *(f"cases/{case}{part}" for case in OWN_CASES for part in ("", ".spacetime")),
+        *(f"cases/{case}.breather" for case in of_models),
+        *(place for place in places if not place.startswith("trajectories/")),
+    ]
     return [
-        *(f"<results>/own/tables/{kind}/{one}.csv" for kind in made for one in made[kind]),
-        *datasets("trajectories", *OWN_CASES),
-        *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),
-        *expand("<results>/own/cases/{case}.breather.{kind}", case=of_models, kind=FIGURE_KINDS),
-        *datasets("sweeps", *OWN_SWEEPS),
-        *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=FIGURE_KINDS),
-        *datasets("surveys", *OWN_SURVEYS),
-        *expand("<results>/own/surveys/{survey}.{kind}", survey=OWN_SURVEYS, kind=FIGURE_KINDS),
+        *expand("<results>/{place}.nc", place=places),
+        *expand("<results>/own/tables/{place}.csv", place=places),
+        *expand("<results>/own/cases/{case}.checks.nc", case=OWN_CASES),
+        *(file for figure in figures for file in files_of(f"<results>/own/{figure}")),
     ]
 
 

@@ -87,7 +87,9 @@ use rule figure as norms_in_time with:
         made="figures/fig{n,[234]}",
     params:
         call=function("pendula.studies.paper.figures.draw_norms"),
-        committed=lambda wildcards: committed(references=references(*SHOWN[wildcards.n])),
+        committed=lambda wildcards: committed(
+            references=references(f"fig{wildcards.n}_small", f"fig{wildcards.n}_large")
+        ),
 
 
 use rule figure as spacetime with:

@@ -57,18 +57,13 @@ def values_of(part, *names):
 
 
 def of_size(part, wildcards):
-    """Return a part of the configuration, or its part for a longer study."""
-    return part.long if wildcards.size else part
+    """Return a part of the configuration, or its parts for a longer and a shorter study."""
+    return part.long if wildcards.size else getattr(part, "short", part)
 
 
 def sized(part, *names):
     """Return a function of the wildcards that gives the settings of these names."""
     return lambda wildcards: values_of(of_size(part, wildcards), *names)
-
-
-def extent(wildcards):
-    """Return how far infinite chains are run."""
-    return SETTINGS.unbounded.long if wildcards.size else SETTINGS.unbounded.short
 
 
 def run_of(case, tolerance, solver="taylor", **changes):

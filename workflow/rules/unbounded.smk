@@ -26,10 +26,10 @@ use rule dataset as spread with:
         problems=lambda wildcards: UNBOUNDED.problems(
             SETTINGS.problem(UNBOUNDED.case_of(wildcards.study)),
             wildcards.study,
-            extent(wildcards),
+            of_size(UNBOUNDED, wildcards),
         ),
-        rest=lambda wildcards: extent(wildcards).rest,
-        members=lambda wildcards: extent(wildcards).runs[wildcards.study].members,
+        rest=lambda wildcards: of_size(UNBOUNDED, wildcards).rest,
+        members=lambda wildcards: of_size(UNBOUNDED, wildcards).runs[wildcards.study].members,
 
 
 use rule dataset as thermal with:

@@ -11,11 +11,10 @@ import xarray as xr
 from latticode import checks
 from latticode.checks import measure_sensitivity, merged, run_again
 from latticode.datasets.checks import table, variable
-from latticode.numerics.elementary import modulus
 from latticode.simulation.simulate import IntegrationError, simulate
 
 from pendula.models.bounds import growth_margin
-from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
+from pendula.models.linear_chain import finite_rate, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
 from pendula.problem import AMPLITUDES, PENDULA, Problem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
@@ -39,14 +38,12 @@ def beside_bounds(run: xr.Dataset) -> dict:
 
 
 def at_rest(problem: Problem) -> dict:
-    """Return thresholds and growth rates of a chain at rest, infinite and of this length."""
+    """Return the threshold and growth rates of a chain at rest, infinite and of this length."""
     epsilon, gamma, omega = problem.constants
-    chain = (epsilon, problem.sites, problem.boundary)
-    rate, threshold = infinite_rate(omega, gamma, epsilon), finite_threshold(omega, *chain)
-    finite, unit = finite_rate(omega, gamma, *chain), "per unit of tau"
+    rate, unit = infinite_rate(omega, gamma, epsilon), "per unit of tau"
+    finite = finite_rate(omega, gamma, epsilon, problem.sites, problem.boundary)
     return {
         "gamma_0": variable(gamma_0(omega, epsilon), (), "threshold (12) of the infinite chain"),
-        "finite_threshold": variable(threshold, (), "threshold of N sites"),
         "infinite_rate": variable(rate, (), f"largest rate of the infinite chain, {unit}"),
         "finite_rate": variable(finite, (), f"largest rate of the finite chain, {unit}"),
     }
@@ -77,16 +74,13 @@ def beside_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
         amplitudes = simulate(changed).final
         expected = leading_angles(amplitudes, problem.constants.omega, problem.mu, problem.end_time)
         apart = float(np.abs(angles - expected).max())
-        scale = float(2.0 * problem.mu * modulus(amplitudes).max())
     except IntegrationError:  # data of (4) may be refused that pendula can be followed from
-        apart = scale = np.nan
-    swing = "largest 2 mu abs(A_n) or 2 mu abs(B_n) of (4) at the end"
+        apart = np.nan
     top = "first tau at which an angle exceeds pi, infinite: at no output"
     numbers = {
         "largest_angle": variable(float(run["linf"].max()), (), "largest angle", "rad"),
         "over_the_top": variable(over_the_top(run), (), top),
         "expansion_error": variable(apart, (), "largest |x - x of (3)| at the end", "rad"),
-        "expansion_swing": variable(scale, (), swing, "rad"),
     }
     return xr.Dataset.from_dict(table(TITLE_OF_PENDULA, {}, **numbers))
 

@@ -29,12 +29,9 @@ def write_report(
     sections = [_case(name, folder, made) for name in cases]
     sections += [_many_runs("sweep", name, case, folder) for name, case in sweeps.items()]
     sections += [_many_runs("survey", name, case, folder) for name, case in surveys.items()]
-    made = [
-        *(folder / f"trajectories/{name}.nc" for name in cases),
-        *(folder / f"sweeps/{name}.nc" for name in sweeps),
-        *(folder / f"surveys/{name}.nc" for name in surveys),
-    ]
-    papers = any("model_text" not in read(path).attrs for path in made)
+    of_kind = {"trajectories": cases, "sweeps": sweeps, "surveys": surveys}
+    runs = [read(folder / f"{kind}/{name}.nc") for kind in of_kind for name in of_kind[kind]]
+    papers = any("model_text" not in run.attrs for run in runs)
     write_page(html, "own.html.j2", TITLE, sections, papers=papers)
 
 
