@@ -55,8 +55,7 @@ TRUST_CAPTION = (
     "Largest error of the norms up to each time, relative to full scale, by solver. An error above "
     f"the dashed line, {100 * VISIBLE:g} %, is visible. Marks on this line show when a solver "
     "diverges from the multiprecision reference; solvers with smaller errors have their marks "
-    "near the end. A case without a reference has an empty panel. The proven bound is of a "
-    "separate computed trajectory, so it can lie below the errors of the solvers."
+    "near the end. A case without a reference has an empty panel."
 )
 
 
@@ -210,9 +209,7 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
 
 LABELS = ["omega", "initial"]
 DIFFERENCE = "largest difference of the norms up to this time"
-BOUND = "largest proven bound of the error of the certified curve up to this time"
 UNKNOWN = "no reference of this case is known"
-PROVEN = {"color": style.BLUE, "lw": 1.0, "marker": "*", "markersize": 8}
 DRAWN = ["ode45", "ode45_real", "taylor", "delfour_fortin_payre", "crank_nicolson"]
 """Noisy curves below smooth ones."""
 
@@ -260,30 +257,11 @@ def _look(solver: str) -> dict:
     return {"color": style.COLOURS[solver], "marker": style.MARKERS[solver], "markersize": 5}
 
 
-def _draw_difference(axes: Axes, difference: xr.DataArray, label: str, look: dict, mark) -> None:
-    """Draw a curve and its mark at a point (tau, height), or near the end of the curve if None.
-
-    A mark at an infinite time is not seen.
-    """
-    curve = panels.positive(difference)
-    axes.plot(curve["tau"], curve, markevery=[], label=label, **look)
-    at_end = mark is None
-    last = round(0.95 * curve.size) - 1
-    point = (float(curve["tau"][last]), float(curve[last])) if at_end else mark
-    axes.plot(*point, **look, markeredgecolor="white", zorder=3, clip_on=not at_end)
-
-
-def _draw_visible(axes: Axes, visible: float) -> None:
-    axes.axhline(visible, color="0.45", dashes=(4, 2), lw=1, label=f"{100 * visible:g} % (visible)")
-
-
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
-    """Return by case how far each solver is from the reference, when it leaves, and the proof."""
-    drawn = trust[["horizon", "visible", "proved_until", *LABELS]]
-    return drawn.assign_attrs(caption=TRUST_CAPTION).assign(
-        largest_so_far=_so_far(trust["difference"], DIFFERENCE),
-        largest_bound=_so_far(trust["proven_bound"], BOUND),
-    )
+    """Return by case how far each solver is from the reference, and when it leaves."""
+    largest = _so_far(trust["difference"], DIFFERENCE)
+    drawn = trust[["horizon", "visible", *LABELS]].assign(largest_so_far=largest)
+    return drawn.assign_attrs(caption=TRUST_CAPTION)
 
 
 @style.styled
@@ -291,7 +269,6 @@ def draw_trust(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a solver, a mark where its curve is visibly another.
 
     A curve that never is has its mark near its end, so that marks tell the curves apart everywhere.
-    A curve of polynomials with a proof has its bound, and a mark where the proof ends.
     """
     return draw_cases(data, _draw_trust, "largest error so far")
 
@@ -302,11 +279,12 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
         axes.text(0.5, 0.5, UNKNOWN, ha="center", transform=axes.transAxes)
     for solver in case["solver"].values:
         one = case.sel(solver=solver)
-        time, error = float(one["horizon"]), one["largest_so_far"]
-        mark = (time, visible) if np.isfinite(time) or not (error > 0).any() else None
-        _draw_difference(axes, error, SOLVER_NAMES[solver], _look(solver), mark)
-    if np.isfinite(case["proved_until"]):
-        bound = case["largest_bound"].sel(tau=slice(case["proved_until"]))
-        _draw_difference(axes, bound, "bound proved for another curve", PROVEN, None)
-    _draw_visible(axes, visible)
+        curve, look = panels.positive(one["largest_so_far"]), _look(solver)
+        axes.plot(curve["tau"], curve, markevery=[], label=SOLVER_NAMES[solver], **look)
+        point = float(one["horizon"]), visible
+        if at_end := not np.isfinite(point[0]) and curve.size > 0:
+            last = round(0.95 * curve.size) - 1
+            point = float(curve["tau"][last]), float(curve[last])
+        axes.plot(*point, **look, markeredgecolor="white", zorder=3, clip_on=not at_end)
+    axes.axhline(visible, color="0.45", dashes=(4, 2), lw=1, label=f"{100 * visible:g} % (visible)")
     axes.set_ylim(1e-17, 3.0)

@@ -52,9 +52,6 @@ TRUSTED = {
     "horizon": f"first tau at which a norm is visibly off, {ABSENT}",
     "visible": COMPARED["visible"],
     "known_until": "last tau at which run and reference are both known; NaN: no reference",
-    "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
-    "full scale of its norms; NaN: nothing is proved",
-    "proved_until": "last tau at which this bound is not visible; NaN: nothing is proved",
     "l2_bound": "largest proven bound of the certified curve in the l2 norm; NaN: no proof",
     "distance": "largest distance of its norms from the reference, over the bound",
     "late_distance": "the same distance of the curve one output late",
@@ -176,11 +173,7 @@ def _trust_case(
 def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
     """Return what is proved of a curve of the run's problem, as TRUSTED says."""
     if proved is None or not is_of_same_case(run, proved):
-        nothing = {"proven_bound": xr.full_like(run["tau"], np.nan)}
-        names = ("proved_until", "l2_bound", "distance", "late_distance")
-        return nothing | dict.fromkeys(names, np.nan)
-    known = proved[["bound", *NORMS]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
-    bound = known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
+        return dict.fromkeys(("l2_bound", "distance", "late_distance"), np.nan)
     right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)
 
     def distance(late: int) -> float:
@@ -188,8 +181,6 @@ def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -
         return float(apart.to_dataarray().max())
 
     return {
-        "proven_bound": bound,
-        "proved_until": known_until(bound.where(bound <= VISIBLE)),
         "l2_bound": float(proved["bound"].max()),
         "distance": distance(0),
         "late_distance": distance(1),
