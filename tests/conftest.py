@@ -14,8 +14,7 @@ def pytest_configure(config):
     """Load fixtures where tests run: the process that only hands tests out imports no SciPy."""
     if config.option.dist == "no":
         gc.disable()  # modules and tests stay in memory: among them there is no garbage to find
-        for name in ("shared_fixtures", "figure_fixtures"):
-            config.pluginmanager.import_plugin(name)
+        config.pluginmanager.import_plugin("shared_fixtures")
 
 
 def pytest_collection_modifyitems(items):

@@ -1,7 +1,9 @@
 """Problems for tests: the paper's cases, or any numbers and data, with defaults for the rest."""
 
+from latticode.datasets.netcdf import read, write
 from oracle import CASES, SOLVERS
 from pendula.problem import Constants, Problem
+from pendula.studies.paper.runs import run_case
 
 UNIT = {"epsilon": 1.0, "gamma": 1.0}
 PAPER = (1.0, 1.0, -4.0)
@@ -45,3 +47,9 @@ def make_problem(initial, numbers=PAPER, boundary="dirichlet", solver="dop853", 
         "solver": SOLVERS[solver] if isinstance(solver, str) else solver,
     }
     return Problem(boundary=boundary, initial=initial, **values).changed(**changes)
+
+
+def as_the_workflow_writes(case, name, path):
+    """Return the dataset of a pendula.Case as a job of the workflow writes it to `path`."""
+    write(path, *run_case(name, Problem.of(case.shown_problem())))
+    return read(path)

@@ -1,7 +1,10 @@
-"""The library is built as ARCHITECTURE.md says: who may import whom, and how large it may be."""
+"""The replication is built as ARCHITECTURE.md says: who imports whom, how large, by what means."""
 
+import re
 from pathlib import Path
 
+from helpers import ROOT
+from operators import used_in
 from pendula.sources import SCRIPTS
 from pendula.studies import STUDIES
 from rooms import Rooms
@@ -58,3 +61,40 @@ def test_a_study_can_be_read_in_a_day():
     of_each = [[m for m in MODULES if m.parts[:2] == ("studies", study)] for study in STUDIES]
     sizes = {modules[0].parts[1]: (len(modules), ROOMS.lines(modules)) for modules in of_each}
     assert {name: (n, lines) for name, (n, lines) in sizes.items() if n > 24 or lines > 3_500} == {}
+
+
+MAY_DIFFER = ("report", "drawing", "figure_diff", "archive")
+"""Rooms that write texts and pictures for people, of rounded numbers."""
+ALLOWED = {
+    ("studies/certified/fixed_point.py", "**"): "powers of integers, which are exact",
+    ("studies/breathers/multipliers.py", "@"): "rates are rounded before they are stored",
+}
+"""What a module may use, with the reason."""
+
+
+def test_operators_have_the_same_bits_on_every_processor():
+    """Each use stands in ALLOWED, and what is allowed is still used.
+
+    The tests of the library say which these are: packages/latticode/tests/test_operators.py.
+    """
+    assert used_in(LIBRARY, MAY_DIFFER) == ALLOWED.keys()
+
+
+INSIDE = ("inside_numba.py", "test_inside_numba.py", "inside.py")
+"""What looks inside numba, and inside Snakemake: each says on top what it rests upon, and why."""
+HIDDEN = re.compile(
+    r"^ *(?:from|import) (?:numba\.core(?! import (?:cgutils|errors)\b|\.(?:cgutils|errors)\b)"
+    r"|snakemake\.(?!(?:api|utils|logging|exceptions|settings|script)\b))",
+    re.MULTILINE,
+)
+
+
+def test_dependencies_are_used_by_their_front_door():
+    """A module that is not public works until the next release, and then fails in an odd place."""
+    folders = ("scripts", "workflow", "packages", "benchmarks", "docs", "tests")
+    modules = {path for folder in folders for path in (ROOT / folder).rglob("*.py")}
+    modules = {path for path in modules if path.name not in INSIDE and "build" not in path.parts}
+    assert len(modules) > 250
+    assert [str(path) for path in modules if HIDDEN.search(path.read_text())] == []
+    assert HIDDEN.search("from numba.core.caching import _Cache")
+    assert HIDDEN.search("    from snakemake.dag import DAG")

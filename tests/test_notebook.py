@@ -10,7 +10,7 @@ from latticode.datasets.netcdf import read
 from pendula import notebook
 from pendula.configuration.messages import load
 from pendula.own_cases import figures
-from simulate_own import as_the_workflow_writes
+from problems import as_the_workflow_writes
 
 SHORT = {"omega": -4, "half_width": 6, "end_time": 2}
 

@@ -5,7 +5,7 @@ import pytest
 from latticode.configuration.files import ConfigurationError
 from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
 from pendula.own_cases import answers
-from simulate_own import as_the_workflow_writes
+from problems import as_the_workflow_writes
 
 SWING = Case(omega=-4, model="pendula", mu=0.1, half_width=8, end_time=2)
 OVER = SWING.changed(omega=0, initial={0: ("6j", 1)}, mu=0.2)

@@ -1,6 +1,6 @@
 """What users of Snakemake try first, as the table in docs/reproduce.md tells it.
 
-Every key of every case is edited in tests/edits.py, which takes half an hour.
+Every key of every case is edited in tests/edits/edits.py, which takes half an hour.
 """
 
 import yaml

@@ -1,9 +1,9 @@
 """Run the small full run with the paper's cases changed: every key of every case, in three ways.
 
-    PYTHONPATH=scripts python tests/edits.py [case ...] [key ...]
+    PYTHONPATH=scripts python tests/edits/edits.py [case ...] [key ...]
 
 Each run must end well and say nothing false, or a sentence must refuse it before any job starts.
-tests/edits.yaml has the values. One run changes one key of each case; only where that fails do its
+edits.yaml has the values. One run changes one key of each case; only where that fails do its
 edits run singly, to tell which it was. It takes half an hour, so it is a part of .ci/elsewhere.
 """
 
@@ -23,9 +23,9 @@ from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 QUICK = ROOT / "config/quick.yaml"
-EDITS = yaml.safe_load((ROOT / "tests/edits.yaml").read_text())
+EDITS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text())
 HANGS = 900
 """Seconds after which a run hangs: a small full run takes a minute."""
 
