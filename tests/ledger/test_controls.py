@@ -2,10 +2,8 @@
 
 import math
 
-import numpy as np
 import pytest
-import xarray as xr
-from pendula.ledger.claim import Claim, Control, late
+from pendula.ledger.claim import Claim, Control
 from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
 from pendula.ledger.cutoff import Cutoff
 from pendula.ledger.verdicts import evaluate, needed, passes
@@ -84,14 +82,3 @@ def test_a_refusal_comes_from_numbers():
     half_known = judge({"x": 1.5, "y": math.nan}, Below(1.0, "x", "y"))
     assert not passes(refuse, grows(math.nan)) and not passes(refuse, half_known)
     assert not passes(refuse, undecided({}, "there is no such bound"))
-
-
-@pytest.mark.parametrize(
-    ("end", "given", "start"), [(50.0, (), 10.0), (20.0, (), 10.0), (8.0, (4.0,), 4.0)]
-)
-def test_the_late_part_starts_at_ten_or_where_it_must_and_goes_on_to_the_end(end, given, start):
-    run = xr.Dataset(coords={"tau": np.arange(0.0, end + 0.25, 0.5)})
-    tau = late(run, *given)["tau"].values
-    assert tau[0] == start and tau[-1] == end and len(tau) == 2 * (end - start) + 1
-    with pytest.raises(UndecidableError, match=r"ends at tau = 19\.5, before 20"):
-        late(run.assign_coords(tau=19.5 * run["tau"] / end))
