@@ -98,7 +98,6 @@ DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the c
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
-SPEED_FIGURES = [f"speed_{regime}" for regime in REGIMES]
 SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "members", "lifetimes"]
 THEORY_CHECKS = ["not_shown", "errata", "chart", "threshold", "sharpness", "chain_growth"]
@@ -219,11 +218,6 @@ def committed(**files):
 
 def references(*names):
     return [f"tests/baseline/reference/{name}.nc" for name in names]
-
-
-def fine_maps(wildcards):
-    """Return the maps of `snakemake fates` as they are committed, for all but these themselves."""
-    return {} if wildcards.size else committed(fine="tests/baseline/quoted/breathers.nc")
 
 
 def some_own_files(wildcards):

@@ -5,7 +5,7 @@ rule speed:
     "Speed against error of every solver and installed peer, and what runs cost (takes minutes)"
     input:
         datasets("speed", "work_precision", "cost", "pendula"),
-        expand("<results>/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS),
+        expand("<results>/figures/speed_{regime}.{kind}", regime=REGIMES, kind=FIGURE_KINDS),
 
 
 use rule dataset as work_precision with:
