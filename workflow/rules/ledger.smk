@@ -8,7 +8,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
     ],
     "theory": checks("lyapunov", "identities", *THEORY_CHECKS),
     "chaos": [
-        *datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"),
+        *datasets("sweeps", "fig6_left", "fig6_right"),
         *(*datasets("trajectories", "fig3_large"), *datasets("breathers", "sensitivity")),
         *checks("ensembles", "members", "lifetimes"),
     ],

@@ -5,18 +5,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from oracle import hamiltonian
 from pendula.studies.unbounded import thermal
 from pendula.studies.unbounded.transfer import (
-    REACH,
     applied,
     leading,
     make_operator,
     reach_of,
-    widest,
 )
 from problems import constants_of
-from scipy.optimize import minimize_scalar
 
 NODES = 12
 """As config/unbounded.yaml has it."""
@@ -102,22 +98,6 @@ def test_the_bits_of_thermal_states_are_those_of_every_machine():
     # adding zero makes -0 and 0 the same number
     bits = (np.array(told) + 0.0).tobytes()
     assert hashlib.sha256(bits).hexdigest()[:16] == HASH
-
-
-@pytest.mark.parametrize("numbers", [(1.0, 1.0, -4.0), (0.7, 1.3, 2.0), (0.5, 0.2, 9.0)])
-def test_the_grid_reaches_as_far_as_the_deepest_wave_has_weight(numbers):
-    """On a ring A_n = -B_n = (-1)^n x has the least energy of all states of its power."""
-
-    def energy(power):
-        wave = np.sqrt(power / 2.0) * (-1.0) ** np.arange(4)
-        return hamiltonian(np.array([wave, -wave]).astype(complex), numbers, "periodic") / 4.0
-
-    found = minimize_scalar(energy, bounds=(0.0, 100.0), method="bounded", options={"xatol": 1e-7})
-    least = min(found.fun, energy(0.0))
-    for beta in (0.1, 2.0):
-        edges = widest(constants_of(numbers), beta)
-        np.testing.assert_array_equal(edges, edges[0])
-        assert beta * (energy(edges[0] ** 2) - least) == pytest.approx(REACH, rel=1e-5)
 
 
 def test_a_grid_reaches_one_node_beyond_the_last_that_counts_and_never_past_its_end():
