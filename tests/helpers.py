@@ -12,7 +12,7 @@ from typing import NoReturn
 
 import pytest
 import yaml
-from pendula.configuration.files import gather
+from latticode.configuration.files import gather
 from pendula.configuration.messages import load
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from latticode.configuration.files import ConfigurationError, read
-from pendula.configuration.files import gather, merge
+from latticode.configuration.files import ConfigurationError, gather, merge, read
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import keep
 import pytest
 from helpers import skip
-from pendula.configuration.files import gather
+from latticode.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load
 from pendula.configuration.paper import differences, paper, reason, rests_on
 from pendula.ledger.verdicts import all_claims, needed

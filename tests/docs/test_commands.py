@@ -16,8 +16,7 @@ from pathlib import Path
 import pytest
 import yaml
 from helpers import MY_BASELINE, ROOT, snakemake
-from latticode.configuration.files import ConfigurationError
-from pendula.configuration.files import gather
+from latticode.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load
 from printed import (
     FILES,

@@ -17,9 +17,8 @@ from tempfile import TemporaryDirectory
 
 import yaml
 from false_sentences import false_sentences
-from latticode.configuration.files import ConfigurationError
+from latticode.configuration.files import ConfigurationError, gather
 from latticode.configuration.messages import SOLVERS
-from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 

@@ -47,9 +47,8 @@ from benchmarks.problems import REGIMES
 from pendula import __version__
 from pendula.archive.contents import code_files
 from latticode.configuration.cost import Cost
-from latticode.configuration.files import ConfigurationError, read_entries
+from latticode.configuration.files import ConfigurationError, gather, read_entries
 from latticode.configuration.values import Steps
-from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
