@@ -7,7 +7,7 @@ Here each is a fault with its place. All else is read as YAML 1.1 or JSON, as Sn
 import json
 import os
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -201,18 +201,18 @@ def _in_words(error: yaml.YAMLError, text: str) -> str:
     return f"line {mark.line + 1}: {what}"
 
 
-def merge(below: Mapping, above: Mapping, whole: Collection[str] = WHOLE) -> dict:
+def merge(below: Mapping, above: Mapping) -> dict:
     """Return one configuration laid over another: keys are added, values replaced.
 
-    Mappings are merged key by key, but not those under the keys `whole`, which are one value, and
+    Mappings are merged key by key, but not those under the keys WHOLE, which are one value, and
     not the controls of another solver.
     """
     found = dict(below)
     for key, value in above.items():
         old = found.get(key)
-        if isinstance(value, Mapping) and isinstance(old, Mapping) and key not in whole:
+        if isinstance(value, Mapping) and isinstance(old, Mapping) and key not in WHOLE:
             other = key == "solver" and value.get("name", old.get("name")) != old.get("name")
-            found[key] = dict(value) if other else merge(old, value, whole)
+            found[key] = dict(value) if other else merge(old, value)
         else:
             found[key] = value
     return found
@@ -231,9 +231,9 @@ def with_paths(configuration: dict, folder: Path) -> dict:
     return {**configuration, "cases": found}
 
 
-def gather(files: list[Path], given: Mapping, whole: Collection[str] = WHOLE) -> dict:
+def gather(files: list[Path], given: Mapping) -> dict:
     """Return what files hold, each laid over those before it, and `given` over all."""
     found: dict = {}
     for path in files:
-        found = merge(found, with_paths(read(path), Path(path).parent), whole)
-    return merge(found, with_paths(dict(given), Path()), whole)
+        found = merge(found, with_paths(read(path), Path(path).parent))
+    return merge(found, with_paths(dict(given), Path()))
