@@ -23,6 +23,7 @@ use rule dataset as measure_lyapunov with:
             half_width=SPECTRUM.half_width,
             end_time=SPECTRUM.lengths * longest(SPECTRUM.cases),
         ),
+        undriven_end=SPECTRUM.undriven_lengths * longest(SPECTRUM.cases),
 
 
 use rule dataset as measure_ensembles with:

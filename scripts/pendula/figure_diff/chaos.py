@@ -44,7 +44,7 @@ DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]
 """Variables that are divided by the largest value of a run: of a chaotic one, it is in the tail."""
 
 STEADY = [
-    *("*omega", "*:start", "*_start", "*:true_*", "*:stated_drift"),
+    *("*omega", "*:start", "*_start", "*:true_*", "*_undriven", "*:stated_drift"),
     *("*:theorem_*", "*:widened", "*:l*_bound"),
     "checks/trust:*distance",
     *("*:linear_speed", "*:predicted_[dr]*", "*:predicted_speed", "*:thermal*_power"),

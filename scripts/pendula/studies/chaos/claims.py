@@ -40,6 +40,11 @@ LEVEL = Cutoff(CONFIDENCE, "the customary level of confidence, 95 %", 1.0)
 BAND = Cutoff(1.0, '"no visible differences": smaller than the band over which runs scatter')
 SEVERAL = Cutoff(3.0, '"other pendula": more than three')
 MANY = Cutoff(0.25, '"many pendula": a quarter of all')
+ANTICORRELATED = Cutoff(
+    -0.8,
+    '"mix up": not an exchange, in which |A|^2 and |B|^2 are anticorrelated',
+    -1.0,
+)
 ALL = Cutoff(0.9, '"does not depend": nine of ten runs make it at every amplitude', 1.0)
 
 END = 50.0
@@ -149,17 +154,22 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
     return near.judge({"low": low}, Above(SEVERAL, "low", says=says))
 
 
-@fig3("The A and B modes mix up.", "fig2_large")
+@fig3("The A and B modes mix up.", "fig2_large", "fig2_small")
 def ensemble_fig3_mixes(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
     def ratio(case):
         return level(case, "l2", LATER, "A") / level(case, "l2", LATER, "B")
 
+    def correlation(case):
+        return case["norm_correlation"].sel(window=LATER).values
+
     ratios = limits(members, "fig3_large", ratio)
     measured = {"ratio_low": ratios.low, "ratio_high": ratios.high}
-    says = "confidence interval of l2 of A over that of B"
-    return near.judge(measured, WithinFactor(FACTOR, *measured, says=says))
+    alike = WithinFactor(FACTOR, *measured, says="confidence interval of l2 of A over that of B")
+    measured["correlation_low"] = limits(members, "fig3_large", correlation).low
+    says = "lower confidence limit of the correlation of |A|^2 and |B|^2"
+    return near.judge(measured, alike, Above(ANTICORRELATED, "correlation_low", says=says))
 
 
 @fig3("The l-infinity norm stays at its initial level.", "fig4_small", "fig2_small")

@@ -82,21 +82,27 @@ def spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.ndarray, 
 
 def measure_lyapunov(
     problems: dict[str, Problem], span: tuple[float, float], members: int, size: float, seed: int,
-    short_problems: dict[str, Problem],
+    short_problems: dict[str, Problem], undriven_end: float,
 ) -> Contents:  # fmt: skip
     """Return the largest exponents of `problems`, and all exponents of `short_problems`.
 
-    `seed` draws perturbations and tangent vectors.
+    These are also followed without a drive, to `undriven_end`, where the l2 norm is a second
+    integral. `seed` draws perturbations and tangent vectors.
     """
     variables, attributes = largest_exponents(problems, span, members, size, seed)
-    spectra = [spectrum(one, one.end_time, seed) for one in short_problems.values()]
-    rates, errors = map(np.array, zip(*spectra, strict=True))
+    driven = [spectrum(one, one.end_time, seed) for one in short_problems.values()]
+    undriven = [
+        spectrum(one.changed(gamma=0.0), undriven_end, seed) for one in short_problems.values()
+    ]
     sites = next(iter(short_problems.values())).sites
     by_index, words = ("spectrum_case", "index"), "all Lyapunov exponents of a short chain"
-    half = f"{words}: half of the confidence interval"
-    return variables | {
+    variables |= {
         "spectrum_case": Variable(("spectrum_case",), list(short_problems), "case, on that chain"),
         "index": Variable(("index",), np.arange(1, 1 + 4 * sites), "number of the exponent"),
-        "exponents": Variable(by_index, rates, f"{words}, per unit of tau"),
-        "exponents_error": Variable(by_index, errors, half),
-    }, attributes
+    }
+    for name, found, of in (("", driven, words), ("_undriven", undriven, f"{words} at gamma = 0")):
+        rates, errors = map(np.array, zip(*found, strict=True))
+        half = f"{of}: half of the confidence interval"
+        variables[f"exponents{name}"] = Variable(by_index, rates, f"{of}, per unit of tau")
+        variables[f"exponents_error{name}"] = Variable(by_index, errors, half)
+    return variables, attributes

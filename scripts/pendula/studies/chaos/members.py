@@ -12,7 +12,7 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.registry import NAMES
 from latticode.datasets.trajectories import Contents
-from latticode.measures.levels import bands
+from latticode.measures.levels import bands, correlation
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import name_window
@@ -29,6 +29,7 @@ QUANTILES = (0.1, 0.5, 0.9)
 REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
+    "norm_correlation": (("window",), "correlation in time of the squared l2 norms of A and B"),
     "rms": (
         ("window", "component", "site"),
         "root mean square of an amplitude over the window; NaN: no site",
@@ -54,6 +55,7 @@ def reduce_run(problem: Problem, windows: list[Window], reach: int) -> dict[str,
         "linf": linf,
         "l2_level": np.stack([l2[:, kept].mean(axis=1) for kept in inside], axis=-1),
         "linf_level": np.stack([linf[:, kept].mean(axis=1) for kept in inside], axis=-1),
+        "norm_correlation": np.array([correlation(*run.l2[:, kept] ** 2) for kept in inside]),
         "rms": np.pad(rms, ((0, 0), (0, 0), beyond), constant_values=np.nan),
     }
 

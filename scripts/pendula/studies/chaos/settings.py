@@ -23,12 +23,16 @@ from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 
 
 class Spectrum(Model):
-    """All Lyapunov exponents, on a short chain; lengths count the longest of the cases."""
+    """All Lyapunov exponents, on a short chain; lengths count the longest of the cases.
+
+    The chain is followed without a drive too, for `undriven_lengths`.
+    """
 
     cases: Names
     half_width: Count
     tolerance: Tolerance
     lengths: Positive
+    undriven_lengths: Positive
 
 
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
@@ -136,6 +140,6 @@ class Settings(Model):
         given, found = self.lyapunov.spectrum, []
         for case in given.cases:
             one = estimate(settings.problem(case, half_width=given.half_width))
-            vectors = 2 * (2 * given.half_width + 1) * given.lengths
+            vectors = 2 * (2 * given.half_width + 1) * (given.lengths + given.undriven_lengths)
             found.append(Cost(vectors * one.seconds, one.memory))
         return found

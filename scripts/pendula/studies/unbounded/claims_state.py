@@ -6,12 +6,13 @@ Only the errors of what is measured count: limits of means over members, by Stud
 import numpy as np
 from latticode.measures.confidence import Limits, mean_limits
 
-from pendula.ledger.changes import roll, scale
-from pendula.ledger.claim import CHANGE, Control, claim, unbounded
+from pendula.ledger.changes import roll, scale, take
+from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
 from pendula.ledger.criterion import (
     AllOf,
     AtLeast,
     AtMost,
+    Below,
     Finding,
     Near,
     UndecidableError,
@@ -19,7 +20,7 @@ from pendula.ledger.criterion import (
 )
 from pendula.ledger.cutoff import Cutoff
 
-from .bulk import BEHIND, BETWEEN
+from .bulk import BEHIND, BETWEEN, KINDS
 from .claims import sure, times_of
 from .measured import mean_powers, resolution, second_speeds, slope_ratios, speeds, thermal_powers
 
@@ -59,6 +60,45 @@ def unbounded_front(run) -> Finding:
     )
     fails = "not every front moves at the speed of linear spreading"
     return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", says=says), fails=fails)
+
+
+def both_between(run):
+    """Return the run with both fields alike between the fronts."""
+    means = run["region_mean"]
+    half = 0.5 * means.sel(kind=KINDS[0], drop=True)
+    chosen = (means["region"] == BETWEEN) & (means["kind"] == KINDS[1])
+    return run.assign(region_mean=means.where(~chosen, half).transpose(*means.dims))
+
+
+@claim(
+    "Beyond the paper",
+    "Behind the front A = -B, until both fields are excited behind a second front, which is slower"
+    " where a region between the fronts forms.",
+    unbounded("omegas"),
+    (
+        Control("second fronts as fast as the first", take(second_front="front")),
+        Control("both fields excited between the fronts", both_between),
+    ),
+)
+def second_front(run) -> Finding:
+    times_of(run)
+    found, error = second_speeds(run)
+    between, omegas = mean_powers(run, BETWEEN).mean(axis=1), run["omega"].values
+    apart = np.isfinite(between) & np.isfinite(found)
+    if apart.sum() < FEW:
+        raise UndecidableError("fewer than three second fronts have formed apart from the first")
+    measured = {
+        "fastest": ((found + error) / run["predicted_speed"].values)[apart].max(),
+        "share_between": np.nanmax(mean_powers(run, BETWEEN, KINDS[1]).mean(axis=1) / between),
+    }
+    slower = "largest upper limit of the speed of a second front over that of the first"
+    filled = "largest share of |A + B|^2 / 2 in P between"
+    criterion = AllOf(
+        Below(1.0, "fastest", says=slower), Below(CONSTANT, "share_between", says=filled)
+    )
+    absent = ", ".join(f"{omega:g}" for omega in omegas[~np.isfinite(found)])
+    caveat = f"no second front has formed at Omega = {absent}" if absent else ""
+    return judge(measured, criterion, caveat)
 
 
 def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Limits]:
