@@ -24,7 +24,7 @@ NAMES = (*CHECKS, "fronts", "thermal", "proofs")
 
 def make(given: Path, made: Path) -> None:
     """Write the datasets of NAMES to the folder `made`."""
-    datasets = dict(zip(CHECKS, run_checks(CHECKS), strict=True))
+    datasets = dict(zip(CHECKS, run_checks(), strict=True))
     runs = (read(str(given / f"{name}.nc")) for name in ("omegas", "thermal"))
     for name, data in (datasets | {"fronts": measure_fronts(*runs)}).items():
         save(str(made / f"{name}.nc"), data)

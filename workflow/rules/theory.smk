@@ -19,7 +19,6 @@ use rule dataset as check_theory with:
         made="checks/theory",
     params:
         call=function("pendula.studies.theory.checks.run_checks"),
-        names=THEORY_CHECKS,
 
 
 use rule dataset as check_observed with:

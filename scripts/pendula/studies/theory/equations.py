@@ -38,6 +38,11 @@ def run(
     return simulate(problem, WHOLE)
 
 
+def controls_of(solver: dict) -> dict:
+    """Return a solver and its controls as attributes of a dataset."""
+    return {"solver" if key == "name" else f"solver_{key}": one for key, one in solver.items()}
+
+
 def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray):
     """Return H of equation (8), (...), of `amplitudes` (..., 2, N), as the library computes it."""
     chains = amplitudes.reshape(-1, *amplitudes.shape[-2:])

@@ -14,13 +14,13 @@ from pendula.models.linear_chain import (
 )
 from pendula.problem import Constants
 
-from .equations import ENDS, constants_at, random_amplitudes, run, squared_norm
+from .equations import ENDS, constants_at, controls_of, random_amplitudes, run, squared_norm
 
 TINY = 1e-130
 """Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""
 SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-9 * TINY}
 OMEGAS, GAMMAS, SITES = np.linspace(-6.0, 10.0, 33), np.linspace(0.0, 3.0, 13), 21
-END_TIME, SEED = 40.0, 5
+END_TIME, LONG, SEED = 40.0, 100.0, 5
 CURVE = np.linspace(-6.0, 10.0, 1601)  # resolves the teeth of the finite chain's threshold
 
 
@@ -48,7 +48,7 @@ def check_chart() -> dict:
         "finite_curve": finite_threshold(CURVE, *chain),
     }
     about = {"infinite_curve": "gamma_0 of (12)", "finite_curve": "threshold of N sites"}
-    return table(
+    found = table(
         f"Growth rates on {SITES} sites, {ENDS} ends, measured and predicted",
         {"omega": OMEGAS, "gamma": GAMMAS, "curve_omega": CURVE},
         sites=variable(SITES, (), "number of sites N"),
@@ -57,6 +57,8 @@ def check_chart() -> dict:
         gamma_0=variable(gamma_0(OMEGAS, 1.0), ("omega",), "gamma_0 of (12)"),
         **columns(("curve_omega",), about, curves),
     )
+    found["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "seed": SEED}
+    return found
 
 
 def edge_wave(omega: float, sites: int) -> np.ndarray:
@@ -78,7 +80,7 @@ def check_threshold() -> dict:
     thresholds = np.transpose([finite_threshold(omegas, 1.0, n, ENDS) for n in sizes])
     for omega, own in zip(omegas, thresholds[:, 0], strict=True):
         wave, above = edge_wave(omega, SITES), own + 0.2
-        grown = [late_growth(constants_at(omega, gamma), wave, 100.0) for gamma in (own, above)]
+        grown = [late_growth(constants_at(omega, gamma), wave, LONG) for gamma in (own, above)]
         fastest = np.argmax(growth_rate(curvatures(SITES, ENDS) - omega, above))
         rows.append([*(np.array(grown) / log(2.0)), np.pi * (fastest + 1) / (SITES + 1)])
     about = {
@@ -87,9 +89,11 @@ def check_threshold() -> dict:
         "leading_wave": "wave number of the fastest growth above the threshold",
     }
     excess = thresholds - gamma_0(omegas, 1.0)[:, None]
-    return table(
+    found = table(
         "Growth of tiny data at the threshold of Lemma 1 and above it",
         {"omega": omegas, "sites": list(sizes)},
         excess=variable(excess, ("omega", "sites"), "threshold of N sites minus gamma_0"),
         **columns(("omega",), about, dict(zip(about, np.transpose(rows), strict=True))),
     )
+    found["attrs"] |= {**controls_of(SOLVER), "end_time": LONG}
+    return found
