@@ -136,6 +136,7 @@ FAULTS = [
     text("criterion of a chaotic claim", LEDGER, "largest norm <= 9.5", "largest norm <= 95"),
     text("cut-off of a chaotic claim", LEDGER, '"value": 0.25', '"value": 0.5'),
     text("verdict in a table", TABLE, "| confirmed |", "| refuted |"),
+    text("row more in a table", TABLE, "\n| ", "\n| one | Fig 4 | more | confirmed |\n| "),
     text("verdict", LEDGER, "confirmed", "not reproduced"),
     text("verdict by hand", LEDGER, "confirmed", "refuted", DAMAGED, DAMAGED, sealed=False),
     text("number of a claim", LEDGER, "6.60403", "6.60404"),
@@ -184,6 +185,7 @@ OF_CHAOS = (
     *("huge number in the tail", "negative norms", "NaN in the tail", "tail thrice as large"),
     *("before the horizon", "proven bound times 0.01", "roundings that are none", "verdict"),
     *("criterion of a chaotic claim", "cut-off of a chaotic claim", "verdict in a table"),
+    "row more in a table",
     *("verdict in the report", "A and B exchanged", "other label", "older picture"),
     "axis nearly doubled",
 )

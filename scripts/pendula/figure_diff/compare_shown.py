@@ -181,7 +181,7 @@ def _follows_chaos(path: tuple, entries: set[str], whole: Any, datasets: Known) 
     A control is fed with other datasets than its claim.
     """
     names = datasets.keys()
-    if path[0] == "rows" and len(path) > 2 and "controls" not in entries:
+    if path[:1] == ("rows",) and len(path) > 2 and "controls" not in entries:
         names = {f"{name}.nc" for name in _entry(whole, path[:2])["decided_by"]} & names
     return any(datasets[name] == Status.BEYOND for name in names)
 
