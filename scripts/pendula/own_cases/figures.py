@@ -1,18 +1,22 @@
 """Figures of a user's cases and sweeps: those of any run, with the paper's symbols."""
 
+import numpy as np
 import xarray as xr
 from latticode.drawing import runs
 from latticode.drawing.runs import Naming, gather_sweep  # noqa: F401, beside what draws it
 from matplotlib.figure import Figure
 
+from pendula.models.pendula import frequency
 from pendula.problem import PENDULA
 
+EIGHT = 8.0
+"""Outputs in a period of the pendula that show how they swing."""
 SYMBOLS = {
     "omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M", "mu": r"\mu",
 }  # fmt: skip
-UPPER_EDGE = (
-    " Pendula swing from one output to the next: use the upper edge of the curves, or give a "
-    "shorter output_step."
+FEW_OUTPUTS = (
+    " There are fewer than eight outputs in a period of the pendula: use the upper edge of the "
+    "curves, or give a shorter output_step."
 )
 SWING_CAPTION = (
     "Amplitudes √(x² + (dx/dt / ω)²) of the angles over time and sites: xₙ on the left and yₙ on "
@@ -27,9 +31,12 @@ def naming_of(data: xr.Dataset) -> Naming:
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
     """Return the norms of a trajectory, beside the second run that its checks hold."""
-    drawn = runs.gather_norms(run, checks)
-    swings = run.attrs.get("model") == PENDULA
-    return drawn.assign_attrs(caption=drawn.attrs["caption"] + UPPER_EDGE * swings)
+    drawn, about = runs.gather_norms(run, checks), run.attrs
+    if about.get("model") != PENDULA:
+        return drawn
+    period = np.pi * about["mu"] ** 2 / frequency(about["omega"], about["mu"])
+    few = bool(about["output_step"] > period / EIGHT)
+    return drawn.assign_attrs(caption=drawn.attrs["caption"] + FEW_OUTPUTS * few)
 
 
 def draw_norms(data: xr.Dataset) -> Figure:
