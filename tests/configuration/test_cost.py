@@ -18,8 +18,6 @@ from benchmarks.contestants import controls
 SPEED = ROOT / "tests/baseline/speed"
 FACTOR = 3.0
 """An estimate is wrong by less: machines differ as much."""
-CALL = 1e-3
-"""Seconds that a call takes beside its run, on a slow machine; estimates leave them out."""
 SHORT_STEPS = {"name": "crank_nicolson", "step": 1e-9, "tolerance": 1e-13, "iterations": 50}
 LIMITS = {"hours": 1.0, "gigabytes": 8.0}
 
@@ -41,8 +39,8 @@ def measured():
 @pytest.mark.parametrize("solver", ["ode45", "dop853", "taylor", "delfour_fortin_payre"])
 def test_work_and_time_are_those_that_were_measured(solver, measured):
     """`measured` holds each of the paper's cases, from the loosest accuracy to the tightest."""
-    compared = 0
     for case in measured["case"].values:
+        ratios = []
         row = measured.sel(case=case, contestant=solver, solver=solver)
         data = {0: tuple(complex(z) for z in json.loads(str(row["initial"].values))["0"])}
         span = float(row["horizon"])
@@ -59,10 +57,9 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
             run = simulate(Problem.of(given)).outcome
             done = run.steps + run.rejected if solver in EXPLICIT else run.evaluations
             assert 1 / FACTOR < work / done < FACTOR
-            assert estimate(given).seconds / FACTOR < seconds
-            assert seconds < FACTOR * estimate(given).seconds + CALL
-            compared += 1
-    assert compared >= 36
+            ratios.append(seconds / estimate(given).seconds)
+        # the median, since the machine may have been busy at one of the points
+        assert len(ratios) >= 5 and 1 / FACTOR < np.median(ratios) < FACTOR
 
 
 @pytest.mark.parametrize(
