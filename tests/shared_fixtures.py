@@ -1,6 +1,6 @@
 """Fixtures of several tests, and how hypothesis draws: the same data every time, no time limit.
 
-Among them are small made-up datasets of the form that the simulations write, for what draws them.
+Tests of figures draw small made-up datasets, which look like those of simulations.
 """
 
 import fcntl

@@ -33,7 +33,7 @@ use rule dataset as prove_breathers with:
 
 
 use rule dataset as hard_cases with:
-    "Hard cases: digits with their error, or a refusal in words, of every solver"
+    "Hard cases: the error of each solver, or why it rejects the run"
     input:
         kernels=kernels(*ALL_SOLVERS),
     pathvars:

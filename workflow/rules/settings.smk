@@ -28,7 +28,7 @@ def name_of(path):
 
 
 def differs_of(wildcards, input):
-    """Return in words where the configuration of what a figure shows is not the paper's.
+    """Return sentences that say where a figure shows another configuration than the paper's.
 
     Of the datasets of many cases it shows those of its trajectories and sweeps, if it has such.
     """

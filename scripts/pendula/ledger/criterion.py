@@ -123,7 +123,7 @@ class AllOf(Criterion):
 
 
 def plain(number: float) -> str:
-    """Return a limit: as it is where eight digits suffice, else rounded to four; or in words."""
+    """Return a limit as text: with up to eight digits if exact, else with four; or "infinity"."""
     if math.isinf(number):
         return "infinity"
     texts = (f"{number:.{digits}g}" for digits in range(4, 9))
