@@ -12,6 +12,7 @@ FIRST = ("docs/test_commands.py", "workflow/")
 
 def pytest_configure(config):
     """Load fixtures where tests run: the process that only hands tests out imports no SciPy."""
+    config.pluginmanager.import_plugin("clean_tree")
     if config.option.dist == "no":
         gc.disable()  # modules and tests stay in memory: among them there is no garbage to find
         config.pluginmanager.import_plugin("shared_fixtures")
