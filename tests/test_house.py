@@ -17,7 +17,7 @@ STOREYS = (
     ("studies",),
     ("report", "figure_diff", "archive", "ledger"),
     ("drawing",),
-    ("many_cases",),
+    ("many_cases", "varied"),
     ("configuration",),
     ("models", "feasibility", "problem", "names"),
     ("sources",),

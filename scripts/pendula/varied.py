@@ -1,0 +1,142 @@
+"""A number beyond the paper is measured again with each choice that made it changed.
+
+Such a choice is a tolerance, a length, a margin, a seed or a definition. `vary` takes the first
+value of every choice for the printed number, and one other value at a time for its variations. The
+error of the number is the larger of its statistical error and its largest change under a variation.
+
+In a dataset the number `speed` has beside it `speed_error`, `speed_statistical_error`, and
+`speed_varied` along `variation`, whose labels say "tolerance = 1e-10".
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+Estimate = tuple[Any, Any]
+"""A number and its statistical error, or arrays of one shape; NaN where it was not measured."""
+VARIATION, PARTS = "variation", ("", "_error", "_statistical_error", "_varied")
+"""The dimension of variations, and how the names of a number's variables end."""
+
+
+class Varied(NamedTuple):
+    """A number, or an array of numbers, with its values under variations of its choices."""
+
+    value: np.ndarray
+    statistical_error: np.ndarray  # of the shape of `value`
+    choices: Mapping[str, Any]  # those of the printed number, by name
+    variations: Mapping[str, np.ndarray]  # the number again, by "choice = value"
+
+    @property
+    def error(self) -> np.ndarray:
+        """The larger of the statistical error and the largest change under a variation."""
+        changes = np.abs(np.array(list(self.variations.values())) - self.value)
+        return np.fmax(self.statistical_error, np.fmax.reduce(changes, axis=0))
+
+
+def settings_of(choices: Mapping[str, Sequence]) -> dict[str, dict[str, Any]]:
+    """Return all choices of each measurement that `vary` makes, by "choice = value".
+
+    The first has the label "" and the first value of every choice. In each other measurement one
+    choice has another of its values.
+    """
+    printed = {name: values[0] for name, values in choices.items()}
+    changed = {
+        f"{name} = {_written(value)}": printed | {name: value}
+        for name, values in choices.items()
+        for value in values[1:]
+    }
+    return {"": printed, **changed}
+
+
+def _written(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, int | float) else str(value)
+
+
+def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> Varied:
+    """Return what `measure(**settings)` returns for all of `settings_of(choices)`.
+
+    Raises ValueError if no choice has a second value: nothing would be varied.
+    """
+    (_, printed), *changed = settings_of(choices).items()
+    if not changed:
+        raise ValueError(f"no choice has a second value to vary: {', '.join(choices) or 'none'}")
+    value, error = (np.asarray(part, float) for part in measure(**printed))
+    again = {label: np.asarray(measure(**one)[0], float) for label, one in changed}
+    return Varied(value, np.broadcast_to(error, value.shape), printed, again)
+
+
+class Printed(NamedTuple):
+    """A number as a dataset keeps it."""
+
+    dimensions: tuple[str, ...]
+    number: Varied
+    long_name: str
+
+
+def as_dataset(numbers: Mapping[str, Printed], coordinates: Mapping[str, Any]) -> xr.Dataset:
+    """Return a dataset of numbers by name, with the coordinates of their dimensions.
+
+    The attribute `choices` of a number says what was chosen for it. Where a number was measured
+    without a variation, its value under this variation is NaN.
+    """
+    labels = list(
+        dict.fromkeys(label for one in numbers.values() for label in one.number.variations)
+    )
+    about = {"long_name": "choice that was changed, and its changed value"}
+    label = xr.Variable(VARIATION, np.array(labels, object), about)
+    data = xr.Dataset(coords={**coordinates, VARIATION: label})
+    for name, printed in numbers.items():
+        data = data.assign(dict(zip(names_of(name), _parts(printed, labels), strict=True)))
+    return data
+
+
+def _parts(printed: Printed, labels: Sequence[str]) -> list[xr.Variable]:
+    """Return a number, its error, its statistical error, and the number under its variations."""
+    (dims, number, meaning), missing = printed, np.full(printed.number.value.shape, np.nan)
+    again = [number.variations.get(label, missing) for label in labels]
+    chosen = ", ".join(f"{key} = {_written(one)}" for key, one in number.choices.items())
+    error = f"error of the {meaning}: the larger of the statistical one and the largest change"
+    return [
+        xr.Variable(dims, number.value, {"long_name": meaning, "choices": chosen}),
+        xr.Variable(dims, number.error, _named(error)),
+        xr.Variable(dims, number.statistical_error, _named(f"statistical error of the {meaning}")),
+        xr.Variable((*dims, VARIATION), np.stack(again, axis=-1), _named(f"{meaning}, varied")),
+    ]
+
+
+def _named(long_name: str) -> dict[str, str]:
+    return {"long_name": long_name}
+
+
+def names_of(number: str) -> list[str]:
+    """Return the names of the variables that a dataset has of a number, and of its variations."""
+    return [f"{number}{end}" for end in PARTS]
+
+
+def numbers_in(data: xr.Dataset) -> list[str]:
+    """Return the names of the numbers of a dataset that have variations."""
+    end = PARTS[-1]
+    return [str(name).removesuffix(end) for name in data.data_vars if str(name).endswith(end)]
+
+
+def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
+    """Return the values of a single number of a dataset under its variations, by label.
+
+    `data` has no dimension but that of variations. There are none where none was measured.
+    """
+    if number not in numbers_in(data):
+        return {}
+    again = data[names_of(number)[-1]].dropna(VARIATION)
+    return {str(one[VARIATION].item()): float(one) for one in again}
+
+
+def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield the name of every single number with variations, and the dataset at its labels."""
+    for name in numbers_in(data):
+        dims = data[name].dims
+        for place in np.ndindex(data[name].shape):
+            here = data.isel(dict(zip(dims, place, strict=True)))
+            if np.isfinite(here[name]) and variations_of(here, name):
+                yield name, here

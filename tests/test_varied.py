@@ -1,0 +1,68 @@
+"""Numbers with variations: errors worked out by hand, and datasets that are read again."""
+
+import numpy as np
+import pytest
+from latticode.datasets.netcdf import read, save
+from pendula.varied import (
+    Printed,
+    as_dataset,
+    names_of,
+    numbers_in,
+    settings_of,
+    single_numbers,
+    variations_of,
+    vary,
+)
+
+CHOICES = {"tolerance": [1e-8, 1e-10], "margin": [40, 20, 80]}
+
+
+def measure(tolerance: float, margin: int):
+    """Return two numbers: margin / 10 with an error of 3, and 1e8 times the tolerance, of 0.1."""
+    return [margin / 10.0, 1e8 * tolerance], [3.0, 0.1]
+
+
+def test_one_choice_is_changed_at_a_time():
+    printed = {"tolerance": 1e-8, "margin": 40}
+    assert settings_of(CHOICES) == {
+        "": printed,
+        "tolerance = 1e-10": printed | {"tolerance": 1e-10},
+        "margin = 20": printed | {"margin": 20},
+        "margin = 80": printed | {"margin": 80},
+    }
+    with pytest.raises(ValueError, match="no choice has a second value to vary: tolerance"):
+        vary(lambda tolerance: (1.0, 0.1), {"tolerance": [1e-8]})
+
+
+def test_the_error_is_the_statistical_one_or_the_largest_change():
+    number = vary(measure, CHOICES)
+    np.testing.assert_array_equal(number.value, [4.0, 1.0])
+    np.testing.assert_allclose(number.error, [4.0, 0.99])  # of margin = 80, and of the tolerance
+    steady = vary(measure, {"tolerance": [1e-8], "margin": [40, 50]})
+    np.testing.assert_array_equal(steady.error, [3.0, 0.1])
+
+
+def test_a_variation_that_was_not_measured_is_no_change():
+    number = vary(lambda seed: ([1.0, 2.0 if seed == 1 else np.nan], [0.5, 0.5]), {"seed": [1, 2]})
+    np.testing.assert_array_equal(number.error, [0.5, 0.5])
+
+
+def test_a_dataset_keeps_each_number_with_its_variations(tmp_path):
+    both = vary(measure, CHOICES)
+    one = vary(lambda seed: (float(seed), 0.5), {"seed": [1, 2]})
+    numbers = {
+        "speed": Printed(("omega",), both, "speed of the front"),
+        "share": Printed((), one, "share of runs"),
+    }
+    save(tmp_path / "study.nc", as_dataset(numbers, {"omega": [0.0, 2.0]}))
+    data = read(tmp_path / "study.nc")
+    assert numbers_in(data) == ["speed", "share"] and set(names_of("speed")) < set(data.variables)
+    assert data["speed"].attrs["choices"] == "tolerance = 1e-08, margin = 40"
+    assert variations_of(data, "share") == {"seed = 2": 2.0}
+    assert float(data["share_error"]) == 1.0 and float(data["share_statistical_error"]) == 0.5
+    again = {"tolerance = 1e-10": 4.0, "margin = 20": 2.0, "margin = 80": 8.0}
+    assert variations_of(data.sel(omega=0.0), "speed") == again
+    assert variations_of(data, "temperature") == {}
+    assert [(name, here["omega"].values.tolist()) for name, here in single_numbers(data)] == [
+        ("speed", 0.0), ("speed", 2.0), ("share", [0.0, 2.0]),
+    ]  # fmt: skip
