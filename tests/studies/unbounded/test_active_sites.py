@@ -43,6 +43,16 @@ def test_the_norms_of_a_regular_case_are_those_of_a_long_chain(changes):
     assert one["second_front"][-1] == find_front(np.abs(right[0] + right[1]) ** 2 / 2.0)
 
 
+@pytest.mark.parametrize(("end_time", "output_step"), [(25.0, 0.25), (3.0, 0.25), (20.1, 0.3)])
+def test_a_run_ends_at_the_time_that_it_was_given(end_time, output_step):
+    """Also where it is no whole number of pieces: outputs and looks at the fronts reach it."""
+    times = {"end_time": end_time, "output_step": output_step}
+    run = run_long(problem_of("fig3_small", half_width=None, solver=TIGHT, **times), REST)
+    count = round(end_time / output_step)
+    np.testing.assert_allclose(run["tau"], np.linspace(0.0, end_time, count + 1), rtol=1e-14)
+    assert run["piece_tau"][-1] == run["tau"][-1] and np.diff(run["piece_tau"]).max() <= 2.0
+
+
 def test_a_chain_is_widened_where_its_last_sites_are_above_rest():
     """What is added is at rest, whatever the ghosts held: the one at the right becomes a site."""
     state = np.zeros((4, 2 * GUARD + 2))

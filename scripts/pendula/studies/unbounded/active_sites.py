@@ -22,15 +22,12 @@ from latticode.simulation.systems import make_system, solvers_of
 
 from pendula.problem import Problem
 
-from .bulk import find_front, region_means, site_powers
+from .bulk import PIECE, find_front, region_means, site_powers
 from .sums import halves, in_sums, turned
 
 BLOCK, GUARD = 64, 32
 """Sites by which W grows, and how many of the last ones must be at rest: no front crosses GUARD
 sites within a piece."""
-
-PIECE = 2.0
-"""Units of tau between two looks at the last sites."""
 
 
 def is_even(initial: np.ndarray) -> bool:
@@ -93,10 +90,12 @@ def in_pieces(
     even, rooms = is_even(problem.initial), {}
     width = problem.initial.shape[1] // 2 + BLOCK
     state = pack(place(problem.initial, width), Reduction(even, synchronised=False))
-    outputs = round(PIECE / problem.output_step)
-    for piece in range(round(problem.end_time / PIECE)):
+    steps = round(problem.end_time / problem.output_step)
+    steps_of_piece = int(PIECE / problem.output_step)
+    for first in range(0, steps, steps_of_piece):
         state = widen(state, rest, even)
-        times = problem.output_step * np.arange(piece * outputs, (piece + 1) * outputs + 1)
+        last = min(first + steps_of_piece, steps)
+        times = problem.output_step * np.arange(first, last + 1)
         record = advance(problem, state, times, rooms, even)
         yield times, record, state, right_half(state, even)
 

@@ -9,6 +9,9 @@ POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, its mean"
 PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
 """What these quantities are called in every dataset of this study."""
 
+PIECE = 2.0
+"""Units of tau between two looks at a run, at most: a piece of it is a whole number of outputs."""
+
 LEVEL = 1e-2
 """Power of a pair at which the fronts are found: of P the first, of its part |S|^2 the second."""
 

@@ -24,6 +24,8 @@ from pydantic import Field
 from pendula.configuration.cost import estimate
 from pendula.configuration.schema import Configuration, Faults
 
+from .bulk import PIECE
+
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
 
@@ -66,6 +68,13 @@ class Settings(Model):
         if absent:
             return
         yield from self._faults_of_band(settings)
+        if self.output_step > PIECE:
+            text = f"is {self.output_step:g}; it must be at most {PIECE:g}"
+            yield (
+                "output_step",
+                f"{text}: sites are added where an output shows that they are needed",
+            )
+            return
         for label, size in sizes.items():
             yield from self._faults_of_size(settings, label, size)
 
@@ -82,6 +91,9 @@ class Settings(Model):
             if not is_multiple(run.end_time, self.output_step):
                 text = f"{run.end_time:g} is not a whole number of output steps"
                 yield f"{label}.runs.{name}.end_time", f"{text} of {self.output_step:g}"
+            if run.end_time <= PIECE:
+                text = f"is {run.end_time:g}; it must be above {PIECE:g}"
+                yield f"{label}.runs.{name}.end_time", f"{text}, so that a front has a speed"
         for name in self.names:
             run = size.runs[name]
             problems = self.problems(settings.problem(self.case_of(name)), name, size)
