@@ -288,7 +288,9 @@ def survey(
     limits = {} if hours is None else {"limits": {"hours": hours}}
     settings = load({"cases": {name: case}, "surveys": {name: asked}} | limits)
     _announce(settings.cost_of_survey(name))
-    plan = settings.surveys[name].plan._replace(keep=tuple(kept))
+    plan = settings.surveys[name].plan._replace(
+        keep=tuple(kept), by_half_width=settings.values_by_half_width(name)
+    )
     problem = case.kind.of(settings.surveyed_problem(name))
     found = survey_runs.run_survey(problem, plan, partial(run_all, cores=cores))
     return as_xarray(*survey_contents(name, problem, plan, found))

@@ -211,6 +211,13 @@ class Case(Model):
     def _values(self, half_width: int) -> dict[str, float | list[float]]:
         return {name: values_at(value, half_width) for name, value in self._given().items()}
 
+    def values_by_half_width(self, half_widths: list[int]) -> dict[int, dict[str, Any]]:
+        """Return the values of the parameters that are functions of the sites, by half-width."""
+        functions = {name: value for name, value in self._given().items() if callable(value)}
+        if not functions:
+            return {}
+        return {m: {k: values_at(one, m) for k, one in functions.items()} for m in half_widths}
+
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:

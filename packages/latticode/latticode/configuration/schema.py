@@ -212,12 +212,26 @@ class Configuration(Model):
         """Return the problem whose values a survey changes."""
         return self.cases[self.surveys[name].case].problem(snapshot_step=None)
 
+    def values_by_half_width(self, name: str) -> dict[int, dict[str, Any]]:
+        """Return, for each half-width of a survey, the parameters that are functions of the sites.
+
+        So a function is evaluated on the sites of each run.
+        """
+        survey = self.surveys[name]
+        return self.cases[survey.case].values_by_half_width(survey.half_widths)
+
     def plain_survey(self, name: str) -> dict:
         """Return a survey as plain values, as the parameters of a job have them."""
         survey = self.surveys[name]
         members = survey.members and survey.members.model_dump()
         kept, window = survey.keep, survey.window and list(survey.window)
-        return {"axes": survey.plan.axes, "members": members, "keep": kept, "window": window}
+        return {
+            "axes": survey.plan.axes,
+            "members": members,
+            "keep": kept,
+            "window": window,
+            "by_half_width": self.values_by_half_width(name),
+        }
 
     def cost_of_survey(self, name: str, parts: int = 1) -> Cost:
         """Return what one of so many parts takes, if each run is as dear as the dearest corner."""

@@ -118,6 +118,11 @@ class Survey(Model):
         given = {**self.axes, **self.together}
         return {name: [_plain(name, z) for z in values] for name, values in given.items()}
 
+    @property
+    def half_widths(self) -> list[int]:
+        """The half-widths of its axes, none where all chains have that of the case."""
+        return sorted(set(self._columns().get("half_width", [])))
+
     def faults_of(self, case: Case) -> list[tuple[str, str]]:
         """Return what keeps the survey from being made of a case, and under which key."""
         found = []

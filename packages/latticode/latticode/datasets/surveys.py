@@ -1,5 +1,6 @@
 """Surveys as datasets: an axis of the survey is a dimension, and what is kept a variable."""
 
+import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -29,7 +30,13 @@ ABOUT = {
 def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run) -> Contents:
     """Return the contents of the dataset on a survey that plain values describe, run by `run`."""
     members = survey["members"] and Members(**survey["members"])
-    plan = Survey(survey["axes"], tuple(survey["keep"]), survey["window"], members)
+    plan = Survey(
+        survey["axes"],
+        tuple(survey["keep"]),
+        survey["window"],
+        members,
+        survey["by_half_width"],
+    )
     return survey_contents(name, problem, plan, run_survey(problem, plan, run))
 
 
@@ -60,8 +67,10 @@ def survey_contents(
         about = {key: value for key, value in about.items() if key not in names}
     drawn = survey.members._asdict() if survey.members else {}
     said = {f"members_{key}": value for key, value in drawn.items()}
-    window = {} if survey.window is None else {"window": list(survey.window)}
-    return variables, {"title": f"The survey {name}", **about, **said, **window}
+    said |= {} if survey.window is None else {"window": list(survey.window)}
+    if survey.by_half_width:
+        said["parameters_by_half_width"] = json.dumps(survey.by_half_width)
+    return variables, {"title": f"The survey {name}", **about, **said}
 
 
 def _plain(axis: str) -> str:

@@ -9,6 +9,7 @@ last axis first and members fastest, and each depends on its number alone. `surv
 import inspect
 from collections.abc import Callable, Collection, Mapping, Sequence
 from math import prod
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,6 +43,9 @@ class Survey(NamedTuple):
     window: tuple[float, float] | None = None
     """The span of time, both ends included, of maxima, means and exponents; None is the whole."""
     members: Members | None = None
+    by_half_width: Mapping[int, Mapping[str, Any]] = MappingProxyType({})
+    """Values on all sites of the parameters that are functions of the sites, for each half-width
+    of an axis."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -70,7 +74,8 @@ class Surveyed(Sequence):
         values: dict[str, Any] = {}
         for names, axis, i in zip(self.names, self.survey.axes.values(), place, strict=False):
             values |= zip(names, axis[i] if len(names) > 1 else [axis[i]], strict=True)
-        changes, initial = {}, None
+        changes: dict[str, Any] = {**self.survey.by_half_width.get(values.get("half_width"), {})}
+        initial = None
         for name, value in values.items():
             if name.startswith("initial."):
                 initial = np.array(self.problem.initial) if initial is None else initial

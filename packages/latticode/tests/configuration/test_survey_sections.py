@@ -1,9 +1,14 @@
 """A survey in a configuration: what it may say, and the words for what it may not."""
 
+import numpy as np
 import pytest
+from latticode import notebook
 from latticode.configuration.files import ConfigurationError
 from latticode.configuration.messages import load
+from latticode.datasets.surveys import make_survey
 from latticode.equations.model import Model, abs2, lap
+from latticode.simulation.problem import Problem
+from latticode.simulation.runs import run_all
 
 CHAIN = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
 CASES = {"mine": {"model": CHAIN, "half_width": 5, "initial": {0: [1], 1: [0.5]}, "end_time": 5}}
@@ -65,3 +70,48 @@ def test_what_varies_together_is_the_last_axis():
 def test_what_a_survey_may_not_say(survey, told):
     with pytest.raises(ConfigurationError, match=told):
         loaded(**survey)
+
+
+FUNCTIONS = {
+    "a defect at the left end": lambda n: (n == n.min()) * 1.0,
+    "a defect two sites left of the centre": lambda n: (n == -2) * 1.0,
+    "one number for each length": lambda n: 0.1 * n.size,
+}
+
+
+def driven(at):
+    """Return a chain of half-width 4 which is driven where a function of the sites says so."""
+    model = Model(
+        fields="u",
+        parameters={"force": 0.1, "at": at},
+        i_dt=lambda p, u: lap(u) + abs2(u) * u + 1j * p.force * p.at,
+    )
+    return notebook.Case(model=model, half_width=4, initial={0: [0.1]}, end_time=3)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_is_evaluated_on_the_sites_of_each_run_of_a_survey(name):
+    case, half_widths = driven(FUNCTIONS[name]), [3, 4, 6]
+    found = notebook.survey(case, {"half_width": half_widths}, keep=["final_l2"])
+    alone = [notebook.simulate(case.changed(half_width=m)) for m in half_widths]
+    expected = [run["l2"].values[:, -1] for run in alone]
+    np.testing.assert_array_equal(found["final_l2"], expected)
+    assert '"6": {"at":' in found.attrs["parameters_by_half_width"]
+
+
+def test_a_survey_of_a_file_evaluates_functions_on_the_sites_of_each_run():
+    case = driven(lambda n: (n == n.min()) * 1.0)
+    asked = {"case": "mine", "keep": ["final_l2"]}
+    asked["together"] = {"force": [0.1, 0.2], "half_width": [3, 6]}
+    settings = load({"cases": {"mine": case}, "surveys": {"ends": asked}})
+    problem = Problem.of(settings.surveyed_problem("ends"))
+    variables, _ = make_survey("ends", problem, settings.plain_survey("ends"), run_all)
+    alone = case.changed(half_width=6, parameters={"force": 0.2})
+    assert variables["final_l2"].values[1] == notebook.simulate(alone)["l2"].values[0, -1]
+
+
+def test_values_on_an_axis_take_the_place_of_a_function():
+    case = driven(lambda n: (n == 0) * 1.0)
+    found = notebook.survey(case, {"half_width": [3, 6], "at": [0.5]}, keep=["final_l2"])
+    alone = notebook.simulate(case.changed(half_width=6, parameters={"at": 0.5}))
+    assert found["final_l2"].values[1, 0] == alone["l2"].values[0, -1]
