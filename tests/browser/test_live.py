@@ -73,8 +73,8 @@ def text(page, name: str) -> str:
 
 
 def settle(page) -> None:
-    """Wait until all that the settings ask for is drawn."""
-    wait_for(lambda: run(page, "Boolean(state) && !asked"))
+    """Wait until a run with the present settings is drawn."""
+    wait_for(lambda: run(page, "Boolean(run) && !isSolving"))
 
 
 def change(page, **settings) -> None:
@@ -83,20 +83,38 @@ def change(page, **settings) -> None:
 
 
 def test_all_cases_have_the_accepted_bits(live):
-    live.execute_script("location.hash = 'same-bits'")
-    live.refresh()
+    open_page(live, live.current_url.partition("#")[0] + "#same-bits")
     wait_for(lambda: text(live, "same-bits") == "6 of 6")
     settle(live)
     assert text(live, "bits").count("the same at all 2001 times") == 6
 
 
-@pytest.mark.parametrize("wrong", ["energy[1200]", "linf[1][1200]", "modulus[1][4 * 501 + 300]"])
-def test_a_wrong_number_is_reported_with_its_time(live, wrong):
-    run_wrong = f"const run = right(given, steps); if (given.a_re === 5) run.{wrong} *= 1 + 1e-6;"
-    run_wrong = f"const right = solve; solve = (given, steps) => {{ {run_wrong} return run; }};"
-    live.execute_script(f"{run_wrong} compareAll()")
-    assert text(live, "same-bits") == "3 of 6"
+WRONG = {
+    "energy": "run.energy[1200] *= 1 + 1e-6",
+    "norm": "run.linf[1][1200] *= 1 + 1e-6",
+    "modulus": "run.modulus = (...at) => modulus(...at) * (1 + 1e-6 * (at.join() === '1,4,1200'))",
+}
+
+
+@pytest.mark.parametrize("fault", WRONG.values(), ids=WRONG)
+def test_a_wrong_number_is_reported_with_its_time(live, fault):
+    live.execute_script(f"""
+    const right = solve;
+    solve = async (settings, outputStep) => {{
+      const run = await right(settings, outputStep);
+      const {{ modulus }} = run;
+      if (settings.a_re === 5) {fault};
+      return run;
+    }};
+    compareAll();
+    """)
+    wait_for(lambda: text(live, "same-bits") == "3 of 6")
     assert text(live, "bits").count("first differs at τ = 30") == 3
+
+
+def all_sites(name: str) -> str:
+    """Return the script for a function of the run at every site of B and its last output."""
+    return f"Array.from({{length: run.sites}}, (_, n) => run.{name}(1, n, run.tau.length - 1))"
 
 
 SETTINGS = {
@@ -114,15 +132,18 @@ def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     """In its bits, how long the motion stays localised, and when a perturbed run diverges."""
     live.execute_script("byId('perturbation').value = '1e-7'")
     change(live, **changes)
-    given = run(live, "settings")
-    pair = [complex(given.pop(f"{name}_re"), given.pop(f"{name}_im")) for name in "ab"]
-    problem = problem_of("fig2_small", **given, initial={0: pair}, snapshot_every=4)
+    keys = run(live, "settings")
+    pair = [complex(keys.pop(f"{name}_re"), keys.pop(f"{name}_im")) for name in "ab"]
+    problem = problem_of("fig2_small", **keys, initial={0: pair}, snapshot_every=4)
     perturbed = problem.changed(initial=problem.initial * (1 + 1e-7))
     one, two = simulate(problem), simulate(perturbed)
     assert np.array_equal(run(live, "Array.from(run.energy)"), one.energy)
     states = np.moveaxis(one.modulus, -1, 0)
     left = [i for i, state in enumerate(states) if not is_localised(power_by_distance(state))]
     until = f"stays localised until τ = {one.tau[4 * left[0]]:.4g}." if left else "to the end."
+    assert np.array_equal(run(live, all_sites("modulus")), one.modulus[1, problem.half_width :, -1])
+    amplitudes = [complex(*parts) for parts in run(live, all_sites("amplitude"))]
+    assert np.abs(amplitudes - one.final[1, problem.half_width :]).max() < 1e-13
     short = problem.half_width < 3
     assert text(live, "localised").endswith("no motion counts as localised." if short else until)
     parted = first_above(one.tau, norm_difference(one.linf, one.l2, two.linf, two.l2), 0.01)
@@ -152,11 +173,101 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
 def test_a_link_keeps_all_that_the_page_shows(live):
     live.execute_script("show('case=fig4_large&tau=12.25&mu=0.2&perturbation=1e-5')")
     settle(live)
-    shown = [text(live, name) for name in ("numbers", "parted", "mu_said", "localised")]
+    names = ("numbers", "parted", "mu_value", "localised")
+    shown = [text(live, name) for name in names]
     assert "At τ = 12.25:" in shown[0] and "factor 1 + 1e-5 " in shown[1]
     assert "Horizon of Fig 4: " in shown[1] and "(the dashed line)" in shown[1]
-    open_page(live, live.find_element("id", "link").get_attribute("href"))
-    assert [text(live, name) for name in ("numbers", "parted", "mu_said", "localised")] == shown
+    open_page(live, live.current_url.partition("#")[0] + "#" + run(live, "String(linkOf())"))
+    assert [text(live, name) for name in names] == shown
+
+
+def test_the_address_follows_each_change_and_back_undoes_it(live):
+    def move(name: str, value: float) -> None:
+        """Move a slider as a hand does: many inputs, then one change."""
+        live.execute_script(f"""
+        byId('{name}').value = {value};
+        const events = ['input', 'input', 'change'].map((kind) => new Event(kind));
+        for (const event of events) byId('{name}').dispatchEvent(event);
+        """)
+        settle(live)
+
+    move("omega", 3)
+    move("half_width", 12)
+    assert "omega=3&half_width=12" in live.current_url
+    live.refresh()
+    settle(live)
+    assert run(live, "[settings.omega, settings.half_width]") == [3, 12]
+    for expected in ([3, 30], [8, 30]):
+        live.back()
+        wait_for(lambda: run(live, "[settings.omega, settings.half_width]") == expected)  # noqa: B023
+        settle(live)
+
+
+def test_keys_play_and_move_the_time(live):
+    """Space plays from anywhere but a button, and arrows move the time on a plot."""
+    body = live.find_element("tag name", "body")
+    live.execute_script("moveTo(0)")
+    stops = live.execute_script("""
+    return [...document.querySelectorAll("button, input, select, a, [tabindex]")]
+      .slice(0, 5).map((one) => one.id);
+    """)
+    assert "play" in stops
+    body.send_keys(" ")
+    wait_for(lambda: text(live, "play") == "Pause" and run(live, "shownTime()") > 0)
+    body.send_keys(" ")
+    assert text(live, "play") == "Play"
+    plot = live.find_element("id", "l2")
+    live.execute_script("moveTo(20)")
+    for key, time in (("\ue014", 21), ("\ue012", 20), ("\ue011", 0), ("\ue010", 50)):
+        plot.send_keys(key)
+        assert run(live, "shownTime()") == time
+    assert plot.get_attribute("aria-valuetext").startswith("At τ = 50: ℓ² norms ")
+
+
+def test_a_chain_at_rest_and_one_that_was_never_localised_are_named(live):
+    change(live, a_re=0, b_re=0)
+    assert text(live, "localised") == "The chain is at rest."
+    assert text(live, "scaleA") == "|Aₙ| at site n, zero"
+
+
+def test_a_slider_is_answered_while_a_long_run_is_solved(live):
+    """The worker solves, so that the page draws frames meanwhile."""
+    change(live, half_width=100, end_time=100, omega=0)
+    frames = live.execute_async_script("""
+    const [done] = arguments;
+    apply({ ...settings, omega: 0.1 });
+    let frames = 0;
+    const count = () => {
+      frames += 1;
+      if (isSolving) requestAnimationFrame(count); else done(frames);
+    };
+    requestAnimationFrame(count);
+    """)
+    assert frames >= 3
+
+
+@pytest.mark.parametrize(("slowed", "least"), [(1, 30), (6, 5)])
+def test_a_long_chain_plays_without_solving_it_again(live, slowed, least):
+    """Frames per second at M = 100 near tau = 90, by the browser's clock; a busy machine may halve
+    them."""
+    change(live, half_width=100, end_time=100, omega=0, a_re=1, b_re=0.1)
+    live.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": slowed})
+    try:
+        frames = live.execute_async_script("""
+        const [done] = arguments;
+        moveTo(85);
+        let frames = 0;
+        const [draw, start] = [drawPendula, performance.now()];
+        drawPendula = () => { frames += 1; draw(); };
+        togglePlaying();
+        setTimeout(() => {
+          togglePlaying();
+          done((1000 * frames) / (performance.now() - start));
+        }, 3000);
+        """)
+    finally:
+        live.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": 1})
+    assert frames > least / 2
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """The page on which a reader runs the cases of Figs 2 to 4, and compares the bits with these runs.
 
-A mark is a hash of all that a run keeps at one output time. `live.js` makes the same of its own run
-and reports the first time at which a bit differs.
+A mark is a hash of all that a run keeps at one output time. `runs.js` makes the same of its own
+run, and the page reports the first time at which a bit differs.
 """
 
 import base64
@@ -15,37 +15,35 @@ import xarray as xr
 import yaml
 from latticode.datasets import complete_or_absent
 from latticode.datasets.netcdf import read
-from latticode.equations.ends import DIRICHLET, MIRROR
 from latticode.integrators import FAULTS
-from latticode.kernels.webassembly import loader, webassembly
+from latticode.kernels.webassembly import loader
 from latticode.measures.difference import VISIBLE
-from latticode.simulation.integration import Solver
-from latticode.simulation.observables import blank_record
 from latticode.simulation.problem import read_initial
 from markupsafe import Markup
 
-from pendula.models.amplitudes import Chain
-from pendula.models.solvers import SOLVERS
 from pendula.report import page
 from pendula.report.words import case_of
 
+from .experiments import EXPERIMENTS
+from .kernel import ODE45, compile_to_webassembly
+
 HERE = Path(__file__).parent
+SCRIPTS = "runs.js", "pictures.js", "words.js", "live.js"
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
 """Of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), which takes words here, not bytes. Any
 change of one word changes it."""
 
 
 def write_live(runs: list[str], trust: str, html: str) -> None:
-    """Write the page `html` on the trajectories `runs`, all by one solver.
+    """Write the page `html` on the trajectories `runs` by ode45.
 
     `trust` is the dataset checks/trust. A case with initial data beside the central pair is left
     out, since the page cannot set them.
     """
     by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
-    about = next(iter(by_case.values())).attrs
-    trusted = read(trust).sel(solver=about["solver"])
+    trusted = read(trust).sel(solver="ode45")
     data = {
-        "solver": _solver(about),
+        "solver": _solver(next(iter(by_case.values())).attrs),
         "cases": [
             _case(name, run, trusted.sel(case=name))
             for name, run in by_case.items()
@@ -55,16 +53,17 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
         "visible": VISIBLE,
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
     }
-    files = (page.HERE / "style.css", HERE / "live.css", HERE / "live.js")
-    common, own, drawing = (file.read_text(encoding="utf-8") for file in files)
-    script = f"{loader()}\n{drawing}"
+    style = _read(page.HERE / "style.css") + _read(HERE / "live.css")
+    script = "".join(_read(HERE / name) for name in SCRIPTS)
     text = page.render(
         "live.html.j2",
         HERE,
         data=Markup(json.dumps(data, ensure_ascii=False)),
-        style=Markup(common + own),
+        experiments=EXPERIMENTS,
+        style=Markup(style),
+        worker=Markup(loader() + _read(HERE / "solver.js")),
         script=Markup(script),
-        style_hash=page.digest(common + own),
+        style_hash=page.digest(style),
         script_hash=page.digest(script),
     )
     with complete_or_absent(html) as partial:
@@ -84,25 +83,15 @@ def marks(run: xr.Dataset) -> np.ndarray:
     return found
 
 
-def _solver(about: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what the page holds of the solver that the attributes of a trajectory name."""
-    name, controls = str(about["solver"]), SOLVERS[str(about["solver"])].controls
-    solver = {"name": name, **{one: float(about[f"solver_{one}"]) for one in controls}}
+def _solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the page holds of its solver, with the controls of a trajectory's attributes."""
+    controls = {name: float(attributes[f"solver_{name}"]) for name in ODE45.controls}
     return {
-        "code": _text(_code_of(SOLVERS[name])),
-        "controls": [solver[one] for one in controls],
-        "named": yaml.safe_dump(solver, default_flow_style=True).strip(),
-        "work": SOLVERS[name].work,
+        "code": _text(compile_to_webassembly()),
+        "controls": [*controls.values()],
+        "named": yaml.safe_dump({"name": "ode45", **controls}, default_flow_style=True).strip(),
+        "work": ODE45.work,
     }
-
-
-def _code_of(solver: Solver) -> bytes:
-    """Return the WebAssembly of a solver of (4) on half a chain; its sizes are arguments of it."""
-    y = np.zeros((4, 4))
-    chain = Chain(1.0, 1.0, 0.0, MIRROR, DIRICHLET)
-    controls, record = (0.0,) * len(solver.controls), blank_record(2, 2, 2, 1)
-    work, stop = solver.room_for(None, y), np.zeros(1, np.bool_)
-    return webassembly(solver.run, chain, y, np.zeros(2), controls, work, record, stop)
 
 
 def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
@@ -122,6 +111,10 @@ def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
         "marks": _text(marks(run).tobytes()),
         "horizon": known or None,
     }
+
+
+def _read(file: Path) -> str:
+    return file.read_text(encoding="utf-8")
 
 
 def _text(content: bytes) -> str:
