@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import read, save
+from latticode.measures.confidence import Limits
 from pendula.varied import (
     Printed,
     as_dataset,
@@ -12,6 +13,7 @@ from pendula.varied import (
     single_numbers,
     variations_of,
     vary,
+    vary_several,
 )
 
 CHOICES = {"tolerance": [1e-8, 1e-10], "margin": [40, 20, 80]}
@@ -45,6 +47,27 @@ def test_the_error_is_the_statistical_one_or_the_largest_change():
 def test_a_variation_that_was_not_measured_is_no_change():
     number = vary(lambda seed: ([1.0, 2.0 if seed == 1 else np.nan], [0.5, 0.5]), {"seed": [1, 2]})
     np.testing.assert_array_equal(number.error, [0.5, 0.5])
+
+
+def test_limits_enclose_the_variations_and_the_larger_side_is_the_error():
+    """A share of 2 % (0 % to 7 %) that another seed makes 9 % has the limits 0 % and 9 %."""
+    shares = {1: Limits(0.02, 0.0, 0.07), 2: Limits(0.09, 0.03, 0.2)}
+    number = vary(lambda seed: shares[seed], {"seed": [1, 2]})
+    data = as_dataset({"share": Printed((), number, "share of runs")}, {})
+    assert (data["share_low"], data["share_high"]) == (0.0, 0.09)
+    assert data["share_statistical_error"] == pytest.approx(0.05)
+    assert data["share_error"] == pytest.approx(0.07)
+
+
+def test_numbers_of_one_measurement_are_measured_together():
+    calls = []
+
+    def measure_two(seed: int):
+        calls.append(seed)
+        return {"speed": (1.0, 0.1), "power": (10.0 * seed, 0.2)}
+
+    numbers = vary_several(measure_two, {"seed": [1, 2]})
+    assert calls == [1, 2] and (numbers["speed"].error, numbers["power"].error) == (0.1, 10.0)
 
 
 def test_a_dataset_keeps_each_number_with_its_variations(tmp_path):

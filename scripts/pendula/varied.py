@@ -5,7 +5,8 @@ value of every choice for the printed number, and one other value at a time for 
 error of the number is the larger of its statistical error and its largest change under a variation.
 
 In a dataset the number `speed` has beside it `speed_error`, `speed_statistical_error`, and
-`speed_varied` along `variation`, whose labels say "tolerance = 1e-10".
+`speed_varied` along `variation`, whose labels say "tolerance = 1e-10". A number with limits has
+`speed_low` and `speed_high` too, which enclose its variations.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -13,9 +14,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from latticode.measures.confidence import Limits
 
-Estimate = tuple[Any, Any]
-"""A number and its statistical error, or arrays of one shape; NaN where it was not measured."""
+Estimate = tuple[Any, Any] | Limits
+"""A number with its statistical error or its limits, or arrays of one shape; NaN: not measured."""
 VARIATION, PARTS = "variation", ("", "_error", "_statistical_error", "_varied")
 """The dimension of variations, and how the names of a number's variables end."""
 
@@ -27,6 +29,14 @@ class Varied(NamedTuple):
     statistical_error: np.ndarray  # of the shape of `value`
     choices: Mapping[str, Any]  # those of the printed number, by name
     variations: Mapping[str, np.ndarray]  # the number again, by "choice = value"
+    limits: Limits | None = None  # where they need not be as far from the number on both sides
+
+    @property
+    def widened(self) -> tuple[np.ndarray, np.ndarray]:
+        """The limits, moved outward to enclose all variations."""
+        again = list(self.variations.values())
+        low = np.fmin.reduce([self.limits.low, *again], axis=0)
+        return low, np.fmax.reduce([self.limits.high, *again], axis=0)
 
     @property
     def error(self) -> np.ndarray:
@@ -59,12 +69,34 @@ def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> V
 
     Raises ValueError if no choice has a second value: nothing would be varied.
     """
+    return vary_several(lambda **settings: {"number": measure(**settings)}, choices)["number"]
+
+
+def vary_several(
+    measure: Callable[..., Mapping[str, Estimate]], choices: Mapping[str, Sequence]
+) -> dict[str, Varied]:
+    """Return the same of the numbers that one measurement makes, by their names."""
     (_, printed), *changed = settings_of(choices).items()
     if not changed:
         raise ValueError(f"no choice has a second value to vary: {', '.join(choices) or 'none'}")
-    value, error = (np.asarray(part, float) for part in measure(**printed))
-    again = {label: np.asarray(measure(**one)[0], float) for label, one in changed}
-    return Varied(value, np.broadcast_to(error, value.shape), printed, again)
+    first = measure(**printed)
+    again = {label: measure(**settings) for label, settings in changed}
+    return {
+        name: _varied(estimate, printed, {label: again[label][name][0] for label in again})
+        for name, estimate in first.items()
+    }
+
+
+def _varied(estimate: Estimate, choices: dict[str, Any], again: Mapping[str, Any]) -> Varied:
+    limits = estimate if isinstance(estimate, Limits) else None
+    parts = [np.asarray(part, float) for part in estimate]
+    if limits:
+        value, low, high = parts
+        error = np.fmax(value - low, high - value)
+    else:
+        value, error = parts
+    changed = {label: np.asarray(one, float) for label, one in again.items()}
+    return Varied(value, np.broadcast_to(error, value.shape), choices, changed, limits)
 
 
 class Printed(NamedTuple):
@@ -89,6 +121,7 @@ def as_dataset(numbers: Mapping[str, Printed], coordinates: Mapping[str, Any]) -
     data = xr.Dataset(coords={**coordinates, VARIATION: label})
     for name, printed in numbers.items():
         data = data.assign(dict(zip(names_of(name), _parts(printed, labels), strict=True)))
+        data = data.assign(_limits(name, printed))
     return data
 
 
@@ -104,6 +137,20 @@ def _parts(printed: Printed, labels: Sequence[str]) -> list[xr.Variable]:
         xr.Variable(dims, number.statistical_error, _named(f"statistical error of the {meaning}")),
         xr.Variable((*dims, VARIATION), np.stack(again, axis=-1), _named(f"{meaning}, varied")),
     ]
+
+
+def _limits(name: str, printed: Printed) -> dict[str, xr.Variable]:
+    """Return the limits of a number that has them, by name."""
+    dims, number, meaning = printed
+    if number.limits is None:
+        return {}
+    about = f"limit of the {meaning}, moved to enclose its variations"
+    return {
+        f"{name}_{end}": xr.Variable(dims, limit, _named(f"{words} {about}"))
+        for (end, words), limit in zip(
+            (("low", "lower"), ("high", "upper")), number.widened, strict=True
+        )
+    }
 
 
 def _named(long_name: str) -> dict[str, str]:
