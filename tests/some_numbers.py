@@ -1,35 +1,75 @@
-"""Datasets whose numbers come from `numerics`; started as a program on each machine.
+"""Datasets whose numbers no solver gives; started as a program on each machine.
 
     python tests/some_numbers.py given made
 
-makes them from runs on infinite chains in the folder `given`, and from small arguments, in the
-functions that the rules call, and writes them to the folder `made`. What solvers give is asked by
-bits.py.
+makes them as a full run does, of its sizes, in the functions that the rules call, and writes them
+to the folder `made`. Fronts are measured on the runs in the folder `given`. The numbers of solvers
+are those of bits.py.
 """
 
 import sys
 from pathlib import Path
 
-from latticode.datasets.netcdf import read, save, write
+import numpy as np
+from helpers import chosen
+from latticode.checks import check_breather
+from latticode.datasets.netcdf import Variable, read, save, write
+from latticode.datasets.trajectories import Contents
+from latticode.measures import confidence
+from pendula.studies.breathers.contents import periodic_contents, steady_contents
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import CHECKS, run_checks
 from pendula.studies.unbounded.measured import measure_fronts
 from pendula.studies.unbounded.thermal import solve_thermal
+from problems import problem_of
 
-NODES = 6
-PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
-"""A steady breather whose proof takes a state and an inverse in balls."""
-NAMES = (*CHECKS, "fronts", "thermal", "proofs")
+MEMBERS = 100
+"""Confidence limits are those of so many members at most; studies of a full run have fewer."""
+PLAYED = {
+    "packages/latticode/latticode/checks.py": ("own",),
+    "packages/latticode/latticode/localised/breathers.py": ("own", "proofs", "steady"),
+    "packages/latticode/latticode/measures/confidence.py": ("confidence",),
+    "scripts/pendula/studies/breathers/multipliers.py": ("periodic",),
+    "scripts/pendula/studies/breathers/periodic.py": ("periodic",),
+}
+"""The datasets that show each module that may call LAPACK, BLAS or the C library."""
+NAMES = (*CHECKS, "fronts", "thermal", *{name: 0 for names in PLAYED.values() for name in names})
 
 
 def make(given: Path, made: Path) -> None:
     """Write the datasets of NAMES to the folder `made`."""
-    datasets = dict(zip(CHECKS, run_checks(), strict=True))
     runs = (read(str(given / f"{name}.nc")) for name in ("omegas", "thermal"))
-    for name, data in (datasets | {"fronts": measure_fronts(*runs)}).items():
+    datasets = dict(zip(CHECKS, run_checks(), strict=True)) | {"fronts": measure_fronts(*runs)}
+    datasets["own"] = check_breather(problem_of("fig3_large"))
+    for name, data in datasets.items():
         save(str(made / f"{name}.nc"), data)
-    write(str(made / "thermal.nc"), *solve_thermal(1.0, 1.0, [-1.0], NODES))
-    write(str(made / "proofs.nc"), *breathers_contents(1.0, 8, PROVED, []))
+    breathers, chains = chosen("breathers"), chosen("unbounded")
+    coupling = float(breathers.epsilon), float(breathers.gamma)
+    contents = {
+        "confidence": limits_of_all_counts(),
+        "periodic": periodic_contents(*coupling, **breathers.periodic.model_dump()),
+        "proofs": breathers_contents(**chosen("certified").breathers.model_dump()),
+        "steady": steady_contents(*coupling, **breathers.steady.model_dump()),
+        "thermal": solve_thermal(*coupling, list(chains.omegas.values), chains.nodes),
+    }
+    for name, (variables, attributes) in contents.items():
+        write(str(made / f"{name}.nc"), variables, attributes)
+
+
+def limits_of_all_counts() -> Contents:
+    """Return confidence limits of each number of members, and of each share of the most."""
+    counts, scores = np.arange(MEMBERS + 1), np.linspace(0.1, 9.0, MEMBERS)
+    limits = {
+        "student": [confidence.student(n) for n in counts[1:]],
+        "chance": [confidence.chance_of_draw(scores, 0.0, 1.0, n) for n in counts[2:]],
+        "share": [confidence.share_limits(n, MEMBERS)[1:] for n in counts],
+        "rate": [confidence.event_rate([0.5] * n + [np.inf], 0.0, 1.0)[1:] for n in counts],
+    }
+    variables = {
+        name: Variable((f"{name}_count", f"{name}_limit")[: np.ndim(values)], values, f"the {name}")
+        for name, values in limits.items()
+    }
+    return variables, {"title": "Confidence limits"}
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import bits
@@ -36,7 +37,10 @@ HASHES = {
 them: if it was meant, put here what `python tests/bits.py` prints, and say why in the commit."""
 
 PROJECT = Path(__file__).resolve().parents[1]
-PLACES = [str(PROJECT / place) for place in ("packages/latticode", "scripts")]
+PLACES = [
+    str(PROJECT / place)
+    for place in ("packages/latticode", "packages/latticode/tests", "scripts", "tests")
+]
 COMMITTED = {name: [value] for name, value in HASHES.items()}
 
 
@@ -100,7 +104,7 @@ def test_each_library_chooses_the_code_of_the_machine(name):
                    for one in (dict(os.environ), machines.environment(name)))  # fmt: skip
     machine = machines.PLAYED[name]
     assert there[:3] == [list(machine.numpy), machine.openblas, machine.numba]
-    assert (there[3] == here[3]) == (name != "generic")
+    assert (there[3] == here[3]) == (machine.numpy != ())
 
 
 @pytest.mark.parametrize("machine", machines.PLAYED)
@@ -132,6 +136,29 @@ def generic():
     """Return the machine of the most other bits; it stands before all that is made for it."""
     need_machine("generic")
     return "generic"
+
+
+def test_each_module_that_may_call_lapack_is_played():
+    """Ruff lets only these call it: `banned-api` in pyproject.toml."""
+    settings = tomllib.loads((PROJECT / "pyproject.toml").read_text())["tool"]["ruff"]["lint"]
+    ignored = settings["per-file-ignores"].items()
+    modules = {name for name, rules in ignored if "TID251" in rules and name.endswith(".py")}
+    assert modules == some_numbers.PLAYED.keys()
+
+
+def test_oldest_and_newest_code_of_numpy_openblas_and_c_give_the_same_numbers(numbers_by):
+    playable = [name for name in machines.PLAYED if machines.playable(name)]
+    if len(playable) < 2:
+        skip("there is no other code for this processor", "run it on x86-64 with FMA and glibc")
+    pair = [machines.libraries(name) for name in (playable[0], playable[-1])]
+    features, kernels, _, elementary = zip(
+        *(json.loads(output_of([sys.executable, "-c", CHOSEN], each)) for each in pair),
+        strict=True,
+    )
+    assert features[0] != features[1] and kernels[0] != kernels[1]
+    assert elementary[0] != elementary[1]
+    old, new = (numbers_by(sys.executable, each) for each in pair)
+    assert old == new and new.keys() == set(some_numbers.NAMES)
 
 
 def test_numbers_that_no_solver_gives_are_the_same_on_another_machine(generic, numbers_by):

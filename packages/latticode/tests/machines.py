@@ -33,26 +33,45 @@ class Machine(NamedTuple):
 
 
 PLAYED = {
+    "core2": Machine((), "Katmai", "core2", "", 1),
     "generic": Machine((), "Nehalem", "generic", "", 1),
+    "sandybridge": Machine((), "Sandybridge", "sandybridge", "+avx", 1),
     "avx2": Machine(GROUPS[:1], "Haswell", "haswell", "+avx2,+fma", 2),
+    "zen": Machine(GROUPS[:1], "Haswell", "znver3", "+avx2,+fma", 1),
     "avx512": Machine(
         GROUPS[:2], "SkylakeX", "skylake-avx512", "+avx2,+fma,+avx512f,+avx512dq,+avx512vl", 1
     ),
+    "icelake": Machine(
+        GROUPS[:3],
+        "SkylakeX",
+        "icelake-server",
+        "+avx2,+fma,+avx512f,+avx512dq,+avx512vl,+avx512vbmi,+avx512vpopcntdq",
+        2,
+    ),
 }
-"""Processors of the last fifteen years; the first has no fused operations."""
+"""Processors of the last twenty years, oldest first: three have no fused operations. OpenBLAS has
+one of its five kernels for each, and calls the oldest of them Katmai."""
+
+
+def libraries(name: str) -> dict[str, str]:
+    """Return the environment in which NumPy, OpenBLAS and C take the code of a machine of PLAYED.
+
+    The code that numba compiles stays that of this processor.
+    """
+    machine = PLAYED[name]
+    return os.environ | {
+        "NPY_DISABLE_CPU_FEATURES": ",".join(set(GROUPS) - set(machine.numpy)),
+        "OPENBLAS_CORETYPE": machine.openblas,
+        "OPENBLAS_NUM_THREADS": str(machine.cores),
+        **({} if machine.numpy else {"GLIBC_TUNABLES": UNFUSED}),
+    }
 
 
 def environment(name: str) -> dict[str, str]:
     """Return the environment of a process on a machine of PLAYED."""
     machine = PLAYED[name]
-    return os.environ | {
-        "NPY_DISABLE_CPU_FEATURES": ",".join(set(GROUPS) - set(machine.numpy)),
-        "OPENBLAS_CORETYPE": machine.openblas,
-        "NUMBA_CPU_NAME": machine.numba,
-        "NUMBA_CPU_FEATURES": machine.features,
-        "OPENBLAS_NUM_THREADS": str(machine.cores),
-        **({} if machine.numpy else {"GLIBC_TUNABLES": UNFUSED}),
-    }
+    compiled_for = {"NUMBA_CPU_NAME": machine.numba, "NUMBA_CPU_FEATURES": machine.features}
+    return libraries(name) | compiled_for
 
 
 def playable(name: str) -> bool:

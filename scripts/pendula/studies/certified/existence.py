@@ -93,16 +93,14 @@ class RefusedError(ArithmeticError):
 def refined(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
     """Return a state of ten digits after a step of Newton's method, which doubles them.
 
-    The step is so small that its rounding is lost: the result has the same bits on every machine.
+    The step is solved in balls: far from the centre, where the ten digits are zeros, the result is
+    this step alone, so that its last bits count.
     """
     with ctx.workprec(BITS):
         u = on_the_whole(state)
-        k, miss = (
-            np.array([float(x.mid()) for x in matrix.entries()])
-            for matrix in (slope(chain, s, u), residual(chain, s, u))
-        )
-    step = np.linalg.solve(k.reshape(len(u), -1), miss).reshape(2, -1)
-    return state - step[:, chain.half_width :]
+        step = slope(chain, s, u).mid().solve(residual(chain, s, u).mid())
+    numbers = np.array([float(x.mid()) for x in step.entries()])
+    return state - numbers.reshape(2, -1)[:, chain.half_width :]
 
 
 def prove(chain: Chain, s: float, state: np.ndarray) -> float:
