@@ -39,7 +39,7 @@ from .graph import (
     number,
     rebuilt,
 )
-from .model_file import SEED, placed, run_file, same
+from .model_file import BEFORE, SEED, placed, run_file, same
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
 
 __all__ = [
@@ -95,9 +95,8 @@ class Model:
         self.second_order = d2_dt2 is not None
         functions = [one for one in (i_dt, d2_dt2, conserved) if one is not None]
         self.text = text or "\n".join(_source_of(function) for function in functions)
-        self.rates = self._rates_of(self._called(i_dt or d2_dt2))
-        kept = self._called(conserved) if conserved else {}
-        self.conserved = self._densities(kept)
+        self.rates = self._twice(i_dt or d2_dt2, self._rates_of)
+        self.conserved = self._twice(conserved, self._densities) if conserved else {}
 
     @classmethod
     def read(cls, path: Path | str) -> "Model":
@@ -177,6 +176,18 @@ class Model:
         except Exception as error:
             place = function.__code__.co_filename
             raise ModelError(placed(error, place, self.text, self.name)) from None
+
+    def _twice(self, function: Callable, nodes_of: Callable) -> Any:
+        """Return the nodes of what a function of the model returns, which is traced twice.
+
+        Equal expressions are one node. So random numbers and counters inside a function, which
+        would be frozen at their first values and recorded nowhere, show as other nodes.
+        """
+        nodes, again = (nodes_of(self._called(function)) for _ in range(2))
+        if again != nodes:
+            name = function.__name__
+            raise ModelError(f"{self.name}: {name} gives other equations each time. {BEFORE}")
+        return nodes
 
     def _rates_of(self, returned: Any) -> tuple[Node, ...]:
         """Return the rates of all rows from what `i_dt` or `d2_dt2` returned."""

@@ -13,6 +13,11 @@ from .symbols import ModelError
 
 SEED = "If it draws random numbers, seed them: numpy.random.default_rng(1)"
 
+BEFORE = (
+    "If it draws random numbers, draw them before and give them as a parameter: "
+    'parameters = {"noise": numpy.random.default_rng(1).normal()}'
+)
+
 
 def run_file(path: Path, text: str) -> dict[str, Any]:
     """Return the names that a file makes; what it imports from its own folder is read anew.

@@ -230,6 +230,39 @@ def test_a_model_without_a_seed_is_refused(write):
         write(f"{draws}parameters = {{}}\ndef i_dt(p, u):\n    return x * u\n")
 
 
+OUTSIDE = np.random.default_rng(1)
+CALLS = iter(range(100))
+IMPURE = {
+    "a draw without a seed": lambda p, u: np.random.default_rng().normal() * u,
+    "a generator with a seed that goes on": lambda p, u: OUTSIDE.normal() * u,
+    "a counter": lambda p, u: next(CALLS) * u,
+}
+
+
+@pytest.mark.parametrize("kind", IMPURE)
+def test_equations_that_are_other_ones_each_time_are_refused_in_a_notebook(kind):
+    with pytest.raises(ModelError, match="gives other equations each time") as error:
+        Model(fields="u", parameters={}, i_dt=IMPURE[kind])
+    assert "draw them before and give them as a parameter" in str(error.value)
+    densities = {"P": IMPURE[kind]}
+    with pytest.raises(ModelError, match="gives other equations each time"):
+        Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u),
+              conserved=lambda p, u: {"P": densities["P"](p, abs2(u))})  # fmt: skip
+
+
+def test_a_file_and_a_notebook_refuse_a_draw_in_the_equations_alike(write):
+    text = "import numpy as np\nfields = 'u'\nparameters = {}\nrng = np.random.default_rng(1)\n"
+    with pytest.raises(ModelError, match=r"other equations each time\. .*as a parameter"):
+        write(f"{text}def i_dt(p, u):\n    return rng.normal() * u\n")
+
+
+def test_numbers_drawn_before_the_equations_are_taken_as_parameters():
+    drawn = np.random.default_rng(1).normal(size=7)
+    noisy = Model(fields="u", parameters={"noise": drawn}, i_dt=lambda p, u: p.noise * u)
+    run = simulate(case(model=noisy, half_width=3))
+    assert f'"noise": [{drawn[0]}' in run.attrs["parameters"]
+
+
 def test_a_configuration_carries_no_code():
     text = "raise SystemExit(3)"
     with pytest.raises(ConfigurationError, match="a configuration holds no code"):
