@@ -9,6 +9,8 @@ from importlib import import_module
 from . import sources  # noqa: F401, so that hashes of code follow the imports of this package
 
 __version__ = "1.0.0"
+RELEASED = "2026-11-23"
+"""The date of this version, as in CITATION.cff."""
 
 _HOMES = {
     "pendula.notebook": (

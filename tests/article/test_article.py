@@ -5,6 +5,8 @@ import re
 import pytest
 import yaml
 from facts import BASELINE, Accepted
+from helpers import ROOT
+from html_tags import Tags
 from pendula.article import write
 from pendula.ledger.rows import load
 
@@ -18,7 +20,9 @@ def page() -> str:
 def test_equal_articles_have_equal_bytes_and_the_pages_that_a_journal_wants():
     text = write.source(Accepted(), "/figures/{}.png")  # the baseline has no PDF
     one, other = (write.typeset(text, BASELINE) for _ in range(2))
-    assert one == other and b"CreationDate" not in one
+    assert one == other
+    date = yaml.safe_load((ROOT / "CITATION.cff").read_text())["date-released"]
+    assert f"D:{date:%Y%m%d}".encode() in one and b"/Author" in one
     assert 6 <= int(re.search(rb"/Count (\d+)", one)[1]) <= 9
     assert "width:" not in "".join(
         re.findall(r"image\(.*", write._converted(text, "typst", "article.typ"))
@@ -27,6 +31,10 @@ def test_equal_articles_have_equal_bytes_and_the_pages_that_a_journal_wants():
 
 def test_the_page_asks_no_network_and_its_formulas_are_set(page):
     assert "default-src &#39;none&#39;" in page
+    head = {tag["name"]: tag["content"] for tag in Tags(page).all("meta") if "name" in tag}
+    date = str(yaml.safe_load((ROOT / "CITATION.cff").read_text())["date-released"])
+    assert head["citation_publication_date"] == head["dcterms.date"] == date
+    assert head["citation_author"] == "The pendula maintainers" and head["citation_title"]
     assert set(re.findall(r'src="([^,"]*)', page)) == {"data:image/png;base64"}
     assert "<ol" not in page  # a line that begins with a number and a full stop is no list
     assert page.count("<math") > 50 and "$" not in re.sub(r'src="[^"]*"', "", page)

@@ -4,6 +4,7 @@ Its source, article.md.j2, is Markdown with formulas in TeX. Pandoc turns it int
 and into the language of Typst, which sets the PDF with the fonts that come with it.
 """
 
+import json
 import re
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -15,6 +16,7 @@ import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from latticode.datasets import complete_or_absent
 
+from pendula import RELEASED
 from pendula.configuration.paper import in_short
 from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
@@ -22,6 +24,7 @@ from pendula.ledger.rows import load
 from pendula.report.results import Results
 from pendula.report.words import FIRM, Quote
 
+from .crosslinks import alternatives, link_mentions
 from .values import KEPT, gather
 
 HERE = Path(__file__).parent
@@ -65,9 +68,11 @@ def page(results: Results) -> str:
     def linked(value: Any) -> Any:
         return f"[{value.text}]({value.link}){{.n}}" if isinstance(value, Quote) else value
 
-    text = source(results, "figures/{}.png", linked)
+    text = link_mentions(source(results, "figures/{}.png", linked))
     options = ["--mathml", "--embed-resources", f"--resource-path={_folder(results)}"]
-    return _converted(text, "html", "article.html", *options)
+    html = _converted(text, "html", "article.html", *options)
+    # else readers aloud, and whoever copies a formula, get its TeX as well
+    return re.sub(r"<annotation .*?</annotation>", "", html)
 
 
 def typeset(text: str, folder: Path) -> bytes:
@@ -75,8 +80,11 @@ def typeset(text: str, folder: Path) -> bytes:
 
     Equal articles have equal bytes.
     """
-    text = _converted(text, "typst", "article.typ")
-    return typst.compile(text.encode(), root=folder, ignore_system_fonts=True)
+    code = _converted(link_mentions(text), "typst", "article.typ")
+    for picture, words in alternatives(text):
+        alternative = f'"{picture}", alt: {json.dumps(words, ensure_ascii=False)}'
+        code = code.replace(f'"{picture}"', alternative)
+    return typst.compile(code.encode(), root=folder, ignore_system_fonts=True)
 
 
 def markdown(results: Results) -> str:
@@ -147,6 +155,9 @@ def _folder(results: Results) -> Path:
 
 def _converted(text: str, kind: str, template: str, *options: str) -> str:
     """Return Markdown in another language, in the template of this folder."""
-    layout = ("--wrap=none", f"--template={HERE / template}", f"--variable=title:{TITLE}",
-              f"--metadata-file={HERE / 'metadata.yaml'}")  # fmt: skip
+    layout = (
+        *("--wrap=none", "--syntax-highlighting=none", f"--template={HERE / template}"),
+        *(f"--variable=title:{TITLE}", f"--variable=date:{RELEASED}"),
+        f"--metadata-file={HERE / 'metadata.yaml'}",
+    )
     return pypandoc.convert_text(text, kind, MARKDOWN, [*layout, *options])

@@ -1,0 +1,62 @@
+"""The pages by axe-core, a checker of accessibility that other people maintain."""
+
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+from facts import Accepted
+from helpers import skip
+from pendula.article import write
+from test_report_in_browser import resize
+
+THEMES = "light", "dark"
+WIDTHS = 1280, 700, 390
+PACKAGE = "axe_playwright_python"
+"""It is installed for the script that it holds; the package itself is not imported."""
+
+
+@pytest.fixture(scope="module")
+def axe() -> str:
+    spec = find_spec(PACKAGE)
+    if spec is None:
+        skip("axe-core is not there", "pip install -r tests/browser/requirements.txt")
+    return (Path(spec.origin).parent / "axe.min.js").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def pages(full_run, tmp_path_factory) -> dict[str, Path]:
+    article = tmp_path_factory.mktemp("article") / "article.html"
+    article.write_text(write.page(Accepted()), encoding="utf-8")
+    run = full_run / "results"
+    return {"article": article, "report": run / "report.html", "live": run / "live.html"}
+
+
+def find_violations(browser, axe: str) -> list[str]:
+    """Return the rule, and an example, of each fault on the page that is open."""
+    browser.execute_cdp_cmd("Runtime.evaluate", {"expression": axe})
+    return browser.execute_async_script("""
+    const [done] = arguments;
+    axe.run({ resultTypes: ["violations"] }).then(({ violations }) =>
+      done(violations.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)}`)));
+    """)
+
+
+@pytest.mark.parametrize("name", ["article", "report", "live"])
+def test_a_page_has_no_fault_in_both_themes_and_at_three_widths(browser, axe, pages, name):
+    browser.set_script_timeout(120)
+    faults = set()
+    for theme in THEMES:
+        features = [{"name": "prefers-color-scheme", "value": theme}]
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+        for width in WIDTHS:
+            resize(browser, width)
+            browser.get(pages[name].as_uri())
+            faults.update(find_violations(browser, axe))
+    assert faults == set()
+
+
+def test_a_fault_is_found(browser, axe, tmp_path):
+    page = tmp_path / "faulty.html"
+    page.write_text("<title>T</title><main><h1>T</h1><img src='x.png'></main>", encoding="utf-8")
+    browser.get(page.as_uri())
+    assert any(fault.startswith("image-alt") for fault in find_violations(browser, axe))
