@@ -55,3 +55,12 @@ def test_the_page_on_a_lattice_of_ones_own_has_no_word_of_the_paper(tmp_path):
         page = (folder / "own.html").read_text(encoding="utf-8")
         assert words in page and 'href="own/tables/surveys/map.csv"' in page
         assert ("Phys. Lett. A" in page) == (case is paper)
+
+
+def test_the_page_points_out_sites_that_rest_at_an_unstable_point():
+    model = Model(fields="x", parameters={}, d2_dt2=lambda p, x: x - x * x * x)
+    case = Case(model=model, half_width=1, initial={0: [0.5]}, end_time=10)
+    run = simulate(case)
+    for moves in (True, False):
+        found = dict(answers.of_case(check(case, run), moves))
+        assert found["sites at rest"].startswith("sites -1, 1 rest at an unstable point")

@@ -17,6 +17,7 @@ from latticode.datasets.checks import table, variable
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
 from latticode.localised.breathers import NoStateError, exponents, find_state
+from latticode.localised.rest import describe_unstable_rest
 from latticode.localised.tangents import STEP, Growth, grow, random_tangent
 from latticode.measures.difference import NORMS, at_times, difference, divergence_time
 from latticode.measures.growth import (
@@ -34,6 +35,8 @@ from latticode.simulation.simulate import IntegrationError, simulate
 from latticode.simulation.systems import integration_of
 
 TITLE = "A run and its checks"
+UNSTABLE_REST = "unstable_rest"
+"""The attribute with a sentence on sites that rest at an unstable point."""
 
 
 def choose_solver(name: str, peak: float, known: Collection[str] = TIGHTEST) -> dict:
@@ -191,13 +194,20 @@ def check_conserved(run: xr.Dataset) -> xr.Dataset:
     return xr.Dataset.from_dict(table(TITLE, names, conserved_drift=described))
 
 
+def check_rest(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+    """Return as an attribute a sentence on sites that rest at an unstable point, if there are."""
+    sentence = describe_unstable_rest(problem, run["modulus"].values) if "modulus" in run else ""
+    return xr.Dataset(attrs={UNSTABLE_REST: sentence} if sentence else {})
+
+
 def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return all checks of a run as one dataset, with the attributes of the run.
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
     again, growth = run_again(problem, run), measure_sensitivity(problem)
-    return merged(run, again, growth, check_conserved(run), check_breather(problem))
+    others = check_conserved(run), check_rest(problem, run), check_breather(problem)
+    return merged(run, again, growth, *others)
 
 
 def merged(run: xr.Dataset, *checks: xr.Dataset) -> xr.Dataset:

@@ -16,7 +16,7 @@ from pathlib import Path
 import xarray as xr
 from pydantic import ValidationError
 
-from latticode.checks import check_run
+from latticode.checks import UNSTABLE_REST, check_run
 from latticode.configuration import cases, cost, values
 from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.messages import in_words, load
@@ -324,7 +324,10 @@ def check(
     run = simulate(case) if run is None else run
     require(run, xr.Dataset, RUN, "linf", "l2", "tau", *variables)
     _require_run_of(case, run)
-    return checks(case.kind.of(case.shown_problem()), run)
+    found = checks(case.kind.of(case.shown_problem()), run)
+    if sentence := found.attrs.get(UNSTABLE_REST):
+        print(sentence)
+    return found
 
 
 def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None):

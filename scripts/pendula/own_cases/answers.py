@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from latticode.checks import LOCALISED
+from latticode.checks import LOCALISED, UNSTABLE_REST
 from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.difference import VISIBLE
 
@@ -24,6 +24,8 @@ def of_case(checks: xr.Dataset, moves: bool) -> Answers:
         specific, at_rest = _of_own_model, []
     else:
         specific, at_rest = _of_amplitudes, _lemma_1(checks)
+    if UNSTABLE_REST in checks.attrs:
+        at_rest.append(("sites at rest", checks.attrs[UNSTABLE_REST]))
     if not moves:
         return [("motion", "the chain is at rest and stays so"), *at_rest]
     return [_trust(checks), *at_rest, *specific(checks)]

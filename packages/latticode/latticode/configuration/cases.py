@@ -168,9 +168,10 @@ class Case(Model):
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
         known = self.model.parameters
-        if self.half_width < self.model.reach:
-            text = f"is {self.half_width}; the equations look {self.model.reach} sites far"
-            yield "half_width", text
+        if self.half_width < min(self.model.farthest, self.model.reach):
+            reach = self.model.reach
+            far = f"{reach} site{'s' * (reach > 1)} along the chain"
+            yield "half_width", f"is {self.half_width}; the equations look {far}"
         for name in self.parameters.keys() - known.keys():
             near = difflib.get_close_matches(name, known, 1)
             hint = (

@@ -225,8 +225,13 @@ class Model:
     # --- What follows from it
 
     @cached_property
+    def farthest(self) -> int:
+        """How many sites away the farthest neighbour is that an equation or a density sees."""
+        return max(one.reach for one in (*self.rates, *self.conserved.values()))
+
+    @cached_property
     def reach(self) -> int:
-        """How many sites to each side an equation looks."""
+        """How many sites to each side kernels look: as far as an equation, one at least."""
         return max(1, *(rate.reach for rate in self.rates))
 
     @cached_property

@@ -1,0 +1,66 @@
+"""Sites that stay at rest at an unstable point, as those that nobody excites and nothing reaches.
+
+Perturbations of such a site grow although nothing moves there. So an exponent of the whole chain,
+which is that of what grows fastest, may be theirs instead of the motion's.
+"""
+
+import numpy as np
+
+from latticode.simulation.problem import Problem
+
+from .breathers import MOST_UNKNOWNS, flat
+from .linearised import linearise
+
+MOST_NAMED = 4
+"""A sentence with more sites is hard to read."""
+PRESENT = 1e-6
+"""Smallest value of a growing perturbation at a site that takes part in it, of its largest."""
+
+
+def growth_at_rest(problem: Problem, still: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return the sites at rest where perturbations grow in the run, and their largest rate.
+
+    Of the sites that are `still` (site,) those rest whose rates vanish at the start. Their own
+    perturbations are linear, with all other sites as they are; those count that grow by more than a
+    factor of e. Where the equations have no derivative nothing is known, and no site is returned.
+    """
+    with np.errstate(all="ignore"):
+        rates, matrix = linearise(problem, flat(problem.amplitudes))
+    resting = still & (rates.reshape(-1, problem.sites) == 0.0).all(axis=0)
+    rows = np.tile(resting, len(problem.model.rates))
+    matrix = matrix[np.ix_(rows, rows)]
+    if not (resting.any() and np.isfinite(matrix).all()):
+        return np.array([], int), 0.0
+    exponents, modes = np.linalg.eig(matrix)
+    growing = exponents.real * problem.end_time > 1.0
+    sizes = np.abs(modes[:, growing]).reshape(len(problem.model.rates), resting.sum(), -1)
+    sizes = sizes.max(axis=0)  # (site, mode)
+    present = (sizes > PRESENT * sizes.max(axis=0)).any(axis=1)
+    sites = np.flatnonzero(resting)[present] - problem.half_width
+    return sites, float(exponents.real.max())
+
+
+def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
+    """Return a sentence on sites that stay at rest at an unstable point; "" if there are none.
+
+    `moduli` (component, site, snapshot) are those of a run: at rest they stay what they are.
+    Equations that depend on the time are left out, and chains too long for their eigenvalues, as
+    for localised states.
+    """
+    unknowns = len(problem.model.rates) * problem.sites
+    still = (moduli == moduli[:, :, :1]).all(axis=(0, 2))
+    if problem.model.driven or unknowns > MOST_UNKNOWNS or not still.any():
+        return ""
+    unstable, rate = growth_at_rest(problem, still)
+    if not unstable.size:
+        return ""
+    more = unstable.size - MOST_NAMED
+    names = ", ".join(map(str, unstable[:MOST_NAMED])) + (f" and {more} more" if more > 0 else "")
+    subject = f"sites {names} rest" if unstable.size > 1 else f"site {names} rests"
+    way_out = "give such sites initial values"
+    if problem.model.farthest == 0:
+        way_out += ", or leave them out by half_width: 0, as the equations see no neighbour"
+    return (
+        f"{subject} at an unstable point, where a perturbation grows at the rate {rate:.4g}; the "
+        f"exponent may be that of these sites instead of the motion's: {way_out}"
+    )
