@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from pendula.configuration.paper import paper
+from pendula.ledger.criterion import REFUTED, Verdict
 from pendula.ledger.verdicts import all_claims
 
 CASES, SWEEPS = paper()["cases"], paper()["sweeps"]
@@ -24,7 +25,7 @@ RUN_BY = {
     "unbounded": DATA,
 }
 """By folder, the keys of a case that decide its datasets; elsewhere DATA and the chain do."""
-DECIDED = {"confirmed", "confirmed with a caveat", "not reproduced", "does not carry over"}
+DECIDED = set(map(str, (Verdict.CONFIRMED, Verdict.CAVEAT, *REFUTED)))
 
 
 class Run:

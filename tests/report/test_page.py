@@ -3,9 +3,10 @@
 import base64
 import hashlib
 import re
+from collections import Counter
 
 import pytest
-from accepted import BASELINE
+from accepted import BASELINE, ROOT
 from html_tags import Tags
 from latticode.datasets.json_files import load_json, sealed
 from pendula.report import document
@@ -79,6 +80,67 @@ def test_each_claim_is_shown_once_and_the_confirmed_ones_are_folded(written):
     opened = re.sub(r"<section[^>]*>\s*<details>.*?</section>", "", html, flags=re.DOTALL)
     shown = set(re.findall(r'id="claim_(\w+)"', opened))
     assert shown == {one["name"] for one in ROWS if "confirmed" not in one["verdict"]}
+
+
+def counts_of(text: str) -> dict[str, int]:
+    """Return by verdict the counts of a text such as "2 confirmed, 1 not reproduced"."""
+    pairs = re.findall(r"(\d+) ([a-z][a-z ]*[a-z])", text)
+    return {verdict.replace("do not", "does not"): int(count) for count, verdict in pairs}
+
+
+def of_paper(rows) -> dict[str, int]:
+    """Return by verdict how many claims of the paper have it."""
+    return dict(Counter(row["verdict"] for row in rows if row["origin"] == "of the paper"))
+
+
+def test_the_lead_and_the_headings_of_the_report_count_each_claim_once(written):
+    text = plain(written(ROWS))
+    lead = re.search(r"\d+ claims of the paper: (.*?);", text)[1]
+    assert counts_of(lead) == of_paper(ROWS)
+    headings = re.findall(r"(\d+) claims (confirmed(?: with a caveat)?): (.*?project)", text)
+    assert len(headings) == 2
+    for count, verdict, origins in headings:
+        by_origin = counts_of(origins)
+        assert sum(by_origin.values()) == int(count)
+        assert by_origin["of the paper"] == of_paper(ROWS)[verdict]
+        assert by_origin == dict(
+            Counter(row["origin"] for row in ROWS if row["verdict"] == verdict)
+        )
+
+
+def test_the_readme_and_the_article_have_the_counts_of_the_ledger():
+    counts = of_paper(ROWS)
+    held = counts["confirmed"] + counts["confirmed with a caveat"]
+    expected = [sum(counts.values()), held, counts["confirmed with a caveat"],
+                *(counts.get(one, 0) for one in ("not reproduced", "does not follow",
+                                                 "cannot be decided"))]  # fmt: skip
+    readme, article = (
+        " ".join((ROOT / name).read_text("utf-8").split())
+        for name in ("README.md", "docs/article.md")
+    )
+    told = re.search(
+        r"tests (\d+) claims of the paper: (\d+) are confirmed, (\d+) of them with a caveat, (\d+)"
+        r" are not reproduced, (\d+) do not follow .*?, and (\d+) cannot be decided",
+        readme,
+    )
+    assert list(map(int, told.groups())) == expected
+    told = re.search(
+        r"test (\d+) statements: .*? We confirm (\d+) statements, (\d+) of them with a caveat"
+        r".*? We do not reproduce (\d+) statements: .*? Its (\d+) conclusions .*?"
+        r" Another (\d+) cannot be decided",
+        article,
+    )
+    assert list(map(int, told.groups())) == expected
+
+
+def test_the_article_has_the_words_of_the_report_on_each_figure(written):
+    article = (ROOT / "docs/article.md").read_text("utf-8")
+    table = plain(written(ROWS)).partition("figure verdict claims")[2]
+    for figure in range(1, 7):
+        cells = re.search(rf"^\| {figure} \|.*$", article, re.MULTILINE)[0].split("|")
+        word, counts = cells[3].partition(";")[0].strip(), cells[4].strip()
+        shown = f"Fig {figure} : fig{figure} is shown {word} {counts}"
+        assert shown in table.replace(" ,", ",")
 
 
 def test_what_files_say_is_never_markup(written):

@@ -99,7 +99,15 @@ OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "members", "lifetimes"]
-THEORY_CHECKS = ["not_shown", "errata", "chart", "threshold", "sharpness", "chain_growth"]
+THEORY_CHECKS = [
+    "not_shown",
+    "errata",
+    "chart",
+    "threshold",
+    "sharpness",
+    "chain_growth",
+    "well_posed",
+]
 
 
 def datasets(folder, *names):

@@ -10,9 +10,9 @@ use rule dataset as prove_identities with:
 
 
 use rule dataset as check_theory with:
-    "Lemma 1, the sharpness of Theorems 1 to 3, errors of their proofs, and a sweep that the paper does not show"
+    "Lemmas 1 and 2, the sharpness of Theorems 1 to 3, errors of their proofs, and a sweep that the paper does not show"
     input:
-        kernels=kernels("taylor"),
+        kernels=kernels("taylor", "dop853"),
     output:
         checks(*THEORY_CHECKS),
     pathvars:

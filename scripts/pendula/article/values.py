@@ -12,7 +12,14 @@ from latticode.measures.confidence import CONFIDENCE
 from pendula.configuration.schema import PAPER_CASES
 from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import Ledger, load, on_figure, tally
+from pendula.ledger.rows import (
+    Ledger,
+    counted_verdicts,
+    load,
+    on_figure,
+    tally,
+    whether_it_holds,
+)
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, percent, span, with_error
 from pendula.studies.paper.solvers import ORDER
@@ -21,8 +28,6 @@ KEPT = "../tests/baseline"
 """Where committed datasets lie, seen from the article."""
 QUOTED = f"{KEPT}/quoted/"
 LONG = f"{QUOTED}unbounded"
-VERDICTS = {Verdict.CONFIRMED: "confirmed", Verdict.CAVEAT: "with a caveat",
-            Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "undecided"}  # fmt: skip
 MARK = "†"
 """It follows each result of a long study, which a full run does not make again."""
 UPWARD = 1.05
@@ -75,17 +80,25 @@ class Numbers:
         """Return the same in per cent."""
         return self.n(claim, key)._replace(text=percent(self.ledger.value(claim, key)))
 
+    def longest(self, sweep: str, before: int) -> Quote:
+        """Return the largest half-width of the ensembles of a sweep, or one `before` it."""
+        name = "checks/ensembles"
+        means = self.results[name]["l2_mean"].sel(sweep=sweep, reading="text").dropna("half_width")
+        return self.results.quote(name, float(means["half_width"][-1 - before]))
+
     def verdicts(self, figure: int) -> str:
         """Return how many of the paper's claims on a figure have each verdict."""
-        found = Counter(row["verdict"] for row in on_figure(self.ledger.rows, figure))
-        told = [f"{found[one]} {words}" for one, words in VERDICTS.items() if found[one]]
-        return ", ".join(told) or "none"
+        return counted_verdicts(on_figure(self.ledger.rows, figure))
+
+    def figure_holds(self, figure: int) -> str:
+        """Return in words whether what the paper says of a figure holds."""
+        return whether_it_holds(on_figure(self.ledger.rows, figure))
 
 
 def gather(results: Results) -> dict[str, Any]:
     """Return all that the template names: functions of `Numbers`, and numbers made of several."""
     numbers = Numbers(results)
-    functions = ("labels", "of", "share", "n", "share_of", "verdicts")
+    functions = ("labels", "of", "share", "n", "share_of", "longest", "verdicts", "figure_holds")
     compared, study = results["checks/solvers"], results[LONG]
     return {
         **{name: getattr(numbers, name) for name in functions},
@@ -136,6 +149,7 @@ def counts(rows: list[dict]) -> dict[str, str]:
         "held": of_paper[Verdict.CONFIRMED] + of_paper[Verdict.CAVEAT],
         "caveat": of_paper[Verdict.CAVEAT],
         "missed": of_paper[Verdict.NOT_REPRODUCED],
+        "unfounded": of_paper[Verdict.NOT_FOLLOWING],
         "open": of_paper[Verdict.UNDECIDED],
         "resting": sum(bool(row["rests_on"]) for row in rows),
         "as_required": f"{of_all or 'All'} {len(controls)}",

@@ -19,7 +19,7 @@ from latticode.datasets import complete_or_absent
 from pendula import RELEASED
 from pendula.configuration.paper import in_short
 from pendula.ledger.claim import Origin
-from pendula.ledger.criterion import Verdict
+from pendula.ledger.criterion import REFUTED, Verdict
 from pendula.ledger.rows import load
 from pendula.report.results import Results
 from pendula.report.words import FIRM, Quote
@@ -34,7 +34,7 @@ VECTORS = "/figures/{}.pdf"
 TITLE = "[Re] Coupled pendula chains under parametric PT-symmetric driving force"
 MARKS = {
     "holds": (Verdict.CONFIRMED, Verdict.CAVEAT),
-    "fails": (Verdict.NOT_REPRODUCED, Verdict.NOT_CARRIED),
+    "fails": REFUTED,
     "undecided": (Verdict.UNDECIDED,),
 }
 """How the template marks sentences that rest on a verdict. Every claim of the paper that fails or

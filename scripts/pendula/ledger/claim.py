@@ -65,11 +65,12 @@ class Origin(StrEnum):
 
 
 class Kind(StrEnum):
-    """What a claim is: only an observation could have come out otherwise in another run."""
+    """What a claim is: an identity or a theorem has the same verdict in every run."""
 
     IDENTITY = "identity"  # both sides are one polynomial, or differ by a sum of squares
     THEOREM = "theorem"  # the paper proves it; numbers can only contradict it
     OBSERVATION = "observation"
+    CONCLUSION = "conclusion"  # what the paper infers from a figure about what it does not show
 
 
 BEYOND, BREATHERS, PENDULA = "Beyond the paper", "Section 6, breathers", "for the pendula (1)"
@@ -108,6 +109,8 @@ class Claim(NamedTuple):
     @property
     def refuted(self) -> Verdict:
         """The verdict on it where the numbers contradict it."""
+        if self.kind == Kind.CONCLUSION:
+            return Verdict.NOT_FOLLOWING
         return Verdict.NOT_CARRIED if self.place.endswith(PENDULA) else Verdict.NOT_REPRODUCED
 
 

@@ -140,18 +140,20 @@ class Verdict(StrEnum):
 
     A sentence of the paper is on the amplitude equations: re-read for the pendula themselves it is
     not one that the paper wrote, so that it can fail to carry over, but not to be reproduced. A
-    sentence is on the paper's case: where another one was run, it is not applicable.
+    sentence is on the paper's case: where another one was run, it is not applicable. A conclusion
+    that the paper draws from a figure may be true and still not follow from what the figure shows.
     """
 
     CONFIRMED = "confirmed"
     CAVEAT = "confirmed with a caveat"
     NOT_REPRODUCED = "not reproduced"
     NOT_CARRIED = "does not carry over"
+    NOT_FOLLOWING = "does not follow"
     UNDECIDED = "cannot be decided"
     NOT_APPLICABLE = "not applicable"
 
 
-REFUTED = (Verdict.NOT_REPRODUCED, Verdict.NOT_CARRIED)
+REFUTED = (Verdict.NOT_REPRODUCED, Verdict.NOT_CARRIED, Verdict.NOT_FOLLOWING)
 """The verdicts on a sentence that the numbers contradict."""
 
 

@@ -42,10 +42,43 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
 def counted(rows: list[dict]) -> list[str]:
     """Return a line for each origin of claims: how many there are, and with which verdicts."""
     return [
-        f"{sum(verdicts.values())} claims {origin}: "
-        + ", ".join(f"{n} {one.replace('does not', 'do not')}" for one, n in verdicts.items())
+        f"{sum(verdicts.values())} claims {origin}: {_in_words(verdicts)}"
         for origin, verdicts in tally(rows).items()
     ]
+
+
+def counted_verdicts(rows: list[dict]) -> str:
+    """Return how many rows have each verdict, such as "2 confirmed, 1 not reproduced"."""
+    counts = Counter(row["verdict"] for row in rows)
+    return _in_words({str(one): counts[one] for one in Verdict if counts[one]}) or "none"
+
+
+def counted_origins(rows: list[dict]) -> str:
+    """Return how many rows are of each origin, such as "2 of the paper, 1 of this project"."""
+    counts = Counter(row["origin"] for row in rows)
+    return ", ".join(f"{counts[one]} {one}" for one in Origin if counts[one])
+
+
+def whether_it_holds(rows: list[dict]) -> str:
+    """Return in words whether what the paper says of a figure holds, from the claims about it."""
+    counts = Counter(row["verdict"] for row in rows)
+    failing = len(rows) - counts[Verdict.CONFIRMED] - counts[Verdict.CAVEAT]
+    if not rows:
+        return "a drawing"
+    if counts[Verdict.NOT_APPLICABLE]:
+        return "not applicable"
+    if failing == len(rows):
+        return "does not hold"
+    if failing:
+        return f"holds, except for {failing} of the claims"
+    return "holds with a caveat" if counts[Verdict.CAVEAT] else "holds"
+
+
+def _in_words(counts: dict[str, int]) -> str:
+    return ", ".join(
+        f"{n} {verdict if n == 1 else verdict.replace('does not', 'do not')}"
+        for verdict, n in counts.items()
+    )
 
 
 class Ledger:

@@ -13,7 +13,7 @@ from latticode.kernels.sources import describe_machine
 from markupsafe import Markup
 
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import counted, on_figure
+from pendula.ledger.rows import counted, counted_origins, on_figure, whether_it_holds
 from pendula.sources import TOOK
 
 from .described import Dataset, Figure, dataset, figure
@@ -69,7 +69,7 @@ def write_report(
         _run(folder / "logs"),
     ]  # fmt: skip
     title = f"{TITLE}: the paper, {'with other settings' if differs else 'replicated'}"
-    first = {"verdict": counted(rows)[0], "differs": [*differs.values()]}
+    first = {"verdict": "; ".join(counted(rows)), "differs": [*differs.values()]}
     write_page(html, "report.html.j2", title, sections, **first)
 
 
@@ -92,34 +92,29 @@ def _overview(rows: list[dict], figures: list[Figure]) -> Table:
 def _of_figure(which: int, shown: Figure, rows: list[dict]) -> tuple:
     name = Markup('<a href="#{}">Fig {}</a>: {}').format(shown.stem, which, shown.headline)
     if not rows:
-        return name, "a drawing", "none"
+        return name, whether_it_holds(rows), "none"
     first = {row["verdict"]: row["name"] for row in reversed(rows)}
     count = Counter(row["verdict"] for row in rows)
     links = [
         Markup('<a href="#claim_{}">{} {}</a>').format(first[one], count[one], one)
         for one in map(str, Verdict) if one in count
     ]  # fmt: skip
-    failing = len(rows) - count[Verdict.CONFIRMED] - count[Verdict.CAVEAT]
-    if count[Verdict.NOT_APPLICABLE]:
-        says = "not applicable"
-    elif failing == len(rows):
-        says = "does not hold"
-    elif failing:
-        says = f"holds, except for {failing} of the claims"
-    else:
-        says = "holds with a caveat" if count[Verdict.CAVEAT] else "holds"
-    return name, says, Markup(", ").join(links)
+    return name, whether_it_holds(rows), Markup(", ").join(links)
 
 
 def _claims(rows: list[dict]) -> list[Section]:
     """Return the claims that are not confirmed, and those of each other verdict folded."""
     others = [row for row in rows if row["verdict"] not in FOLDED]
-    title = "Claims that are not reproduced, do not carry over, or cannot be decided"
+    title = (
+        "Claims that are not reproduced, do not carry over, do not follow, or cannot be decided:"
+        f" {counted_origins(others) or 'none'}"
+    )
     found = [Section("claims", title, lines=counted(rows), claims=list(map(_claim, others)))]
     for verdict in FOLDED:
-        if own := [_claim(row) for row in rows if row["verdict"] == verdict]:
-            name = verdict.replace(" ", "_")
-            found.append(Section(name, f"{len(own)} claims {verdict}", False, claims=own))
+        if same := [row for row in rows if row["verdict"] == verdict]:
+            title = f"{len(same)} claims {verdict}: {counted_origins(same)}"
+            claims = list(map(_claim, same))
+            found.append(Section(verdict.replace(" ", "_"), title, False, claims=claims))
     return found
 
 

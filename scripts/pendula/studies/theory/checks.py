@@ -10,6 +10,7 @@ from latticode.simulation.problem import write_initial
 from .equations import ENDS, PAIR, constants_at, controls_of, one_pair, run, squared_norm
 from .stability import check_chart, check_threshold
 from .theorems import check_chain_growth, check_errata, check_sharpness
+from .well_posed import check_well_posed
 
 HALF_WIDTHS, WINDOW, OMEGA = [5, 10, 20, 40, 60, 80, 120, 140, 160], (10.0, 50.0), 8.0
 SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-14}
@@ -41,6 +42,7 @@ CHECKS = {
     "threshold": check_threshold,
     "sharpness": check_sharpness,
     "chain_growth": check_chain_growth,
+    "well_posed": check_well_posed,
 }
 
 

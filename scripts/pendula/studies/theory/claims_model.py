@@ -40,16 +40,24 @@ def by_algebra(
     def declare(function: Callable) -> Callable:
         @wraps(function)
         def decide(identities) -> Finding:
-            left = {
-                f"terms_left_of_{name}": identities["terms"].sel(identity=name).max()
-                for name in twins
-            }
-            return judge(left, AtMost(0, *left, says="terms left of the identity"), caveat)
+            left = terms_left(identities, *twins)
+            return judge(left, nothing_left(left), caveat)
 
         controls = tuple(twin(name, wrong) for name, wrong in twins.items())
         return claim(place, says, IDENTITIES, controls, kind=kind)(decide)
 
     return declare
+
+
+def terms_left(identities, *names: str) -> dict[str, float]:
+    """Return how many terms are left of the statements of these names, as measured numbers."""
+    terms = identities["terms"]
+    return {f"terms_left_of_{name}": terms.sel(identity=name).max() for name in names}
+
+
+def nothing_left(left: Mapping[str, float]) -> AtMost:
+    """Return the criterion that these statements are identities."""
+    return AtMost(0, *left, says="terms left of the identity")
 
 
 def twin(name: str, says: str) -> Control:
@@ -60,7 +68,7 @@ def twin(name: str, says: str) -> Control:
         terms = identities["terms"].where(~here, identities["twin_terms"])
         return identities.assign(terms=terms)
 
-    return Control(says, wrong)
+    return Control(says, {IDENTITIES[0]: wrong})
 
 
 @by_algebra(

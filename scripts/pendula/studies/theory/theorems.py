@@ -32,29 +32,39 @@ def check_sharpness() -> dict:
     of a turn, and H stays. For Theorem 3 they are A = -B = (-1)^n x at rest with x^2 = 2 c, the
     state at which its bound is attained where no end breaks the wave and Omega is not positive.
 
-    The paper gives no C_0 of Theorem 2. In the limit of small delta, the inequality of its proof,
-    C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta with |H| <= C delta, gives
-    `limit_constant`, and the wave needs `least_constant`.
+    In terms of the size delta = P(0) the paper prints no constants. In the limit of small delta the
+    inequalities of its proofs give P <= `proof_constant` delta, the largest |H| of this size over
+    the least one of this P, and the wave needs `least_constant`: for Theorem 1 with
+    H <= (Omega + 2 gamma) delta, for Theorem 2 with |H| <= C delta and
+    C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta.
     """
     above, below = constants_at(8.0), constants_at(-4.0)
     high, low = (TINY * edge_wave(one.omega, LONG) for one in (above, below))
     power = power_of(low)
-    least, largest = (total_energy(below, ENDS, z) for z in (low, 1j * low))
+    (least, largest), (top, bottom) = (
+        [total_energy(one, ENDS, z) for z in (wave, 1j * wave)]
+        for one, wave in ((below, low), (above, high))
+    )
     rough = alternating(LONG, np.sqrt(2.0 * extent(below)))
     reached = {
-        "theorem_1": power / theorem_1_bound(total_energy(above, ENDS, 1j * high), above),
+        "theorem_1": power / theorem_1_bound(bottom, above),
         "theorem_2": power / theorem_2_bound(largest, power, below),
         "theorem_3": power_of(rough)
         / theorem_3_bound(total_energy(below, ENDS, rough), LONG, below),
     }
-    limit = extent(below) / theorem_2_gap(below)
+    upper = above.omega + 2.0 * above.gamma
+    constants = {
+        "theorem_1": (theorem_1_bound(upper, above), top / bottom),
+        "theorem_2": (extent(below) / theorem_2_gap(below), least / largest),
+    }
+    of_proof, of_wave = zip(*constants.values(), strict=True)
     return table(
         "What part of the bounds of Theorems 1 to 3 is reached",
-        {"form": list(reached)},
+        {"form": list(reached), "theorem": list(constants)},
         sites=variable(LONG, (), "number of sites N"),
         reached=variable(list(reached.values()), ("form",), "largest P over its bound"),
-        limit_constant=variable(limit, (), "C_0 of the proof of Theorem 2 for tiny data"),
-        least_constant=variable(least / largest, (), "least C_0 that the wave allows"),
+        proof_constant=variable(of_proof, ("theorem",), "bound of the proof over delta, tiny data"),
+        least_constant=variable(of_wave, ("theorem",), "growth of P of the wave, from its least"),
     )
 
 

@@ -1,0 +1,127 @@
+"""What Lemma 2 says, on runs: solutions go on, and close initial conditions give close solutions.
+
+Runs prove nothing for all initial conditions. What they can do is contradict the lemma: by a norm
+that grows faster than (19) allows, by two solutions of one initial condition, or by a distance of
+two solutions that does not shrink with that of their initial conditions.
+"""
+
+from itertools import product
+
+import numpy as np
+from latticode.datasets.checks import columns, table, variable
+from latticode.measures.norms import power_of
+from latticode.numerics.draws import complex_normal
+from latticode.numerics.elementary import log
+
+from pendula.models.bounds import growth_margin
+from pendula.problem import Constants
+
+from .equations import ENDS, constants_at, controls_of, random_amplitudes, run
+
+OMEGAS, POWERS, TIMES = [-4.0, 0.0, 8.0], [1.0, 26.0, 1000.0], ["forward", "backward"]
+"""Of the paper's figures; P(0) up to far above that of the large data, which is 26; and the
+direction of time."""
+DIRECTIONS, SIZES = ["A alone", "one pair", "all sites"], [1e-4, 1e-6, 1e-8]
+"""What is perturbed, and by how much of the norm."""
+SITES, SEED = 21, 11
+END_TIME, CLOSE_TIME, OUTPUTS = 10.0, 1.0, 400
+"""Distances are taken at CLOSE_TIME, before chaos makes the small ones of order one."""
+SOLVER = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
+SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
+
+
+def start_of(power: float, time: str) -> np.ndarray:
+    """Return random amplitudes (2, N) with this P.
+
+    The equations take the conjugate of a solution backward in time: so the conjugate data run
+    forward as the data run backward.
+    """
+    amplitudes = np.sqrt(power) * random_amplitudes(SEED, SITES)
+    return amplitudes.conj() if time == "backward" else amplitudes
+
+
+def perturbed(amplitudes: np.ndarray, direction: str, size: float) -> np.ndarray:
+    """Return amplitudes at the distance `size` times their norm, in a random direction."""
+    change = complex_normal(np.random.default_rng([SEED, DIRECTIONS.index(direction)]), (2, SITES))
+    if direction == "A alone":
+        change[1] = 0.0
+    elif direction == "one pair":
+        change[:, np.arange(SITES) != SITES // 2] = 0.0
+    return amplitudes + size * np.sqrt(power_of(amplitudes) / power_of(change)) * change
+
+
+def distance_of(one: np.ndarray, other: np.ndarray) -> float:
+    """Return the distance of two states in l2."""
+    return float(np.sqrt(power_of(one - other)))
+
+
+def margins(constants: Constants, start: np.ndarray, gamma: float) -> dict[str, float]:
+    """Return how close a run comes to the bound (19) of a drive `gamma`."""
+    found = run(constants, ENDS, start, END_TIME, OUTPUTS, solver=SOLVER)
+    return growth_margin(found.tau, found.l2, gamma)
+
+
+def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the distances at CLOSE_TIME of runs from perturbed data, over the first ones.
+
+    Also returns the growth of their logarithms over that which the drive and the largest amplitude
+    allow, (2 |gamma| + M^2 / 2) tau. Both are (direction, size).
+    """
+    first = run(constants, ENDS, start, CLOSE_TIME, OUTPUTS, solver=SOLVER)
+    ratios = np.empty((len(DIRECTIONS), len(SIZES)))
+    allowed = np.empty_like(ratios)
+    for place, (direction, size) in zip(
+        np.ndindex(ratios.shape), product(DIRECTIONS, SIZES), strict=True
+    ):
+        near = perturbed(start, direction, size)
+        second = run(constants, ENDS, near, CLOSE_TIME, OUTPUTS, solver=SOLVER)
+        ratios[place] = distance_of(first.final, second.final) / distance_of(start, near)
+        peak = max(first.linf.max(), second.linf.max())
+        allowed[place] = (2.0 * abs(constants.gamma) + 0.5 * peak * peak) * CLOSE_TIME
+    return ratios, log(ratios) / allowed
+
+
+def between_solvers(constants: Constants, start: np.ndarray) -> float:
+    """Return the distance at CLOSE_TIME of runs by two solvers, over the initial norm."""
+    ends = [run(constants, ENDS, start, CLOSE_TIME, solver=one).final for one in (SOLVER, SECOND)]
+    return distance_of(*ends) / float(np.sqrt(power_of(start)))
+
+
+def check_well_posed() -> dict:
+    """Run random data of several sizes, in both directions of time, and others close to them."""
+    cells = [(constants_at(omega), start_of(power, time))
+             for omega, power, time in product(OMEGAS, POWERS, TIMES)]  # fmt: skip
+    over = {"omega": OMEGAS, "initial_power": POWERS, "time": TIMES}
+    shape = tuple(map(len, over.values()))
+    right = [margins(constants, start, constants.gamma) for constants, start in cells]
+    wrong = [margins(constants_at(constants.omega, 2.0), start, constants.gamma)
+             for constants, start in cells]  # fmt: skip
+    numbers = {
+        "from_start": [one["from_start"] for one in right],
+        "steepest": [one["steepest"] for one in right],
+        "steepest_of_twice_the_drive": [one["steepest"] for one in wrong],
+        "between_solvers": [between_solvers(*cell) for cell in cells],
+    }
+    about = {
+        "from_start": "largest P over the bound (19)",
+        "steepest": "largest change of log P over 4 gamma times its duration",
+        "steepest_of_twice_the_drive": "the same under twice the drive, by the bound of the drive",
+        "between_solvers": "distance of the solutions by two solvers, over the initial norm",
+    }
+    ratios, rates = zip(*(dependence(*cell) for cell in cells), strict=True)
+    near = {"direction": DIRECTIONS, "size": SIZES}
+    distances = {
+        "distance": (ratios, "distance of two solutions over that of their initial conditions"),
+        "rate": (rates, "growth of the log of the distance over (2 gamma + M^2 / 2) tau"),
+    }
+    found = table(
+        f"Solutions from random initial conditions on {SITES} sites, and others close to them",
+        over | near,
+        **columns(over, about, {name: np.reshape(one, shape) for name, one in numbers.items()}),
+        **{
+            name: variable(np.reshape(one, (*shape, *ratios[0].shape)), (*over, *near), words)
+            for name, (one, words) in distances.items()
+        },
+    )
+    found["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "close_time": CLOSE_TIME}
+    return found | {"attrs": found["attrs"] | {"seed": SEED, "gamma": constants_at(0.0).gamma}}

@@ -1,0 +1,70 @@
+"""Lemma 2 on runs, beside SciPy on plain arrays forward and backward in time."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from oracle import slope
+from pendula.ledger.verdicts import all_claims, decide
+from pendula.studies.theory import well_posed
+from scipy.integrate import solve_ivp
+
+OMEGA, POWER = 0.0, 26.0
+
+
+@pytest.fixture(scope="module")
+def check() -> xr.Dataset:
+    return xr.Dataset.from_dict(well_posed.check_well_posed())
+
+
+def solved(start: np.ndarray, end_time: float) -> np.ndarray:
+    """Return the state at `end_time`, which may be negative, by SciPy at tight tolerances."""
+
+    def rates(_, z):
+        return slope(z.reshape(2, -1), (1.0, 1.0, OMEGA), "dirichlet").ravel()
+
+    found = solve_ivp(
+        rates, (0.0, end_time), start.ravel(), method="DOP853", rtol=1e-12, atol=1e-12
+    )
+    return found.y[:, -1].reshape(2, -1)
+
+
+@pytest.mark.parametrize(("time", "sign"), [("forward", 1), ("backward", -1)])
+@pytest.mark.parametrize("direction", well_posed.DIRECTIONS)
+def test_distances_are_those_of_scipy_in_both_directions_of_time(check, time, sign, direction):
+    """Backward in time SciPy takes the data themselves, and the study their conjugates."""
+    start = well_posed.start_of(POWER, time)
+    near = well_posed.perturbed(start, direction, 1e-4)
+    start, near = (one.conj() if sign < 0 else one for one in (start, near))
+    ends = [solved(one, sign * well_posed.CLOSE_TIME) for one in (start, near)]
+    ratio = well_posed.distance_of(*ends) / well_posed.distance_of(start, near)
+    cell = {"omega": OMEGA, "initial_power": POWER, "time": time, "direction": direction}
+    assert float(check["distance"].sel(cell).sel(size=1e-4)) == pytest.approx(ratio, rel=1e-6)
+
+
+def test_a_perturbation_has_its_size_and_moves_only_what_it_names():
+    start = well_posed.start_of(POWER, "forward")
+    for direction in well_posed.DIRECTIONS:
+        change = well_posed.perturbed(start, direction, 1e-3) - start
+        size = np.sqrt((np.abs(change) ** 2).sum() / (np.abs(start) ** 2).sum())
+        assert size == pytest.approx(1e-3)
+        still = change[1] if direction == "A alone" else change[:, :10]
+        assert np.all(still == 0.0) != (direction == "all sites")
+
+
+def test_rows_on_lemma_2_are_decided_by_every_cell(check):
+    """One cell that contradicts them is enough, whatever its Omega, size and direction."""
+    claims = {one.name: one for one in all_claims("theory/claims_nonlinear")}
+    terms = xr.DataArray(
+        np.zeros((2, 1)),
+        {"identity": ["distance of two solutions", "(19)"], "boundary": ["free"]},
+    )
+    identities = xr.Dataset({"terms": terms})
+    wrong = {"global_existence": ("steepest", 1.01), "uniqueness": ("between_solvers", 1e-8),
+             "continuous_dependence": ("distance", 1e4)}  # fmt: skip
+    for name, (variable, value) in wrong.items():
+        sources = {"checks/identities": identities, "checks/well_posed": check}
+        assert str(decide(claims[name], sources).verdict).startswith("confirmed")
+        changed = check[variable].copy()
+        changed[dict.fromkeys(changed.dims, 0)] = value
+        sources["checks/well_posed"] = check.assign({variable: changed})
+        assert decide(claims[name], sources).verdict == "not reproduced"
