@@ -130,6 +130,10 @@ class Survey(Model):
             for name in names:
                 text = survey.fault_of_axis(name, case.varied, case.initial, len(case.fields))
                 found += [(key, text)] if text else []
+        twice = {name for name in [*self.axes, *self.together] if name in self.keep}
+        found += [
+            ("keep", f"{name} is an axis too, and its dataset has one {name}") for name in twice
+        ]
         if found:
             return found
         for point in [*self.corners(), *self._values_one_by_one()]:

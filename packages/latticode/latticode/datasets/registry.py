@@ -28,6 +28,7 @@ NAMES = {
     "component": "field",
     "site": "site of the chain",
     "part": "part of a complex number",
+    "end_time": "end time",
     "half_width": "half-width M of the chain of 2M + 1 sites",
     "quantity": "field, or all of them",
     "statistic": "statistic over the time window",

@@ -87,7 +87,7 @@ def _axis(axis: str, dimension: str, given: Sequence, fields: Sequence[str]) -> 
         site, field = axis.split(".")[1:]
         words = f"initial {fields[int(field)]} at site {site}"
     else:
-        words = NAMES.get(axis, axis.replace("_", " "))
+        words = NAMES.get(axis, axis)
     return Variable((dimension,), values, words)
 
 

@@ -47,7 +47,8 @@ def draw_moduli(figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[s
             cmap="inferno",
             norm=PowerNorm(0.5, vmin=0, vmax=peak),  # else one bright site blackens the rest
         )
-        axes.set_title(f"$|{modulus['component'].item()}_n|$,  {name}", loc="left")
+        field = style.symbol(modulus["component"].item(), "n")
+        axes.set_title(f"$|{field}|$,  {name}", loc="left")
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
     units = moduli.attrs.get("units", "1")
     bar.set_label(f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)")

@@ -66,7 +66,8 @@ def name_parameters(attributes: Mapping, naming: Naming = PLAIN) -> str:
     given = json.loads(attributes["parameters"]).items()
     numbers = [f"{key} {one:.4g}" for key, one in given if isinstance(one, int | float)]
     text = f"{attributes['model']}{': ' if numbers else ''}{', '.join(numbers)}"
-    return ",  ".join([shorten(text, LONGEST, placeholder=" ..."), *filter(None, [symbols])])
+    text = style.plain_text(shorten(text, LONGEST, placeholder=" ..."))
+    return ",  ".join([text, *filter(None, [symbols])])
 
 
 def name_initial(initial: str, fields: tuple[str, ...]) -> str:
@@ -75,7 +76,7 @@ def name_initial(initial: str, fields: tuple[str, ...]) -> str:
     ((site, values),) = sites.items() if len(sites) == 1 else [(0, ())]
     if len(values) != len(fields):
         return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
-    names = ", ".join(f"{field}_{{{site}}}" for field in fields)
+    names = ", ".join(style.symbol(field, f"{{{site}}}") for field in fields)
     numbers = ", ".join(f"{one if one.imag else one.real:g}" for one in values)
     return rf"$({names}) = ({numbers})$"
 
@@ -156,7 +157,7 @@ def draw_breather(data: xr.Dataset) -> Figure:
         return figure
     left, right = figure.subplots(1, 2)
     for i, one in enumerate(data["component"].values):
-        look = {"color": style.colour_of(i), "marker": ".", "label": f"${one}$"}
+        look = {"color": style.colour_of(i), "marker": ".", "label": f"${style.symbol(one)}$"}
         left.plot(data["site"], data["breather"].sel(component=one), **look)
     left.set(xlabel="site $n$", ylabel="modulus", ylim=(0, None))
     left.xaxis.get_major_locator().set_params(integer=True)
@@ -194,8 +195,8 @@ def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
     """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
     figure = style.new_figure(style.WIDTH, 2.7)
     row = figure.subplots(1, 2, sharex=True)
-    fields = data.attrs["fields"]
-    label = f"$({fields})$" if "," in fields else f"${fields}$"
+    fields = [style.symbol(one) for one in data.attrs["fields"].split(", ")]
+    label = f"$({', '.join(fields)})$" if len(fields) > 1 else f"${fields[0]}$"
     for axes, name in zip(row, NORMS, strict=True):
         shown = data.isel(panel=0).drop_vars([other for other in NORMS if other != name])
         panels.draw_sweep(axes, shown, label)

@@ -88,7 +88,7 @@ def _draw_strip(axes: Axes, case: xr.Dataset, name: str, strip: Strip) -> None:
 def _draw_curves(axes: Axes, curves: xr.DataArray, pale: bool = False) -> None:
     for i, component in enumerate(curves["component"].values):
         curve = curves.sel(component=component).dropna("tau")
-        look = {"label": f"${component}$", "alpha": 0.9} | (UNDER if pale else {})
+        look = {"label": f"${style.symbol(component)}$", "alpha": 0.9} | (UNDER if pale else {})
         axes.plot(curve["tau"], curve, color=(pale_of if pale else style.colour_of)(i), **look)
 
 
@@ -114,7 +114,7 @@ def name_legend(
 ) -> None:
     """Put one legend above all: the components, what lies under them, and the dashed line."""
     lines = [
-        Line2D([], [], color=style.colour_of(i), label=f"${one}$", lw=1.6)
+        Line2D([], [], color=style.colour_of(i), label=f"${style.symbol(one)}$", lw=1.6)
         for i, one in enumerate(components)
     ]
     if under:

@@ -64,6 +64,30 @@ def colour_of(field: int) -> str:
     return (RED, BLUE)[field] if field < 2 else f"C{field}"
 
 
+def symbol(name: str, site: str = "") -> str:
+    """Return the name of a field in TeX, to stand between dollars, and as an index its site.
+
+    What follows an underscore is an index too. A name that is no formula stands as it is.
+
+    >>> symbol("u"), symbol("u", "n"), symbol("psi_1", "n"), symbol("u__1", "n")
+    ('u', 'u_n', 'psi_{1,n}', '\\\\text{u__1}_n')
+    """
+    stem, *indices = pieces = name.split("_")
+    if not all(one.isalnum() and max(one) <= LAST_IN_MATHTEXT for one in pieces):
+        stem, indices = rf"\text{{{name}}}", []
+    if not indices:
+        return f"{stem}_{site}" if site else stem
+    return f"{stem}_{{{','.join([*indices, site] if site else indices)}}}"
+
+
+def plain_text(text: str) -> str:
+    """Return a text in which dollars are dollars, and no formula begins."""
+    return text.replace("$", r"\$")
+
+
+LAST_IN_MATHTEXT = "\U0001ffff"
+"""Mathtext takes no letter beyond this one."""
+
 # the library's own defaults first: a reader's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
     "font.family": "DejaVu Sans",

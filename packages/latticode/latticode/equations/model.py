@@ -58,6 +58,24 @@ __all__ = [
 ]
 
 
+RESERVED = {
+    "model",
+    "parameters",
+    "half_width",
+    "boundary",
+    "initial",
+    "end_time",
+    "output_step",
+    "snapshot_step",
+    "snapshot_every",
+    "solver",
+    "component",
+    "member",
+}
+"""Names that no parameter has: they are changed or varied beside parameters, or label results."""
+ALL_FIELDS = "pair"
+
+
 class Model:
     """A traced model: the rates of the real rows of its state, two of each field.
 
@@ -366,6 +384,10 @@ def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
             why = "begins with _; leave that out"
         elif kind == "parameters" and name == "t":
             why = "is the time, p.t; give the parameter another name, such as J for a hopping"
+        elif kind == "parameters" and name in RESERVED:
+            why = "is a key of a case or a dimension of its datasets; give it another name"
+        elif kind == "fields" and name == ALL_FIELDS:
+            why = "stands for all fields together in sweeps; give the field another name"
         elif name in found[:place]:
             why = "is given twice"
         if why:

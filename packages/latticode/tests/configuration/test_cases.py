@@ -117,6 +117,8 @@ def case(**keys):
     ("fields", "parameters", "message"),
     [
         ("u", {"t": 0.5}, "'t' in parameters is the time, p.t"),
+        ("u", {"initial": 0.5}, "'initial' in parameters is a key of a case"),
+        ("pair", {}, "'pair' in fields stands for all fields together in sweeps"),
         ("u", {"_names": 1}, "'_names' in parameters begins with _"),
         ("u", {"__class__": 1}, "begins with _"),
         ("u", {"a b": 1}, "'a b' in parameters is no name in Python"),

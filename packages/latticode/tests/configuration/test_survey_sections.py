@@ -10,7 +10,9 @@ from latticode.equations.model import Model, abs2, lap
 from latticode.simulation.problem import Problem
 from latticode.simulation.runs import run_all
 
-CHAIN = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
+CHAIN = Model(
+    fields="u", parameters={"c": 1.0, "exponent": 0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u
+)
 CASES = {"mine": {"model": CHAIN, "half_width": 5, "initial": {0: [1], 1: [0.5]}, "end_time": 5}}
 
 
@@ -43,7 +45,7 @@ def test_what_varies_together_is_the_last_axis():
     [
         ({}, "surveys.map.axes: is empty, and there are no members"),
         ({"case": "mien", "axes": {"c": [1]}}, "there is no case 'mien'; did you mean 'mine'"),
-        ({"axes": {"d": [1]}}, "surveys.map.axes: 'd' names nothing to change; give one of c, hal"),
+        ({"axes": {"d": [1]}}, "surveys.map.axes: 'd' names nothing to change; give one of c, exp"),
         ({"axes": {"initial.2.0": [1]}}, "has no initial value: the sites 0, 1 do"),
         ({"axes": {"initial.0.1": [1]}}, r"in the fields 0..0"),
         ({"axes": {"c": []}}, "surveys.map.axes.c: is empty; give at least 1"),
@@ -56,6 +58,7 @@ def test_what_varies_together_is_the_last_axis():
         ({"axes": {"c": [1]}, "together": {"c": [1]}}, "together: varies c, which is an axis"),
         ({"together": {"d": [1]}}, "surveys.map.together: 'd' names nothing to change"),
         ({"axes": {"end_time": [1, 1.01]}}, "at end_time = 1.01, end_time: 1.01 is not a whole"),
+        ({"axes": {"exponent": [1]}, "keep": ["exponent"]}, "keep: exponent is an axis too"),
         ({"axes": {"c": [1]}, "keep": ["max_l3"]}, "keep.0: is 'max_l3'; give one of max_l2"),
         ({"axes": {"c": [1]}, "window": [2, 1]}, r"\[2, 1\] does not run forward"),
         ({"axes": {"c": [1]}, "window": [2, 9]}, "ends at 9, after the shortest run, which ends"),
