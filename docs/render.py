@@ -1,4 +1,5 @@
-"""Write the README and the pages of docs/ that quote results, from their templates.
+"""Write the README and the pages of docs/ that quote results, from their templates, and the moving
+picture of the README.
 
 Run as `python docs/render.py` from anywhere. A template takes its numbers from facts.py. A
 test fails where a page is not what its template gives.
@@ -13,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs"), str(ROOT)]
 
 import facts  # noqa: E402
+import moving_chain  # noqa: E402
 from pendula.article import write  # noqa: E402
 
 SOURCE = ROOT / "docs/source"
@@ -34,7 +36,8 @@ def render() -> dict[Path, str]:
     *others, article = PAGES
     values = facts.topics(accepted)
     found = {page: environment.get_template(PAGES[page].name).render(**values) for page in others}
-    return found | {article: write.markdown(accepted)}
+    picture = {ROOT / "docs/moving_chain.svg": moving_chain.draw()}
+    return found | picture | {article: write.markdown(accepted)}
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 LEFT_OUT = [
     r"```.*?```",  # code: tests run the commands, the YAML and the notebook
-    r"^    .*$",  # the equations
+    r"^    [^\n]*$",  # commands and code
     r"`[^`\n]*(\n[^`\n]+)?`",  # names of files, cases and commands
     r"\]\([^)]*\)",  # where a link leads
     r"\{\{.*?\}\}",  # facts
@@ -30,6 +30,7 @@ LEFT_OUT = [
 NAMES = [
     r"Fig(s|ure)?\s\d+(( to|,| and)\s\d+)*",
     r"\[\d\]",  # a reference
+    r"^\| \d(?=,? )",  # a figure of the paper, in the table of figures
     r"Lemma \d|Table \d",
     r"Theorems?\s\d(\s(to|and)\s\d)?|Sections?\s\d( to \d)?",
     r"\bl2²?\b",  # a norm

@@ -146,6 +146,7 @@ def counts(rows: list[dict]) -> dict[str, str]:
     found = {
         **{str(kind): kinds[kind] for kind in Kind},
         "papers": of_paper.total(),
+        "confirmed": of_paper[Verdict.CONFIRMED],
         "held": of_paper[Verdict.CONFIRMED] + of_paper[Verdict.CAVEAT],
         "caveat": of_paper[Verdict.CAVEAT],
         "missed": of_paper[Verdict.NOT_REPRODUCED],
