@@ -1,5 +1,6 @@
 """The complex numbers that a model computes with: pairs of nodes, and functions of them."""
 
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -179,11 +180,24 @@ class Value:
 
 
 def shift(w: Value, sites: int) -> Value:
-    """Return the value at the site n + `sites`."""
+    """Return the value at the site n + `sites`.
+
+    Raises ModelError where that is no whole number, or farther than LONGEST_SHIFT sites away.
+    """
+    try:
+        sites = index(sites)
+    except (TypeError, ModelError):
+        what = "a symbol" if isinstance(sites, Value) else repr(sites)
+        raise ModelError(f"shift(u, m) takes a whole number m, such as 2, not {what}") from None
     w = Value.of(w)
     moved = Value(shifted(w.re, sites), shifted(w.im, sites))
-    if max(moved.re.reach, moved.im.reach) > LONGEST_SHIFT:
-        raise ModelError(f"a look farther than {LONGEST_SHIFT} sites along the chain")
+    reach = max(moved.re.reach, moved.im.reach)
+    if reach > LONGEST_SHIFT:
+        raise ModelError(
+            f"this looks {reach} sites along the chain, and an equation may look at most "
+            f"{LONGEST_SHIFT}; with a field for the even sites and one for the odd sites, it may "
+            f"look {2 * LONGEST_SHIFT} of them far"
+        )
     return moved
 
 

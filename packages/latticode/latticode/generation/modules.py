@@ -15,7 +15,7 @@ from latticode.kernels.cache import keep_source
 
 from . import toolbox
 from .rate_rules import Rule, densities_text, rates_text, rule_text, tangents_text
-from .series_graph import has_series, with_carried
+from .series_graph import with_carried
 from .series_rules import Series
 from .statements import Names, Parts, affine, parts_of
 
@@ -49,7 +49,7 @@ CLOCK_SERIES = """\
 @cache
 def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
     """Return the parts of rates, and of what their series carry along."""
-    found = with_carried(list(rates), site_dependent)[-1] if has_series(rates) else []
+    found = with_carried(list(rates), site_dependent)[-1]
     return parts_of([*rates, *(one for pair in found for one in pair)], site_dependent)
 
 
@@ -80,11 +80,9 @@ def clocks_text(parts: Parts, names: Names) -> str:
 
 
 def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
-    """Return the text of the module of a model with these rates, and their series if there is."""
+    """Return the text of the module of a model with these rates, and their series."""
     parts = parts_of_rates(rates, site_dependent)
     names = Names(parts)
-    if not has_series(rates):
-        return "".join([HEAD, rates_text(rates, names, reach), at_time_text(parts, names)])
     return "".join([
         HEAD,
         rates_text(rates, names, reach),

@@ -1,19 +1,24 @@
-"""What power series make of the graph of a model: halves of squares, and functions carried along.
+"""What power series make of the graph of a model: halves of squares, and functions of the fields.
 
-A function of the fields obeys a differential equation of its own, made of products alone: exp(s)
-has the rate exp(s) s', 1 / s has -s' / s^2, and so on. So it is carried along with the fields, as
-if it were one more. At the beginning of each step it is computed from its argument.
+A function of the fields at a site obeys a differential equation of its own, made of products alone:
+exp(s) has the rate exp(s) s', 1 / s has -s' / s^2, and so on. So it is carried along with the
+fields, as if it were one more. At the beginning of each step it is computed from its argument.
+
+Beyond the ends of a chain no equation holds: a neighbour there has the series that the ends give
+it, and no rate. So a function of neighbours stays where it is in the graph, and its coefficients
+follow from those of its argument (`series_functions`).
 """
 
-from functools import cache
 from typing import NamedTuple
 
 from latticode.equations.graph import (
     CONSTANT,
     MOTION,
+    ONE,
     TWO,
     Node,
     derivative,
+    leaves_in,
     mul,
     neg,
     node,
@@ -21,12 +26,8 @@ from latticode.equations.graph import (
     rebuilt,
     shifted,
 )
-from latticode.equations.symbols import ModelError
 
 from .statements import is_clock
-
-MOST_ROWS = 64
-"""Functions whose rates hold those of a neighbour, and so on, would need ever more rows."""
 
 
 def with_half_squares(nodes: list[Node]) -> list[Node]:
@@ -93,25 +94,27 @@ KINDS = {
 ROWS = {"turn": 2, "exp": 1, "inverse": 1, "log": 2, "sqrt": 2}
 
 
-@cache
-def has_series(rates: tuple[Node, ...]) -> bool:
-    """Return whether the functions of the fields can be carried along.
+def is_function(one: Node) -> bool:
+    """Return whether the coefficients of a node follow from those of its argument."""
+    return one.operation in KINDS and one.level == MOTION
 
-    Those of a difference of neighbours cannot where the rates of these hold such functions too, as
-    in first-order equations of phases: the function would need the rates of ever farther sites.
+
+def has_rate(argument: Node, rates: list[Node]) -> bool:
+    """Return whether the rate of an expression is known at every site, next to an end too.
+
+    That of a field beyond an end is known where it is a field itself, as a velocity is.
     """
-    try:
-        with_carried(list(rates), frozenset())
-    except ModelError:
-        return False
-    return True
+    return all(
+        by == 0 or rates[2 * component + part].operation == "field"
+        for component, part, by in (leaf.operands for leaf in leaves_in([argument], "field"))
+    )
 
 
 def with_carried(
     rates: list[Node], site_dependent: frozenset[str]
 ) -> tuple[list[Node], list[Carried], list[tuple[Node, Node]]]:
-    """Return the rates with functions of the fields as leaves, these functions, and (argument,
-    rate) of each of their rows."""
+    """Return the rates with the functions that are carried along as leaves, these functions, and
+    (argument, rate) of each of their rows. Functions of neighbours stay in the rates."""
     kept: dict[tuple[str, Node], Carried] = {}
 
     def as_leaf(one: Node, operands: list[Node]) -> Node | None:
@@ -119,6 +122,8 @@ def with_carried(
             return None
         kind, row = KINDS[one.operation]
         argument = one.operands[-1]
+        if not has_rate(argument, rates):
+            return mul(operands[0], node("div", ONE, operands[1])) if kind == "inverse" else None
         first = sum(ROWS[name] for name, _ in kept)
         found = kept.setdefault((kind, argument), Carried(kind, argument, first))
         leaf = carried(found.first + row)
@@ -136,6 +141,4 @@ def with_carried(
         argument, speed = rebuilt([group.argument, derivative([group.argument], flow)[0]], as_leaf)
         found += [(argument, rate) for rate in group.rates(speed)]
         done += 1
-        if len(found) > MOST_ROWS:
-            raise ModelError("a function of what depends on neighbours needs ever more of them")
     return made, list(kept.values()), found

@@ -2,7 +2,8 @@
 
 The coefficient of order k of a sum is the sum of those of its terms, that of a product is a sum
 over orders (see `series_sums`), and a row u with the rate F has u_{k+1} = F_k / (k + 1). All orders
-are kept of what stands in a product and of nothing else. Partial sums of an odd order are kept of a
+are kept of what stands in a product or in a function of neighbours (see `series_functions`), and of
+nothing else. Partial sums of an odd order are kept of a
 sum of products as a whole. The factor 1 / (k + 1) goes into the constants of the terms of a rate
 where that costs no multiplication more.
 """
@@ -12,13 +13,22 @@ from latticode.equations.symbols import ModelError
 from latticode.integrators.taylor import ORDER
 from latticode.kernels.simd import LANES
 
-from .series_graph import carried, is_product, is_sum_of_products, with_carried, with_half_squares
+from .series_functions import members, write_function
+from .series_graph import (
+    carried,
+    is_function,
+    is_product,
+    is_sum_of_products,
+    with_carried,
+    with_half_squares,
+)
 from .series_sums import Sums
 from .statements import Code, Names, require_alike
 
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
-SHIFTS = {1: "right_neighbours", -1: "left_neighbours"}
+SHIFTS = {1: "right_neighbours", LANES - 1: "left_neighbours"}
+"""Functions of two blocks in a row, by the lane of the first at which their values begin."""
 STARTS = {
     "turn": (("sine", "cosine"), "sine_and_cosine({})"),
     "exp": (("grown",), "exponential({})"),
@@ -62,7 +72,9 @@ class Series:
         self.rates = nodes[: len(rates)]
         self.angles = nodes[len(rates) :: 2]
         self.flows = nodes[len(rates) + 1 :: 2]
-        self.products = [one for one in in_order([*self.rates, *self.flows]) if is_product(one)]
+        nodes = in_order([*self.rates, *self.flows])
+        self.products = [one for one in nodes if is_product(one)]
+        self.functions = [one for one in nodes if is_function(one)]
         self.kept = self._kept()  # what is kept of each block beside the fields, and its place
         self.sums = Sums(self.products, self.load, self.clocks)
         if alike:
@@ -73,6 +85,8 @@ class Series:
 
     def _kept(self) -> dict[Node, int]:
         operands = [operand for product in self.products for operand in product.operands]
+        for function in self.functions:
+            operands += [function.operands[-1], *members(function)]
         absent = [one for one in operands if not self._is_stored(one)]
         wanted = dict.fromkeys([*map(carried, range(len(self.found))), *absent])
         return {one: i for i, one in enumerate(wanted)}
@@ -126,8 +140,9 @@ class Series:
             self._start_carried(code)
         for now in range(1, max(depth.values(), default=0) + 2):
             for one in self.kept:
-                if one.operation != "carried" and depth[one] == now - 1:
-                    code(f"store(m, {self.place(one, 'k')}, {self._value(code, one, even)})")
+                if depth[one] == now - 1 and not (one.operation == "carried" or is_function(one)):
+                    code(self._store(one, self._value(code, one, even)))
+            self._write_functions(code, [one for one in self.kept if depth[one] == now], even)
             self.sums.write(code, [one for one in self.products if depth[one] == now], even)
         factors: dict[str, str] = {}
         rows = [self._next(code, rate, even, factors) for rate in [*self.rates, *self.flows]]
@@ -140,11 +155,25 @@ class Series:
         return [f"        {name} = {text}" for text, name in factors.items()], code.lines
 
     def _depths(self) -> dict[Node, int]:
-        """Return how many products stand inside one another in each node: so many passes."""
+        """Return how many products or functions stand inside one another in each node: so many
+        passes."""
         depth: dict[Node, int] = {}
         for one in in_order([*self.rates, *self.flows, *self.kept]):
-            depth[one] = max((depth[a] for a in one.inputs), default=0) + is_product(one)
+            depth[one] = max((depth[a] for a in one.inputs), default=0)
+            depth[one] += is_product(one) or is_function(one)
         return depth
+
+    def _write_functions(self, code: Code, nodes: list[Node], even: bool) -> None:
+        """Write the coefficients of order k of those of the nodes that are functions."""
+        written: set[Node] = set()
+        for function in filter(is_function, nodes):
+            if function not in written:
+                written.update(members(function))
+                write_function(code, function, self.load, self._store, even)
+
+    def _store(self, one: Node, text: str) -> str:
+        """Return the statement that keeps the coefficient of order k."""
+        return f"store(m, {self.place(one, 'k')}, {text})"
 
     def _start_carried(self, code: Code) -> None:
         """Write the functions that are carried along at order 0, from their arguments."""
@@ -194,7 +223,7 @@ class Series:
         if one.level == CONSTANT:
             numbers = f"at_start * {self._constant(one)}"
             return numbers if one in self.names.at_sites else f"fill({numbers})"
-        if one in self.clocks:
+        if one in self.clocks or is_function(one):
             return self.load(one, "k")
         match one.operation, *one.operands:
             case ("field", _, _, 0) | ("carried", _):
@@ -228,7 +257,8 @@ class Series:
         side = code.name(("side", place), f"load(m, {place})")
         here = self._value(code, node("field", component, part, 0), even)
         both = f"{side}, {here}" if by < 0 else f"{here}, {side}"
-        return f"{SHIFTS.get(by, f'shift_{by % 8}')}({both})"
+        first = by % LANES
+        return f"{SHIFTS.get(first, f'shift_{first}')}({both})"
 
     # --- The coefficient of order k + 1 of a row
 
@@ -284,7 +314,7 @@ class Series:
             spare=self.spare + max(0, len(self.partial) - len(self.rates)),
             clocks=clocks,
             components=self.components,
-            shifts="\n".join(f"shift_{by} = define_shift({by})" for by in range(2, 7)),
+            shifts="\n".join(f"shift_{by} = define_shift({by})" for by in range(2, LANES - 1)),
             work="\n".join(work),
             reach=reach,
         )

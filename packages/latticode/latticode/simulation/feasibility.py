@@ -11,7 +11,6 @@ from math import frexp, isfinite
 import numpy as np
 
 from latticode.equations.model import Model
-from latticode.generation.series_graph import has_series
 from latticode.numerics.elementary import log
 
 MOST_STEPS = 1e9
@@ -31,8 +30,7 @@ Obstacle = tuple[str, str]
 
 def solver_names(model: Model) -> list[str]:
     """Return the solvers that take a model: all but two of them need equations of one kind."""
-    found = ["taylor"] if has_series(model.rates) else []
-    found += ["dop853", "ode45"]
+    found = ["taylor", "dop853", "ode45"]
     found += ["kahan_li"] if model.separable else []
     return found + ([] if model.driven else ["crank_nicolson"])
 

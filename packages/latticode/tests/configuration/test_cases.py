@@ -96,7 +96,7 @@ def test_faults_of_a_case_are_told_by_key(configured, keys, message):
         ("return sqrt(u)", "sqrt of a complex number has no rule"),
         ("return p.gama * u", "there is no parameter 'gama'; did you mean 'gamma'?"),
         ("return u ** None", "the power None: give a number or a parameter"),
-        ("return shift(u, 9)", "farther than 7 sites"),
+        ("return shift(u, 9)", "looks 9 sites along the chain, and an equation may look at most 7"),
         ("return sin(u)", "sin of a complex number has no rule"),
         ("return u, u", "returns 2 values for 1 fields"),
     ],

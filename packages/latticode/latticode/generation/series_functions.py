@@ -1,0 +1,95 @@
+"""Functions of power series, as text: the coefficients of f(s) from those of s.
+
+    exp       k e_k = sum_{j=1}^k j s_j e_{k-j}
+    sine      k a_k = sum_{j=1}^k j s_j b_{k-j}, and with a minus those of the cosine b from a
+    inverse   q_k = -q_0 sum_{j=1}^k s_j q_{k-j}
+    log       k s_0 l_k = k s_k - sum_{j=1}^{k-1} j l_j s_{k-j}
+    root      2 r_0 r_k = s_k - sum_{j=1}^{k-1} r_j r_{k-j}
+
+Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1. No rate of s is
+needed, so that s may be what stands beyond an end of the chain.
+"""
+
+from collections.abc import Callable
+
+from latticode.equations.graph import Node, node
+
+from .statements import Code
+
+PAIR = {"sin": ("sin", "cos"), "cos": ("sin", "cos")}
+"""Functions whose coefficients follow from one another."""
+STARTS = {
+    "sin": "sine_and_cosine({s})",
+    "exp": "exponential({s})",
+    "div": "1.0 / ({s})",
+    "log": "logarithm_and_inverse({s})[0]",
+    "sqrt": "root_and_inverse({s})[0]",
+}
+"""The functions themselves, which are the coefficients of order 0."""
+TERMS = {
+    "sin": ("(1.0 * j) * {s[j]} * {b[k - j]}", "(1.0 * j) * {s[j]} * {a[k - j]}"),
+    "exp": ("(1.0 * j) * {s[j]} * {a[k - j]}",),
+    "div": ("{s[j]} * {a[k - j]}",),
+    "log": ("(1.0 * j) * {a[j]} * {s[k - j]}",),
+    "sqrt": ("{a[j]} * {a[k - j]}",),
+}
+"""The terms of the sums over j."""
+VALUES = {
+    "sin": ("(1.0 / k) * {0}", "-((1.0 / k) * {1})"),
+    "exp": ("(1.0 / k) * {0}",),
+    "div": ("-({a[0]} * {0})",),
+    "log": ("({s[k]} - (1.0 / k) * {0}) / {s[0]}",),
+    "sqrt": ("0.5 * ({s[k]} - {0}) / {a[0]}",),
+}
+"""The coefficients of order k > 0 from the sums."""
+WITHOUT_LAST = ("log", "sqrt")
+"""The functions whose sums end before j = k."""
+
+
+def members(function: Node) -> list[Node]:
+    """Return a function and what its coefficients need beside its argument, in their order."""
+    pair = PAIR.get(function.operation)
+    return [node(name, *function.operands) for name in pair] if pair else [function]
+
+
+class _Coefficients:
+    """The text of the coefficients of a node by their order."""
+
+    def __init__(self, one: Node, load: Callable[[Node, str], str]):
+        self.one, self.load = one, load
+
+    def __getitem__(self, order: str | int) -> str:
+        return self.load(self.one, str(order))
+
+
+def write_function(
+    code: Code,
+    function: Node,
+    load: Callable[[Node, str], str],
+    store: Callable[[Node, str], str],
+    even: bool,
+) -> None:
+    """Write the statements that store the coefficients of order k of a function and its members.
+
+    load(node, order) is the text of a coefficient, store(node, text) that of a statement that keeps
+    one of order k. The argument is known to order k.
+    """
+    rows = members(function)
+    kind = rows[0].operation
+    coefficients = {
+        name: _Coefficients(one, load)
+        for name, one in zip("sab", [function.operands[-1], *rows], strict=False)
+    }
+    sums = [f"sum{i}" for i in range(len(rows))]
+    if even:
+        code("if k == 0:")
+        code(f"{', '.join(sums)} = {STARTS[kind].format(s=coefficients['s'][0])}", 1)
+        for one, text in zip(rows, sums, strict=True):
+            code(store(one, text), 1)
+        code("else:")
+    code(f"{', '.join(sums)} = {', '.join(['fill(0.0)'] * len(rows))}", even)
+    code(f"for j in range(1, k{' + 1' * (kind not in WITHOUT_LAST)}):", even)
+    for name, term in zip(sums, TERMS[kind], strict=True):
+        code(f"{name} = {name} + {term.format(**coefficients)}", even + 1)
+    for one, value in zip(rows, VALUES[kind], strict=True):
+        code(store(one, value.format(*sums, **coefficients)), even)

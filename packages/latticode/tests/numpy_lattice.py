@@ -1,0 +1,116 @@
+"""The text of a model, run on plain NumPy arrays: what is computed from it is not the library's.
+
+The arrays go on beyond the ends of the chain, where fields are what the ends make of them. A shift
+moves such an array, and what it does not know is NaN.
+"""
+
+from types import SimpleNamespace
+
+import latticode
+import numpy as np
+from scipy.integrate import solve_ivp
+
+MARGIN = 8
+"""Sites beyond each end: more than an equation may look far."""
+
+
+class Sites(np.ndarray):
+    """Numbers at the sites of a chain and at MARGIN more beyond each end."""
+
+    @property
+    def right(self):
+        return shift(self, 1)
+
+    @property
+    def left(self):
+        return shift(self, -1)
+
+
+def shift(w, m):
+    moved = np.full_like(w, np.nan)
+    if m >= 0:
+        moved[: w.size - m] = w[m:]
+    else:
+        moved[-m:] = w[:m]
+    return moved
+
+
+def lap(w):
+    return w.right - 2 * w + w.left
+
+
+NAMES = {
+    "shift": shift,
+    "lap": lap,
+    "conj": np.conj,
+    "abs2": lambda w: w.real**2 + w.imag**2,
+    **{name: getattr(np, name) for name in ("exp", "log", "sqrt", "sin", "cos")},
+}
+
+
+def beyond_ends(values, boundary, of_field=True):
+    """Return the values of a field (site,), or of a parameter, as Sites."""
+    n = np.arange(-MARGIN, values.size + MARGIN)
+    turns, place = n // values.size, n % values.size
+    mirrored = np.where(turns % 2 == 0, place, values.size - 1 - place)
+    match boundary:
+        case "periodic":
+            found = values[place]
+        case "antiperiodic":
+            found = values[place] * ((-1.0) ** turns if of_field else 1.0)
+        case "free" if of_field:
+            found = values[mirrored]
+        case "dirichlet" if of_field:
+            found = np.where(turns == 0, values[place], 0.0)
+        case _:
+            found = values[np.clip(n, 0, values.size - 1)]
+    return found.view(Sites)
+
+
+def run(text, names=NAMES):
+    """Return the names that the text of a model makes, where its functions are these."""
+    made = dict(names)
+    exec(text, made)
+    return made
+
+
+def traced(text):
+    """Return the same for the library, whose functions record what is done."""
+    return run(text, {name: getattr(latticode, name) for name in NAMES})
+
+
+def slope_of(text, parameters, boundary, fields, second_order):
+    """Return dy/dt(t, y) of a model on flat states.
+
+    They have the complex fields one after the other, or all real fields and then their velocities.
+    """
+    made = run(text)
+    equations = made["d2_dt2" if second_order else "i_dt"]
+    takes_velocities = equations.__code__.co_argcount > 1 + fields
+    given = {
+        name: beyond_ends(value, boundary, of_field=False) if np.ndim(value) else value
+        for name, value in parameters.items()
+    }
+
+    def slope(t, y):
+        rows = [beyond_ends(row, boundary) for row in y.reshape(fields * (1 + second_order), -1)]
+        arguments = rows if takes_velocities else rows[:fields]
+        returned = equations(SimpleNamespace(**given, t=t), *arguments)
+        returned = returned if isinstance(returned, tuple) else (returned,)
+        inside = [
+            np.broadcast_to(one, rows[0].shape)[MARGIN:-MARGIN].view(np.ndarray) for one in returned
+        ]
+        if second_order:
+            return np.concatenate([y[y.size // 2 :], *inside])
+        return -1j * np.concatenate(inside)
+
+    return slope
+
+
+def solution(slope, start, end_time, tolerance=1e-12):
+    """Return the state at the end by SciPy's DOP853; None where the solution leaves order one."""
+    with np.errstate(all="ignore"):
+        run = solve_ivp(
+            slope, (0.0, end_time), start, method="DOP853", rtol=tolerance, atol=tolerance
+        )
+    return run.y[:, -1] if run.success and np.abs(run.y).max() < 10.0 else None
