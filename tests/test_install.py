@@ -1,21 +1,30 @@
 """What is installed is the library with all its files, and runs with what it declares alone.
 
-`.ci/elsewhere commands` installs it in an empty environment, which fetches packages.
+`.ci/elsewhere installs` installs it in empty environments, which fetches packages.
 """
 
 import ast
+import json
 import sys
 import tomllib
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
+import pytest
 from latticode.kernels import sources
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).resolve().parents[1]
 LIBRARY = ROOT / "scripts/pendula"
-DECLARED = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+WRITTEN = [
+    tomllib.loads((home / "pyproject.toml").read_text())
+    for home in (ROOT, *sorted(ROOT.glob("packages/*")))
+]
+HOMES = {one["project"]["name"]: one for one in WRITTEN}
+"""The pyproject.toml of each of our packages."""
+DECLARED = HOMES["pendula"]["project"]["dependencies"]
+PINS = [line for line in (ROOT / "environment.txt").read_text().split() if "==" in line]
 OPTIONAL = {"heyoka"}
 """What one command needs, which its page has the reader install."""
 
@@ -36,6 +45,33 @@ def test_the_library_declares_what_its_modules_import():
     found = set().union(*map(imported_by, LIBRARY.rglob("*.py")))
     others = found - set(sys.stdlib_module_names) - {"pendula", "latticode"} - OPTIONAL
     homes = packages_distributions()
-    assert names(homes[name][0] for name in others) | {"latticode"} == names(DECLARED)
-    pins = (ROOT / "environment.txt").read_text().split()
-    assert names(DECLARED) - {"latticode"} < names(pin for pin in pins if "==" in pin)
+    shipped = HOMES["latticode"]["project"]["dependencies"]  # it is installed with the library
+    assert names(homes[name][0] for name in others) | names(shipped) == names(DECLARED)
+    assert set(shipped) < set(DECLARED)
+    assert names(DECLARED) < names(PINS)
+
+
+def test_uv_installs_the_pins_of_the_environment():
+    group = HOMES["pendula"]["dependency-groups"]["dev"]
+    assert [one for one in group if "@" not in one] == PINS
+
+
+@pytest.mark.parametrize("home", HOMES)
+def test_no_installer_asks_an_index_for_a_package_of_the_project(home):
+    """A stranger may have registered that name. With a path beside it, no index is asked."""
+    project = HOMES[home]["project"]
+    groups = HOMES[home].get("dependency-groups", {}), project.get("optional-dependencies", {})
+    requirements = {
+        *HOMES[home]["build-system"]["requires"],
+        *project["dependencies"],
+        *(one for group in groups for each in group.values() for one in each),
+    }
+    assert len(HOMES) == 3
+    assert HOMES.keys().isdisjoint(names(one for one in requirements if not Requirement(one).url))
+
+
+def test_binder_and_codespaces_install_the_environment_and_the_library():
+    binder = (ROOT / ".binder/requirements.txt").read_text()
+    codespaces = json.loads((ROOT / ".devcontainer/devcontainer.json").read_text())
+    assert binder.split("\n") == ["-r ../environment.txt", "-e .", ""]
+    assert codespaces["postCreateCommand"] == "pip install -r environment.txt -e ."
