@@ -145,6 +145,7 @@ for target in workflow.rules:
 
 
 onstart:
+    refuse_folders_that_are_read_only()
     if workflow.executor_plugin.name == "slurm":
         refuse_what_slurm_never_starts()
 
@@ -156,4 +157,4 @@ onsuccess:
 
 
 onerror:
-    atexit.register(print, what_failed(log), file=sys.stderr)
+    atexit.register(print, what_failed(), file=sys.stderr)

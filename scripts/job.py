@@ -45,6 +45,9 @@ gc.set_threshold(100_000)
 OFTEN = 5.0
 """Seconds between two steps that a long job shows on the screen; its log has all steps."""
 
+NO_LOG = os.EX_IOERR
+"""The exit status of a job that failed and could not write why to its log."""
+
 INTERRUPTED = 130
 """The exit status of a job that Ctrl-C ended, as shells give it."""
 
@@ -53,12 +56,15 @@ class _Output:
     """What a job says: on the screen and in its log, which a full disk does not stop."""
 
     def __init__(self, screen, path: str):
-        self.screen = screen
-        self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115, closed by `close`
+        self.screen, self.file = screen, None
+        with suppress(OSError):
+            self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115, closed by `close`
         self.shown = time.monotonic()
 
     def log(self, text: str) -> bool:
-        """Write to the log alone; return whether the disk had room."""
+        """Write to the log alone; return whether the disk took it."""
+        if self.file is None:
+            return False
         try:
             self.file.write(text)
             self.file.flush()
@@ -86,7 +92,8 @@ class _Output:
     def close(self) -> None:
         self.log(f"{TOOK}{time.monotonic() - BEGAN:.1f} s, largest memory: {_memory():.0f} MB\n")
         with suppress(OSError):
-            self.file.close()
+            if self.file:
+                self.file.close()
 
 
 NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed", "chunks", "chunk")
@@ -149,6 +156,7 @@ def run(body: Callable, snakemake) -> None:
         told = f"{FAILED}{say(error)}\n"
         if not said.log(told + traceback.format_exc()):  # the end of the run tells what logs say
             sys.__stderr__.write(told)
+            sys.exit(NO_LOG)
         sys.exit(1)
     except KeyboardInterrupt:
         print("interrupted: run the same command again to continue")

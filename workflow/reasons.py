@@ -1,10 +1,13 @@
 """Why jobs failed: what their logs say, or else Slurm, or the executor of a signal."""
 
+import logging
 import os
 import re
 import signal
 from collections.abc import Iterable
 from pathlib import Path
+
+from snakemake.logging import DefaultFormatter
 
 FAILURE = r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:(?:\1 +|sbatch: |For fur).*\n)*))"
 """An error in Snakemake's log with its details, which are indented more, as jobs of a group are.
@@ -29,11 +32,29 @@ MEANS = {
     signal.SIGSEGV: ": a library crashed: run the same command again, and report it if it recurs",
 }
 """What a signal may mean."""
+STATUS_OF_NO_LOG = rf"\bexit status {os.EX_IOERR}\b"
+NO_LOG = (
+    "its log could not be written, so that its reason is above alone (is the disk full?): make "
+    "room, and run the same command again"
+)
+"""What the exit status means with which such jobs end, see scripts/job.py."""
 WORDLESS = "it wrote no reason: its log may be lost, or the machine ended it (out of memory?)"
 
 
+class Errors(logging.Handler):
+    """Keeps Snakemake's errors, which `--quiet` or a full disk may keep out of its own log."""
+
+    def __init__(self):
+        super().__init__(logging.ERROR)
+        self.setFormatter(DefaultFormatter())
+        self.text = ""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.text += f"{self.format(record)}\n"
+
+
 def why_jobs_failed(text: str) -> list[tuple[str, str]]:
-    """Return why each job failed and which file says more, from Snakemake's own log."""
+    """Return why each job failed and which file says more, from Snakemake's errors."""
     found = {}
     for _, rule, details in re.findall(FAILURE, text):
         logs = re.search(r"(?m)^ +log: (.*?) \(check", details)
@@ -65,12 +86,14 @@ def _signal(rule: str, text: str) -> list[str]:
     """Return what the executor said of a job that a signal ended, or Snakemake of its command."""
     forked = re.findall(rf"(?m)^forked: rule {re.escape(rule)} failed: (.*)$", text)
     told = [words for line in forked for words in _in_words(re.findall(r"by signal (\d+)", line))]
-    return told + forked + _killed(text)
+    return _killed("\n".join(forked)) + told + forked + _killed(text)
 
 
 def _killed(text: str) -> list[str]:
-    """Return which signals ended scripts, and what they may mean."""
-    return _in_words(number or int(status) - 128 for number, status in re.findall(SIGNAL, text))
+    """Return which signals ended scripts, and what they may mean, or that one had no log."""
+    no_log = [NO_LOG] if re.search(STATUS_OF_NO_LOG, text) else []
+    signals = re.findall(SIGNAL, text)
+    return no_log + _in_words(number or int(status) - 128 for number, status in signals)
 
 
 def _in_words(numbers: Iterable[str | int]) -> list[str]:

@@ -16,7 +16,7 @@ def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
     assert planned(ROOT, made, "figures") == {}
 
 
-@pytest.fixture(params=["", ".snakemake"], ids=["the folder", "its notes"])
+@pytest.fixture
 def read_only(request, tmp_path):
     """Return a folder that nobody can write to; for root it must lie on a read-only disk."""
     folder = tmp_path / "here" / request.param
@@ -33,9 +33,19 @@ def read_only(request, tmp_path):
         folder.chmod(0o755)
 
 
+@pytest.mark.parametrize("read_only", ["", ".snakemake"], ids=["all", "its notes"], indirect=True)
 def test_a_dry_run_in_a_read_only_folder_says_what_it_needs(read_only, tmp_path):
     result = snakemake(ROOT, tmp_path / "here", "--dry-run", "fig1")
     assert result.returncode != 0
     said = result.stdout + result.stderr
     assert f"{read_only} is read-only" in said and "--directory" in said
     assert "Traceback" not in said and "OSError" not in said
+
+
+@pytest.mark.parametrize("read_only", ["results", "results/logs"], indirect=True)
+def test_a_run_whose_results_are_read_only_says_so_before_any_job(read_only, tmp_path):
+    result = snakemake(ROOT, tmp_path / "here", "fig1")
+    assert result.returncode == 1
+    assert f"{read_only} is read-only: make it writable, or name another" in result.stderr
+    assert "Traceback" not in result.stderr and "Drawing" not in result.stderr
+    assert snakemake(ROOT, tmp_path / "here", "--dry-run", "fig1").returncode == 0

@@ -40,6 +40,9 @@ def kill_in_a_long_chain(folder):
 
 def test_a_run_that_was_killed_goes_on_to_the_same_files(full_run, tmp_path):
     kill_in_a_long_chain(tmp_path)
+    said = tmp_path / "said.txt"
+    wait_for(lambda: "To go on: snakemake --unlock, then the same command" in said.read_text())
+    assert "ConnectionResetError" not in said.read_text()
     assert snakemake(ROOT, tmp_path, "--unlock").returncode == 0  # nothing else could
     result = snakemake(ROOT, tmp_path, *TARGETS)
     assert result.returncode == 0, result.stderr

@@ -1,8 +1,10 @@
 """The last lines of a run say why each job failed, also where the job itself could not."""
 
+import subprocess
+
 import pytest
-from helpers import edit, snakemake
-from reasons import WORDLESS, why_jobs_failed
+from helpers import ROOT, edit, skip, snakemake
+from reasons import NO_LOG, WORDLESS, why_jobs_failed
 
 TARGETS = "results/pendula/threshold.nc", "fig1", "results/kernels/dop853.txt"
 
@@ -27,6 +29,57 @@ def test_an_import_that_fails_and_a_signal_are_told_and_the_rest_is_made(clone, 
     assert WORDLESS not in result.stderr
 
 
+@pytest.mark.parametrize("quiet", ["--quiet=rules", "--quiet=all"])
+def test_a_run_that_was_told_to_be_quiet_ends_with_the_reason_too(clone, tmp_path, quiet):
+    """Snakemake then leaves the errors of jobs out of its own log, and all else by `all`."""
+    edit(clone / "scripts/figure.py", "    files = {", "    1 / 0\n    files = {")
+    (folder := tmp_path / "folder").mkdir()
+    result = snakemake(clone, folder, quiet, "fig1")
+    log = folder / "results/logs/figures/fig1.log"
+    assert result.returncode == 1
+    assert result.stderr.splitlines()[-2:] == [
+        "ZeroDivisionError: division by zero",
+        f"  (more in {log})",
+    ]
+
+
+def test_a_call_that_is_rejected_gives_its_reason_by_quiet_all_too(tmp_path):
+    result = snakemake(ROOT, tmp_path, "--quiet=all", "--config", "chunks=x")
+    assert result.returncode == 1
+    assert result.stderr.count("chunks=x: give a whole number of jobs") == 1
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """Return a folder on a disk of 3 MB."""
+    (folder := tmp_path / "disk").mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=3m", "none", str(folder)]
+    if subprocess.run(mount, capture_output=True).returncode:
+        skip("only root may mount a small disk", "run the tests as root")
+    yield folder
+    subprocess.run(["umount", str(folder)], check=True)
+
+
+FILL = """    import contextlib
+    with contextlib.suppress(OSError), open("fill", "wb", buffering=0) as fill:
+        while fill.write(bytes(512)):
+            pass
+    files = {"""
+
+
+def test_a_disk_that_is_full_is_the_reason(clone, small_disk):
+    """Not even a line of a log fits on it then, of the job or of Snakemake."""
+    edit(clone / "scripts/figure.py", "    files = {", FILL)
+    result = snakemake(clone, small_disk, "fig1", "results/kernels/dop853.txt")
+    assert result.returncode == 1
+    assert "No space left on device (is the disk full? " in result.stderr
+    last, log = result.stderr.splitlines()[-2:], small_disk / "results/logs/figures/fig1.log"
+    assert last == [NO_LOG, f"  (more in {log})"]
+    again = snakemake(clone, small_disk, "fig1")
+    assert again.returncode == 1 and "Traceback" not in again.stderr
+    assert f"{small_disk} takes no files" in again.stderr
+
+
 SLURM = """
 Error in rule sweep:
     message: SLURM-job '7' failed, SLURM status is: '{state}'. Detailed failure reason ...
@@ -46,6 +99,7 @@ REASONS = [
         "killed by SIGKILL: the system does this if memory runs out",
     ),
     ("FAILED", "", "returned non-zero exit status 137.\n", "killed by SIGKILL: the system"),
+    ("FAILED", "", "returned non-zero exit status 74.\n", NO_LOG),
     ("FAILED", "", "returned non-zero exit status 143.\n", "killed by SIGTERM: a person"),
     ("FAILED", "", "srun: error: Unable to create step: More processors\n", "srun: error: Unable"),
     (

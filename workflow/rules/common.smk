@@ -7,9 +7,11 @@ import os
 import sys
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryFile
 from types import SimpleNamespace
 
 from snakemake.logging import logger
+from snakemake.settings.enums import Quietness
 
 # Python searches all objects for garbage whenever many are new, and once more when it ends. Here it would
 # find little, and the searches would take a third of a second.
@@ -21,8 +23,14 @@ LIBRARIES = [str(PROJECT / part) for part in ("packages/latticode", "scripts", "
 sys.path[:0] = [f"{PROJECT}/workflow", *LIBRARIES]
 
 
+PROBE = 100_000
+"""Bytes that Snakemake's notes of a run take at least."""
+
+
 def stop(reason):
     """Say why nothing runs, and end. Of an error, Snakemake would tell where in the rules it arose."""
+    if Quietness.ALL in workflow.output_settings.quiet:  # which leaves out errors too
+        print(reason, file=sys.stderr)
     logger.error(str(reason))
     raise SystemExit(1)
 
@@ -34,13 +42,21 @@ for folder in filter(os.path.exists, (".", ".snakemake")):
             "run: name a folder that you may write to, by --directory"
         )
 
+if workflow.is_main_process and not workflow.dryrun:
+    try:
+        with TemporaryFile(dir=".") as probe:
+            probe.write(bytes(PROBE))
+            probe.flush()
+    except OSError as error:
+        stop(f"{os.path.abspath('.')} takes no files ({error.strerror}): make room, and run again")
+
 # Jobs find the library and the benchmarks. Jupyter sets its own backend of matplotlib for all that it starts,
 # which fails where it is not installed; the variable is left alone if absent, so that no import is repeated.
 os.environ.update(PYTHONPATH=os.pathsep.join(LIBRARIES))
 if "MPLBACKEND" in os.environ:
     os.environ.update(MPLBACKEND="agg")
 
-from reasons import why_jobs_failed
+from reasons import Errors, why_jobs_failed
 from requests_of_slurm import never_started, partitions_of_slurm
 
 from benchmarks.problems import REGIMES
@@ -154,16 +170,29 @@ pathvars:
     size="{size,(long/)?}",  # a longer study lies in a folder of its own
 
 
-def what_failed(logs):
-    """Return why jobs failed, as their own logs say or else Snakemake's own `logs`."""
-    texts = [Path(log).read_text(encoding="utf-8", errors="replace") for log in logs]
-    reasons = why_jobs_failed("".join(texts))
+ERRORS = Errors()
+logger.addHandler(ERRORS)
+
+
+def what_failed():
+    """Return why jobs failed, as their own logs say or else Snakemake."""
+    reasons = why_jobs_failed(ERRORS.text)
     return "\n".join(f"{why}\n  (more in {from_outside(path)})" for why, path in reasons)
 
 
 def from_outside(path):
     """Return a path as it is for the user, who may have called Snakemake with --directory."""
     return os.path.join(workflow.overwrite_workdir or "", path)
+
+
+def refuse_folders_that_are_read_only():
+    """Stop before the first job if a file that the run makes would be in such a folder."""
+    jobs = list(workflow.dag.needrun_jobs())
+    parents = {Path(file).absolute().parent for job in jobs for file in (*job.output, *job.log)}
+    there = {next(one for one in (path, *path.parents) if one.exists()) for path in parents}
+    for folder in sorted(there):
+        if not os.access(folder, os.W_OK):
+            stop(f"{folder} is read-only: make it writable, or name another by --directory")
 
 
 def refuse_what_slurm_never_starts():

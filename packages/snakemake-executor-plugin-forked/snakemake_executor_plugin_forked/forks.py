@@ -16,6 +16,8 @@ from pathlib import Path
 SERVER = Path(__file__).with_name("server.py")
 LETTER = 65536
 """Bytes that are more than any message has."""
+END = b"end"
+"""The last message, without which the process takes Snakemake for killed."""
 PATH = "PYTHONPATH"
 INTERRUPTED = 128 + signal.SIGINT
 """The exit status after Ctrl-C."""
@@ -59,10 +61,16 @@ class Parent:
             socket.send_fds(self.control, [json.dumps(request).encode()], [theirs.fileno()])
         return own
 
+    def hang_up(self) -> None:
+        """Have it end its jobs, which have a moment for it, and itself."""
+        with suppress(OSError):  # it has ended, or was told before
+            self.control.send(END, socket.MSG_DONTWAIT)
+        self.control.close()
+
     def end(self, kill: bool) -> None:
         """End it and its jobs, which have a moment for it unless it is killed."""
         if self.process.returncode is None:
-            self.control.close()
+            self.hang_up()
             if kill:
                 with suppress(ProcessLookupError):  # another thread was faster
                     os.killpg(self.process.pid, signal.SIGKILL)
@@ -100,7 +108,7 @@ class Forks:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         self.interrupted = True
         if self.parent:
-            self.parent.control.close()  # which ends all jobs
+            self.parent.hang_up()
         raise SystemExit(INTERRUPTED)
 
     def begin(self) -> None:

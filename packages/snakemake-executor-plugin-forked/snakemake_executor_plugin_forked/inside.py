@@ -101,7 +101,7 @@ class ForkedScript(PythonScript):
             measured = benchmarked(self.bench_record is not None and job.pid, self.bench_record)
             with job.socket, measured:
                 job.socket.shutdown(1)  # so that it begins
-                if (status := int(forks.hear(job))) < 0:
+                if not 0 <= (status := int(forks.hear(job))) <= 1:
                     raise ChildProcessError(f"it {in_words(status)}")
         except ChildProcessError as error:
             status = 1

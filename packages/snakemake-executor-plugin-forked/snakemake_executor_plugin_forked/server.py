@@ -24,6 +24,12 @@ from types import ModuleType
 
 LETTER = 65536
 """Bytes that are more than any message has."""
+END = b"end"
+"""The last message, unless Snakemake was killed."""
+KILLED = (
+    "forked: Snakemake was killed, so its jobs end. To go on: snakemake --unlock, then the same "
+    "command again."
+)
 GRACE = 3
 """Seconds in which jobs must end once Snakemake is gone, or is told to end."""
 
@@ -45,11 +51,12 @@ class Server:
             if self.can_prepare() and not select.select([self.control], [], [], 0)[0]:
                 self.prepare(self.modules.pop(0))
                 continue
-            if not self.begun and (path := self.control.recv(LETTER, socket.MSG_PEEK)):
-                self.begin(json.loads(path))
+            first = b"" if self.begun else self.control.recv(LETTER, socket.MSG_PEEK)
+            if first not in (b"", END):
+                self.begin(json.loads(first))
                 continue
             message, streams, _, _ = socket.recv_fds(self.control, LETTER, 1)
-            if not message:
+            if message in (b"", END):
                 break
             if self.fork(socket.socket(fileno=streams[0])):
                 return json.loads(message)
@@ -59,6 +66,9 @@ class Server:
         end = time.monotonic() + GRACE
         while self.jobs and time.monotonic() < end:
             time.sleep(0.01)
+        if not message:
+            with suppress(OSError):  # its screen is gone too
+                print(KILLED, file=sys.stderr, flush=True)
         os.killpg(0, signal.SIGKILL)
 
     def can_prepare(self) -> bool:
@@ -112,7 +122,10 @@ class Server:
         gc.freeze()
         gc.enable()
         with asked:
-            asked.recv(LETTER)  # Snakemake measures it from now on
+            try:
+                asked.recv(LETTER)  # Snakemake measures it from now on
+            except ConnectionResetError:  # it was killed before it had read the answer
+                os._exit(1)
         return True
 
     def bury(self, *signalled) -> None:

@@ -2,12 +2,16 @@
 
 import json
 import os
+import select
 import shutil
 import signal
+import socket
 import sys
+import time
 from pathlib import Path
 
 import pytest
+from snakemake_executor_plugin_forked.forks import LETTER, Parent
 from starting import Run
 
 if sys.platform != "linux":
@@ -184,5 +188,21 @@ def test_ctrl_c_ends_all_without_a_traceback(folder, targets, words, heard, pres
     assert ended == status and "Traceback" not in said and "Error in rule" not in said
 
 
-def test_no_job_outlives_snakemake(folder):
-    run(folder, "1.wait", meanwhile=lambda process: hear(process, "pid") or process.kill())
+def test_no_job_outlives_snakemake_that_was_killed_and_the_last_line_says_how_to_go_on(folder):
+    _, said = run(folder, "1.wait", meanwhile=lambda run: hear(run, "pid") or run.kill())
+    assert said.splitlines()[-1].startswith("forked: Snakemake was killed")
+    assert "snakemake --unlock" in said and "Traceback" not in said
+
+
+def test_a_job_ends_without_a_word_if_snakemake_is_killed_as_it_begins(tmp_path, capfd):
+    """Then the system resets the connection, since the number of the job was not read."""
+    (tmp_path / "job.py").write_text("print('begun')")
+    (parent := Parent([])).tell("")
+    answer = parent.ask({"script": str(tmp_path / "job.py"), "environment": {}})
+    select.select([answer], [], [])
+    job = int(answer.recv(LETTER, socket.MSG_PEEK))
+    answer.close()
+    while os.path.exists(f"/proc/{job}"):
+        time.sleep(0.01)
+    parent.end(kill=True)
+    assert capfd.readouterr() == ("", "")

@@ -12,6 +12,8 @@ from tempfile import TemporaryDirectory
 from fontTools.ttLib import TTFont
 from matplotlib.font_manager import FontProperties, fontManager
 
+from latticode.datasets import DatasetError, not_written
+
 FAMILY, SLANTS = "DejaVu Sans", ("normal", "oblique")
 LEFT_OUT = ("GDEF", "GPOS", "GSUB")
 """OpenType: classes, places and replacements of letters; letters that are drawn closer together
@@ -20,14 +22,17 @@ when they meet are named in the older table "kern" too."""
 
 @contextmanager
 def light_fonts() -> Iterator[None]:
-    """Let matplotlib find such fonts in place of the whole ones, and the whole ones afterwards."""
+    """Let matplotlib find such fonts in place of the whole ones, and the whole ones afterwards.
+
+    Raises DatasetError if they find no room in the folder for temporary files.
+    """
     wanted = [FontProperties(family=FAMILY, style=slant) for slant in SLANTS]
     whole = [Path(fontManager.findfont(one)) for one in wanted]
     before = list(fontManager.ttflist)
-    with TemporaryDirectory() as folder:
+    with _temporary_folder() as folder:
         try:
             for font in whole:
-                fontManager.addfont(_without_tables(font, Path(folder)))
+                fontManager.addfont(_without_tables(font, folder))
             # of fonts that suit equally well, matplotlib takes the first
             fontManager.ttflist[:] = fontManager.ttflist[len(before) :] + before
             yield
@@ -36,11 +41,25 @@ def light_fonts() -> Iterator[None]:
             fontManager.ttflist[:] = before
 
 
+@contextmanager
+def _temporary_folder() -> Iterator[Path]:
+    try:
+        made = TemporaryDirectory()
+    except OSError as error:  # its text names all folders that were tried
+        text = f"{error.strerror}: make room in one, or name another folder in TMPDIR"
+        raise DatasetError(text) from error
+    with made as folder:
+        yield Path(folder)
+
+
 def _without_tables(font: Path, folder: Path) -> Path:
     """Return a copy of a font in this folder without the tables that are left out."""
     with TTFont(font, lazy=True, recalcBBoxes=False, recalcTimestamp=False) as opened:
         for table in LEFT_OUT:
             if table in opened:
                 del opened[table]
-        opened.save(folder / font.name, reorderTables=None)
+        try:
+            opened.save(folder / font.name, reorderTables=None)
+        except OSError as error:
+            raise not_written(folder / font.name, error) from error
     return folder / font.name

@@ -6,12 +6,14 @@ import resource
 import signal
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 import pytest
 import xarray as xr
 from latticode.datasets import DatasetError, complete_or_absent
 from latticode.datasets.netcdf import Variable, write
+from latticode.drawing.light_fonts import light_fonts
 from latticode.drawing.style import new_figure, save
 
 
@@ -49,6 +51,27 @@ def test_a_full_disk_is_named_and_keeps_the_old_file(put, tmp_path, full_disk):
     with pytest.raises(DatasetError, match=r"could not write .*/a\..*disk full.* left.*make room"):
         put(path)
     assert [p.name for p in tmp_path.iterdir()] == ["a.nc"] and path.read_bytes() == b"old"
+
+
+def test_a_full_disk_of_temporary_files_is_named_in_place_of_that_of_the_figure(
+    tmp_path, full_disk, monkeypatch
+):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    words = rf"could not write {tmp_path}/.*DejaVuSans\.ttf: .*disk full"
+    with (
+        pytest.raises(DatasetError, match=words),
+        complete_or_absent(tmp_path / "a.pdf"),
+        light_fonts(),
+    ):
+        pass
+
+
+def test_where_no_folder_takes_temporary_files_the_variable_that_names_one_is_told(monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: ["/proc/absent"])
+    words = r"/proc/absent.*: make room in one, or .*TMPDIR"
+    with pytest.raises(DatasetError, match=words), light_fonts():
+        pass
 
 
 def test_a_file_inside_of_another_is_told_by_the_name_of_the_outer_one(tmp_path):
