@@ -81,8 +81,8 @@ def test_a_limit_may_be_raised_and_a_long_run_is_announced():
     long = {"cases": {"mine": {"omega": 1e6, "end_time": 900}}}
     with pytest.raises(ConfigurationError, match=r"mine.omega: the run would take about 2 hours"):
         load(long)
-    (said,) = load(long | {"limits": {"hours": 9}}).long_runs()
-    assert said.startswith("cases.mine: the run and its checks take about 8 hours and ")
+    (said,) = load(long | {"limits": {"hours": 11}}).long_runs()
+    assert said.startswith("cases.mine: the run and its checks take about 10 hours and ")
     assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
 
 

@@ -1,25 +1,33 @@
 """Checks of a run: how far it is true, and whether its motion is chaotic.
 
-First the problem is run again by another method at tight tolerances. The difference of the two runs
-is the error of the worse run. If the first was made by the default solver at its default
-tolerances, that is the error of double precision. Then a random tangent vector is carried along:
+First the problem is run again by a method of another family at tight tolerances. What the two runs
+are apart, in the fields at all sites and in their norms, is the error of the worse run. If the
+first was made by the default solver at its default tolerances, that is the error of double
+precision. Then a random tangent vector is carried along:
 its growth says whether the motion is chaotic, and when the digits of double precision end. Last a
 localised state is looked for, with its stability.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 import numpy as np
 import xarray as xr
 
-from latticode.configuration.cost import TIGHTEST, other_than
 from latticode.datasets.checks import table, variable
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
+from latticode.integrators.families import TIGHTEST, Agreement, compare, other_family
 from latticode.localised.breathers import NoStateError, exponents, find_state
 from latticode.localised.rest import describe_unstable_rest
 from latticode.localised.tangents import STEP, Growth, grow, random_tangent
-from latticode.measures.difference import NORMS, at_times, difference, divergence_time
+from latticode.measures.difference import (
+    NORMS,
+    VISIBLE,
+    at_times,
+    difference,
+    divergence_time,
+    first_above,
+)
 from latticode.measures.growth import (
     ROUNDING,
     amplification,
@@ -28,10 +36,11 @@ from latticode.measures.growth import (
     mean_rate_error,
     predict,
 )
-from latticode.numerics.elementary import log, modulus
+from latticode.numerics.elementary import complex_of, log, modulus
 from latticode.simulation.feasibility import SMALLEST_ERROR
+from latticode.simulation.integration import GaveUpError, IntegrationError
 from latticode.simulation.problem import Problem
-from latticode.simulation.simulate import IntegrationError, simulate
+from latticode.simulation.simulate import simulate
 from latticode.simulation.systems import integration_of
 
 TITLE = "A run and its checks"
@@ -40,12 +49,12 @@ UNSTABLE_REST = "unstable_rest"
 
 
 def choose_solver(name: str, peak: float, known: Collection[str] = TIGHTEST) -> dict:
-    """Return the controls of another method than `name`, for data of the largest modulus `peak`.
+    """Return the controls of a method of another family than `name`, for data up to `peak`.
 
     `known` are the methods that take the equations. Data smaller than 1 need a smaller absolute
     tolerance, as far as its square does not vanish.
     """
-    other = other_than(name) if other_than(name) in known else "ode45"
+    other = other_family(name, known)
     rtol = TIGHTEST[other]
     atol = max(rtol * (peak if 0 < peak < 1 else 1.0), SMALLEST_ERROR)
     return {"name": other, "rtol": rtol, "atol": atol}
@@ -54,24 +63,52 @@ def choose_solver(name: str, peak: float, known: Collection[str] = TIGHTEST) -> 
 def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return the second run's norms and its difference from `run`; all are NaN if it was refused.
 
-    `run` is the trajectory that `simulate` made of `problem`.
+    `run` is the trajectory that `simulate` made of `problem`, by any solver. Its dataset holds no
+    phases on the way: so its solver runs again too, and keeps the fields at the snapshots.
     """
-    peak = float(modulus(problem.initial).max())
-    solver = choose_solver(str(run.attrs["solver"]), peak, integration_of(problem).solvers)
-    again = problem.changed(solver=solver, snapshot_every=0)
-    said = {f"second_{key}": value for key, value in solver.items()}
+    peak, known = float(modulus(problem.initial).max()), set(integration_of(problem).solvers)
+    solver = choose_solver(str(run.attrs["solver"]), peak, known)
+    apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
+    again, agreement, refusal = run[list(NORMS)] * np.nan, None, {}
     try:
-        second = as_xarray(*trajectory_contents("second run", again, simulate(again)))
-        apart = difference(run, second).reindex(tau=run["tau"])
+        try:
+            second = simulate(problem.changed(solver=solver))
+        except GaveUpError:  # a power series may end where the equations go on
+            solver = choose_solver(str(run.attrs["solver"]), peak, known - {"taylor"})
+            second = simulate(problem.changed(solver=solver))
+        first = simulate(problem.changed(solver=solver_of(run.attrs)))
+        first = first._replace(final=_final_of(run, first.final))
+        agreement = compare(first, second, problem.snapshot_every)
+        plain = problem.changed(snapshot_every=0)
+        again = as_xarray(*trajectory_contents("second run", plain, second))
+        apart = difference(run, again).reindex(tau=run["tau"])
     except IntegrationError as error:
-        second = run[list(NORMS)] * np.nan
-        apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
-        said["second_refusal"] = str(error)
-    return _compared(run, second, apart).assign_attrs(said)
+        refusal = {"second_refusal": str(error)}
+    said = {f"second_{key}": value for key, value in solver.items()}
+    return _compared(run, again, apart, agreement).assign_attrs(said | refusal)
 
 
-def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Dataset:
-    data = at_times(second, run["tau"]).drop_attrs(deep=False)
+def solver_of(attributes: Mapping) -> dict:
+    """Return the solver that the attributes of a run name, with its controls."""
+    start = "solver_"
+    keys = [key for key in attributes if key.startswith(start)]
+    controls = {key.removeprefix(start): attributes[key] for key in keys}
+    return {"name": str(attributes["solver"]), **controls}
+
+
+def _final_of(run: xr.Dataset, final: np.ndarray) -> np.ndarray:
+    """Return the fields at the end that a run holds, or else those of the same run made again."""
+    if "final" not in run:
+        return final
+    parts = run["final"].transpose("part", "component", "site").values
+    return parts if final.ndim == 3 else complex_of(*parts)
+
+
+def _compared(
+    run: xr.Dataset, again: xr.Dataset, apart: xr.DataArray, agreement: Agreement | None
+) -> xr.Dataset:
+    """Return the norms of the second run, and what the runs are apart in norms and in fields."""
+    data = at_times(again, run["tau"]).drop_attrs(deep=False)
     data = data.rename({norm: f"second_{norm}" for norm in NORMS})
     for norm in NORMS:
         long_name = f"{run[norm].attrs['long_name']}, by another method"
@@ -79,10 +116,22 @@ def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Da
     data["difference"] = apart.assign_attrs(
         long_name="largest difference of the norms of two runs, of full scale", units="1"
     )
-    data["largest_difference"] = apart.max().assign_attrs(
-        long_name="its largest value: the error of the worse run", units="1"
+    largest, diverged = apart.max(), divergence_time(apart)
+    if agreement is not None:
+        about = "largest difference of the fields of two runs at a site, of full scale"
+        times = variable(agreement.kept_tau, ("kept_tau",), "time at which fields are compared")
+        fields = variable(agreement.fields, ("kept_tau",), about)
+        data = data.merge(
+            xr.Dataset.from_dict(table(TITLE, {}, kept_tau=times, field_difference=fields)),
+            combine_attrs="override",
+        )
+        largest = largest.clip(min=agreement.fields.max())
+        first = first_above(agreement.kept_tau, agreement.fields, VISIBLE)
+        diverged = diverged.clip(max=first, keep_attrs=True)
+    data["largest_difference"] = largest.assign_attrs(
+        long_name="largest difference of fields and norms: the error of the worse run", units="1"
     )
-    data["divergence_time"] = divergence_time(apart)
+    data["divergence_time"] = diverged
     return data
 
 

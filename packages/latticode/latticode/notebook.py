@@ -21,12 +21,13 @@ from latticode.configuration import cases, cost, values
 from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.messages import in_words, load
 from latticode.configuration.schema import Limits
-from latticode.configuration.solvers import with_controls
+from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
 from latticode.datasets.surveys import survey_contents
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
+from latticode.integrators.families import remark_on
 from latticode.simulation import simulate as simulation
 from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
@@ -91,7 +92,7 @@ def made(initialise: Callable, keys: dict, **place) -> None:
     `place` is what `in_words` takes beside.
     """
     try:
-        initialise(**with_controls({"solver": "taylor", **keys}, {}))
+        initialise(**with_controls({"solver": DEFAULT, **keys}, {}))
     except ValidationError as error:
         raise in_words(error, "the case", ("cases", "case"), **place) from None
 
@@ -118,6 +119,12 @@ def _affordable(case: cases.Case, hours: float | None) -> None:
 def _announce(takes: cost.Cost) -> None:
     if takes.seconds > cost.WORTH_SAYING:
         print(f"the run takes {takes}", flush=True)
+
+
+def _print_remark(solver: Mapping) -> None:
+    """Print why a run is by another solver than was expected, if it is."""
+    if remark := remark_on(solver):
+        print(remark, flush=True)
 
 
 OF_A_RUN = ("case", "output_step", "snapshot_every", "solver")
@@ -180,6 +187,7 @@ def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.D
     require(name, str, "a name for the dataset")
     problem = case.kind.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
+    _print_remark(trajectory.solver)
     variables, attributes = trajectory_contents(name, problem, trajectory)
     return timed(as_xarray(variables | final_state(problem, trajectory), attributes))
 

@@ -12,10 +12,18 @@ from latticode.configuration.cases import Initial
 from latticode.configuration.cost import Cost
 from latticode.configuration.files import OF_MODELS
 from latticode.configuration.messages import lines_of
+from latticode.configuration.solvers import FLAG, Solver, Taylor
 from latticode.configuration.values import Number, Positive, faults
 from latticode.equations.model import Model
 from latticode.simulation.feasibility import Obstacle
-from pydantic import Field, SerializeAsAny, ValidationError, WrapValidator, model_validator
+from pydantic import (
+    Field,
+    SerializeAsAny,
+    ValidationError,
+    WrapValidator,
+    field_validator,
+    model_validator,
+)
 
 from pendula.feasibility import find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
@@ -58,6 +66,12 @@ class Case(cases.Case):
             raise faults([("parameters", text)])
         return raw
 
+    @field_validator("solver")
+    @classmethod
+    def _always_by_series(cls, solver: Solver) -> Solver:
+        """Return the default as if it were named: all of these equations have power series."""
+        return Taylor(**solver.model_dump(exclude={FLAG})) if hasattr(solver, FLAG) else solver
+
     @property
     def equations(self) -> str:
         """What the case is of, in words."""
@@ -68,10 +82,10 @@ class Case(cases.Case):
         """The names of the amplitudes, which the pendula start from too."""
         return "A", "B"
 
-    @property
-    def solver_names(self) -> list[str]:
-        """The solvers that take the equations."""
-        return SOLVERS[self.model]
+    @classmethod
+    def solvers_taking(cls, model: str) -> list[str]:
+        """Return the solvers that take the equations of this name."""
+        return SOLVERS[model]
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:

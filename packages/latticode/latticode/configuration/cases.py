@@ -11,6 +11,8 @@ from pydantic import (
     Field,
     PlainSerializer,
     SerializationInfo,
+    ValidationInfo,
+    field_validator,
     model_validator,
 )
 
@@ -18,6 +20,7 @@ from latticode.equations.ends import ENDS
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
 from latticode.equations.model_file import at_middle, values_at
+from latticode.integrators.families import first_tolerance, instead_of_taylor, pair_of
 from latticode.simulation.feasibility import (
     MOST_STEPS,
     Obstacle,
@@ -29,7 +32,7 @@ from latticode.simulation.problem import Problem
 
 from . import cost
 from .cost import Cost
-from .solvers import Solver, Taylor
+from .solvers import DEFAULT, FLAG, Solver, Solvers, Taylor
 from .values import Complex, Model, Natural, Positive, Whole, as_whole, fault, faults, shown
 
 FEWEST = 200
@@ -141,9 +144,29 @@ class Case(Model):
     end_time: Positive = 50.0
     output_step: Positive = 0.025
     snapshot_step: Positive | None = None
-    solver: Solver = Taylor()
+    solver: Solver = Taylor(**DEFAULT)
+
+    @field_validator("solver", mode="before")
+    @classmethod
+    def _known(cls, given: Any, info: ValidationInfo) -> Any:
+        """Refuse a name of no solver, with the names of those that take the model."""
+        if not isinstance(given, Mapping) or "model" not in info.data:
+            return given
+        name, known = given.get("name"), cls.solvers_taking(info.data["model"])
+        if "name" not in given:
+            raise faults([("name", f"is missing; it must be one of {', '.join(known)}")])
+        if not isinstance(name, str) or name not in Solvers.model_fields:
+            near = difflib.get_close_matches(str(name), known, 1, 0.5)
+            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+            raise fault(f"there is no solver {name!r}; {hint}")
+        return given
 
     # --- What the model decides
+
+    @classmethod
+    def solvers_taking(cls, model: Any) -> list[str]:
+        """Return the solvers that take a model."""
+        return [*solver_names(model), "auto"]
 
     @property
     def equations(self) -> str:
@@ -158,8 +181,7 @@ class Case(Model):
     @property
     def solver_names(self) -> list[str]:
         """The solvers that take the equations."""
-        found = solver_names(self.model)
-        return [*found, "auto"] if "taylor" in found else found
+        return self.solvers_taking(self.model)
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:
@@ -294,7 +316,7 @@ class Case(Model):
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a solver that does not take the equations of the case."""
-        if solver.name not in self.solver_names:
+        if solver.name not in self.solver_names and not getattr(solver, FLAG, False):
             known, what = ", ".join(self.solver_names), self.equations
             yield (
                 "solver.name",
@@ -334,10 +356,12 @@ class Case(Model):
 
         `solver` and `span` take the place of the case's own solver and end time.
         """
-        given, span = (solver or self.solver).model_dump(), span or self.end_time
+        span = span or self.end_time
+        given = self._solver_of_run((solver or self.solver).model_dump())
         if given["name"] == "auto":  # its first run, which asks for least
-            tolerance = cost.auto_tolerances(given["error"])[0]
-            given = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
+            tolerance = first_tolerance(given["error"], 0.0)
+            name, _ = pair_of(self.solver_names)
+            given = {"name": name, "rtol": tolerance, "atol": tolerance}
         amplitudes = [z for values in self.initial.values() for z in values]
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
         found, speed = self._fault_and_rate(peak, span, given)
@@ -357,7 +381,19 @@ class Case(Model):
         values = {**self.model_dump(), **changes}
         snapshots = values.pop("snapshot_step")
         every = round(snapshots / values["output_step"]) if snapshots else 0
-        return {**values, "snapshot_every": every}
+        solver = self._solver_of_run(values["solver"])
+        return {**values, "solver": solver, "snapshot_every": every}
+
+    def _solver_of_run(self, solver: dict) -> dict:
+        """Return the controls of the solver that runs the case.
+
+        Where a case names none and its equations have no power series, that is `dop853`. Where a
+        series may still end on the way, a flag lets `dop853` take over.
+        """
+        if not solver.get(FLAG) or "taylor" in self.solver_names:
+            return solver
+        why = f"{self.equations} has a root of squares, such as |x|, which has no power series at 0"
+        return {**instead_of_taylor(solver), "instead_of_taylor": why}
 
     def shown_problem(self, **changes) -> dict:
         """Return the problem, with snapshots enough for a picture if the case names no number."""

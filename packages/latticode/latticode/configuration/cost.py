@@ -6,12 +6,13 @@ The constants fit the speeds that were measured (tests/baseline/speed),
 and a test asks that every estimate is within a factor of three of what was measured.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from math import inf
 from typing import NamedTuple
 
 from latticode.equations.model import Model
-from latticode.simulation.feasibility import Obstacle
+from latticode.integrators.families import TIGHTEST, first_tolerance, other_family, pair_of
+from latticode.simulation.feasibility import Obstacle, solver_names
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0
@@ -45,8 +46,6 @@ OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
 """Of an output: the state between two steps, its norms and its energy."""
 OUTPUT_BYTES, MODULUS_BYTES, SITE_BYTES = 200.0, 40.0, 200.0
 """Of an output, of a modulus that is kept, and of a site of the whole chain in complex numbers."""
-COARSEST, FINEST, REFINEMENT = 1e-4, 1e-15, 1e-2
-"""The tolerances that `auto` tries, at most."""
 
 
 class Demand(NamedTuple):
@@ -103,13 +102,14 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
     Nothing of the size of the chain is made; what overflows costs infinitely much.
     """
     solver, every = problem["solver"], problem["snapshot_every"]
-    solvers = [solver]
-    if solver["name"] == "auto":
-        tolerances = auto_tolerances(solver["error"])
-        solvers = [{"name": "taylor", "rtol": tolerance} for tolerance in tolerances]
-    method = EXPLICIT.get(solvers[0]["name"])
     try:
         needs, sites = measure(problem), 2 * problem["half_width"] + 1
+        solvers = [solver]
+        if solver["name"] == "auto":
+            angle = needs.rate * problem["end_time"]
+            tolerance = first_tolerance(solver["error"], angle)
+            solvers = [{"name": name, "rtol": tolerance} for name in pair_of(solvers_of(problem))]
+        method = EXPLICIT.get(solvers[0]["name"])
         outputs = problem["end_time"] / problem["output_step"] + 1
         moduli = 2 * sites * (outputs / every) if every else 0.0
         seconds = sum(_solver_seconds(one, problem, needs, outputs) for one in solvers)
@@ -135,26 +135,28 @@ def _solver_seconds(solver: Mapping, problem: Mapping, needs: Demand, outputs: f
     return seconds + evaluations * (EVALUATED["seconds"] + EVALUATED["site_seconds"] * pairs)
 
 
-TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13, "ode45": 1e-12}
-"""The tolerances of a second run, by which the first is checked."""
 OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
 """The solver of tangent vectors."""
 
 
-def other_than(solver: str) -> str:
-    """Return the solver that runs a case again."""
-    return "dop853" if solver in ("taylor", "auto") else "taylor"
+def solvers_of(problem: Mapping) -> Collection[str]:
+    """Return the solvers that take the equations of a problem, given as plain values."""
+    model = problem.get("model")
+    model = Model.of_plain(model) if isinstance(model, Mapping) else model
+    return solver_names(model) if isinstance(model, Model) else TIGHTEST
 
 
 def runs_of_checks(problem: Mapping) -> list[Mapping]:
-    """Return what the checks of a run integrate, as plain values: its second run, and a tangent.
+    """Return what the checks of a run integrate, as plain values: two runs, and a tangent.
 
-    A tangent is carried beside the solution, which takes twice the work.
+    Both runs keep fields at the snapshots. A tangent is carried beside the solution, which takes
+    twice the work.
     """
-    other, plain = other_than(problem["solver"]["name"]), {**problem, "snapshot_every": 0}
-    again = plain | {"solver": {"name": other, "rtol": TIGHTEST[other]}}
+    other = other_family(problem["solver"]["name"], solvers_of(problem))
+    again = {**problem, "solver": {"name": other, "rtol": TIGHTEST[other]}}
+    plain = {**problem, "snapshot_every": 0}
     tangent = plain | {"solver": OF_TANGENTS, "output_step": problem["end_time"]}
-    return [again, tangent, tangent]
+    return [problem, again, tangent, tangent]
 
 
 def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
@@ -192,14 +194,6 @@ def _iterations(angle: float, solver: Mapping) -> float:
         error *= max(1e-3, min(0.9, 0.5 * angle))
         count += 1.0
     return count
-
-
-def auto_tolerances(error: float) -> list[float]:
-    """Return the tolerances that `auto` may try until two runs agree to `error`."""
-    tried = [min(error, COARSEST)]
-    while tried[-1] > FINEST:
-        tried.append(max(REFINEMENT * tried[-1], FINEST))
-    return tried
 
 
 ORDINARY = {

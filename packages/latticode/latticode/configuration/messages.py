@@ -133,7 +133,8 @@ def _keys_at(place: tuple, root: type[BaseModel]) -> list[str]:
         tagged = [model for model in models if _tag_of(model) == part]
         fields = [field for model in models if (field := model.model_fields.get(str(part)))]
         models = tagged or (_models_in(fields[0].annotation) if fields else models)
-    return [key for key, field in models[0].model_fields.items() if not field.exclude]
+    fields = models[0].model_fields.items()
+    return [key for key, field in fields if field.repr and not field.exclude]
 
 
 def _models_in(annotation) -> list[type[BaseModel]]:

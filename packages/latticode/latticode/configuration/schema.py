@@ -11,12 +11,13 @@ from typing import Annotated, Any
 
 from pydantic import Field, SerializeAsAny, model_validator
 
+from latticode.integrators.families import remark_on
 from latticode.simulation.problem import name_window
 
 from . import cost
 from .cases import Case, is_multiple
 from .cost import Cost
-from .solvers import Solver, Solvers, with_controls
+from .solvers import DEFAULT, Solver, Solvers, with_controls
 from .surveys import Survey
 from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
 
@@ -90,7 +91,7 @@ class Configuration(Model):
         if not isinstance(raw, dict):
             return raw
         sections = {}
-        for section, default in (("cases", {"solver": "taylor"}), ("sweeps", {})):
+        for section, default in (("cases", {"solver": DEFAULT}), ("sweeps", {})):
             if isinstance(raw.get(section), dict):
                 sections[section] = {
                     name: with_controls({**default, **item}, raw.get("solvers") or {})
@@ -249,7 +250,10 @@ class Configuration(Model):
         return self.cases[case].cost(self.shown_problem(case, solver))
 
     def long_runs(self) -> list[str]:
-        """Return a sentence on each run that will last for minutes, to be said before it starts."""
+        """Return a sentence on each run that will last for minutes, to be said before it starts.
+
+        Runs by another solver than the default come first.
+        """
         found = {}
         for name, case in self.cases.items():
             what, takes = self.takes(name)
@@ -257,7 +261,10 @@ class Configuration(Model):
             found[f"cases.{name}: {what} {verb}"] = takes(case.shown_problem())
         found |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
         found |= {f"surveys.{n}: its runs take": self.cost_of_survey(n) for n in self.surveys}
-        return [f"{what} {one}" for what, one in found.items() if one.seconds > cost.WORTH_SAYING]
+        long = [f"{what} {one}" for what, one in found.items() if one.seconds > cost.WORTH_SAYING]
+        solvers = {name: case.problem()["solver"] for name, case in self.cases.items()}
+        remarks = {name: remark_on(solver) for name, solver in solvers.items()}
+        return [*(f"cases.{name}: {text}" for name, text in remarks.items() if text), *long]
 
     def problem(self, case: str, solver: str | None = None, **changes) -> dict:
         """Return a case as plain values of a Problem.

@@ -2,10 +2,13 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field, SerializerFunctionWrapHandler, ValidationError, model_serializer
 
 from .values import Model, Positive, Whole
 
+FLAG = "by_default"
+DEFAULT = {"name": "taylor", FLAG: True}
+"""The solver of a case that names none."""
 COARSEST = 0.1
 """Largest tolerance of a step's error: the estimate of that error holds for small errors only."""
 
@@ -32,10 +35,17 @@ class Taylor(Model):
     name: Literal["taylor"] = "taylor"
     rtol: Annotated[Positive, Field(ge=1e-16, le=COARSEST)] = 1e-14
     atol: Positive = 1e-14
+    by_default: bool = Field(False, repr=False)
+    """Whether nobody named a solver, so that `dop853` takes over where there is no series."""
+
+    @model_serializer(mode="wrap")
+    def _named(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        values = write(self)
+        return values if self.by_default else {k: one for k, one in values.items() if k != FLAG}
 
 
 class Auto(Model):
-    """The default solver, held to an error of the norms relative to their largest values."""
+    """Two families of methods, which must agree to an error of the fields, of full scale."""
 
     name: Literal["auto"] = "auto"
     error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9

@@ -29,7 +29,7 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
         **{key: about[key] for key in sorted(about)},
         "initial": write_initial(by_site(problem.initial)),
         "solver": solver["name"],
-        **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
+        **{f"solver_{key}": solver[key] for key in solver if key not in ("name", "by_default")},
     }
 
 

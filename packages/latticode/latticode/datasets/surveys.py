@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from latticode.integrators.families import instead_of_taylor
 from latticode.simulation.problem import Problem
 from latticode.simulation.runs import Run
 from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
@@ -25,6 +26,12 @@ ABOUT = {
     "divergence": "first time at which a run by another method differs visibly; infinite: at none",
 }
 """What is kept, in words."""
+TEXTS = {
+    "failure": "why a run failed, which has NaN; empty where it did not",
+    "remark": "why a run is not by the solver of the case; empty where it is",
+}
+COUNTS = {"failure": "failed_runs", "remark": "runs_by_another_solver"}
+"""What is said of runs where there is something to say, and the attributes with their numbers."""
 
 
 def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run) -> Contents:
@@ -57,12 +64,19 @@ def survey_contents(
         variables["member"] = Variable(("member",), np.arange(survey.members.count))
     model = integration_of(problem)
     variables["component"] = Variable(("component",), list(model.components), model.words.component)
+    texts = {kind: values[kind] for kind in TEXTS if kind in values}
+    for kind, found in texts.items():
+        variables[kind] = Variable(tuple(dimensions), found, TEXTS[kind])
     for kept, found in values.items():
+        if kept in texts:
+            continue
         more = found.ndim - len(dimensions)
         fields = ("component",) if kept in OF_FIELDS else tuple(f"{kept}_{n}" for n in range(more))
         units = model.words.units if kept in OF_FIELDS else "1"
         variables[kept] = Variable((*dimensions, *fields), found, _long_name(kept), units)
-    about = describe_run(name, problem, problem.solver)
+    remarks, solver = texts.get("remark", np.array("")), problem.solver
+    solver = instead_of_taylor(solver) if (remarks != "").all() else solver
+    about = describe_run(name, problem, solver)
     for names in axes.values():
         about = {key: value for key, value in about.items() if key not in names}
     drawn = survey.members._asdict() if survey.members else {}
@@ -70,6 +84,8 @@ def survey_contents(
     said |= {} if survey.window is None else {"window": list(survey.window)}
     if survey.by_half_width:
         said["parameters_by_half_width"] = json.dumps(survey.by_half_width)
+    said["failed_runs"] = 0
+    said |= {COUNTS[kind]: int((texts[kind] != "").sum()) for kind in texts}
     return variables, {"title": f"The survey {name}", **about, **said}
 
 

@@ -47,6 +47,23 @@ def _curve_difference(a, b) -> np.ndarray:
     return np.abs(a - b) / np.where(scale == 0.0, 1.0, scale)
 
 
+def field_difference(one, other, sizes) -> np.ndarray:
+    """Return the largest difference of fields at a site, at each time (time,), as a part of scale.
+
+    `one` and `other` are (curve, site, time), complex or real, at the same times. Full scale of a
+    curve is the largest modulus that it takes in either, and at least that of its field in `sizes`
+    (field,); values of all fields come first, and their rates behind them if there are any. A field
+    at rest in both does not differ.
+    """
+    one, other = np.asarray(one), np.asarray(other)
+    if not one.shape[-1]:
+        return np.zeros(0)
+    largest = np.maximum(modulus(one), modulus(other)).max(axis=(1, 2))
+    scale = np.maximum(largest, np.tile(sizes, len(one) // len(sizes)))
+    apart = modulus(one - other).max(axis=1)
+    return (apart / np.where(scale == 0.0, 1.0, scale)[:, None]).max(axis=0)
+
+
 def first_above(tau, values, level):
     """Return the first of the times `tau` at which `values` (..., time) are above `level`.
 

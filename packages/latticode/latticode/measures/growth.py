@@ -1,5 +1,7 @@
 """Growth: rates of tangent vectors with their errors, and what is chaotic."""
 
+from itertools import accumulate
+
 import numpy as np
 
 from latticode.numerics.elementary import exp, log
@@ -60,8 +62,11 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
     """
     made = log(size[1:] * np.diff(tau)) - log_growth[1:]
     peak = np.maximum.accumulate(made)
-    kept = [exp(made[: i + 1] - top).sum() for i, top in enumerate(peak)]
-    total = peak + log(np.array(kept)) + log_growth[1:] - log(size[1:])
+    before = np.concatenate([[-np.inf], peak[:-1]])
+    # the sum up to each tau in units of its largest term; a new peak makes the former sum smaller
+    terms = zip(exp(before - peak).tolist(), exp(made - peak).tolist(), strict=True)
+    sums = accumulate(terms, lambda total, term: total * term[0] + term[1], initial=0.0)
+    total = peak + log(np.array(list(sums)[1:])) + log_growth[1:] - log(size[1:])
     return np.concatenate([[-np.inf], total])
 
 

@@ -10,6 +10,7 @@ from math import frexp, isfinite
 
 import numpy as np
 
+from latticode.equations.graph import MOTION, Node, in_order
 from latticode.equations.model import Model
 from latticode.numerics.elementary import log
 
@@ -30,9 +31,33 @@ Obstacle = tuple[str, str]
 
 def solver_names(model: Model) -> list[str]:
     """Return the solvers that take a model: all but two of them need equations of one kind."""
-    found = ["taylor", "dop853", "ode45"]
+    found = [] if has_kinks(model.rates) else ["taylor"]
+    found += ["dop853", "ode45"]
     found += ["kahan_li"] if model.separable else []
     return found + ([] if model.driven else ["crank_nicolson"])
+
+
+def has_kinks(rates: tuple[Node, ...]) -> bool:
+    """Return whether rates hold the root of squares alone, as |x| = sqrt(x * x) of a real field.
+
+    Where x passes zero, |x| has a kink, and its power series goes on as x or as -x without a word.
+    """
+    roots = [one for one in in_order(rates) if one.operation == "sqrt" and one.level == MOTION]
+    return any(_is_sum_of_squares(one.operands[0]) for one in roots)
+
+
+def _is_sum_of_squares(one: Node) -> bool:
+    match one.operation, *one.operands:
+        case "mul", a, b:
+            return a is b or any(
+                factor.level < MOTION and _is_sum_of_squares(rest)
+                for factor, rest in ((a, b), (b, a))
+            )
+        case "div", a, b:
+            return b.level < MOTION and _is_sum_of_squares(a)
+        case "add", a, b:
+            return _is_sum_of_squares(a) and _is_sum_of_squares(b)
+    return False
 
 
 def find_fault(

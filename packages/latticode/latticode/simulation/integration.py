@@ -17,6 +17,14 @@ from .observables import blank_state_record
 from .problem import Problem
 
 
+class IntegrationError(RuntimeError):
+    """A run that could not reach its end time with the digits that were asked for."""
+
+
+class GaveUpError(IntegrationError):
+    """A run whose solver could not go on: its state was not finite, or its steps were too short."""
+
+
 class Solver(NamedTuple):
     """A compiled run, the names of its controls in their order, and the number of work arrays.
 

@@ -1,24 +1,29 @@
-"""From a problem to its trajectory: by one run, or by runs at ever finer tolerance."""
+"""From a problem to its trajectory: by one run, or by runs of two families that must agree."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.integrators import DONE, FAULTS, NOT_FINITE, Outcome
-from latticode.measures.difference import norm_difference
+from latticode.integrators import DONE, FAULTS, NOT_FINITE, STEP_TOO_SMALL, Outcome
+from latticode.integrators.families import (
+    FINEST,
+    Agreement,
+    compare,
+    first_tolerance,
+    instead_of_taylor,
+    next_tolerance,
+    pair_of,
+    third_of,
+)
 
 from .feasibility import find_fault
-from .integration import Integration
+from .integration import GaveUpError, Integration, IntegrationError
 from .interrupts import interruptible
 from .lattice import Reduction, unfold
 from .problem import Problem
 from .systems import integration_of
-
-FINEST, REFINEMENT = 1e-15, 1e-2
-"""The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
-
 
 SINGULAR = (
     ": a divisor, or the argument of a logarithm, a root or a power, is zero or negative at some"
@@ -27,8 +32,8 @@ SINGULAR = (
 """Why a state that was finite at the start is so no longer."""
 
 
-class IntegrationError(RuntimeError):
-    """A run that could not reach its end time with the digits that were asked for."""
+NEEDS_NO_SERIES = "; dop853 needs no power series, and may go on"
+"""What a user may do where a power series ends, as that of |u| where u passes zero."""
 
 
 class Trajectory(NamedTuple):
@@ -58,11 +63,25 @@ def simulate(
 
     `reduction` says how much of the chain is integrated; by default it is the least that the exact
     symmetries of the data allow. Without `energy` the trajectory has none. The solver is one of
-    those that take the model, or {"name": "auto", "error": ...}. Raises IntegrationError where the
-    run would not end, the solver gives up, or the result is not finite.
+    those that take the model, or {"name": "auto", "error": ...}. Where `taylor` is the solver only
+    by default and gives up, `dop853` makes the run. Raises IntegrationError where the run would not
+    end, the solver gives up, or the result is not finite.
     """
     if problem.solver["name"] == "auto":
-        return _simulate_to_error(problem, reduction)
+        return _simulate_to_error(problem, lambda one: _simulate_once(one, reduction, energy))
+    try:
+        return _simulate_once(problem, reduction, energy)
+    except GaveUpError as error:
+        if not problem.solver.get("by_default"):
+            raise
+        controls = {**instead_of_taylor(problem.solver), "instead_of_taylor": str(error)}
+        try:
+            return _simulate_once(problem.changed(solver=controls), reduction, energy)
+        except IntegrationError:
+            raise error from None  # the motion itself ends there
+
+
+def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) -> Trajectory:
     if reduction is None:
         reduction = integration_of(problem).find_reduction(problem)
     times, record, y, outcome = integrate(problem, reduction, energy)
@@ -72,7 +91,7 @@ def simulate(
         linf=unfold(record.linf, both),
         l2=unfold(record.l2, both),
         outcome=outcome,
-        solver=dict(problem.solver),
+        solver={key: one for key, one in problem.solver.items() if key != "by_default"},
         **integration_of(problem).collect(problem, record, y, reduction),
     )
 
@@ -107,7 +126,11 @@ def integrate(
     if outcome.status != DONE:
         at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
         why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
-        raise _stopped(problem, model.slow(problem, outcome.time), why)
+        stopped = _stopped(problem, model.slow(problem, outcome.time), why)
+        if outcome.status not in (NOT_FINITE, STEP_TOO_SMALL):
+            raise stopped
+        by_name = name == "taylor" and not problem.solver.get("by_default")
+        raise GaveUpError(f"{stopped}{NEEDS_NO_SERIES * by_name}")
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
         if not np.isfinite(values).all():
             raise _stopped(problem, problem.end_time, "the state, its norms or its energy overflow")
@@ -128,32 +151,116 @@ def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
     return IntegrationError(f"{problem.solver['name']} stopped at tau = {time:.6g}: {reason}")
 
 
-def _simulate_to_error(problem: Problem, reduction: Reduction | None) -> Trajectory:
-    """Return the first run that agrees with the one before it as closely as was asked for.
+# --- A run to an error ----------------------------------------------------------------------------
 
-    No tolerance promises an error, least of all where the motion is chaotic. So the run is
-    repeated at a hundredth of the tolerance until two in a row agree; the finer of them is
-    returned, and its controls say which error was asked for and which was estimated. The solver is
-    `taylor`, the fastest on the paper's chains at small errors (see docs/accuracy_and_speed.md).
+SNAPSHOTS = 20
+"""The fields of two runs are compared at least so many times, if the problem names no number."""
+MARGIN = 2.0
+"""Two families do not err alike: the larger of their errors is at most so many times what they are
+apart."""
+ALIKE = 0.1
+"""A method agrees with itself where a finer tolerance moves it by less than this part of what two
+methods are apart."""
+
+
+def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) -> Trajectory:
+    """Return the trajectory of a problem whose solver is {"name": "auto", "error": ...}.
+
+    No tolerance promises an error, least of all where the motion is chaotic, and no method sees a
+    fault of its own. So two families run the problem, at finer tolerances until what they are apart
+    is within the error. If each of them agrees with itself and not with the other, one is wrong,
+    and a third method decides which.
+
+    `make` runs a problem by a solver with a name. The controls of the trajectory say which method
+    made it, which error was asked for and which was estimated, and by which method. Raises
+    IntegrationError where the families do not agree to the error.
     """
-    error = problem.solver["error"]
-    tolerance = min(error, 1e-4)
-    coarse = simulate(problem.changed(solver=_taylor(tolerance)), reduction)
-    while tolerance > FINEST:
-        tolerance = max(REFINEMENT * tolerance, FINEST)
-        fine = simulate(problem.changed(solver=_taylor(tolerance)), reduction)
-        differences = norm_difference(coarse.linf, coarse.l2, fine.linf, fine.l2)
-        if differences.max() <= error:
-            estimate = float(differences.max())
-            asked = {"requested_error": error, "estimated_error": estimate}
-            return fine._replace(solver={**fine.solver, **asked})
-        coarse = fine
-    lost = fine.tau[np.argmax(differences > error)]
-    raise IntegrationError(
-        f"auto: runs in double precision agree to {error:g} only before tau = {lost:g}: "
-        "end the run earlier, or ask for a larger error"
-    )
+    every = problem.snapshot_every or max(1, (len(problem.times) - 1) // SNAPSHOTS)
+    runs = _Runs(problem.changed(snapshot_every=every), problem.solver["error"], make)
+    names = pair_of(integration_of(problem).solvers)
+    try:
+        found = runs.agreeing(names)
+    except GaveUpError:
+        if names[0] != "taylor":
+            raise
+        found = runs.agreeing(pair_of(("dop853", "ode45")))  # a power series ends on the way
+    return found if problem.snapshot_every else without_snapshots(found)
 
 
-def _taylor(tolerance: float) -> dict[str, Any]:
-    return {"name": "taylor", "rtol": tolerance, "atol": tolerance}
+class _Runs(NamedTuple):
+    """Runs of one problem by several methods, whose fields are kept at the same times."""
+
+    problem: Problem
+    error: float
+    make: Callable[[Problem], Trajectory]
+
+    def by(self, name: str, tolerance: float) -> Trajectory:
+        """Return the trajectory by a method at a tolerance."""
+        solver = {"name": name, "rtol": tolerance, "atol": tolerance}
+        return self.make(self.problem.changed(solver=solver))
+
+    def apart(self, one: Trajectory, other: Trajectory) -> Agreement:
+        """Return how far two trajectories are apart."""
+        return compare(one, other, self.problem.snapshot_every)
+
+    def agreeing(self, names: tuple[str, str]) -> Trajectory:
+        """Return the run of the first method that agrees with one of the second."""
+        tolerance, before = first_tolerance(self.error, angle_of(self.problem)), None
+        while True:
+            pair = tuple(self.by(name, tolerance) for name in names)
+            between = self.apart(*pair)
+            if MARGIN * between.largest <= self.error:
+                return self.accepted(*pair)
+            if before:
+                moved = max(self.apart(*same).largest for same in zip(before, pair, strict=True))
+                if moved < ALIKE * between.largest:
+                    return self.supported(pair, between)
+            if tolerance <= FINEST:
+                break
+            before, tolerance = pair, next_tolerance(tolerance, self.error / between.largest)
+        lost = between.first_above(self.error / MARGIN)
+        raise IntegrationError(
+            f"auto: runs in double precision agree to {self.error:g} only before tau = {lost:g}: "
+            "end the run earlier, or ask for a larger error"
+        )
+
+    def accepted(self, one: Trajectory, other: Trajectory, **more: str) -> Trajectory:
+        """Return the first of two trajectories, whose controls say how far it is true."""
+        estimate = MARGIN * self.apart(one, other).largest
+        found = {"requested_error": self.error, "estimated_error": estimate}
+        solver = {**one.solver, **found, "agrees_with": other.solver["name"], **more}
+        return one._replace(solver=solver)
+
+    def supported(self, pair: tuple[Trajectory, ...], between: Agreement) -> Trajectory:
+        """Return which of two trajectories a third method supports.
+
+        Each of the two methods agrees with itself and not with the other, so that one is wrong.
+        """
+        names = [one.solver["name"] for one in pair]
+        differ = f"{names[0]} and {names[1]} differ by {between.largest:.1e} at any tolerance"
+        third = third_of(names)
+        if third:
+            tolerance = first_tolerance(0.1 * self.error, angle_of(self.problem))
+            judge = self.by(third, tolerance)
+            for one in reversed(pair):
+                if MARGIN * self.apart(one, judge).largest <= self.error:
+                    name = one.solver["name"]
+                    return self.accepted(one, judge, disagreement=f"{differ}; {third} like {name}")
+        supports = f"and {third} supports neither" if third else "and no third method can decide"
+        since = between.first_above(self.error / MARGIN)
+        raise IntegrationError(
+            f"auto: {differ}, from tau = {since:g} on, {supports}: ask for a larger error, or run "
+            "both by name and compare"
+        )
+
+
+def angle_of(problem: Problem) -> float:
+    """Return a bound of the angle in radians by which the data turn in a run."""
+    peak = float(np.abs(np.ascontiguousarray(problem.initial).view(float)).max(initial=0.0))
+    return sum(integration_of(problem).rates(problem, peak).values()) * problem.end_time
+
+
+def without_snapshots(run: Trajectory) -> Trajectory:
+    """Return a trajectory without the snapshots that were kept to compare it."""
+    kept = None if run.snapshots is None else run.snapshots[..., :0]
+    return run._replace(modulus=run.modulus[..., :0], snapshots=kept)

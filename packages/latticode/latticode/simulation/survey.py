@@ -67,13 +67,24 @@ class Surveyed(Sequence):
     def __len__(self) -> int:
         return prod(self.shape)
 
-    def __getitem__(self, number: int) -> Problem:
-        if not 0 <= number < len(self):
-            raise IndexError(f"there is no run {number}")
+    def values_of(self, number: int) -> dict[str, Any]:
+        """Return what a run changes, by name; members are not among it."""
         place = np.unravel_index(number, self.shape) if self.shape else ()
         values: dict[str, Any] = {}
         for names, axis, i in zip(self.names, self.survey.axes.values(), place, strict=False):
             values |= zip(names, axis[i] if len(names) > 1 else [axis[i]], strict=True)
+        return values
+
+    def place_of(self, number: int) -> str:
+        """Return where a run stands in the survey: "omega = 2, member 5"."""
+        named = [f"{name} = {value:g}" for name, value in self.values_of(number).items()]
+        members = self.survey.members
+        return ", ".join([*named, *([f"member {number % members.count}"] if members else [])])
+
+    def __getitem__(self, number: int) -> Problem:
+        if not 0 <= number < len(self):
+            raise IndexError(f"there is no run {number}")
+        values = self.values_of(number)
         changes: dict[str, Any] = {**self.survey.by_half_width.get(values.get("half_width"), {})}
         initial = None
         for name, value in values.items():

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from latticode.integrators.families import other_family, remark_on
 from latticode.measures.difference import VISIBLE, first_above, norm_difference
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
@@ -20,8 +21,9 @@ from .systems import integration_of
 def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str, np.ndarray]:
     """Return a whole survey, each of the survey's shape and behind it what is kept.
 
-    A run that cannot be made to its end has NaN. Raises ValueError for what cannot be kept or
-    changed.
+    A run that cannot be made to its end has NaN, and its reason in "failure"; a run that is not by
+    the solver of the problem has its reason in "remark". A line is printed of each kind. Raises
+    ValueError for what cannot be kept or changed.
     """
     names_of(survey)
     known = {**problem.model.parameters, **problem.parameters}
@@ -29,18 +31,34 @@ def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str
     for name in (name for axis in survey.axes for name in names_of_axis(axis)):
         if fault := fault_of_axis(name, known, range(-reach, reach + 1), fields):
             raise ValueError(f"axes: {fault}")
-    found = run(Surveyed(problem, survey), partial(_kept_of, survey=survey))
+    problems = Surveyed(problem, survey)
+    found = run(problems, partial(_kept_of, survey=survey))
+    texts = found.pop(TEXT)
+    for kind, what in (("failure", "failed and have NaN"), ("remark", "are by another solver")):
+        chosen = np.char.startswith(texts, kind)
+        if chosen.any():
+            found[kind] = np.char.replace(np.where(chosen, texts, ""), f"{kind}: ", "", 1)
+            first = int(chosen.argmax())
+            at = problems.place_of(first)
+            count = f"{chosen.sum()} of {len(problems)} runs {what}"
+            print(f"{count}; the first, {at}: {found[kind][first]}", flush=True)
     return shaped(found, survey.shape)
+
+
+TEXT = "text"
+"""Under which name a run keeps why it failed, or why it is by another solver; empty if neither."""
 
 
 def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:
     """Return what is kept of one run."""
     fields = len(problem.initial)
     try:
-        run = simulate(problem, energy=False)
-    except IntegrationError:
-        run = None
-    found = {}
+        run, text = simulate(problem, energy=False), ""
+        if remark := remark_on(run.solver):
+            text = f"remark: {remark}"
+    except IntegrationError as error:
+        run, text = None, f"failure: {error}"
+    found = {TEXT: text}
     for kept in survey.keep:
         if callable(kept):
             found[kept.__name__] = np.nan if run is None else kept(problem, run)
@@ -76,9 +94,7 @@ def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
 
 def _divergence(problem: Problem, run: Trajectory) -> float:
     """Return the first time at which a run by another method differs by the visible part."""
-    other = "dop853" if problem.solver["name"] in ("taylor", "auto") else "taylor"
-    if other not in integration_of(problem).solvers:
-        other = "ode45"
+    other = other_family(run.solver["name"], integration_of(problem).solvers)
     try:
         again = simulate(
             problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), energy=False

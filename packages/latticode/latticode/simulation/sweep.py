@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from latticode.integrators.families import remark_on
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.problem import Problem
 
@@ -29,13 +30,16 @@ def sweep(
     and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
     problem = problem.changed(snapshot_every=0)
-    alike, enough, inside = not site_dependent(problem), np.inf, None
+    alike, enough, inside, printed = not site_dependent(problem), np.inf, None, False
 
     def make(one: Problem) -> dict[str, np.ndarray]:
-        nonlocal enough, inside
+        nonlocal enough, inside, printed
         if one.half_width >= enough:
             return inside
         trajectory = simulate(one, energy=False)
+        if (remark := remark_on(trajectory.solver)) and not printed:
+            print(f"half-width {one.half_width}: {remark}", flush=True)
+            printed = True
         found = windowed(trajectory, windows)
         if alike and _is_inside(trajectory):
             enough, inside = one.half_width, found

@@ -1,5 +1,7 @@
 """Exponents of growth laws and of tangent vectors, with their errors; and what is chaotic."""
 
+from time import perf_counter
+
 import numpy as np
 import pytest
 from latticode.measures.growth import (
@@ -61,6 +63,20 @@ TIMES = np.linspace(0.0, 20.0, 1001)
 def test_errors_made_all_along_grow_to_their_integral(rate, size, expected):
     log = amplification(TIMES, rate * TIMES, size)
     np.testing.assert_allclose(log[5:], expected, atol=0.02)
+
+
+def test_the_sum_of_errors_takes_a_time_that_grows_with_the_run_and_no_faster():
+    """The sum over all earlier errors, written out, beside the one that is carried along."""
+    rng = np.random.default_rng(1)
+    tau, growth = np.linspace(0, 500, 2001), np.cumsum(rng.normal(0.02, 0.1, 2001))
+    size = 1 + rng.random(2001)
+    made = np.log(size[1:] * np.diff(tau)) - growth[1:]
+    sums = np.log([np.exp(made[: i + 1] - made[: i + 1].max()).sum() for i in range(2000)])
+    sums += np.maximum.accumulate(made) + growth[1:] - np.log(size[1:])
+    np.testing.assert_allclose(amplification(tau, growth, size)[1:], sums, rtol=0, atol=1e-13)
+    began = perf_counter()
+    amplification(np.linspace(0, 8000, 32001), np.zeros(32001), np.ones(32001))
+    assert perf_counter() - began < 2.0  # 60 s where each sum begins anew
 
 
 def test_a_thousandth_of_the_error_diverges_later_by_its_logarithm_over_the_rate():

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from latticode.datasets.trajectories import Contents, sweep_contents, trajectory_contents
+from latticode.integrators.families import remark_on
 from latticode.simulation.runs import Run
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import sweep
@@ -13,6 +14,8 @@ from pendula.problem import Problem
 def run_case(name: str, problem: Problem) -> Contents:
     """Return the observables of a case."""
     result = simulate(problem)
+    if remark := remark_on(result.solver):
+        print(f"{name}: {remark}")
     if "iterations" in problem.solver and result.outcome.rejected:
         cut = result.outcome.rejected
         print(f"{name}: the iteration did not contract; {cut} steps were cut")

@@ -1,0 +1,126 @@
+"""auto and check judge a method by one of another family, so that its own faults are seen."""
+
+import numpy as np
+import pytest
+from latticode import Case, Model, lap, simulate, sin, sqrt
+from latticode.checks import run_again
+from latticode.datasets.netcdf import as_xarray
+from latticode.datasets.trajectories import trajectory_contents
+from latticode.integrators.families import other_family
+from latticode.simulation import simulate as simulation
+from latticode.simulation.integration import IntegrationError
+from latticode.simulation.systems import integration_of
+from planted import EXTRA_TURN, lattice, problem, with_wrong
+from scipy.integrate import solve_ivp
+
+AUTO = {"name": "auto", "error": 1e-9}
+
+
+def true_final(one):
+    """Return the fields at the end of a run of the planted lattice, by SciPy on plain NumPy."""
+
+    def rate(t, u):
+        lap_u = np.append(u[1:], u[-1]) - 2 * u + np.append(u[:1], u[:-1])
+        return -1j * (lap_u + np.abs(u) ** 2 * u)
+
+    start = one.amplitudes[0]
+    return solve_ivp(rate, (0, one.end_time), start, method="DOP853", rtol=1e-12, atol=1e-13).y.T[
+        -1
+    ]
+
+
+# --- auto
+
+
+def test_auto_leaves_a_taylor_method_whose_phases_alone_are_wrong():
+    one = problem(with_wrong(), solver=AUTO)
+    found = simulation.simulate(one)
+    assert found.solver["name"] == "dop853" and found.solver["agrees_with"] == "ode45"
+    assert "taylor and dop853 differ by 5" in found.solver["disagreement"]
+    error = np.abs(found.final[0] - true_final(one)).max() / found.linf.max()
+    assert error < found.solver["estimated_error"] <= AUTO["error"]
+
+
+def test_auto_raises_where_no_third_method_can_decide():
+    one = problem(with_wrong(("dop853",), without_taylor(lattice())), solver=AUTO)
+    with pytest.raises(IntegrationError, match=r"dop853 and ode45 differ by .* no third method"):
+        simulation.simulate(one)
+
+
+def test_auto_raises_where_three_methods_follow_three_motions():
+    model = with_wrong(("ode45",), with_wrong(("taylor",)), rate=-EXTRA_TURN)
+    one = problem(model, solver=AUTO)
+    with pytest.raises(IntegrationError, match="and ode45 supports neither: ask for a larger"):
+        simulation.simulate(one)
+
+
+def without_taylor(model):
+    """Return a model whose equations have no power series."""
+    right = integration_of(problem(model))
+    solvers = {name: one for name, one in right.solvers.items() if name != "taylor"}
+    model.integration = right._replace(solvers=solvers)
+    return model
+
+
+PHASES = Model(
+    fields="u", parameters={"w": lambda n: 0.1 * n},
+    i_dt=lambda p, u: 1j * (p.w + sin(u.right.real - u.real) + sin(u.left.real - u.real)),
+)  # fmt: skip
+CHAIN = Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - sin(x))
+DRAG = Model(fields="x", parameters={}, d2_dt2=lambda p, x, v: lap(x) - sin(x) - sqrt(v * v) * v)
+
+
+@pytest.mark.parametrize("model", [PHASES, CHAIN, DRAG])
+@pytest.mark.parametrize("error", [1e-4, 1e-9])
+def test_the_stated_error_bounds_the_true_one_whether_or_not_there_is_a_series(model, error):
+    case = Case(model=model, half_width=4, boundary="free", initial={0: [1], 1: [0.4]}, end_time=20)
+    run = simulate(case.changed(solver={"name": "auto", "error": error}))
+    n = np.arange(-4, 5)
+    start = np.zeros((2, 9))
+    start[0, 4:6] = 1.0, 0.4
+
+    def rate(t, flat):
+        x, v = flat.reshape(2, 9)
+        right, left = np.append(x[1:], x[-1]), np.append(x[:1], x[:-1])
+        if model is PHASES:
+            return np.ravel([0.1 * n + np.sin(right - x) + np.sin(left - x), 0.0 * v])
+        drag = np.abs(v) * v if model is DRAG else 0.0
+        return np.ravel([v, right - 2 * x + left - np.sin(x) - drag])
+
+    exact = solve_ivp(rate, (0, 20), start.ravel(), method="DOP853", rtol=1e-13, atol=1e-13).y.T[-1]
+    off = np.abs(run["final"].values[:, 0] - exact.reshape(2, 9)).max() / float(run["linf"].max())
+    assert off < run.attrs["solver_estimated_error"] <= error
+
+
+# --- check
+
+
+def dataset(one):
+    """Return the run of a problem as `simulate` of a notebook does."""
+    return as_xarray(*trajectory_contents("run", one, simulation.simulate(one)))
+
+
+def test_check_reports_phases_that_are_wrong_though_all_norms_are_right():
+    one = problem(with_wrong(), snapshot_every=5)
+    found = run_again(one, dataset(one))
+    assert float(found["difference"].max()) < 1e-11 and found.attrs["second_name"] == "dop853"
+    expected = 2 * np.sin(0.5 * EXTRA_TURN * found["kept_tau"])
+    scale = found["field_difference"] / expected.where(expected > 0)
+    assert ((scale > 0.3) | scale.isnull()).all() and (scale.max() <= 1.001)
+    assert float(found["largest_difference"]) == float(found["field_difference"].max())
+    slow = problem(with_wrong(), snapshot_every=20, end_time=30.0)
+    assert 10.0 <= float(run_again(slow, dataset(slow))["divergence_time"]) <= 24.0
+
+
+def test_check_judges_the_fields_of_the_run_that_it_is_given():
+    one = problem(lattice(), snapshot_every=10)
+    run = dataset(one)
+    assert float(run_again(one, run)["largest_difference"]) < 1e-11
+    run["final"] = -run["final"]
+    assert float(run_again(one, run)["largest_difference"]) > 0.5
+
+
+@pytest.mark.parametrize("solver", ["taylor", "dop853", "ode45", "crank_nicolson", "kahan_li"])
+@pytest.mark.parametrize("known", [("taylor", "dop853", "ode45"), ("dop853", "ode45")])
+def test_no_method_is_judged_by_itself(solver, known):
+    assert other_family(solver, known) in set(known) - {solver}
