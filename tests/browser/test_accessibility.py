@@ -43,7 +43,7 @@ def find_violations(browser, axe: str) -> list[str]:
 
 @pytest.mark.parametrize("name", ["article", "report", "live"])
 def test_a_page_has_no_fault_in_both_themes_and_at_three_widths(browser, axe, pages, name):
-    browser.set_script_timeout(120)
+    browser.set_script_timeout(600)
     faults = set()
     for theme in THEMES:
         features = [{"name": "prefers-color-scheme", "value": theme}]

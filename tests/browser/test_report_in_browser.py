@@ -3,6 +3,8 @@
 import json
 
 import pytest
+from latticode.datasets.json_files import load_json
+from pendula.ledger.rows import on_figure
 from waiting import wait_for
 
 PHONE = 600
@@ -31,6 +33,53 @@ def test_no_errors_and_no_request_but_the_page_and_its_pictures(report, address)
     asked = {url for url in asked if not url.startswith(own)}
     beside = address.replace("report.html", "figures/")
     assert {url for url in asked if not url.startswith(beside)} == {address}
+
+
+def visible_claims(report) -> list[str]:
+    """Return the names of the claims that are not filtered out, with their parts unfolded."""
+    shown = "document.querySelectorAll('.claim:not([hidden])')"
+    return run(report, f"[...{shown}].map((one) => one.id.slice(6))")
+
+
+@pytest.mark.parametrize(
+    ("control", "value", "keep"),
+    [
+        ("verdict", "confirmed", lambda row: row["verdict"] == "confirmed"),
+        ("section", "4", lambda row: row["section"] == 4),
+        ("kind", "theorem", lambda row: row["kind"] == "theorem"),
+        ("figure", "5", lambda row: row in on_figure([row], 5)),
+        ("search", "Theorem 2", lambda row: "theorem 2" in (row["place"] + row["says"]).lower()),
+    ],
+)
+def test_claims_are_filtered(report, full_run, control, value, keep):
+    rows = load_json(full_run / "results/claims.json")["rows"]
+    expected = {row["name"] for row in rows if keep(row)}
+    set_value = f"document.getElementById('{control}').value = '{value}'; filter();"
+    report.execute_script(set_value)
+    shown = set(visible_claims(report))
+    assert expected and (expected == shown if control != "search" else expected <= shown)
+    assert len(shown) < len(rows)
+    assert run(report, "matches.textContent") == f"{len(shown)} of {len(rows)} claims"
+    report.find_element("css selector", ".filters button").click()
+    wait_for(lambda: len(visible_claims(report)) == len(rows))
+
+
+def test_a_count_in_the_table_of_figures_shows_all_claims_that_it_counts(report, full_run):
+    rows = load_json(full_run / "results/claims.json")["rows"]
+    for link in report.find_elements("css selector", "a[data-filter]"):
+        count = int(link.text.split()[0])
+        report.execute_script("arguments[0].click()", link)
+        names = visible_claims(report)
+        assert len(names) == count
+        verdicts = {row["verdict"] for row in rows if row["name"] in names}
+        assert verdicts == {link.text.partition(" ")[2]}
+        seen = "(name) => document.getElementById(`claim_${name}`).checkVisibility()"
+        assert run(report, f"{names}.every({seen})")
+
+
+def test_a_phone_needs_fewer_than_forty_screens(report):
+    resize(report, 390, 844)
+    assert run(report, "document.documentElement.scrollHeight / innerHeight") < 40
 
 
 def open_all(report) -> None:

@@ -17,7 +17,7 @@ from pendula.ledger.rows import counted, counted_origins, on_figure, whether_it_
 from pendula.sources import TOOK
 
 from .described import Dataset, Figure, dataset, figure
-from .page import render
+from .page import render, script_of_report
 from .words import number, plainly, symbols
 
 TITLE = "Coupled pendula under a PT-symmetric drive"
@@ -45,6 +45,7 @@ class Section(NamedTuple):
     tables: list[Table] = []
     figures: list[Figure] = []
     claims: list[dict[str, Any]] = []
+    filters: list[tuple[str, str, list[str]]] = []
     datasets: Mapping[str, list[Dataset]] = {}
 
 
@@ -70,7 +71,7 @@ def write_report(
     ]  # fmt: skip
     title = f"{TITLE}: the paper, {'with other settings' if differs else 'replicated'}"
     first = {"verdict": "; ".join(counted(rows)), "differs": [*differs.values()]}
-    write_page(html, "report.html.j2", title, sections, **first)
+    write_page(html, "report.html.j2", title, sections, **first, **script_of_report())
 
 
 def write_page(html: str, template: str, title: str, sections: list[Section], **values) -> None:
@@ -96,9 +97,12 @@ def _of_figure(which: int, shown: Figure, rows: list[dict]) -> tuple:
     first = {row["verdict"]: row["name"] for row in reversed(rows)}
     count = Counter(row["verdict"] for row in rows)
     links = [
-        Markup('<a href="#claim_{}">{} {}</a>').format(first[one], count[one], one)
-        for one in map(str, Verdict) if one in count
-    ]  # fmt: skip
+        Markup('<a href="#claim_{}" data-filter="figure={}&verdict={}">{} {}</a>').format(
+            first[verdict], which, verdict, count[verdict], verdict
+        )
+        for verdict in map(str, Verdict)
+        if verdict in count
+    ]
     return name, whether_it_holds(rows), Markup(", ").join(links)
 
 
@@ -109,7 +113,8 @@ def _claims(rows: list[dict]) -> list[Section]:
         "Claims that are not reproduced, do not carry over, do not follow, or cannot be decided:"
         f" {counted_origins(others) or 'none'}"
     )
-    found = [Section("claims", title, lines=counted(rows), claims=list(map(_claim, others)))]
+    shown = {"lines": counted(rows), "claims": list(map(_claim, others))}
+    found = [Section("claims", title, **shown, filters=_filters(rows))]
     for verdict in FOLDED:
         if same := [row for row in rows if row["verdict"] == verdict]:
             title = f"{len(same)} claims {verdict}: {counted_origins(same)}"
@@ -118,14 +123,27 @@ def _claims(rows: list[dict]) -> list[Section]:
     return found
 
 
+def _filters(rows: list[dict]) -> list[tuple[str, str, list[str]]]:
+    """Return the choices by which a reader filters claims: key, label and values of each."""
+    figures = [str(n) for n in range(1, len(PAPERS) + 1) if on_figure(rows, n)]
+    verdicts = {row["verdict"] for row in rows}
+    return [
+        ("verdict", "Verdict", [verdict for verdict in map(str, Verdict) if verdict in verdicts]),
+        ("figure", "Figure", figures),
+        ("section", "Section", sorted({str(row["section"]) for row in rows}, key=int)),
+        ("kind", "Kind", sorted({row["kind"] for row in rows})),
+    ]
+
+
 def _claim(row: dict) -> dict[str, Any]:
     """Return a row of the ledger as a page shows it."""
     because = row["because"]
     return {
-        **{key: row[key] for key in ("name", "place", "kind", "verdict")},
+        **{key: row[key] for key in ("name", "place", "kind", "verdict", "section", "function")},
+        "figures": [n for n in range(1, len(PAPERS) + 1) if on_figure([row], n)],
         **{key: symbols(row[key]) for key in ("says", "criterion")},
         "because": symbols(because[:1].upper() + because[1:]),
-        "measured": [f"{plainly(key)} = {_value(one)}" for key, one in row["measured"].items()],
+        "measured": [(plainly(key), _value(value)) for key, value in row["measured"].items()],
         "thresholds": [
             f"{_value(one['value'])} ({symbols(one['from'])})" for one in row["cutoffs"]
         ],

@@ -24,8 +24,14 @@ def render(template: str, folder: Path = HERE, **values) -> str:
         lstrip_blocks=True,
     )
     style = (HERE / "style.css").read_text(encoding="utf-8")
-    own = {"style": Markup(style), "style_hash": digest(style)}
-    return environment.get_template(template).render(**own | values)
+    common = {"style": Markup(style), "style_hash": digest(style), "script": ""}
+    return environment.get_template(template).render(**common | values)
+
+
+def script_of_report() -> dict[str, str]:
+    """Return the script that filters the claims of a report, and its hash, for its template."""
+    script = (HERE / "report.js").read_text(encoding="utf-8")
+    return {"script": Markup(script), "script_hash": digest(script)}
 
 
 def digest(text: str) -> str:
