@@ -138,10 +138,17 @@ for name, (text, files) in NAMED.items():
     made.docstring = text
 
 
-# Of a target, whose files may be hundreds, Snakemake says in one line that they are there.
+# A target may have hundreds of input files: print one line, with the file to begin with, once all of
+# them are ready. In the list of all targets a star marks those that people use most.
+MOST_USED = """
+    all paper figures theory own report article live figure_diff accept_figures archive unbounded speed
+""".split()
 for target in workflow.rules:
     if not target.output and not target.message:
-        target.message = f"Ready: {target.docstring}"
+        place = "" if "results/" in target.docstring else "; begin with {input[0]}"
+        target.message = f"Ready: {target.docstring}{place}"
+    if target.name in MOST_USED:
+        target.docstring = f"* {target.docstring}"
 
 
 onstart:
