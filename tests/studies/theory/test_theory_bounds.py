@@ -100,6 +100,18 @@ def test_a_tiny_wave_reaches_what_the_linear_equations_say(monkeypatch, sites):
     assert found["least_constant"] == pytest.approx(growth, rel=1e-6)
 
 
+def test_above_the_bottom_of_the_energy_a_rough_wave_comes_nearer_to_the_bound_of_theorem_3():
+    """With x^2 = 60 on N sites P = 120 N. In H the ends cost 4 x^2 / N a site.
+
+    Neighbours differ by 2 x, but the last ones differ from those at rest beyond the ends by x.
+    """
+    sites = theorems.LONG
+    energy = (0.5 * 60.0**2 - 20.0 * 60.0) * sites + 4.0 * 60.0
+    bound = 4.0 * sites * (10.0 + np.sqrt(100.0 + 0.5 * energy / sites))
+    reached = check_sharpness()["data_vars"]["reached"]["data"][2]
+    assert reached == pytest.approx(120.0 * sites / bound, rel=1e-12) and reached > 0.999
+
+
 def test_the_largest_power_of_an_energy_has_that_energy():
     sites, energy = 7, -2.5
     power = largest_of_energy(constants_of((1.0, 1.0, 0.0)), sites, energy)

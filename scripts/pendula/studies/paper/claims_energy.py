@@ -35,7 +35,8 @@ def drifts(solvers, size: str) -> Finding:
             by_case.setdefault(case, []).append(measured[name] <= allowed)
     beyond = [case for case, kept in by_case.items() if not any(kept)]
     open_ = [case for case, kept in by_case.items() if any(kept) and not all(kept)]
-    words = [f"it is larger by every definition in {', '.join(beyond)}"] if beyond else []
+    each = "absolute or relative, with complex or real unknowns"
+    words = [f"it is larger in {', '.join(beyond)} ({each})"] if beyond else []
     words += [f"the definition decides in {', '.join(open_)}"] if open_ else []
     said = f"the drift may be {ORDER.value:g} times the stated one; {', and '.join(words)}"
     if (open_ and not beyond) or np.isnan([*measured.values()]).any():
