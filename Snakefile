@@ -111,12 +111,21 @@ LONGER_STUDIES = {
     "fates": "The map of fates on a fine grid, which takes minutes",
     "over_the_top": "First passages of the pendula over the top, with many members for long",
 }
+OTHER_CHOICES = {  # what these print is measured again with other choices
+    "fates": datasets("long/breathers", "areas", "least_power"),
+    "over_the_top": datasets("long/pendula", "varied"),
+}
 for name, text in LONGER_STUDIES.items():
     figure = name if name in FIGURES else f"pendula_{name}"
-    NAMED[name] = f"{text}: results/long/figures/", files_of(f"<results>/long/figures/{figure}")
+    files = [*files_of(f"<results>/long/figures/{figure}"), *OTHER_CHOICES[name]]
+    NAMED[name] = f"{text}: results/long/figures/", files
 NAMED["sensitivity"] = (
     "Share of a perturbed ensemble that spreads, with many members: results/long/breathers/",
-    ["<results>/long/breathers/sensitivity.nc"],
+    datasets("long/breathers", "sensitivity", "shares"),
+)
+NAMED["transition"] = (
+    "The transition at Omega = 0 by two clocks, with many members: results/long/chaos/",
+    datasets("long/chaos", "lifetimes"),
 )
 for case in PAPER_CASES:
     runs = [f"{case}.{solver}" for solver in ALL_SOLVERS]

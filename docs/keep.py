@@ -1,8 +1,8 @@
 """Keep what the README and docs/ quote of long studies, which no full run makes.
 
-Run as `python docs/keep.py results` after `snakemake unbounded`, `over_the_top`, or
-`fates sensitivity`, if a long study was made anew. It reduces the studies of the infinite
-chain, of pendula over the top and of breathers to what is quoted, in tests/baseline/quoted.
+Run as `python docs/keep.py results` after `snakemake unbounded`, `transition`, `over_the_top`, or
+`fates sensitivity`, if a long study was made anew. It reduces the studies to what is quoted, in
+tests/baseline/quoted.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -18,6 +18,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts")]
 
+import pendula.names  # noqa: E402, F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import read, save  # noqa: E402
 from latticode.measures.spreading import fit_exponent  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
@@ -84,20 +85,25 @@ def _exponent(run: xr.Dataset, variant: int = 0):
     return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
-def of_pendula(folder: Path) -> xr.Dataset:
-    """Return at the end of the runs the shares, and the rates, of passages over the top."""
-    study = read(folder / "over_the_top.nc")
-    names = [name for name in study.data_vars if name.startswith(("passage_rate", "passed"))]
-    last = study[names].isel(tau=-1, drop=True)
-    return _about(last, study, "members", "end_time", "settled")
+def of_numbers(path: Path, *names: str) -> xr.Dataset:
+    """Return the numbers of a study with their variations, and attributes that are named."""
+    study = read(path)
+    return _about(study, study, "members", "end_time", *names)
 
 
 def of_breathers(folder: Path) -> xr.Dataset:
-    """Return the map of fates, and the shares of runs from perturbed initial conditions."""
-    fates, spread = (read(folder / f"{name}.nc") for name in ("fates", "sensitivity"))
-    shares = spread[["share", "share_low", "share_high"]]
-    kept = _about(xr.merge([fates[["fate"]], shares]), fates, *SAME_RUNS, "solver")
-    return kept.assign_attrs(points=fates.sizes["a0"], members=spread.attrs["members"])
+    """Return the map of fates, and numbers of it and of other studies with their variations."""
+    fates = read(folder / "fates.nc")
+    studies = [read(folder / f"{name}.nc") for name in ("areas", "shares", "least_power")]
+    # text of a fixed length would be cut to the shortest
+    studies = [one.assign_coords(variation=one["variation"].astype(object)) for one in studies]
+    kept = _about(
+        xr.merge([fates[["fate"]], *studies], join="outer", compat="no_conflicts"),
+        fates,
+        *SAME_RUNS,
+        "solver",
+    )
+    return kept.assign_attrs(points=fates.sizes["a0"], members=studies[1].attrs["members"])
 
 
 def _about(data: xr.Dataset, study: xr.Dataset, *names: str) -> xr.Dataset:
@@ -117,7 +123,8 @@ def configuration() -> dict:
     whole = json.loads(load(raw).model_dump_json())
     kept = {name: whole[name] for name in SECTIONS}
     breathers = (kept["breathers"][name] for name in ("sensitivity", "fates"))
-    for long in (kept["unbounded"], *breathers, kept["pendula"]["over_the_top"]):
+    others = (kept["pendula"]["over_the_top"], kept["chaos"]["lifetimes"])
+    for long in (kept["unbounded"], *breathers, *others):
         del long["long"]
     return kept
 
@@ -138,7 +145,8 @@ def main(results: Path, folder: Path = QUOTED) -> None:
     folder.mkdir(exist_ok=True)
     for (study, last), reduced in {
         ("unbounded", "omegas"): of_unbounded,
-        ("pendula", "over_the_top"): of_pendula,
+        ("pendula", "varied"): lambda folder: of_numbers(folder / "varied.nc", "settled"),
+        ("chaos", "lifetimes"): lambda folder: of_numbers(folder / "lifetimes.nc"),
         ("breathers", "fates"): of_breathers,
     }.items():
         if (results / f"long/{study}/{last}.nc").exists():

@@ -41,7 +41,8 @@ class Varied(NamedTuple):
     @property
     def error(self) -> np.ndarray:
         """The larger of the statistical error and the largest change under a variation."""
-        changes = np.abs(np.array(list(self.variations.values())) - self.value)
+        with np.errstate(invalid="ignore"):  # a time that never comes is infinite
+            changes = np.abs(np.array(list(self.variations.values())) - self.value)
         return np.fmax(self.statistical_error, np.fmax.reduce(changes, axis=0))
 
 
@@ -92,7 +93,8 @@ def _varied(estimate: Estimate, choices: dict[str, Any], again: Mapping[str, Any
     parts = [np.asarray(part, float) for part in estimate]
     if limits:
         value, low, high = parts
-        error = np.fmax(value - low, high - value)
+        with np.errstate(invalid="ignore"):  # see `Varied.error`
+            error = np.fmax(value - low, high - value)
     else:
         value, error = parts
     changed = {label: np.asarray(one, float) for label, one in again.items()}

@@ -2,22 +2,63 @@
 
 import keep
 from accepted import BASELINE, dataset
-from latticode.datasets.netcdf import read
+from latticode.datasets.netcdf import read, save
+from pendula.varied import Printed, as_dataset, numbers_in, vary
+
+MADE_UP = vary(lambda seed: ([0.5 * seed], [0.1]), {"seed": [1, 2]})
+ATTRIBUTES = {"title": "of a test", "members": 8, "end_time": 50.0, "settled": 10.0}
+
+
+def varied(name, dimension):
+    """Return a made-up study with one number and its variation."""
+    numbers = {name: Printed((dimension,), MADE_UP, name)}
+    place = (dimension, [1.0], {"long_name": dimension})
+    return as_dataset(numbers, {dimension: place}).assign_attrs(ATTRIBUTES, seed=1)
 
 
 def test_what_is_kept_has_the_form_of_what_is_quoted(tmp_path):
-    (tmp_path / "long").symlink_to(BASELINE)
+    (tmp_path / "long").mkdir()
+    (tmp_path / "long/unbounded").symlink_to(BASELINE / "unbounded")
     (tmp_path / "unbounded").symlink_to(BASELINE / "unbounded")
     keep.main(tmp_path, tmp_path / "quoted")
-    found = {}
-    for name in ("unbounded", "pendula", "breathers"):
-        found[name], quoted = read(tmp_path / f"quoted/{name}.nc"), dataset(f"quoted/{name}")
-        kept, known = ({key: one.dims for key, one in data.variables.items()}
-                       for data in (found[name], quoted))  # fmt: skip
-        assert kept.items() <= known.items()
-    assert (found["breathers"]["fate"] == dataset("breathers/fates")["fate"]).all()
-    chain, long = found["unbounded"], dataset("quoted/unbounded")
+    chain, long = read(tmp_path / "quoted/unbounded.nc"), dataset("quoted/unbounded")
+    kept, known = ({key: one.dims for key, one in data.variables.items()}
+                   for data in (chain, long))  # fmt: skip
+    assert kept.items() <= known.items()
     assert chain["power_behind"].equals(dataset("unbounded/fronts")["power_behind"])
     off = {"speed": 0.05, "exponent": 0.05}
     first = {name: abs(chain[name] - long[name])[0] for name in off}
     assert all(first[name] < most for name, most in off.items()), first
+
+
+def test_numbers_are_kept_with_their_variations(tmp_path):
+    """Those of three studies of breathers come together, each with its own variations."""
+    breathers = tmp_path / "long/breathers"
+    breathers.mkdir(parents=True)
+    save(breathers / "fates.nc", dataset("breathers/fates"))
+    for name, number, dimension in (
+        *(("areas", "area", "place"), ("shares", "share", "size")),
+        ("least_power", "least_power", "scan"),
+    ):
+        save(breathers / f"{name}.nc", varied(number, dimension))
+    for place in ("pendula/varied", "chaos/lifetimes"):
+        (tmp_path / "long" / place).parent.mkdir()
+        save(tmp_path / f"long/{place}.nc", varied("rate", "mu"))
+    keep.main(tmp_path, tmp_path / "quoted")
+    found = {
+        name: read(tmp_path / f"quoted/{name}.nc") for name in ("breathers", "pendula", "chaos")
+    }
+    assert {*numbers_in(found["breathers"])} == {"area", "share", "least_power"}
+    assert (found["breathers"]["fate"] == dataset("breathers/fates")["fate"]).all()
+    for name in ("pendula", "chaos"):
+        assert found[name]["rate_error"].item() == 0.5 and found[name].attrs["members"] == 8
+        assert "seed" not in found[name].attrs
+
+
+def test_all_that_is_quoted_of_these_studies_has_variations():
+    """Beside the map of fates, which a figure shows, and the coordinates."""
+    for name in ("breathers", "pendula", "chaos"):
+        quoted = dataset(f"quoted/{name}")
+        numbers = numbers_in(quoted)
+        unvaried = {key for key in quoted.data_vars if not str(key).startswith(tuple(numbers))}
+        assert numbers and unvaried <= {"fate"}, (name, unvaried)

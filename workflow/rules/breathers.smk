@@ -6,6 +6,7 @@ RUN_OF_FATES = {
     **values_of(FATES, "tolerance", "half_width", "end_time"),
     "output_step": FATES.end_time,
 }
+CHOSEN = {"majority": 0.5}
 
 
 use rule dataset as steady_breathers with:
@@ -66,6 +67,57 @@ use rule dataset as map_fates with:
             for omega in FATES.omegas
         },
         amplitudes=lambda wildcards: FATES.amplitudes(of_size(FATES, wildcards).points),
+
+
+use rule dataset as vary_areas with:
+    "The parts of the map of fates at Omega = -4, with each choice changed"
+    input:
+        kernels=kernels("taylor"),
+    pathvars:
+        made="long/breathers/areas",
+    resources:
+        **asked(lambda _: LONG),
+    params:
+        call=function("pendula.studies.breathers.other_choices.vary_areas"),
+        problem=run_of("fig3_large", **values_of(BREATHERS, "epsilon", "gamma"), **RUN_OF_FATES),
+        amplitudes=FATES.amplitudes(FATES.long.points),
+        chosen=CHOSEN | values_of(FATES, "tolerance", "end_time", "half_width") | {"stride": 1},
+        variations=FATES.long.variations,
+
+
+use rule dataset as vary_shares with:
+    "Share of runs that spread, with each choice changed"
+    input:
+        kernels=kernels("taylor"),
+    pathvars:
+        made="long/breathers/shares",
+    resources:
+        **asked(lambda _: LONG),
+    params:
+        **values_of(BREATHERS.sensitivity, "sizes"),
+        **values_of(BREATHERS.sensitivity.long),
+        call=function("pendula.studies.breathers.other_choices.vary_shares"),
+        name=BREATHERS.sensitivity.case,
+        problem=run_of(**values_of(BREATHERS.sensitivity, "case", "tolerance", "end_time")),
+        chosen=CHOSEN
+        | values_of(BREATHERS.sensitivity, "tolerance", "end_time", "seed")
+        | {"half_width": SETTINGS.cases[BREATHERS.sensitivity.case].half_width},
+
+
+use rule dataset as vary_least_power with:
+    "The least P of breathers at Omega = -4, with each choice changed"
+    pathvars:
+        made="long/breathers/least_power",
+    resources:
+        **asked(lambda _: LONG),
+    params:
+        **values_of(BREATHERS.periodic.long, "frequencies", "variations"),
+        call=function("pendula.studies.breathers.other_choices.vary_least_power"),
+        constants=values_of(BREATHERS, "epsilon", "gamma")
+        | values_of(BREATHERS.periodic.long, "omega"),
+        chosen=values_of(BREATHERS.periodic, "half_width")
+        | values_of(BREATHERS.periodic.long, "frequency_step")
+        | {"steps": 40},
 
 
 use rule figure as draw_fates with:

@@ -3,6 +3,7 @@ LYAPUNOV, ENSEMBLES, MEMBERS = (
     getattr(SETTINGS.chaos, name) for name in ("lyapunov", "ensembles", "members")
 )
 LIFETIMES = SETTINGS.chaos.lifetimes
+STARTS, CLOCKS = ("amplitudes", "ratio"), ("size", "seed", "window", "level")
 SPECTRUM = LYAPUNOV.spectrum
 
 
@@ -59,20 +60,36 @@ use rule dataset as measure_members with:
 
 
 use rule dataset as measure_lifetimes with:
-    "Ensembles that show how long the central pair stays excited, by its initial amplitude"
+    "Ensembles that show when the chain turns chaotic and how long its centre stays excited"
     input:
         kernels=kernels("taylor"),
         chunks=parts_of("checks/lifetimes"),
     pathvars:
         made="checks/lifetimes",
     params:
-        **values_of(LIFETIMES, "amplitudes", "ratio", "size", "members", "seed"),
+        **values_of(LIFETIMES, *STARTS, *CLOCKS, "members"),
         call=function("pendula.studies.chaos.lifetimes.measure_lifetimes"),
         problem=run_of(**values_of(LIFETIMES, "case", "tolerance", "end_time", "output_step")),
 
 
+use rule dataset as vary_lifetimes with:
+    "The same times with many members, and again with each choice changed"
+    input:
+        kernels=kernels("taylor"),
+    pathvars:
+        made="long/chaos/lifetimes",
+    resources:
+        **asked(lambda _: LONG),
+    params:
+        **values_of(LIFETIMES, *STARTS),
+        **values_of(LIFETIMES.long),
+        call=function("pendula.studies.chaos.lifetimes.vary_lifetimes"),
+        problem=run_of(**values_of(LIFETIMES, "case", "tolerance", "end_time", "output_step")),
+        chosen=values_of(LIFETIMES, *CLOCKS, "tolerance", "output_step"),
+
+
 use rule figure as lifetimes with:
-    "How long the central pair stays excited, against its initial amplitude"
+    "When the chain turns chaotic, and how long its centre stays excited"
     input:
         lifetimes="<results>/checks/lifetimes.nc",
     pathvars:

@@ -48,7 +48,7 @@ use rule job as article with:
         call=function("pendula.article.write.write_article"),
         committed=committed(
             kept=[
-                "tests/baseline/quoted/unbounded.nc",
+                *("tests/baseline/quoted/unbounded.nc", "tests/baseline/quoted/chaos.nc"),
                 *("tests/baseline/quoted/breathers.nc", "tests/baseline/quoted/pendula.nc"),
                 "tests/baseline/quoted/reproduction.json",
                 "tests/baseline/speed/work_precision.nc",

@@ -35,13 +35,28 @@ use rule dataset as measure_over_the_top with:
     resources:
         **asked(cost_of_study),
     params:
-        **values_of(OVER_THE_TOP, "mus", "size", "seed", "settled"),
+        **values_of(OVER_THE_TOP, "size", "seed", "settled"),
         call=function("pendula.studies.pendula.over_the_top.measure_over_the_top"),
         problem=lambda wildcards: run_of(
             **values_of(OVER_THE_TOP, "case", "tolerance"),
             **values_of(of_size(OVER_THE_TOP, wildcards), "end_time"),
         ),
-        given=sized(OVER_THE_TOP, "members"),
+        given=sized(OVER_THE_TOP, "mus", "members"),
+
+
+use rule dataset as vary_over_the_top with:
+    "The numbers of pendula over the top that the article prints, with each choice changed"
+    input:
+        kernels=kernels("taylor"),
+    pathvars:
+        made="long/pendula/varied",
+    resources:
+        **asked(lambda _: LONG),
+    params:
+        **values_of(OVER_THE_TOP.long),
+        call=function("pendula.studies.pendula.over_the_top.vary_over_the_top"),
+        problem=run_of(**values_of(OVER_THE_TOP, "case", "tolerance")),
+        chosen=values_of(OVER_THE_TOP, "tolerance", "size", "seed", "settled"),
 
 
 use rule figure as draw_over_the_top with:

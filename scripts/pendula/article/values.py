@@ -47,7 +47,7 @@ class Numbers:
     def of(self, name: str, variable: str, digits: int = 3, **labels) -> Quote:
         """Return a number with what the dataset has of its error; a time may never come."""
         data = self.results[name].sel(labels)
-        if f"{variable}_error" in data:
+        if f"{variable}_error" in data and f"{variable}_low" not in data:
             value, error = (float(data[f"{variable}{part}"]) for part in ("", "_error"))
             return self.long(name, with_error(value, error))
         return self._say(name, data, variable, lambda one: number(one, digits))
@@ -55,6 +55,15 @@ class Numbers:
     def share(self, name: str, variable: str, **labels) -> Quote:
         """Return a fraction in per cent."""
         return self._say(name, self.results[name].sel(labels), variable, percent)
+
+    def range_of(self, name: str, variable: str, digits: int = 2, **labels) -> Quote:
+        """Return the range of several numbers, such as 6.9 to 7.5."""
+        return self.long(name, span(self.results[name].sel(labels)[variable].values, digits))
+
+    def share_span(self, name: str, variable: str, **labels) -> Quote:
+        """Return the range of several fractions in per cent."""
+        parts = self.results[name].sel(labels)[variable].values
+        return self.long(name, f"{percent(parts.min())} to {percent(parts.max())}")
 
     def _say(
         self, name: str, data: xr.Dataset, variable: str, write: Callable[[float], str]
@@ -98,7 +107,18 @@ class Numbers:
 def gather(results: Results) -> dict[str, Any]:
     """Return all that the template names: functions of `Numbers`, and numbers made of several."""
     numbers = Numbers(results)
-    functions = ("labels", "of", "share", "n", "share_of", "longest", "verdicts", "figure_holds")
+    functions = (
+        "labels",
+        "of",
+        "share",
+        "range_of",
+        "share_span",
+        "n",
+        "share_of",
+        "longest",
+        "verdicts",
+        "figure_holds",
+    )
     compared, study = results["checks/solvers"], results[LONG]
     return {
         **{name: getattr(numbers, name) for name in functions},
@@ -120,7 +140,6 @@ def gather(results: Results) -> dict[str, Any]:
             for name, ratio in over_thermal(study).items()
         },
         "largest_bound": largest_bound(results),
-        "area_of": lambda fate: area_of(numbers, fate),
         "radius": upward(results["certified/breathers"]["radius"].max()),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
         "by_hand": by_hand(results[f"{KEPT}/speed/work_precision"]),
@@ -177,15 +196,6 @@ def largest_bound(results: Results) -> str:
     """Return the largest proven distance of a computed curve from the true one, rounded upward."""
     proofs = (results[f"{KEPT}/proofs/{case}"] for case in PAPER_CASES)
     return upward(max(one["bound"].max() for one in proofs))
-
-
-def area_of(numbers: Numbers, fate: str) -> Quote:
-    """Return for which part of the data with A_0 and B_0 unequal a run at Omega = -4 ends so."""
-    name = f"{QUOTED}breathers"
-    fates = numbers.results[name].sel(omega=-4.0)
-    place = fates["fate"].attrs["flag_meanings"].split().index(fate)
-    part = (fates["fate"] == place).where(fates["a0"] != fates["b0"]).mean()
-    return numbers.long(name, percent(float(part)))
 
 
 def upward(bound: float) -> str:

@@ -145,7 +145,8 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         of_case = _unbounded([stem]) if folder == "unbounded" else (f"cases.{stem}",)
         return (*of_case, *by)
     if folder == "unbounded":
-        return _unbounded([paper()["unbounded"]["omegas"]["case"]])
+        ensemble = paper()["unbounded"]["starts" if stem == "starts" else "omegas"]
+        return _unbounded([ensemble["case"]])
     sections = _sections(folder, stem)
     part = _at(sections[-1]) if sections else {}
     named = paper()["cases"] if stem in ALL_CASES else part.get("cases", ())

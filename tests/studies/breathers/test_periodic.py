@@ -3,16 +3,22 @@
 import numpy as np
 import pytest
 from on_breathers import ABOVE, BELOW, at_twelve, run_from, unfolded
+from oracle import slope
 from pendula.problem import Constants
+from pendula.studies.breathers.multipliers import growth
 from pendula.studies.breathers.periodic import (
     FAMILIES,
     find,
+    find_soliton,
     highest_wave,
     least_power,
     power,
 )
+from scipy.integrate import solve_ivp
 
 M = 20
+BELOW_AT_4 = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
+"""The detuning of Fig 3."""
 
 
 def after(breather, quarters, change=0.0, steps=1):
@@ -65,3 +71,37 @@ def test_the_end_of_the_chain_does_not_matter_where_tails_are_longest(family):
     off = np.abs(short.data - long.data[:, :25])
     assert off[:, 0].max() < 1e-12 and off.max() < 1e-6
     assert least_power(short) == pytest.approx(least_power(long), rel=1e-10)
+
+
+@pytest.mark.parametrize("frequency", [-3.5, -2.0, 1.0])
+def test_a_soliton_turns_with_its_frequency_by_the_taylor_method(frequency):
+    soliton = find_soliton(BELOW_AT_4, frequency, M)
+    a, b = soliton.data
+    assert np.array_equal(a, b)
+    end = 0.5
+    final = run_from(BELOW_AT_4, unfolded(soliton.data), end, end).final
+    assert np.abs(final - np.exp(-1j * frequency * end) * unfolded(soliton.data)).max() < 1e-11
+
+
+def test_the_power_of_a_soliton_vanishes_towards_the_waves_as_that_of_the_continuum():
+    """There phi is the soliton 2 sqrt(k) / cosh(sqrt(k) n), k = lambda - Omega: P = 16 sqrt(k)."""
+    for k, accuracy in ((0.2, 0.03), (0.1, 0.015)):
+        found = power(find_soliton(BELOW_AT_4, BELOW_AT_4.omega + k, 40).data).sum()
+        assert found == pytest.approx(16.0 * np.sqrt(k), rel=accuracy)
+
+
+def test_a_difference_of_a_and_b_grows_on_a_soliton_at_the_rate_of_its_multiplier():
+    """SciPy's DOP853 follows a small one on plain NumPy for a while, then for two periods."""
+    soliton = find_soliton(BELOW_AT_4, -2.0, M)
+    start = unfolded(soliton.data).astype(complex)
+    start[0, M] += 1e-9
+    period = np.pi  # 2 pi / 2
+    times = np.array([0.0, period, 2.0 * period])
+    run = solve_ivp(
+        lambda _, y: slope(y.reshape(2, -1), (1.0, 1.0, -4.0), "dirichlet").ravel(),
+        (0.0, times[-1]), start.ravel(), "DOP853", times, rtol=1e-13, atol=1e-14,
+    )  # fmt: skip
+    a, b = run.y.reshape(2, -1, 3)
+    apart = np.sqrt((np.abs(a - b) ** 2).sum(axis=0))
+    rate = np.log(apart[2] / apart[1]) / period
+    assert growth(soliton) == pytest.approx(rate, rel=0.01)

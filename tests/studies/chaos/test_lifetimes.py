@@ -1,12 +1,17 @@
-"""Lifetimes: when the centre has its share, and what is made of accepted lives."""
+"""The transition by two clocks: when P has half of its final value, and the centre its share."""
 
 import numpy as np
 import pytest
+import xarray as xr
+from latticode.datasets.netcdf import as_xarray
 from latticode.simulation.simulate import simulate
-from pendula.studies.chaos import lifetimes
+from oracle import slope
+from pendula.studies.chaos import clocks, lifetimes
 from problems import problem_of
+from scipy.integrate import solve_ivp
 
 SOLVER = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
+WINDOW = (15.0, 20.0)
 
 
 def problem(case="fig4_small", a0=1.0, **changes):
@@ -14,20 +19,70 @@ def problem(case="fig4_small", a0=1.0, **changes):
     return problem_of(case, **given | changes)
 
 
+@pytest.mark.parametrize("a0", [1.0, 9.0])
+def test_scipy_sees_the_transition_at_the_same_time(a0):
+    """On plain NumPy by SciPy's DOP853, at a quarter of the final P, which chaos moves a little."""
+    start = np.zeros((2, 61), complex)
+    start[:, 30] = a0, 0.2 * a0
+    tau = np.linspace(0.0, 20.0, 201)
+    run = solve_ivp(
+        lambda _, y: slope(y.reshape(2, 61), (1.0, 1.0, 0.0), "dirichlet").ravel(),
+        (0.0, 20.0), start.ravel(), "DOP853", tau, rtol=1e-9, atol=1e-9,
+    )  # fmt: skip
+    power = (np.abs(run.y) ** 2).sum(axis=0)
+    first = tau[np.argmax(power >= 0.25 * power[tau >= WINDOW[0]].mean())]
+    found = lifetimes.follow(problem(a0=a0), WINDOW, 0.25)
+    assert found["transition"] == pytest.approx(first, abs=0.3) and 3.0 < first < 5.0
+    assert found["l2"] == pytest.approx(np.sqrt(power[tau >= WINDOW[0]]).mean(), rel=0.05)
+
+
 def test_a_life_is_the_same_in_pieces_as_in_one_run():
-    case = problem(a0=2.0)
-    whole = simulate(case.changed(end_time=10.0, snapshot_every=1))
+    """The window ends before the life does, which a second piece follows."""
+    case = problem(a0=5.0)
+    whole = simulate(case.changed(snapshot_every=1))
     first = np.flatnonzero(lifetimes.shares_alike(whole.modulus))[0]
-    time = lifetimes.follow(case)["life"]
-    assert time == pytest.approx(whole.tau[first]) and 0 < time < 10
+    time = lifetimes.follow(case, (3.0, 4.0), 0.5)["life"]
+    assert time == pytest.approx(whole.tau[first]) and 4.0 < time < 14.0
 
 
-@pytest.mark.parametrize(("case", "a0"), [("fig4_small", 10.0), ("fig2_large", 5.0)])
-def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
-    assert lifetimes.follow(problem(case, a0)) == {"life": np.inf}
+def test_a_centre_outlives_the_transition_from_a_large_amplitude_and_not_from_a_small_one():
+    small, large = (lifetimes.follow(problem(a0=a0), WINDOW, 0.5) for a0 in (2.0, 10.0))
+    assert small["life"] < 10.0 and large["life"] == np.inf
+    assert large["transition"] == pytest.approx(small["transition"], rel=0.3)
+    assert large["centre_share"] > 3.0 * small["centre_share"]
+
+
+def test_in_a_stable_case_nothing_is_outlived():
+    """At Omega = 8 the large oscillation stays at the centre: P has its final value at once."""
+    found = lifetimes.follow(problem("fig2_large", 5.0), WINDOW, 0.5)
+    assert found["life"] == np.inf and found["transition"] == 0.0 and found["centre_share"] > 0.5
 
 
 def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
     modulus = np.ones((2, 5, 3))
     modulus[:, 2] = [1.5, 1.0, 0.5]
     assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]
+
+
+def test_limits_are_medians_of_times_and_means_of_the_rest():
+    """Of eleven lives 1 to 10 and one without an end, the median is the sixth."""
+    lives = np.append(np.arange(1.0, 11.0), np.inf)[None, ::-1]
+    over = ("start_amplitude", "member")
+    names = dict.fromkeys(clocks.NUMBERS, (over, lives.clip(max=20.0)))
+    found = clocks.limits_of(xr.Dataset(names).assign(life=(over, lives)))
+    assert [float(limit[0]) for limit in found["life"]] == [6.0, 2.0, 10.0]
+    assert found["l2"].value == pytest.approx(75.0 / 11.0)
+
+
+def test_members_of_the_long_study_are_measured_with_each_choice_changed():
+    chosen = {"tolerance": 1e-7, "output_step": 0.1, "size": 0.01, "seed": 3}
+    chosen |= {"window": (10.0, 12.0), "level": 0.5}
+    case, changes = problem(end_time=12.0), {"level": [0.25], "seed": [4]}
+    data = lifetimes.vary_lifetimes(case, [2.0, 9.0], 0.2, 6, chosen, changes)
+    again = as_xarray(
+        *lifetimes.measure_lifetimes(case, [2.0, 9.0], 0.2, 0.01, 6, 4, (10.0, 12.0), 0.5)
+    )
+    assert data["variation"].values.tolist() == ["seed = 4", "level = 0.25"]
+    expected = np.median(again["transition"], axis=1)
+    np.testing.assert_allclose(data["transition_varied"].sel(variation="seed = 4"), expected)
+    assert (data["transition_varied"].sel(variation="level = 0.25") < data["transition"]).all()

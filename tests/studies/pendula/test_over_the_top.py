@@ -2,9 +2,15 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from latticode.datasets.netcdf import as_xarray
 from on_pendula import pendula
-from pendula.studies.pendula.over_the_top import measure_over_the_top, passage
+from pendula.studies.pendula.over_the_top import (
+    amplitude_power,
+    measure_over_the_top,
+    passage,
+    printed_numbers,
+)
 from problems import problem_of
 
 
@@ -24,6 +30,30 @@ def test_a_pendulum_goes_over_the_top_with_more_energy_than_there(share, goes):
 def test_power_is_that_of_the_amplitudes_of_a_small_swing():
     found = passage(one_pendulum(0.01, end_time=20.0))
     assert found["site_power"] == pytest.approx(2.0 * (0.01 / 0.6) ** 2, rel=0.01)
+
+
+def test_power_of_the_amplitudes_is_that_of_a_site_on_the_same_chain():
+    """On A = B the drive vanishes and P is conserved: 2 * 1.5^2 on three pairs."""
+    case = problem_of("fig4_small", half_width=1, initial={0: (1.5, 1.5)}, end_time=4.0)
+    assert amplitude_power(case)["site_power"] == pytest.approx(2.0 * 1.5**2 / 3.0)
+
+
+def test_power_is_compared_only_where_no_pendulum_is_over_the_top():
+    """All members at mu = 0.1 have 3 % more than the amplitudes; one at 0.2 goes over the top."""
+    study = xr.Dataset(
+        {
+            "passage_time": (("mu", "member"), [[np.inf, np.inf], [3.0, np.inf]]),
+            "site_power": (("mu", "member"), [[20.6, 20.6], [90.0, 20.0]]),
+            "amplitude_power": ("member", [20.0, 20.0]),
+        },
+        {"mu": [0.1, 0.2], "tau": [1.0, 2.0, 4.0]},
+    )
+    for end in ("", "_low", "_high"):
+        passed = (("mu", "tau"), [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5]])
+        study = study.assign({f"passed{end}": passed, f"passage_rate{end}": ("mu", [0.0, 0.1])})
+    found = printed_numbers(study, 2.0)
+    np.testing.assert_allclose(found["power_excess"].value, [0.03, np.nan])
+    np.testing.assert_array_equal(found["passed"].value, [0.0, 0.0])
 
 
 def test_small_mu_stays_below_the_top_and_large_mu_goes_over_it():

@@ -1,5 +1,7 @@
 """What breathers say of the paper's conclusion and of its large case at Omega = -4."""
 
+import numpy as np
+
 from pendula.ledger.changes import exchange, put, scale
 from pendula.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
 from pendula.ledger.claim import Control, claim
@@ -13,6 +15,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )  # fmt: skip
+from pendula.ledger.cutoff import Cutoff
 
 SECTION = 7
 PLACE = "Section 6, breathers"
@@ -25,6 +28,9 @@ OF_FIG_2, OF_FIG_3, OF_FIG_4 = 8.0, -4.0, 0.0
 """Omega of the paper's figures."""
 DATA_POWER = 26.0
 """P of the paper's large data, A_0 = 5 and B_0 = 1."""
+FAR_FROM_THE_WAVES = -3.5
+"""Solitons of a lower frequency are wide and of little P, and waves between the ends shake them."""
+SAME_GROWTH = Cutoff(1e-3, "a rate that adds less than 10 % by the end of the paper's runs")
 
 
 def at_omega(dataset, omega: float):
@@ -48,6 +54,8 @@ def steady_unstable(steady) -> Finding:
     measured = {
         "families": here.sizes["family"],
         "least_growth": here["growth"].min(),
+        "least_power": here["power"].min(),
+        "largest_power": here["power"].max(),
     }
     criterion = AllOf(AtLeast(1, "families"), Above(0.0, "least_growth", says="least growth rate"))
     return judge(measured, criterion)
@@ -63,15 +71,16 @@ def known(periodic):
 
 @claim(
     PLACE,
-    "At the detuning of Fig 3 there are stable breathers, above the frequencies of linear waves.",
+    "At the detuning of Fig 3 there are stable breathers above the frequencies of linear waves: "
+    "those in which A swings more than B, and those with A = -B.",
     (PERIODIC,),
     (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
 )
 def periodic_stable(periodic) -> Finding:
-    """Decide by the family in which A oscillates and B follows by the drive."""
-    here = known(periodic).sel(family="A only")
+    """Decide by the two families that are not on A = B."""
+    here = known(periodic).sel(family=["A only", "A = -B"])
     measured = {
-        "breathers": here.sizes["frequency"],
+        "breathers": here["growth"].size,
         "lowest_frequency": here["frequency"].min(),
         "highest_frequency": here["frequency"].max(),
         "largest_growth": here["growth"].max(),
@@ -86,19 +95,59 @@ def periodic_stable(periodic) -> Finding:
 
 @claim(
     PLACE,
-    "The large initial condition of Fig 3 has less P than any computed periodic breather at "
+    "At the detuning of Fig 3 solitons with A = B and frequencies from -3.5 to -1 are breathers of "
+    "less P than the large initial condition, and unstable.",
+    (PERIODIC,),
+    (Control("solitons that no perturbation leaves", put("soliton_growth", 0.0)),),
+)
+def solitons_unstable(periodic) -> Finding:
+    """Decide by the growth on the longer chain; nearer to Omega it depends on the length."""
+    away = periodic.where(periodic["soliton_frequency"] >= FAR_FROM_THE_WAVES, drop=True)
+    short, long = (away["soliton_growth"].isel(soliton_half_width=i) for i in (0, -1))
+    measured = {
+        "solitons": away.sizes["soliton_frequency"],
+        "least_power": away["soliton_power"].min(),
+        "largest_power": away["soliton_power"].max(),
+        "least_growth": long.min(),
+        "change_with_length": abs(long - short).max(),
+    }
+    criterion = AllOf(
+        AtLeast(1, "solitons"),
+        Below(DATA_POWER, "largest_power", says="largest P"),
+        Above(0.0, "least_growth", says="least growth rate"),
+        Below(
+            SAME_GROWTH, "change_with_length", says="change of a growth rate on the longer chain"
+        ),
+    )
+    return judge(measured, criterion)
+
+
+@claim(
+    PLACE,
+    "The large initial condition of Fig 3 has less P than any computed stable breather at "
     "Omega = -4 ever has.",
     (PERIODIC,),
     (
         Control("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
         Control("a family with half of its P", scale("least_power", 0.5, family="A only")),
+        Control("solitons that no perturbation leaves", put("soliton_growth", 0.0)),
     ),
 )
 def data_below_breathers(periodic) -> Finding:
-    """So they cannot end as one unless the drive feeds them."""
-    measured = {"least_of_a_period": known(periodic)["least_power"].min(), "data": DATA_POWER}
-    says = "least P within a period, over all frequencies and families"
+    """So they cannot end as one of these unless the drive feeds them."""
+    here = known(periodic)
+    least = [
+        here["least_power"].where(here["growth"] == 0.0).min(),
+        here["soliton_power"].where(is_stable_soliton(here)).min(),
+    ]
+    measured = {"least_of_a_period": np.nanmin(least), "data": DATA_POWER}
+    says = "least P of a stable breather within a period, over all frequencies and families"
     return judge(measured, Above(DATA_POWER, "least_of_a_period", says=says))
+
+
+def is_stable_soliton(periodic):
+    """Return of which solitons nothing grows on the longest chain, (soliton_frequency,)."""
+    return periodic["soliton_growth"].isel(soliton_half_width=-1) == 0.0
 
 
 @claim(

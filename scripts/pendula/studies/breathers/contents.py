@@ -1,6 +1,7 @@
 """The datasets of steady and of periodic breathers, rounded where LAPACK decides the last bits."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from latticode.datasets.checks import rounded
@@ -59,9 +60,12 @@ def steady_contents(
 
 def periodic_contents(
     epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
-    half_width: int,
+    half_width: int, solitons: Mapping[str, Any],
 ) -> Contents:  # fmt: skip
-    """Return the three families at each Omega and frequency; NaN where a family does not exist."""
+    """Return the three families at each Omega and frequency; NaN where a family does not exist.
+
+    `solitons` gives Omega, the frequencies and the two half-widths of chains of the solitons.
+    """
     shape = (len(periodic.FAMILIES), len(omegas), len(frequencies))
     amplitude, power = (np.full((2, *shape), np.nan) for _ in range(2))
     least, rates = (np.full(shape, np.nan) for _ in range(2))
@@ -93,6 +97,31 @@ def periodic_contents(
         "power": kept(("component", *over), power, largest),
         "least_power": kept(over, least, "power P of both components, the least of a period"),
         "growth": kept(over, rates, RATE, GROWTH_DIGITS),
+        **soliton_variables(epsilon, gamma, **solitons),
     }
     about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
     return variables, {"title": "Periodic breathers localised at one pair", **about}
+
+
+def soliton_variables(
+    epsilon: float, gamma: float, omega: float, frequencies: Sequence[float],
+    half_widths: Sequence[int],
+) -> dict[str, Variable]:  # fmt: skip
+    """Return P of the solitons A = B, and the growth of their perturbations on each chain.
+
+    A growth that a longer chain makes smaller is one of the waves between its ends.
+    """
+    constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+    powers, rates = np.empty((2, len(half_widths), len(frequencies)))
+    for at in np.ndindex(rates.shape):
+        soliton = periodic.find_soliton(constants, frequencies[at[1]], half_widths[at[0]])
+        powers[at], rates[at] = periodic.power(soliton.data).sum(), multipliers.growth(soliton)
+    over = ("soliton_half_width", "soliton_frequency")
+    return {
+        "soliton_half_width": Variable(over[:1], list(half_widths), "half-width of the chain"),
+        "soliton_frequency": Variable(
+            over[1:], np.array(frequencies, float), f"frequency of the soliton at Omega = {omega:g}"
+        ),
+        "soliton_power": kept(over[1:], powers[-1], "power P of the soliton A = B"),
+        "soliton_growth": kept(over, rates, RATE, GROWTH_DIGITS),
+    }

@@ -21,6 +21,7 @@ no wave has a bound, and all growth counts.
 """
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -72,29 +73,30 @@ def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
     return held / power.sum()
 
 
-def is_localised(power: np.ndarray) -> bool:
+def is_localised(power: np.ndarray, majority: float = MAJORITY) -> bool:
     """Return whether P by distance is that of a localised motion."""
-    return bool(share_of_three_pairs(power)[0] > MAJORITY)
+    return bool(share_of_three_pairs(power)[0] > majority)
 
 
-def place_of(power: np.ndarray) -> int | None:
+def place_of(power: np.ndarray, majority: float = MAJORITY) -> int | None:
     """Return how far from the centre three pairs hold more than half of P; None if none do.
 
-    Three pairs one site away from the centre include it, and are not counted.
+    Three pairs one site away from the centre include it, and are not counted. `majority` can be
+    another part of P than half.
     """
-    if is_localised(power):
+    if is_localised(power, majority):
         return 0
     held = share_of_three_pairs(power)
     if len(held) < 3:
         return None
     strongest = 2 + int(held[2:].argmax())
-    return strongest if held[strongest] > MAJORITY else None
+    return strongest if held[strongest] > majority else None
 
 
-def fate_of(problem: Problem, final: np.ndarray) -> int:
+def fate_of(problem: Problem, final: np.ndarray, majority: float = MAJORITY) -> int:
     """Return the fate that the final state (component, site) of a run shows."""
     power = power_by_distance(final)
-    place = place_of(power)
+    place = place_of(power, majority)
     if place is not None:
         return MOVES if place else STAYS
     initial = np.sum(problem.initial.real**2 + problem.initial.imag**2)
@@ -102,19 +104,20 @@ def fate_of(problem: Problem, final: np.ndarray) -> int:
     return SPREADS if power.sum() > most else DISPERSES
 
 
-def keep_fate(problem: Problem) -> dict[str, int]:
+def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
     """Run a problem, and return the fate of its data, which is all that is kept."""
     reduction = find_reduction(problem.amplitudes)
     _, _, y, _ = integrate(problem, reduction)
-    return {"fate": fate_of(problem, unpack(y, reduction))}
+    return {"fate": fate_of(problem, unpack(y, reduction), majority)}
 
 
 # --- A map ----------------------------------------------------------------------------------------
 
 
 def map_fates(
-    problems: Mapping[float, Problem], amplitudes: Sequence[float], run: Run = run_all
-) -> Contents:
+    problems: Mapping[float, Problem], amplitudes: Sequence[float], run: Run = run_all,
+    majority: float = MAJORITY,
+) -> Contents:  # fmt: skip
     """Return the fate of data on one pair at each detuning, that of the problem under it.
 
     A_0 and B_0 go over `amplitudes`. Exchanging A and B changes no fate, so that one half of the
@@ -124,7 +127,8 @@ def map_fates(
     data = np.array(amplitudes)[np.stack([rows, columns], -1)]
     survey = Survey({"omega": list(problems), "initial.0.0, initial.0.1": data})
     (one, *_) = problems.values()
-    fates = run(Surveyed(one.changed(initial=np.ones((2, 1))), survey), keep_fate)["fate"]
+    runs = Surveyed(one.changed(initial=np.ones((2, 1))), survey)
+    fates = run(runs, partial(keep_fate, majority=majority))["fate"]
     mapped = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=np.int8)
     mapped[:, rows, columns] = mapped[:, columns, rows] = fates.reshape(survey.shape)
     flags = {"flag_values": np.arange(len(FATES), dtype=np.int8), "flag_meanings": " ".join(FATES)}

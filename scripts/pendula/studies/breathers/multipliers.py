@@ -70,10 +70,13 @@ def _directions(sites: int, first: int, alike: bool) -> np.ndarray:
 
 
 def growth_of_traces(frequency: float, nu: np.ndarray) -> float:
-    """Return the rate per unit of tau at which the fastest perturbation grows; 0 if none does."""
+    """Return the rate per unit of tau at which the fastest perturbation grows; 0 if none does.
+
+    A negative frequency is that of the same motion with time reversed, which grows as fast.
+    """
     root = np.sqrt(nu.astype(complex) ** 2 - 1.0)
     largest = np.maximum(np.abs(nu + root), np.abs(nu - root)).max()
-    rate = float(log(largest)) * frequency / np.pi
+    rate = float(log(largest)) * abs(frequency) / np.pi
     return rate if rate > NOISE else 0.0
 
 

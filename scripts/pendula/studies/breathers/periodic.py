@@ -17,20 +17,29 @@ Existence. On an infinite chain the tails decay if no odd multiple of lambda mee
 of linear waves, equation (15): with kappa between Omega - 4 epsilon and Omega, +-kappa for A + B
 and +-sqrt(kappa^2 - 4 gamma^2) for A - B. So they do where lambda lies above all of them. The tails
 reach the end of a chain the sooner the nearer lambda is to the waves.
+
+On A = B the drive vanishes, and there are breathers among the waves too: A_n = phi_n
+exp(-i lambda tau) with the soliton phi of the scalar equation, for each lambda above Omega. The
+tails of A + B decay where lambda lies outside of its band alone, and A - B vanishes. P vanishes as
+lambda comes to Omega.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from latticode.localised.breathers import NoStateError
 from latticode.numerics.matrices import times
 
+from pendula.models.pairs import FAMILIES as PAIRS
+from pendula.models.steady import localised
 from pendula.problem import Constants
 
 from .quarter_period import FINE_STEPS, STEPS, flow
 
 FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
+EQUAL_PAIR = next(family for family in PAIRS if family.kind == "equal")
 TOLERANCE = 1e-13
 """Largest |Re A| and |Re B| at a quarter of a period, relative to the largest at the start."""
 ITERATIONS = 30
@@ -71,6 +80,17 @@ def find(family: str, constants: Constants, frequency: float, half_width: int) -
     a, b = found.data
     ended = family == "A only" and np.abs(a - b).max() < EQUAL * np.abs(a).max()
     return None if ended else found
+
+
+def find_soliton(constants: Constants, frequency: float, half_width: int) -> Breather:
+    """Return the breather A = B = phi exp(-i lambda tau), which is steady at Omega - lambda.
+
+    Raises NoStateError where the frequency lambda is not above Omega.
+    """
+    turned = replace(constants, omega=constants.omega - frequency)
+    problem, state = localised(EQUAL_PAIR, turned, half_width)
+    phi = state.parts(problem)[0, 0, half_width:]
+    return Breather(constants, frequency, np.stack([phi, phi]))
 
 
 def exchange_sign(data: np.ndarray) -> int:

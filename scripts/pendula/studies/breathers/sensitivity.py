@@ -6,6 +6,7 @@ confidence limits of the share are the exact ones of Clopper and Pearson.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -17,12 +18,12 @@ from latticode.simulation.runs import Run, run_all
 
 from pendula.problem import Problem
 
-from .fates import SPREADS, keep_fate
+from .fates import MAJORITY, SPREADS, keep_fate
 
 
 def sensitivity_contents(
     name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
-    run: Run = run_all,
+    run: Run = run_all, majority: float = MAJORITY,
 ) -> Contents:  # fmt: skip
     """Return the share that spreads for each relative size of the change."""
     # outputs take a third of a run, and only the last one is used
@@ -32,7 +33,8 @@ def sensitivity_contents(
         for number, size in enumerate(sizes)
         for one in draw_members(at_the_end_alone, size, members, [seed, number])
     ]
-    spread = (run(drawn, keep_fate)["fate"] == SPREADS).reshape(len(sizes), members).sum(axis=1)
+    fates = run(drawn, partial(keep_fate, majority=majority))["fate"]
+    spread = (fates == SPREADS).reshape(len(sizes), members).sum(axis=1)
     share = Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
     by_size, said = ("size",), "share of runs that spread"
     variables = {

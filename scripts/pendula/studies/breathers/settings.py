@@ -1,18 +1,21 @@
 """What the configuration says of breathers: constants, grids, members, seeds."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from latticode.configuration.values import (
     Count,
+    Counts,
     Model,
     Name,
     Natural,
+    Number,
     Numbers,
     Positive,
     Positives,
     Tolerance,
     Whole,
+    Window,
     model,
 )
 from pydantic import Field
@@ -20,9 +23,26 @@ from pydantic import Field
 from pendula.configuration.cost import estimate
 from pendula.configuration.schema import Configuration, Faults
 
+OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
+"""Choices of runs that long studies change."""
+
 Steady = model(omegas=Numbers, half_width=Annotated[Whole, Field(ge=4)])
 
-Periodic = model(omegas=Numbers, frequencies=Positives, half_width=Annotated[Whole, Field(ge=2)])
+# On A = B solitons of the scalar equation, on two chains that show which growth is of the ends.
+Solitons = model(
+    omega=Number, frequencies=Numbers, half_widths=Annotated[Counts, Field(min_length=2)]
+)
+
+Periodic = model(
+    omegas=Numbers,
+    frequencies=Positives,
+    half_width=Annotated[Whole, Field(ge=2)],
+    solitons=Solitons,
+    long=model(
+        omega=Number, frequencies=Window, frequency_step=Positive,
+        variations=dict[Literal["frequency_step", "half_width", "steps"], Positives],
+    ),
+)  # fmt: skip
 
 # Share of runs that spread, by the size of a random change of the data.
 Sensitivity = model(
@@ -30,7 +50,7 @@ Sensitivity = model(
     end_time=Positive,
     sizes=Positives,
     members=Count,
-    long=model(members=Count),
+    long=model(members=Count, variations=dict[Literal[*OF_RUNS, "seed"], Positives]),
     tolerance=Tolerance,
     seed=Natural,
 )
@@ -44,7 +64,10 @@ class Fates(Model):
     end_time: Positive
     largest: Positive
     points: Annotated[Whole, Field(ge=3)]
-    long: model(points=Annotated[Whole, Field(ge=3)])
+    long: model(
+        points=Annotated[Whole, Field(ge=3)],
+        variations=dict[Literal[*OF_RUNS, "stride"], Positives],
+    )
     tolerance: Tolerance
 
     def amplitudes(self, points: int) -> list[float]:
@@ -65,6 +88,10 @@ class Settings(Model):
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the families and cases, or takes too long."""
+        solitons = self.periodic.solitons
+        if not (lowest := min(solitons.frequencies)) > solitons.omega:
+            text = f"has {lowest:g}; each must be above Omega = {solitons.omega:g}"
+            yield "periodic.solitons.frequencies", text
         absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
         yield from absent
         if not absent:

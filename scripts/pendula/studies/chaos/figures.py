@@ -1,50 +1,91 @@
-"""How long the central pair stays excited, as a picture."""
+"""The transition at Omega = 0 by two clocks, and what its centre keeps, as a picture."""
 
 import numpy as np
 import xarray as xr
 from latticode.drawing import style
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
+from .clocks import limits_of
 
 PAPERS_END = 50.0
 """The paper runs Fig 4 up to this time."""
+CLOCKS = {"transition": (style.BLUE, "o", -0.12), "life": (style.RED, "s", 0.12)}
+"""The colour and the mark of each clock, and where it stands beside its amplitude."""
+WORDS = {
+    "middle": "median or mean of the",
+    "low": "lower confidence limit of the",
+    "high": "upper confidence limit of the",
+}
 CAPTION = (
-    "Time of the transition at Ω = {omega}, when the central pair loses its excess of power, "
-    "against its initial amplitude A₀, with B₀ = {ratio} A₀: {members} runs from each (dots), and "
-    "their median with its confidence interval. Runs without a transition by τ = {end_time} stand "
-    "at this time. Dashed: the end of the runs of Fig 4."
+    "(a) At Ω = {omega}, against the initial amplitude A₀, with B₀ = {ratio} A₀: the time at which "
+    "P of the chain first reaches half of its final value, and the time at which the central pair "
+    "first holds at most the mean power of a pair. (b) Share of P on the central pair, mean over "
+    "[{window_start}, {window_end}], and the mean share of a pair (dotted). Pale: {members} runs "
+    "from each A₀, perturbed by {perturbation}. Dark: medians in (a) and means in (b), with "
+    "confidence intervals. A run in which the centre keeps more until τ = {end_time} is drawn at "
+    "this time."
 )
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
-    """Return the lives and their medians with their limits."""
-    shown = lifetimes[["life", "median", "median_low", "median_high"]]
-    said = ("omega", "members", "ratio", "end_time")
+    """Return times and shares of the runs, and their medians or means with their limits."""
+    names = [*CLOCKS, "centre_share"]
+    shown, limits = lifetimes[names], limits_of(lifetimes)
+    for name in names:
+        for word, values in zip(WORDS, limits[name], strict=True):
+            about = {"long_name": f"{WORDS[word]} {name.replace('_', ' ')}"}
+            shown = shown.assign({f"{name}_{word}": ("start_amplitude", values, about)})
+    said = ("omega", "members", "ratio", "end_time", "window_start", "window_end", "perturbation")
     numbers = {name: f"{float(lifetimes.attrs[name]):g}" for name in said}
-    about = {"long_name": "end of the runs", "units": "1"}
-    ended = shown.assign(end=((), float(lifetimes.attrs["end_time"]), about))
-    return ended.assign_attrs(caption=CAPTION.format(**numbers))
+    pairs = 2 * int(lifetimes.attrs["half_width"]) + 1
+    shown = shown.assign(
+        end=((), float(lifetimes.attrs["end_time"]), {"long_name": "end of the runs"}),
+        pairs=((), pairs, {"long_name": "number of pairs"}),
+    )
+    return shown.assign_attrs(caption=CAPTION.format(**numbers))
 
 
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
-    """Draw the lives against A_0, their medians, and as an arrow that a median is after the end."""
-    figure, end = style.new_figure(0.6 * style.WIDTH, 2.2), float(data["end"])
-    axes, a0 = figure.subplots(), data["start_amplitude"].values
-    lives = np.minimum(data["life"].transpose("start_amplitude", "member").values, end)
-    axes.plot(a0, lives, ".", color=style.PALE[style.BLUE], markersize=3)
-    middle, low, high = (
-        np.minimum(data[f"median{part}"].values, end) for part in ("", "_low", "_high")
-    )
-    known = np.isfinite(data["median"].values)
-    bars = np.abs([middle - low, high - middle])[:, known]
-    look = {"color": style.BLUE, "linestyle": "none", "markersize": 3.5}
-    label = "median"
-    axes.errorbar(
-        a0[known], middle[known], bars, marker="o", elinewidth=0.8, capsize=2, label=label, **look
-    )
-    if not known.all():
-        axes.plot(a0[~known], low[~known], marker="^", label="lower bound of the median", **look)
-    axes.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
-    axes.legend(loc="lower right")
-    axes.set(yscale="log", xlabel="initial amplitude $A_0$", ylabel=r"time $\tau$")
+    """Draw both clocks against A_0 in the left panel, and the share of P on the centre right."""
+    figure, end = style.new_figure(style.WIDTH, 2.5), float(data["end"])
+    left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
+    for name, label in (("transition", "chain"), ("life", "central pair")):
+        _draw_runs(left, data, name, *CLOCKS[name], label, end)
+    left.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
+    left.set(yscale="log", ylabel=r"time $\tau$")
+    _draw_runs(right, data, "centre_share", style.RED, "s", 0.0)
+    right.axhline(1.0 / float(data["pairs"]), color="0.5", lw=0.8, ls=":", label="$1 / N$")
+    right.set(ylabel="share of $P$", ylim=(0.0, None))
+    for axes, letter in ((left, "a"), (right, "b")):
+        axes.set(xlabel="initial amplitude $A_0$", xticks=data["start_amplitude"].values)
+        axes.set_title(f"({letter})", loc="left")
+    style.name_legend(figure, left, right)
     return figure
+
+
+def _draw_runs(
+    axes: Axes, data: xr.Dataset, name: str, colour: str, mark: str, aside: float,
+    label: str | None = None, end: float = np.inf,
+) -> None:  # fmt: skip
+    """Draw the runs of one number as small marks, and their middle with its limits."""
+    a0 = data["start_amplitude"].values + aside
+    runs = data[name].transpose("start_amplitude", "member").values
+    axes.plot(
+        a0,
+        np.minimum(runs, end),
+        ".",
+        color=style.PALE[colour],
+        markersize=2.5,
+        label="single runs",
+    )
+    middle, low, high = (np.minimum(data[f"{name}_{word}"].values, end) for word in WORDS)
+    ended, bars = middle < end, np.array([middle - low, high - middle])
+    axes.errorbar(
+        a0[ended], middle[ended], bars[:, ended], marker=mark, color=colour, ls="none",
+        elinewidth=0.8, capsize=2, markersize=3.5, label=label,
+    )  # fmt: skip
+    if not ended.all():
+        later = {"label": "after the runs", "markerfacecolor": "white", "markersize": 4.5}
+        axes.plot(a0[~ended], middle[~ended], "^", color=colour, **later)

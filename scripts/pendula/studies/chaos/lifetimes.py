@@ -1,42 +1,72 @@
-"""How long the central pair stays excited, against its initial amplitude.
+"""The transition to the chaotic state at Omega = 0 by two clocks, against the initial amplitude.
 
-Zero is unstable, so that the chain around the centre is always set in motion; a large enough
-oscillation lasts there for some time, which differs from run to run. The transition is over when
-the central pair holds at most P / N, where N is the number of pairs: a
-definition without any number to choose. An excited pair is not yet a localised motion, see the
-study of breathers: the chain around it may hold most of P. Lives that outlast the run are censored.
+Zero is unstable, so that the chain around the centre is always set in motion. The *transition* of
+the chain is over when P first reaches half of its final value, the mean over a window of time. The
+*life* of the centre ends when the central pair first holds at most P / N, where N is the number of
+pairs. From a large amplitude the centre outlives the transition: it stays excited inside a chaotic
+chain. Lives that outlast the run are censored.
 """
 
+from collections.abc import Mapping, Sequence
+from functools import partial
+
 import numpy as np
-from latticode.datasets.netcdf import Variable
+import xarray as xr
+from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
-from latticode.measures.confidence import median_limits
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import Run, run_all
-from latticode.simulation.simulate import simulate
+from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem
+from pendula.varied import Printed, as_dataset, vary_several
+
+from .clocks import NUMBERS, TIMES, limits_of
 
 SPAN = 10.0
-"""Units of tau from one look at the centre to the next: a run ends with the life that it follows.
-Pieces of a run start from the state alone."""
+"""Units of tau from one look at the centre to the next, after the window: a run ends with the life
+that it follows. Pieces of a run start from the state alone."""
 
 
-def follow(problem: Problem) -> dict[str, float]:
-    """Run a problem until its centre first holds at most its share of P; return this time.
+def follow(problem: Problem, window: Sequence[float], level: float) -> dict[str, float]:
+    """Run a problem until its centre first holds at most its share of P, or to the end.
 
-    It is infinite if the run ends before.
+    Returns NUMBERS of the run, with `level` in place of one half. `window` must end before the run.
     """
-    spans = max(1, round(problem.end_time / SPAN))
-    piece = problem.changed(end_time=problem.end_time / spans, snapshot_every=1)
+    first = simulate(problem.changed(end_time=window[1], snapshot_every=1), energy=False)
+    numbers = in_window(first, window, level)
+    ended = np.flatnonzero(shares_alike(first.modulus))
+    life = float(first.tau[ended[0]]) if ended.size else later_life(problem, first, window[1])
+    return numbers | {"life": life}
+
+
+def in_window(run: Trajectory, window: Sequence[float], level: float) -> dict[str, float]:
+    """Return the time of the transition, and the means over the window."""
+    power, inside = (run.modulus**2).sum(axis=0), run.tau >= window[0]
+    total = power.sum(axis=0)
+    final = total[inside].mean()
+    return {
+        "transition": float(run.tau[np.argmax(total >= level * final)]),
+        "centre_share": float((power[len(power) // 2] / total)[inside].mean()),
+        "l2": float(np.sqrt(total[inside]).mean()),
+        "linf": float(run.linf.max(axis=0)[inside].mean()),
+    }
+
+
+def later_life(problem: Problem, run: Trajectory, start: float) -> float:
+    """Return when the centre first holds its share of P after `start`, where `run` has ended."""
+    remaining = problem.end_time - start
+    if remaining <= 0.0:
+        return np.inf
+    spans = max(1, round(remaining / SPAN))
+    piece = problem.changed(end_time=remaining / spans, snapshot_every=1)
     for done in range(spans):
-        run = simulate(piece, energy=False)
+        run = simulate(piece.changed(initial=run.final), energy=False)
         ended = np.flatnonzero(shares_alike(run.modulus))
         if ended.size:
-            return {"life": float(done * piece.end_time + run.tau[ended[0]])}
-        piece = piece.changed(initial=run.final)
-    return {"life": np.inf}
+            return float(start + done * piece.end_time + run.tau[ended[0]])
+    return np.inf
 
 
 def shares_alike(modulus: np.ndarray) -> np.ndarray:
@@ -50,25 +80,47 @@ def shares_alike(modulus: np.ndarray) -> np.ndarray:
 
 def measure_lifetimes(
     problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int,
-    run: Run = run_all,
+    window: Sequence[float], level: float, run: Run = run_all,
 ) -> Contents:  # fmt: skip
-    """Return the lives of `members` runs from each amplitude A_0 with B_0 = `ratio` A_0."""
+    """Return NUMBERS of `members` runs from each amplitude A_0 with B_0 = `ratio` A_0."""
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
-    drawn = [one for start in starts for one in draw_members(start, size, members, seed)]
-    lives = run(drawn, follow)["life"].reshape(len(amplitudes), members)
-    medians, over = [median_limits(one) for one in lives], ("start_amplitude",)
-    words = "median life, from order statistics"
+    drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
+    kept = run(drawn, partial(follow, window=window, level=level))
+    over = ("start_amplitude",)
     variables = {
         "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
-        "life": Variable(
-            (*over, "member"), lives, "time of the transition, infinite if after the end"
-        ),
-        "median": Variable(over, [one.value for one in medians], words),
-        "median_low": Variable(over, [one.low for one in medians], f"{words}, lower limit"),
-        "median_high": Variable(over, [one.high for one in medians], f"{words}, upper limit"),
+        **{
+            name: Variable((*over, "member"), kept[name].reshape(-1, members), words)
+            for name, words in NUMBERS.items()
+        },
     }
     _, shared = describe_cases({"centre": problem})
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "ratio": ratio}
     about |= {"perturbation": size, "members": members, "seed": seed}
-    title = "How long the central pair stays excited, against its initial amplitude"
+    about |= {"window_start": window[0], "window_end": window[1], "level": level}
+    title = "The transition at Omega = 0 and the life of the centre, against the initial amplitude"
     return variables, {**shared, "title": title, **about}
+
+
+def vary_lifetimes(
+    problem: Problem, amplitudes: list[float], ratio: float, members: int,
+    chosen: Mapping[str, float], variations: Mapping[str, Sequence],
+) -> xr.Dataset:  # fmt: skip
+    """Return the medians and means of `limits_of`, measured again with each choice changed."""
+
+    def measure(tolerance, output_step, size, seed, window, level):
+        solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
+        start = problem.changed(solver=solver, output_step=output_step)
+        return limits_of(as_xarray(
+            *measure_lifetimes(start, amplitudes, ratio, size, members, int(seed), window, level)
+        ))  # fmt: skip
+
+    choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
+    over, about = ("start_amplitude",), {"long_name": "initial amplitude A_0"}
+    printed = {
+        name: Printed(over, number, f"{'median' if name in TIMES else 'mean'} of the {name}")
+        for name, number in vary_several(measure, choices).items()
+    }
+    data = as_dataset(printed, {"start_amplitude": (over, np.array(amplitudes, float), about)})
+    ends = {"members": members, "end_time": problem.end_time}
+    return data.assign_attrs(title="The transition at Omega = 0, with other choices", **ends)

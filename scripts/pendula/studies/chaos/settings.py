@@ -1,6 +1,6 @@
 """Section `chaos` of the configuration: cases, lengths of runs, tolerances and seeds."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from latticode.configuration.values import (
     Count,
@@ -38,6 +38,9 @@ class Spectrum(Model):
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
 """What all ensembles have: the solver's tolerance, the size of a change, and the seed."""
 
+VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level"]
+"""Choices of a study that its long runs change."""
+
 # The largest exponents of every case, on a span of time.
 Lyapunov = model(
     span=Window,
@@ -66,7 +69,7 @@ Members = model(
 
 
 class Lifetimes(Model):
-    """How long the central pair stays excited, against its initial amplitude."""
+    """The transition by two clocks, against the initial amplitude of the central pair."""
 
     case: Name
     amplitudes: Annotated[list[Positive], Field(min_length=2), Distinct]
@@ -74,9 +77,12 @@ class Lifetimes(Model):
     members: Count
     size: Positive
     tolerance: Tolerance
+    window: Window
+    level: Annotated[Positive, Field(lt=1)]
     end_time: Positive
     output_step: Positive
     seed: Natural
+    long: model(members=Count, variations=dict[VARIED, list[Positive | Window]])
 
 
 class Settings(Model):
@@ -96,9 +102,12 @@ class Settings(Model):
         ]
         yield from absent
         windows = {f"members.windows.{i}": one for i, one in enumerate(self.members.windows)}
-        for key, (start, end) in {"lyapunov.span": self.lyapunov.span, **windows}.items():
+        windows |= {"lyapunov.span": self.lyapunov.span, "lifetimes.window": self.lifetimes.window}
+        for key, (start, end) in windows.items():
             if not 0 <= start < end:
                 yield key, f"[{start:g}, {end:g}] does not run forward"
+        if (last := self.lifetimes.window[1]) > self.lifetimes.end_time:
+            yield "lifetimes.window", f"ends at {last:g}, after the runs; make end_time larger"
         if not absent:
             yield from self._too_long(settings)
 

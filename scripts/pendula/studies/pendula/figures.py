@@ -39,5 +39,5 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
     axes.set(xlabel=r"$\tau$", ylabel="share of runs over the top")
     axes.set_xlim(0, tau[-1] * (1.03 + BESIDE * count))
     axes.set_ylim(-0.03, 1.05)
-    style.name_legend(figure, axes)
+    style.name_legend(figure, axes, columns=4)
     return figure

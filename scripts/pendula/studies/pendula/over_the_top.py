@@ -8,22 +8,25 @@ no passage comes; later, chaos leaves no memory, and passages come at a rate. So
 time from `settled` on, and only the members that had no passage by then.
 
 By (3) the angle x swings with the amplitude 2 mu |A|, so that the mean of (x / mu)^2 / 2 over time
-is that of |A|^2 where no pendulum is over the top.
+is that of |A|^2 where no pendulum is over the top. It is compared with that of the same members by
+the amplitude equations, on the same chain and over the same time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import ceil
 
 import numpy as np
-from latticode.datasets.netcdf import Variable
+import xarray as xr
+from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
-from latticode.measures.confidence import event_rate, share_limits
+from latticode.measures.confidence import Limits, difference_limits, event_rate, share_limits
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import Run, run_all, shaped
-from latticode.simulation.simulate import simulate
+from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, Problem
+from pendula.varied import Printed, as_dataset, vary_several
 
 TOP = np.pi
 PER_PERIOD = 8
@@ -40,11 +43,21 @@ def passage(problem: Problem) -> dict[str, float]:
     step = period / PER_PERIOD
     run = simulate(problem.changed(output_step=step, end_time=ceil(problem.end_time / step) * step))
     beyond = np.flatnonzero(run.linf.max(axis=0) > TOP)
-    squares = (run.l2 * run.l2).sum(axis=0)[run.tau >= 0.5 * problem.end_time]
     return {
         "time": float(run.tau[beyond[0]]) if beyond.size else np.inf,
-        "site_power": float(squares.mean()) / (2.0 * mu * mu * problem.sites),
+        "site_power": late_square(run, problem) / (2.0 * mu * mu),
     }
+
+
+def amplitude_power(problem: Problem) -> dict[str, float]:
+    """Return P of a site by the amplitude equations, mean over the late half of the run."""
+    return {"site_power": late_square(simulate(problem, energy=False), problem)}
+
+
+def late_square(run: Trajectory, problem: Problem) -> float:
+    """Return the mean square of a site over the late half of a run, both components together."""
+    squares = (run.l2 * run.l2).sum(axis=0)[run.tau >= 0.5 * problem.end_time]
+    return float(squares.mean()) / problem.sites
 
 
 def measure_over_the_top(
@@ -58,6 +71,7 @@ def measure_over_the_top(
     drawn = draw_members(problem, size, members, seed)
     each = [one.changed(model=PENDULA, mu=float(mu)) for mu in mus for one in drawn]
     times, powers = shaped(run(each, passage), (len(mus), members)).values()
+    of_amplitudes = run_all(drawn, amplitude_power)["site_power"]
     tau = np.arange(1.0, int(problem.end_time) + 1.0)
     counts = (times[..., None] <= tau).sum(axis=1)
     passed = [[share_limits(int(one), members) for one in row] for row in counts]
@@ -70,6 +84,8 @@ def measure_over_the_top(
             over, times, "time of the first passage over the top, infinite if later"),
         "site_power": Variable(
             over, powers, "mean of (x^2 + y^2) / (2 mu^2) over sites and the late half of the run"),
+        "amplitude_power": Variable(
+            ("member",), of_amplitudes, "mean of |A|^2 + |B|^2 over the same, by equations (4)"),
     }  # fmt: skip
     for name, dims, found, words in (
         ("passed", ("mu", "tau"), passed, "share of members that have gone over the top"),
@@ -81,3 +97,50 @@ def measure_over_the_top(
         variables[f"{name}_low"] = Variable(dims, low, f"{words}, lower confidence limit")
         variables[f"{name}_high"] = Variable(dims, high, f"{words}, upper confidence limit")
     return variables, {"title": "When pendula go over the top"}
+
+
+# --- The numbers that the article prints, and what moves them ------------------------------------
+
+MEANINGS = {
+    "passed": "share of members that have gone over the top by the end",
+    "passage_rate": "rate of first passages after the settled time, per unit of tau",
+    "power_excess": "relative excess of P of a site over that of the amplitudes on the same chain; "
+    "NaN: a pendulum went over the top",
+}
+
+
+def vary_over_the_top(
+    problem: Problem, mus: Sequence[float], members: int, end_time: float,
+    chosen: Mapping[str, float], variations: Mapping[str, Sequence[float]],
+) -> xr.Dataset:  # fmt: skip
+    """Return the numbers of MEANINGS at each mu, measured again with each choice changed.
+
+    `chosen` are the tolerance, the size of the perturbation, the seed and the settled time, and
+    `variations` their other values. Longer runs are a variation too.
+    """
+
+    def measure(tolerance, size, seed, settled, run_time):
+        solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
+        runs = problem.changed(solver=solver, end_time=run_time)
+        study = measure_over_the_top(runs, mus, size, members, int(seed), settled)
+        return printed_numbers(as_xarray(*study), end_time)
+
+    choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
+    numbers = vary_several(measure, choices | {"run_time": [end_time, 2.0 * end_time]})
+    printed = {name: Printed(("mu",), one, MEANINGS[name]) for name, one in numbers.items()}
+    data = as_dataset(printed, {"mu": ("mu", list(mus), {"long_name": "mu"})})
+    about = {"members": members, "end_time": end_time, "settled": chosen["settled"]}
+    return data.assign_attrs(title="Pendula over the top, with other choices", **about)
+
+
+def printed_numbers(study: xr.Dataset, by_tau: float) -> dict[str, Limits]:
+    """Return the numbers of MEANINGS with their limits, (mu,); the share is that by a time."""
+    found = {}
+    for name in ("passed", "passage_rate"):
+        ends = (study[f"{name}{end}"] for end in ("", "_low", "_high"))
+        found[name] = Limits(*(one.sel(tau=by_tau) if "tau" in one.dims else one for one in ends))
+    amplitudes = study["amplitude_power"]
+    excess = [difference_limits(powers, amplitudes) for powers in study["site_power"]]
+    below = np.isinf(study["passage_time"]).all("member")
+    parts = np.transpose(excess) / float(amplitudes.mean())
+    return found | {"power_excess": Limits(*np.where(below, parts, np.nan))}

@@ -1,7 +1,7 @@
 """What the configuration gives for the pendula: a model for each topic."""
 
 from collections.abc import Iterable
-from typing import Annotated
+from typing import Annotated, Literal
 
 from latticode.configuration.cases import is_multiple
 from latticode.configuration.values import (
@@ -48,23 +48,28 @@ class Followed(Model):
     tolerance: Tolerance
 
     def unfit(
-        self, settings: Configuration, cases: Iterable[str], times: float = 1.0, **changes
-    ) -> Faults:
-        """Yield where a case is missing or has no pendula at a mu, or what takes too long."""
+        self, settings: Configuration, cases: Iterable[str], times: float = 1.0, key: str = "mus",
+        **changes,
+    ) -> Faults:  # fmt: skip
+        """Yield where a case is missing or has no pendula at a mu, or what takes too long.
+
+        `key` is that of the mu, which may be those of a longer study.
+        """
+        mus = self.mus if key == "mus" else self.long.mus
         if absent := list(settings.absent("cases", "case", cases)):
             yield from absent
             return
         solver = {"name": "taylor", "rtol": self.tolerance, "atol": self.tolerance}
         costs = []
         for name in cases:
-            for mu in self.mus:
+            for mu in mus:
                 run = settings.problem(name, snapshot_step=None) | {"solver": solver}
                 run |= {"model": "pendula", "mu": mu, **changes}
                 if why := _endless(Constants.of(run), mu):
-                    yield "mus", f"has {mu:g}, and {why.format(case=name)}"
+                    yield key, f"has {mu:g}, and {why.format(case=name)}"
                     return
                 costs.append(estimate(run))
-        yield from settings.excess("mus", costs, times)
+        yield from settings.excess(key, costs, times)
 
 
 def _endless(constants: Constants, mu: float) -> str:
@@ -106,14 +111,22 @@ class OverTheTop(Followed):
     seed: Natural
     settled: Positive
     end_time: Annotated[Positive, Field(ge=1)]
-    long: model(members=Count, end_time=Positive)
+    long: model(
+        mus=Positives,
+        members=Count,
+        end_time=Positive,
+        variations=dict[Literal["tolerance", "size", "seed", "settled"], Positives],
+    )
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the case."""
         if not self.settled < self.end_time:
             yield "settled", f"is {self.settled:g}, and must lie before the end time"
-        end_time = self.long.end_time
-        yield from self.unfit(settings, [self.case], self.long.members, end_time=end_time)
+        if not (latest := max(self.long.variations.get("settled", [0.0]))) < self.long.end_time:
+            key = "long.variations.settled"
+            yield key, f"has {latest:g}, and must lie before the end time, {self.long.end_time:g}"
+        for key, size in (("mus", self), ("long.mus", self.long)):
+            yield from self.unfit(settings, [self.case], size.members, key, end_time=size.end_time)
 
 
 class Settings(Model):

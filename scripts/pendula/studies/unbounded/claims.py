@@ -8,11 +8,11 @@ l2^2 is fitted too, and all limits are those of Student's t over the members of 
 from collections.abc import Callable
 
 import numpy as np
-from latticode.measures.confidence import Limits, mean_limits
+from latticode.measures.confidence import Limits, mean_limits, share_limits
 from latticode.measures.spreading import exponent_with_offset
 
 from pendula.ledger.changes import take
-from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
+from pendula.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY, almost_equal
 from pendula.ledger.claim import CHANGE, CONSTANT, FACTOR, SETTLED, Control, claim, unbounded
 from pendula.ledger.criterion import Above, AllOf, Below, Finding, UndecidableError, judge
 from pendula.ledger.cutoff import Cutoff, once
@@ -172,6 +172,33 @@ def unbounded_large(run, sensitivity) -> Finding:
     measured = growth_of(run) | {"omega": run["omega"].max()}
     outside = Below(-2.0 * run.attrs["gamma"], "omega", says="Omega of the run")
     return near.judge(measured, GROWS, outside)
+
+
+@claim(
+    "Beyond the paper, Fig 6 right",
+    "At the detuning of Fig 6, right, the norm grows from other initial conditions of the central "
+    "pair too on the unbounded lattice.",
+    unbounded("starts"),
+    (Control("the stable run fig3_small", "fig3_small"), SLOWER),
+)
+def unbounded_starts(run) -> Finding:
+    """Require that most runs grow, of members together: not all that are perturbed spread."""
+    tau, norms = times_of(run), run["l2"].transpose("tau", "variant", "member").values
+    factors = norms[-1] / norms[np.searchsorted(tau, SETTLED)]
+    share = share_limits(int((factors > FACTOR.value).sum()), factors.size)
+    measured = {
+        "starts": factors.shape[0],
+        "runs": factors.size,
+        "share": share.value,
+        "share_at_least": share.low,
+        "omega": run["omega"].max(),
+    }
+    says = (
+        f"lower confidence limit of the share of runs whose l2 grew twofold since tau = {SETTLED:g}"
+    )
+    outside = Below(-2.0 * run.attrs["gamma"], "omega", says="Omega of the runs")
+    caveat = f"{share.value:.0%} of the runs, up to tau = {tau[-1]:.0f}"
+    return judge(measured, AllOf(Above(MAJORITY, "share_at_least", says=says), outside), caveat)
 
 
 @claim(

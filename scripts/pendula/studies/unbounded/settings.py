@@ -14,6 +14,7 @@ from latticode.configuration.values import (
     Name,
     Names,
     Natural,
+    Number,
     Numbers,
     Positive,
     Whole,
@@ -31,6 +32,8 @@ SPEED = 5.0
 
 OMEGAS = "omegas"
 """The ensemble over Omega, beside those of cases."""
+STARTS = "starts"
+"""The ensemble over initial conditions of the central pair."""
 
 
 class Size(Model):
@@ -49,19 +52,21 @@ class Settings(Model):
     seed: Natural
     cases: Names
     omegas: model(case=Name, values=Numbers)
+    starts: model(case=Name, values=Annotated[list[tuple[Number, Number]], Field(min_length=1)])
     nodes: Annotated[Whole, Field(ge=8, le=100)]
     short: Size
     long: Size
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases of the configuration, or takes too long."""
-        used = [("omegas.case", self.omegas.case), *(("cases", case) for case in self.cases)]
+        used = [("omegas.case", self.omegas.case), ("starts.case", self.starts.case)]
+        used += [("cases", case) for case in self.cases]
         absent = [fault for key, case in used for fault in settings.absent("cases", key, [case])]
         sizes = {"short": self.short, "long": self.long}
         for label, size in sizes.items():
             unknown = size.runs.keys() - {*self.names, *settings.cases}
             missing = [name for name in self.names if name not in size.runs]
-            said = "is no ensemble of cases or over Omega"
+            said = "is no ensemble of cases, over Omega or over initial conditions"
             absent += [(f"{label}.runs.{name}", said) for name in sorted(unknown)]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
         yield from absent
@@ -106,15 +111,15 @@ class Settings(Model):
 
     @property
     def names(self) -> list[str]:
-        """The ensembles: those of cases, and the one over Omega."""
-        return [*self.cases, OMEGAS]
+        """The ensembles: those of cases, and those over Omega and over initial conditions."""
+        return [*self.cases, OMEGAS, STARTS]
 
     def case_of(self, name: str) -> str:
         """Return the case of the paper that an ensemble starts from."""
-        return self.omegas.case if name == OMEGAS else name
+        return {OMEGAS: self.omegas.case, STARTS: self.starts.case}.get(name, name)
 
     def problems(self, case: Mapping[str, Any], name: str, size: Size) -> list[dict]:
-        """Return the problems of an ensemble that starts from a case, one for each Omega."""
+        """Return the problems of an ensemble, one for each Omega or for each initial condition."""
         base = {
             **{key: case[key] for key in ("epsilon", "gamma", "omega", "initial")},
             "half_width": None,
@@ -123,5 +128,7 @@ class Settings(Model):
             "output_step": self.output_step,
             "solver": size.solver.model_dump(),
         }
+        if name == STARTS:
+            return [base | {"initial": {0: pair}} for pair in self.starts.values]
         omegas = self.omegas.values if name == OMEGAS else [base["omega"]]
         return [base | {"omega": omega} for omega in omegas]

@@ -1,0 +1,110 @@
+"""The numbers of this study that the article prints, measured again with each choice changed."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from latticode.datasets.netcdf import as_xarray
+from latticode.measures.confidence import Limits, share_limits
+
+from pendula.problem import Constants, Problem
+from pendula.varied import Printed, as_dataset, vary, vary_several
+
+from .fates import FATES, map_fates
+from .periodic import find, power, quarter_later
+from .sensitivity import sensitivity_contents
+
+
+def with_choices(problem: Problem, tolerance: float, end_time: float, half_width: int) -> Problem:
+    """Return a problem with another tolerance, end and length, whose only output is its end."""
+    solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
+    changed = problem.changed(solver=solver, end_time=end_time, output_step=end_time)
+    return changed.changed(half_width=int(half_width))
+
+
+def choices_of(chosen: Mapping[str, float], variations: Mapping[str, Sequence]) -> dict[str, list]:
+    """Return all values of each choice, that of the printed number first."""
+    return {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
+
+
+def vary_areas(
+    problem: Problem, amplitudes: Sequence[float], chosen: Mapping[str, float],
+    variations: Mapping[str, Sequence],
+) -> xr.Dataset:  # fmt: skip
+    """Return which part of the map of fates each fate has, but for its diagonal, (kind,).
+
+    The limits are those of as many independent initial conditions as one half of the map has.
+    """
+
+    def measure(majority, stride, **settings):
+        kept = amplitudes[:: int(stride)]
+        changed = {problem.constants.omega: with_choices(problem, **settings)}
+        fates = map_fates(changed, kept, majority=majority)[0]["fate"].values[0]
+        half = fates[np.tril_indices(len(kept), -1)]
+        counts = [int((half == place).sum()) for place in range(len(FATES))]
+        return Limits(*np.transpose([share_limits(count, half.size) for count in counts]))
+
+    area = vary(measure, choices_of(chosen, variations))
+    kinds = ("kind", np.array(FATES, object), {"long_name": "fate of initial conditions"})
+    printed = {"area": Printed(("kind",), area, "part of the map")}
+    data = as_dataset(printed, {"kind": kinds})
+    return data.assign_attrs(title="Parts of the map of fates, with other choices")
+
+
+def vary_shares(
+    name: str, problem: Problem, sizes: Sequence[float], members: int,
+    chosen: Mapping[str, float], variations: Mapping[str, Sequence],
+) -> xr.Dataset:  # fmt: skip
+    """Return the share of runs that spread, by the size of the perturbation."""
+
+    def measure(majority, seed, **settings):
+        changed = with_choices(problem, **settings)
+        study = sensitivity_contents(name, changed, sizes, members, int(seed), majority=majority)
+        found = as_xarray(*study)
+        return Limits(*(found[f"share{end}"].values for end in ("", "_low", "_high")))
+
+    share = vary(measure, choices_of(chosen, variations))
+    by_size = (
+        "size",
+        np.array(sizes),
+        {"long_name": "size of a random change of the data, relative"},
+    )
+    data = as_dataset(
+        {"share": Printed(("size",), share, "share of runs that spread")}, {"size": by_size}
+    )
+    return data.assign_attrs(
+        title="Shares of runs that spread, with other choices", members=members
+    )
+
+
+def vary_least_power(
+    constants: Mapping[str, float], frequencies: Sequence[float], chosen: Mapping[str, float],
+    variations: Mapping[str, Sequence],
+) -> xr.Dataset:  # fmt: skip
+    """Return the least P of the breathers "A only" within a period, and its frequency.
+
+    `frequencies` are the lowest and the highest of a scan in equal steps.
+    """
+
+    def measure(frequency_step, half_width, steps):
+        scan = np.arange(frequencies[0], frequencies[1] + 0.5 * frequency_step, frequency_step)
+        powers = []
+        for frequency in scan:
+            breather = find("A only", Constants(**constants), float(frequency), int(half_width))
+            late = quarter_later(breather, int(steps))[0, 1::2]
+            powers.append(float(power(late).sum()))
+        least = int(np.argmin(powers))
+        return {
+            "least_power": (powers[least], 0.0),
+            "least_frequency": (scan[least], frequency_step),
+        }
+
+    numbers = vary_several(measure, choices_of(chosen, variations))
+    words = {
+        "least_power": "least P of the breathers in which A swings more than B, within a period",
+        "least_frequency": "frequency of the breather with the least P",
+    }
+    printed = {name: Printed((), one, words[name]) for name, one in numbers.items()}
+    return as_dataset(printed, {}).assign_attrs(
+        title="The least P of breathers, with other choices"
+    )
