@@ -189,6 +189,8 @@ class Series:
         """Return the expression of the coefficient of order 0."""
         if one.level == CONSTANT:
             return self._constant(one)
+        if one in self.clocks:
+            return self.load(one, "0")
         operands = [self._start(a, code) for a in one.inputs]
         match one.operation:
             case "half_square":
@@ -289,7 +291,7 @@ class Series:
 
     def _has_factor(self, one: Node) -> bool:
         """Return whether 1 / (k + 1) can go into a constant that multiplies a term."""
-        if one.operation != "mul" or is_sum_of_products(one):
+        if one.operation != "mul" or one.level == CONSTANT or is_sum_of_products(one):
             return False
         return one.operands[0].level == CONSTANT and one.operands[0] not in self.names.at_sites
 

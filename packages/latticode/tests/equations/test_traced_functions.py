@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from latticode.equations.model import Model, ModelError, abs2, conj, exp, lap, log, sin, sqrt
+from latticode.equations.model import Model, ModelError, abs2, conj, cos, exp, lap, log, sin, sqrt
 from latticode.simulation.simulate import IntegrationError, simulate
 from latticode.simulation.systems import solver_names
 from scipy.integrate import solve_ivp
@@ -32,6 +32,11 @@ SECOND = {
         + (3 + x - x.left) ** -7 - (3 + x.right - x) ** -7,
         lambda t, x, v, r, s, vr, vs: np.exp(s - x) - np.exp(x - r)
         + (3 + x - s) ** -7 - (3 + r - x) ** -7,
+    ),
+    "forces of parameters and of clocks alone": (
+        lambda p, x, v: 0.5 * p.k - 0.3 * cos(p.k) - sqrt(2 + cos(p.k * p.t)) + lap(x) - v,
+        lambda t, x, v, r, s, vr, vs: 0.35 - 0.3 * np.cos(0.7) - np.sqrt(2 + np.cos(0.7 * t))
+        + (r + s - 2 * x) - v,
     ),
     "relativistic, damped, with friction between neighbours, and driven": (
         lambda p, x, v: (1 - 0.05 * v * v) * sqrt(1 - 0.05 * v * v) * (lap(x) - x) - 0.2 * v
@@ -64,7 +69,7 @@ def test_functions_of_complex_fields_equal_scipy(name, boundary):
 @pytest.mark.parametrize("name", SECOND)
 def test_forces_and_velocities_equal_scipy(name, boundary):
     traced, plain = SECOND[name]
-    model = Model(fields="x", parameters={}, d2_dt2=traced)
+    model = Model(fields="x", parameters={"k": 0.7}, d2_dt2=traced)
     initial = np.random.default_rng(6).normal(size=(1, SITES, 2)) @ (0.4, 0.4j)
 
     def slope(t, flat):
