@@ -58,7 +58,8 @@ class Case(cases.Case):
         model's own values.
     initial: {site: a value for each field} in complex numbers, at rest elsewhere.
     half_width: M; the chain has the 2M + 1 sites -M..M. 30.
-    boundary: "dirichlet" (zero beyond the ends), "free", "periodic" or "antiperiodic".
+    boundary: "dirichlet" (zero beyond the ends), "free" (a mirror beyond the last site: to second
+        neighbours it adds a bond between the last two sites), "periodic" or "antiperiodic".
     end_time, output_step: observables are kept at every step. 50 and 0.025.
     snapshot_step: how often the fields on all sites are kept, whole output steps. They divide the
         run. Left out, 200 snapshots or more are spread over it.

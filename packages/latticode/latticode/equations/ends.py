@@ -16,9 +16,11 @@ class Ends(NamedTuple):
     """One kind of ends.
 
     `sees` gives the sites, counted as Python does, whose values stand beyond the first site and
-    beyond the last, each times `factor`; nothing where sites at rest stand there. Mode k of N sites
-    has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian, and mode(k, j, N) are
-    its values on the sites j, orthonormal. `label` stands in the titles of figures.
+    beyond the last, each times `factor`; nothing where sites at rest stand there. Farther beyond a
+    free end come the sites before the last one, as in a mirror between two sites.
+
+    Mode k of N sites has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian, and
+    mode(k, j, N) are its values on the sites j, orthonormal. `label` is in the titles of figures.
     """
 
     sees: tuple[int, int] | None
