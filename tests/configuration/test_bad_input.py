@@ -4,6 +4,7 @@ import copy
 import datetime
 import random
 import re
+import time
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = gather([ROOT / "config/config.yaml"], {})
 WHOLE = gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)], {})
-STEPPED = ["crank_nicolson", "delfour_fortin_payre"]
+SOLVERS = ["ode45", "crank_nicolson", "delfour_fortin_payre"]
 
 
 def faults(text: str | bytes, folder: Path, below: dict = CONFIG) -> list[str]:
@@ -23,7 +24,7 @@ def faults(text: str | bytes, folder: Path, below: dict = CONFIG) -> list[str]:
     path = folder / "mine.yaml"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     try:
-        require(load(merge(below, read(path))), PAPER_CASES, PAPER_SWEEPS, STEPPED)
+        require(load(merge(below, read(path))), PAPER_CASES, PAPER_SWEEPS, SOLVERS)
     except ConfigurationError as told:
         said = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(told))
         return said.split("\n  ")[1:]
@@ -70,6 +71,26 @@ DIGITS = "1" * 400
 )
 def test_what_is_too_long_to_print_is_told_in_a_short_line(text, words, tmp_path):
     (line,) = faults(text, tmp_path)
+    assert words in line and len(line) < 200
+
+
+def listed(count: int) -> str:
+    return f"[{', '.join(map(str, range(5, 5 + count)))}, 5]"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (f"breathers: {{steady: {{omegas: {listed(1_000_000)}}}}}", "more than 100000 values"),
+        (f'{{"breathers": {{"steady": {{"omegas": {listed(1_000_000)}}}}}}}', "more than 100000 v"),
+        (f"breathers: {{steady: {{omegas: {listed(30_000)}}}}}", "the same value stands twice: 5"),
+    ],
+    ids=["YAML", "JSON", "fewer, which are read"],
+)
+def test_a_list_that_is_too_long_is_refused_in_two_seconds(text, words, tmp_path):
+    begun = time.process_time()
+    (line,) = faults(text, tmp_path, WHOLE)
+    assert time.process_time() - begun < 2.0
     assert words in line and len(line) < 200
 
 
@@ -156,7 +177,7 @@ def test_an_odd_value_anywhere_is_read_or_told_in_our_words(seed):
             section = section[key]
         section[place[-1]] = copy.deepcopy(chance.choice(ODD))
         try:
-            require(load(changed), PAPER_CASES, PAPER_SWEEPS, STEPPED)
+            require(load(changed), PAPER_CASES, PAPER_SWEEPS, SOLVERS)
         except ConfigurationError as fault:
             told += 1
             assert "Input" not in str(fault) and "should" not in str(fault)

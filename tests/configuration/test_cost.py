@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from helpers import ROOT
 from latticode.configuration.cost import EXPLICIT, find_excess, steps_of
-from latticode.configuration.files import ConfigurationError
+from latticode.configuration.files import ConfigurationError, gather
 from latticode.datasets.netcdf import read
 from latticode.simulation.simulate import simulate
 from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs
-from pendula.configuration.messages import load
+from pendula.configuration.messages import STUDIES, load
 from pendula.problem import Problem
 
 from benchmarks.contestants import controls
@@ -90,3 +90,26 @@ def test_even_and_synchronised_data_cost_half_each():
     assert integrated_pairs(problem()) == 31
     assert integrated_pairs(problem(initial={1: (1, 0)})) == 61
     assert integrated_pairs(problem(initial={1: (1, 1), -1: (1, 1)})) == 15.5
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({}, []),
+        (
+            {"lifetimes": {"ratio": 50}},
+            ["chaos.lifetimes.ratio: its runs together take about 2 hours"],
+        ),
+        (
+            {"members": {"size": 100}},
+            ["chaos.members.members: its runs together take about 1 hour"],
+        ),
+    ],
+    ids=["the defaults", "larger data", "larger perturbations"],
+)
+def test_runs_of_a_study_that_last_for_minutes_are_announced(change, words):
+    """Data of members are as large as their draws."""
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
+    said = load(gather(files, {"chaos": change})).long_runs()
+    assert len(said) == len(words)
+    assert all(line.startswith(start) for line, start in zip(said, words, strict=True))

@@ -66,10 +66,7 @@ def sized(part, *names):
     return lambda wildcards: values_of(of_size(part, wildcards), *names)
 
 
-def run_of(case, tolerance, solver="taylor", **changes):
-    """Return a case as a study runs it."""
-    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
-    return {**SETTINGS.problem(case), "solver": solver, "snapshot_every": 0, **changes}
+run_of = SETTINGS.run_of
 
 
 def without_solver(problem):

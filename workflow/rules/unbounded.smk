@@ -1,7 +1,8 @@
 # The infinite chain: does its l2 norm grow without bound in time? The short study is part of
 # the full run, the long one is `snakemake unbounded`.
+from pendula.studies.unbounded.settings import GROWTH_CASES
+
 UNBOUNDED = SETTINGS.unbounded
-GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
 
 
 rule unbounded:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from latticode.configuration import messages
 from latticode.configuration.cases import Case
+from latticode.configuration.cost import steps_of
 from latticode.configuration.files import list_faults
 from latticode.configuration.schema import Sweep
 from pydantic import ValidationError, create_model
@@ -11,6 +12,7 @@ from pydantic import ValidationError, create_model
 from pendula.problem import AMPLITUDES
 from pendula.studies import modules
 
+from .cost import demand
 from .schema import Configuration
 
 STUDIES = {name: module.Settings for name, module in modules("settings").items()}
@@ -58,6 +60,8 @@ def require(
                 steps.setdefault(f"solvers.{solver}.step: {text}", name)
     lines += [f"{text} (in cases.{name})" for text, name in steps.items()]
     lines += _unlike_panels(settings.sweeps, sweeps)
+    there = [name for name in cases if name in settings.cases]
+    lines += _too_coarse_steps(settings, there) if "ode45" in solvers else []
     if lines:
         raise list_faults(lines, "the configuration")
 
@@ -86,6 +90,36 @@ def _faults_of_short_chains(name: str, settings: Configuration) -> Iterator[str]
             text = f"the chains of chaos.{key} end at {half_width}: start nearer to the centre"
             yield f"cases.{name}.initial: has the site {reach}, and {text}"
             return
+
+
+def _too_coarse_steps(settings: Configuration, names: list[str]) -> Iterator[str]:
+    """Yield a tolerance of ode45 at which its runs of the paper's cases may blow up.
+
+    The error of a step is up to `rtol` of the data. Once all of them together are as large as the
+    data, ode45 may add energy until its steps vanish: at 1.75 times the data it was seen to.
+    """
+    runs = {}
+    for case in names:
+        swept = [
+            settings.swept_problem(key) for key, one in settings.sweeps.items() if one.case == case
+        ]
+        runs[case] = settings.problem(case, "ode45")
+        runs[case]["end_time"] = max(one["end_time"] for one in (runs[case], *swept))
+    rtol = settings.solvers.ode45.rtol
+    name = max(runs, key=lambda case: _sum_of_errors(runs[case], rtol), default="")
+    if name and (total := _sum_of_errors(runs[name], rtol)) > 1.0:
+        most, span = 0.1 * rtol, runs[name]["end_time"]
+        while _sum_of_errors(runs[name], most) > 1.0:
+            most *= 0.1
+        text = f"add up to {total:.2g} times the data of cases.{name} by tau = {span:g}"
+        words = f"is {rtol:g}, and the errors of its steps {text}; give at most {most:.0e}"
+        yield f"solvers.ode45.rtol: {words}"
+
+
+def _sum_of_errors(problem: dict, rtol: float) -> float:
+    """Return the errors of all steps of ode45, relative to the data."""
+    steps, _ = steps_of({**problem["solver"], "rtol": rtol}, problem, demand(problem))
+    return steps * rtol
 
 
 def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:

@@ -12,6 +12,7 @@ from pydantic import Field
 from pendula.problem import AMPLITUDES
 
 from .cases import AnyCase
+from .runs import Runs
 
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
@@ -44,6 +45,35 @@ class Configuration(schema.Configuration):
         if name in PAPER_CASES:
             return super().takes(name)
         return "the run and its checks", self.cases[name].cost_with_checks
+
+    def run_of(self, case: str, tolerance: float, solver: str = "taylor", **changes) -> dict:
+        """Return a case as a study runs it, as plain values of a Problem."""
+        controls = {"name": solver, "rtol": tolerance, "atol": tolerance}
+        return {**self.problem(case), "solver": controls, "snapshot_every": 0, **changes}
+
+    def faults_of_runs(self, runs: Runs) -> Faults:
+        """Yield the key of runs of a study that no solver can follow, or that take too much."""
+        if found := list(runs.faults()):
+            yield from found
+            return
+        found = list(self.excess(runs.many, runs.costs(), runs.times))
+        if found and runs.size:
+            plain = runs._replace(size=0.0)
+            if not list(self.excess(runs.many, plain.costs(), runs.times)):
+                found = [(runs.perturbed, f"is {runs.size:g}, and {found[0][1]}")]
+        yield from found
+
+    def long_runs(self) -> list[str]:
+        """Return a sentence on each run that will last for minutes, those of studies together."""
+        sections = {name: getattr(self, name) for name in type(self).model_fields}
+        totals = {
+            f"{name}.{runs.many}: its runs together take": runs.total()
+            for name, section in sections.items()
+            if hasattr(section, "runs_of")
+            for runs in section.runs_of(self)
+        }
+        long = {what: one for what, one in totals.items() if one.seconds > cost.WORTH_SAYING}
+        return [*super().long_runs(), *(f"{what} {one}" for what, one in long.items())]
 
     def excess(self, key: str, costs: list[Cost], times: float = 1.0) -> Faults:
         """Yield `key` and why, if the runs of a study, each made `times` times, cost too much."""

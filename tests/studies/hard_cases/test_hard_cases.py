@@ -1,11 +1,14 @@
 """Every hard case ends as declared; the longest ones in a shorter version."""
 
+from inspect import signature
+
 import numpy as np
 import pytest
 from helpers import chosen
+from latticode.configuration.solvers import Solvers
 from pendula.studies.hard_cases import errors
 from pendula.studies.hard_cases.outcomes import evaluate
-from pendula.studies.hard_cases.settings import MEASURES
+from pendula.studies.hard_cases.settings import CONTROLS, TAKES
 
 CASES = chosen("hard_cases").plain()
 SHORTER = {"drift_of_energy": {"tau": 200.0}, "miss_of_short_chain": {"half_width": 500}}
@@ -19,7 +22,22 @@ def test_a_hard_case_ends_as_declared(case):
 
 
 def test_every_measure_is_used_and_says_against_what():
-    assert {case["measure"] for case in CASES} == set(MEASURES) == set(errors.AGAINST)
+    assert {case["measure"] for case in CASES} == set(TAKES) == set(errors.AGAINST)
+
+
+@pytest.mark.parametrize("measure", TAKES)
+def test_the_configuration_asks_for_the_arguments_of_each_measure(measure):
+    solver, *arguments = signature(getattr(errors, measure)).parameters.values()
+    needed = tuple(one.name for one in arguments if one.default is one.empty)
+    others = tuple(one.name for one in arguments if one.default is not one.empty)
+    assert solver.name == "solver" and (needed, others) == TAKES[measure]
+
+
+@pytest.mark.parametrize("name", CONTROLS)
+def test_the_configuration_asks_for_the_controls_of_each_solver(name):
+    assert set(CONTROLS[name]) == Solvers.model_fields[name].annotation.model_fields.keys() - {
+        "name"
+    }
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ Here each is a fault with its place. All else is read as YAML 1.1 or JSON, as Sn
 import json
 import os
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ import yaml
 
 MOST_VALUES, DEEPEST = 100_000, 30
 """A file of more values, or nested deeper, is no configuration but an accident."""
+TOO_MANY = f"more than {MOST_VALUES} values, counting each time that one is repeated"
 SURPRISES = {
     "int": (
         (re.compile(r"[-+]?0[0-9_]+"), "is read as a number to the base 8"),
@@ -91,6 +93,8 @@ def parse(text: str) -> tuple[Any, list[str]]:
     if text.lstrip().startswith("{"):
         faults: list[str] = []
         try:
+            if text.count(",") > MOST_VALUES:  # between two values of an object or an array
+                return None, [TOO_MANY]
             return json.loads(text, object_pairs_hook=lambda pairs: _pairs(pairs, faults)), faults
         except (ValueError, RecursionError):
             pass  # YAML may start with a brace too
@@ -107,15 +111,18 @@ def parse(text: str) -> tuple[Any, list[str]]:
 
 
 def _pairs(pairs: list, faults: list[str]) -> dict:
-    found, keys = dict(pairs), [key for key, _ in pairs]
-    faults += [f"the key {key!r} stands twice" for key in found if keys.count(key) > 1]
-    return found
+    counts = Counter(key for key, _ in pairs)
+    faults += [f"the key {key!r} stands twice" for key, count in counts.items() if count > 1]
+    return dict(pairs)
 
 
 def _size_fault(text: str) -> str | None:
-    """Return the fault of a text that is nested too deeply to be read."""
-    depth = 0
+    """Return the fault of a text that is too long or nested too deeply to be read."""
+    depth = scalars = 0
     for event in yaml.parse(text, yaml.CSafeLoader):
+        scalars += isinstance(event, yaml.ScalarEvent)
+        if scalars > 2 * MOST_VALUES:  # keys too, and each of what is repeated once
+            return f"line {event.start_mark.line + 1}: {TOO_MANY}"
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
         elif isinstance(event, yaml.CollectionEndEvent):
@@ -134,7 +141,7 @@ def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
     loader.seen = getattr(loader, "seen", 0) + 1
     if loader.seen > MOST_VALUES:
         if loader.seen == MOST_VALUES + 1:
-            yield f"{here} more than {MOST_VALUES} values, counting each time that one is repeated"
+            yield f"{here} {TOO_MANY}"
         return
     tag = node.tag.removeprefix("tag:yaml.org,2002:")
     if tag not in PLAIN:

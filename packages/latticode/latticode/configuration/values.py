@@ -104,10 +104,12 @@ def _as_complex(value: Any) -> complex:
 
 
 def _distinct(values: list) -> list:
-    twice = [value for i, value in enumerate(values) if value in values[:i]]
-    if twice:
-        text = list(twice[0]) if isinstance(twice[0], tuple) else twice[0]
-        raise fault(f"the same value stands twice: {text}")
+    seen: set = set()
+    for value in values:
+        if value in seen:
+            text = list(value) if isinstance(value, tuple) else value
+            raise fault(f"the same value stands twice: {text}")
+        seen.add(value)
     return values
 
 

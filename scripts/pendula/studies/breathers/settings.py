@@ -1,5 +1,6 @@
 """What the configuration says of breathers: constants, grids, members, seeds."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
@@ -20,7 +21,7 @@ from latticode.configuration.values import (
 )
 from pydantic import Field
 
-from pendula.configuration.cost import estimate
+from pendula.configuration.runs import Runs
 from pendula.configuration.schema import Configuration, Faults
 
 OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
@@ -95,10 +96,29 @@ class Settings(Model):
         absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
         yield from absent
         if not absent:
-            given, fates = self.sensitivity, self.fates
-            one = [estimate(settings.problem(given.case, end_time=given.end_time))]
-            for key, runs in (
-                ("sensitivity.members", given.members * len(given.sizes)),
-                ("fates.points", len(fates.omegas) * fates.points**2),
-            ):
-                yield from settings.excess(key, one, runs)
+            for runs in self.runs_of(settings):
+                yield from settings.faults_of_runs(runs)
+
+    def runs_of(self, settings: Configuration) -> Iterator[Runs]:
+        """Yield the runs of the ensembles by size, and those of the smallest and largest fates."""
+        given, fates = self.sensitivity, self.fates
+        run = settings.run_of(given.case, given.tolerance, end_time=given.end_time)
+        yield Runs(
+            "sensitivity.members",
+            "sensitivity.tolerance",
+            [run],
+            given.members * len(given.sizes),
+            "sensitivity.sizes",
+            max(given.sizes),
+        )
+        chain = {"half_width": fates.half_width, "epsilon": self.epsilon, "gamma": self.gamma}
+        times = {"end_time": fates.end_time, "output_step": fates.end_time}
+        least = 0.5 * fates.largest / max(fates.points, fates.long.points)
+        runs = [
+            settings.run_of(
+                "fig4_small", fates.tolerance, omega=omega, initial={0: (a, 0.0)}, **chain, **times
+            )
+            for omega in fates.omegas
+            for a in (least, fates.largest)
+        ]
+        yield Runs("fates.points", "fates.largest", runs, fates.points**2 / 2)

@@ -1,5 +1,6 @@
 """Section `chaos` of the configuration: cases, lengths of runs, tolerances and seeds."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from latticode.configuration.values import (
@@ -19,6 +20,7 @@ from latticode.configuration.values import (
 from pydantic import Field
 
 from pendula.configuration.cost import Cost, estimate
+from pendula.configuration.runs import Runs
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 
 
@@ -109,7 +111,9 @@ class Settings(Model):
         if (last := self.lifetimes.window[1]) > self.lifetimes.end_time:
             yield "lifetimes.window", f"ends at {last:g}, after the runs; make end_time larger"
         if not absent:
-            yield from self._too_long(settings)
+            for runs in self.runs_of(settings):
+                yield from settings.faults_of_runs(runs)
+            yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
 
     def shorter_chains(self, settings: Configuration, case: str) -> dict[str, int]:
         """Return the least half-width on which each ensemble integrates a case, by its key."""
@@ -120,29 +124,59 @@ class Settings(Model):
                 found[f"ensembles.sweeps.{name}"] = min(swept.half_widths)
         return found
 
-    def _too_long(self, settings: Configuration) -> Faults:
-        """Yield the sizes of ensembles and the lengths of runs that nobody would wait for.
-
-        A tangent vector costs about as much as its trajectory.
-        """
+    def runs_of(self, settings: Configuration) -> Iterator[Runs]:
+        """Yield the runs of each ensemble. A tangent vector costs as much as its trajectory."""
         paper = [case for case in PAPER_CASES if case in settings.cases]
         longest = max((settings.cases[case].end_time for case in paper), default=1.0)
-        runs = [estimate(settings.problem(case, end_time=longest)) for case in paper]
-        followed = self.lyapunov.span[1] / longest
-        yield from settings.excess("lyapunov.members", runs, 2.0 * followed * self.lyapunov.members)
-        yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
-        for name, drawn in self.ensembles.sweeps.items():
-            one = [settings.cost_of_sweep(name)]
-            yield from settings.excess(f"ensembles.sweeps.{name}.members", one, drawn.members)
-        yield from settings.excess("members.members", runs, self.members.members)
+        followed = self.lyapunov
+        runs = [
+            settings.run_of(case, followed.tolerance, "dop853", end_time=longest) for case in paper
+        ]
+        yield Runs(
+            "lyapunov.members",
+            "lyapunov.tolerance",
+            runs,
+            2.0 * followed.span[1] / longest * followed.members,
+            "lyapunov.size",
+            followed.size,
+        )
+        drawn = self.ensembles
+        for name, one in drawn.sweeps.items():
+            sweep = settings.sweeps[name]
+            ends = {"end_time": max(sweep.drawn.max[1], sweep.drawn.mean[1])}
+            chosen = {**ends, "output_step": drawn.output_step}
+            yield Runs(
+                f"ensembles.sweeps.{name}.members",
+                "ensembles.tolerance",
+                [
+                    settings.run_of(sweep.case, drawn.tolerance, half_width=m, **chosen)
+                    for m in one.half_widths
+                ],
+                one.members,
+                "ensembles.size",
+                drawn.size,
+            )
+        given = self.members
+        ends = {"end_time": max(end for _, end in given.windows)}
+        chosen = {**ends, "output_step": given.output_step, "snapshot_every": 1}
+        runs = [settings.run_of(case, given.tolerance, **chosen) for case in paper]
+        every = "members.members", "members.tolerance", runs, given.members
+        yield Runs(*every, "members.size", given.size)
+        yield self._lives(settings)
+
+    def _lives(self, settings: Configuration) -> Runs:
+        """Return the runs from each amplitude, whose number of looks is that of its outputs."""
         given = self.lifetimes
         times = {"end_time": given.end_time, "output_step": given.output_step}
-        lives = [
-            estimate(settings.problem(given.case, **times, initial={0: (a, given.ratio * a)}))
+        runs = [
+            settings.run_of(given.case, given.tolerance, **times, initial={0: (a, given.ratio * a)})
             for a in given.amplitudes
         ]
-        key = "members" if max(lives).seconds < 60.0 else "end_time"
-        yield from settings.excess(f"lifetimes.{key}", lives, given.members)
+        larger = "ratio" if given.ratio > 1.0 else "amplitudes"  # of A_0 and B_0
+        short = max(map(estimate, runs)).seconds < 60.0
+        many = "members" if short else "ratio" if given.ratio > 1.0 else "end_time"
+        keys = f"lifetimes.{many}", f"lifetimes.{larger}"
+        return Runs(*keys, runs, given.members, "lifetimes.size", given.size)
 
     def _spectra(self, settings: Configuration) -> list[Cost]:
         """Return what exponents of short chains take: half as many tangent vectors as numbers."""

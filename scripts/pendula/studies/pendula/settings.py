@@ -17,7 +17,7 @@ from latticode.configuration.values import (
 )
 from pydantic import Field
 
-from pendula.configuration.cost import estimate
+from pendula.configuration.runs import Runs
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 from pendula.problem import Constants
 
@@ -48,28 +48,32 @@ class Followed(Model):
     tolerance: Tolerance
 
     def unfit(
-        self, settings: Configuration, cases: Iterable[str], times: float = 1.0, key: str = "mus",
+        self,
+        settings: Configuration,
+        cases: Iterable[str],
+        times: float = 1.0,
+        size: float = 0.0,
+        key: str = "mus",
         **changes,
-    ) -> Faults:  # fmt: skip
+    ) -> Faults:
         """Yield where a case is missing or has no pendula at a mu, or what takes too long.
 
-        `key` is that of the mu, which may be those of a longer study.
+        The relative differences of the data are normal draws times `size`. `key` is that of the mu,
+        which may be those of a longer study.
         """
         mus = self.mus if key == "mus" else self.long.mus
         if absent := list(settings.absent("cases", "case", cases)):
             yield from absent
             return
-        solver = {"name": "taylor", "rtol": self.tolerance, "atol": self.tolerance}
-        costs = []
+        runs = []
         for name in cases:
             for mu in mus:
-                run = settings.problem(name, snapshot_step=None) | {"solver": solver}
-                run |= {"model": "pendula", "mu": mu, **changes}
+                run = settings.run_of(name, self.tolerance, model="pendula", mu=mu, **changes)
                 if why := _endless(Constants.of(run), mu):
                     yield key, f"has {mu:g}, and {why.format(case=name)}"
                     return
-                costs.append(estimate(run))
-        yield from settings.excess(key, costs, times)
+                runs.append(run)
+        yield from settings.faults_of_runs(Runs(key, "tolerance", runs, times, "size", size))
 
 
 def _endless(constants: Constants, mu: float) -> str:
@@ -125,8 +129,11 @@ class OverTheTop(Followed):
         if not (latest := max(self.long.variations.get("settled", [0.0]))) < self.long.end_time:
             key = "long.variations.settled"
             yield key, f"has {latest:g}, and must lie before the end time, {self.long.end_time:g}"
-        for key, size in (("mus", self), ("long.mus", self.long)):
-            yield from self.unfit(settings, [self.case], size.members, key, end_time=size.end_time)
+        for key, runs in (("mus", self), ("long.mus", self.long)):
+            many = runs.members, self.size, key
+            if unfit := list(self.unfit(settings, [self.case], *many, end_time=runs.end_time)):
+                yield from unfit
+                return
 
 
 class Settings(Model):

@@ -23,12 +23,16 @@ from latticode.configuration.values import (
 from pydantic import Field
 
 from pendula.configuration.cost import estimate
+from pendula.configuration.runs import Runs
 from pendula.configuration.schema import Configuration, Faults
 
 from .bulk import PIECE
 
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
+
+GROWTH_CASES = ("fig4_small", "fig3_large", "fig2_large", "fig3_small")
+"""The cases of the figure growth_law, and of claims."""
 
 OMEGAS = "omegas"
 """The ensemble over Omega, beside those of cases."""
@@ -69,6 +73,9 @@ class Settings(Model):
             said = "is no ensemble of cases, over Omega or over initial conditions"
             absent += [(f"{label}.runs.{name}", said) for name in sorted(unknown)]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
+        for case in GROWTH_CASES:
+            if case not in self.cases:
+                absent.append(("cases", f"lacks {case}, which the figure growth_law shows"))
         yield from absent
         if absent:
             return
@@ -102,6 +109,12 @@ class Settings(Model):
         for name in self.names:
             run = size.runs[name]
             problems = self.problems(settings.problem(self.case_of(name)), name, size)
+            drawn = Runs(
+                "", f"{label}.solver.atol", problems, 1.0, "perturbation", self.perturbation
+            )
+            if unfit := list(drawn.faults()):
+                yield from unfit
+                return
             # the front moves at SPEED, half of its reach is the mean
             reach = 0.5 * SPEED * abs(problems[0]["epsilon"]) * run.end_time
             cost = estimate(problems[0] | {"half_width": max(1.0, reach), "snapshot_every": 0})

@@ -1,0 +1,66 @@
+"""Many runs of a study: whether a solver can follow them, and what they take together."""
+
+from collections.abc import Iterator, Mapping
+from math import sqrt
+from typing import Any, NamedTuple
+
+from latticode.configuration import cost
+from latticode.configuration.cost import Cost
+from latticode.simulation.feasibility import Obstacle
+
+from pendula.feasibility import find_fault
+from pendula.problem import Constants
+
+from .cost import estimate
+
+FARTHEST = 5.0
+"""Normal draws are hardly ever larger."""
+
+
+class Runs(NamedTuple):
+    """Problems as plain values, and the keys of a study that decide whether they can be run.
+
+    `many` makes them fewer or shorter. At `tolerance` a fault is reported of the data as they are,
+    and at `perturbed` one of data whose relative differences are normal draws times `size`.
+    """
+
+    many: str
+    tolerance: str
+    problems: list[dict[str, Any]]
+    times: float = 1.0
+    perturbed: str = ""
+    size: float = 0.0
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        """Yield the first key that keeps a run from being followed to its end, and why."""
+        for problem in self.problems:
+            if fault := fault_of(problem):
+                yield self.many if fault[0] == "end_time" else self.tolerance, fault[1]
+                return
+            if self.size and (fault := fault_of(enlarged(problem, 1.0 + FARTHEST * self.size))):
+                yield self.perturbed, f"is {self.size:g}, and {fault[1]}"
+                return
+
+    def costs(self) -> list[Cost]:
+        """Return what each problem takes, with data as large as those of members are on average."""
+        mean = sqrt(1.0 + 2.0 * self.size * self.size)
+        return [estimate(enlarged(one, mean)) for one in self.problems]
+
+    def total(self) -> Cost:
+        """Return what all runs take, one after another."""
+        one = cost.total(self.costs())
+        return one._replace(seconds=self.times * one.seconds)
+
+
+def enlarged(problem: Mapping, factor: float) -> dict:
+    """Return a problem with data so many times as large."""
+    initial = problem["initial"].items()
+    return {**problem, "initial": {site: tuple(factor * z for z in data) for site, data in initial}}
+
+
+def fault_of(problem: Mapping) -> Obstacle | None:
+    """Return the key of a problem that no solver can follow to its end, and why."""
+    amplitudes = [z for data in problem["initial"].values() for z in data]
+    peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
+    constants, solver = Constants.of(problem), problem["solver"]
+    return find_fault(constants, peak, problem["end_time"], solver, problem.get("mu"))
