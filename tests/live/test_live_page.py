@@ -5,6 +5,7 @@ import re
 from helpers import ROOT
 from pendula.article import write as article
 from pendula.live import write as live
+from pendula.live.kernel import compile_for_any_processor
 from pendula.studies.breathers import figures
 
 
@@ -16,3 +17,12 @@ def test_localised_is_one_word_with_one_definition():
     for text in texts:
         assert defined in re.sub(r"\s+", " ", text.replace("$P$", "P"))
     assert "stays localised" in figures.KINDS
+
+
+def test_processors_of_two_makes_compile_the_same_webassembly(monkeypatch):
+    """numba would order operations for the one that it is told of."""
+    modules = []
+    for name in ("core2", "znver3"):
+        monkeypatch.setenv("NUMBA_CPU_NAME", name)
+        modules.append(compile_for_any_processor())
+    assert modules[0] == modules[1] and modules[0].startswith(b"\0asm")

@@ -1,19 +1,27 @@
 """The page's solver: ode45 on (4) that keeps the whole state at every output, not moduli alone.
 
 The page then shows any time of a run without integrating again.
+
+Started as a program it writes the WebAssembly of the solver.
 """
+
+import os
+import subprocess
+import sys
 
 import numpy as np
 from latticode.equations.ends import DIRICHLET, MIRROR
 from latticode.integrators import ode45
 from latticode.kernels.compiled import kernel
-from latticode.kernels.webassembly import webassembly
+from latticode.kernels.webassembly import WebAssemblyError, webassembly
 from latticode.simulation.observables import blank_record, observe_fields
 
 from pendula.models.amplitudes import Chain, energy_with_scratch, rates
 from pendula.models.solvers import SOLVERS
 
 ODE45 = SOLVERS["ode45"]
+ANY_PROCESSOR = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
+"""Variables that have numba compile for the features that all processors of a family share."""
 
 
 @kernel
@@ -40,3 +48,21 @@ def compile_to_webassembly() -> bytes:
     controls, stop = (0.0,) * len(ODE45.controls), np.zeros(1, np.bool_)
     work = ODE45.room_for(None, y)
     return webassembly(run_keeping_states, chain, y, np.zeros(2), controls, work, record, stop)
+
+
+def compile_for_any_processor() -> bytes:
+    """Return the WebAssembly that processors of all makes compile, byte by byte.
+
+    numba orders operations for one processor, which it chooses once in a process: so this starts a
+    Python of its own. Raises WebAssemblyError with the reason where that fails.
+    """
+    variables = os.environ | ANY_PROCESSOR | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command = [sys.executable, "-m", __name__]
+    finished = subprocess.run(command, env=variables, capture_output=True)
+    if finished.returncode:
+        raise WebAssemblyError(finished.stderr.decode(errors="replace").strip())
+    return finished.stdout
+
+
+if __name__ == "__main__":
+    sys.stdout.buffer.write(compile_to_webassembly())

@@ -25,7 +25,7 @@ from pendula.report import page
 from pendula.report.words import case_of
 
 from .experiments import EXPERIMENTS
-from .kernel import ODE45, compile_to_webassembly
+from .kernel import ODE45, compile_for_any_processor
 
 HERE = Path(__file__).parent
 SCRIPTS = "runs.js", "pictures.js", "words.js", "live.js"
@@ -87,7 +87,7 @@ def _solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return what the page holds of its solver, with the controls of a trajectory's attributes."""
     controls = {name: float(attributes[f"solver_{name}"]) for name in ODE45.controls}
     return {
-        "code": _text(compile_to_webassembly()),
+        "code": _text(compile_for_any_processor()),
         "controls": [*controls.values()],
         "named": yaml.safe_dump({"name": "ode45", **controls}, default_flow_style=True).strip(),
         "work": ODE45.work,
