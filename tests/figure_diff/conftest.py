@@ -11,7 +11,7 @@ import netCDF4
 import pytest
 from latticode.datasets.json_files import ENTRY, load_json, write_json
 from latticode.datasets.netcdf import LENGTH, MARK, read
-from pendula.figure_diff import Finding, Verdict, acceptance, baseline
+from pendula.figure_diff import Finding, Verdict, acceptance, baseline, scatter
 
 
 class Run(NamedTuple):
@@ -31,26 +31,34 @@ class Run(NamedTuple):
     def anew(self, name: str, known: dict[str, Finding]) -> list[Finding]:
         """Judge a file, and those of its figure, where all others are `known`.
 
-        Return what is found of it by the accepted bits, and where any bits will do.
+        Return what is found of it in the accepted environment, there where any bits will do, and in
+        an environment of other versions.
         """
-        comparison = baseline.Comparison(baseline.recorded(self.accepted), *self)
-        comparison.found = dict(known)
-        stem = name.rpartition(".")[0]
-        for beside in sorted(known, key=baseline.place):
-            if beside.startswith(f"{stem}."):
-                comparison.look_at(beside)
-        found = comparison.found[name]
-        return [comparison.strictly(found, any_bits) for any_bits in (False, True)]
+        findings, stem = [], name.rpartition(".")[0]
+        for is_accepted_environment in (True, False):
+            comparison = baseline.Comparison(baseline.recorded(self.accepted), *self)
+            if not is_accepted_environment:
+                comparison.same_data = comparison.same_drawing = False
+            comparison.found = dict(known)
+            for beside in sorted(known, key=baseline.place):
+                if beside.startswith(f"{stem}."):
+                    comparison.look_at(beside)
+            found = comparison.found[name]
+            findings += [comparison.strictly(found, any_bits) for any_bits in (False, True)]
+        return findings[:3]
 
     def accept(self, names=made_up.NAMES, words=()) -> str:
         """Take the run, or the files that words name, as the baseline; return what is told."""
         return acceptance.accept(names, *self, made_up.CONFIGURATION, words)
 
-    def change(self, name: str, change) -> None:
-        """Write a dataset of the run anew, as `change` returns it, without a check of its form."""
+    def change(self, name: str, change, fill: dict | None = None) -> None:
+        """Write a dataset of the run anew, as `change` returns it, without a check of its form.
+
+        `fill` is the value by which a variable of this name says that it has none.
+        """
         changed = change(read(self.made / name))
-        for variable in changed.variables.values():
-            variable.encoding = {"_FillValue": None}
+        for key, variable in changed.variables.items():
+            variable.encoding = {"_FillValue": (fill or {}).get(key)}
         changed.to_netcdf(self.made / name, engine="netcdf4", format="NETCDF4")
         seal(self.made / name)
 
@@ -91,6 +99,8 @@ def accepted_run(tmp_path_factory) -> Run:
     folder = tmp_path_factory.mktemp("accepted_run")
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
     run.accept()
+    others = [made_up.make_run(folder / f"right_{seed}", seed) for seed in (2, 3)]
+    write_json(run.accepted / scatter.SCATTER, {"scatter": scatter.measure(run.accepted, others)})
     return run
 
 

@@ -1,5 +1,6 @@
 """A small run of made-up curves: one regular case, one that is chaotic after HORIZON."""
 
+import base64
 from pathlib import Path
 
 import numpy as np
@@ -10,15 +11,20 @@ from latticode.drawing import style
 from matplotlib.figure import Figure
 
 TAU, HORIZON, M = np.linspace(0, 50, 401), 9.0, np.arange(5.0, 45.0, 5.0)
+LARGEST = 0.3
+"""The error that a chaotic run has in the end, from HORIZON + 9.5 on."""
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"
 SWEEP = "sweeps/fig5_right.nc"
 TRUST, EXPONENTS, ROUNDING = "checks/trust.nc", "checks/lyapunov.nc", "checks/balance.nc"
 MAP, BOUND = "breathers/fates.nc", "certified/fig2_small.nc"
+LIVES, PROOFS, HARD = "checks/lifetimes.nc", "certified/breathers.nc", "checks/hard_cases.nc"
 PICTURE = "figures/fig2.png"
 LEDGER, PART, TABLE, REPORT = "claims.json", "claims/theory.json", "tables/claims.md", "report.html"
+LIVE = "live.html"
 NAMES = [
     *(REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP),
-    *(LEDGER, PART, TABLE, REPORT),
+    *(LIVES, PROOFS, HARD),
+    *(LEDGER, PART, TABLE, REPORT, LIVE),
     *(
         f"figures/{stem}.{kind}"
         for stem in ("fig2", "fig4")
@@ -27,7 +33,7 @@ NAMES = [
     BOUND,
 ]
 CONFIGURATION = {
-    "cases": {"fig2_small": {"end_time": 50, "omega": 8}},
+    "cases": {"fig2_small": {"end_time": 50, "omega": 8}, "fig4_small": {"omega": 0}},
     "sweeps": {"fig5_right": {"case": "fig4_small"}},
 }
 
@@ -38,14 +44,19 @@ def dataset(coordinates: dict, variables: dict, **attributes) -> xr.Dataset:
     return xr.Dataset(named, coordinates, attributes)
 
 
+def grown() -> np.ndarray:
+    """Return the error of a chaotic run: it grows tenfold in a unit of time."""
+    return (1e-10 * np.exp(np.log(10) * (TAU - HORIZON))).clip(0, LARGEST)
+
+
 def norms(chaotic: bool, seed: int = 0) -> xr.Dataset:
-    """Return norms of two components; chaotic ones depend on the seed after the horizon."""
+    """Return norms of two components; chaotic ones depend on the seed more and more."""
     draws = np.random.default_rng(seed).normal(size=(2, TAU.size))
-    l2 = np.array([2 + np.cos(0.7 * TAU), 1 + 0.5 * np.sin(1.1 * TAU)])
+    l2, share = np.array([2 + np.cos(0.7 * TAU), 1 + 0.5 * np.sin(1.1 * TAU)]), grown() / LARGEST
     return dataset(
         {"component": ["A", "B"], "tau": TAU},
         {
-            "l2": (("component", "tau"), np.where(chaotic & (TAU > HORIZON), 3 + 0.5 * draws, l2)),
+            "l2": (("component", "tau"), l2 + chaotic * share * (3 + 0.5 * draws - l2)),
             "bound": ("component", [np.inf, 9.5]),
             "sites": ("component", [61, 61]),
         },
@@ -58,21 +69,31 @@ def norms(chaotic: bool, seed: int = 0) -> xr.Dataset:
 def numbers(seed: int = 0) -> dict[str, xr.Dataset]:
     """Return the datasets; those that rest on chaos depend on the seed."""
     cases, draw = ["fig2_small", "fig4_small"], np.random.default_rng(seed).normal
-    grown = np.array([1e-15 + 0 * TAU, 1e-10 * np.exp(np.log(10) * (TAU - HORIZON))]).clip(0, 0.3)
-    regular = norms(False)
+
+    def some(values: np.ndarray, scatter: float) -> np.ndarray:
+        return values * (1.0 + scatter * draw(size=values.size))
+
+    regular, errors = norms(False), np.array([1e-15 + 0 * TAU, grown()])
     return {
         REGULAR: regular,
         CHAOTIC: norms(True, seed),
-        SWEEP: dataset({"half_width": M}, {"l2": ("half_width", 40 + draw(size=M.size))}),
+        SWEEP: dataset({"half_width": M}, {"l2": ("half_width", some(9.0 * np.sqrt(M), 0.01))}),
         TRUST: dataset(
             {"case": cases, "solver": ["taylor"], "tau": TAU},
-            {"difference": (("case", "solver", "tau"), 10 * grown[:, None])},
+            {"difference": (("case", "solver", "tau"), 10 * errors[:, None])},
         ),
         EXPONENTS: dataset({"case": cases}, {"exponent": ("case", [1e-4, 1.73 + 0.01 * draw()])}),
         ROUNDING: dataset({"tau": TAU[:9]}, {"defect": ("tau", 1e-15 * draw(size=9))}),
         BOUND: dataset({"tau": TAU}, {"bound": ("tau", 1e-12 * np.exp(0.1 * TAU))}),
-        MAP: dataset({"half_width": M}, {"fate": ("half_width", 1 + 0.1 * draw(size=M.size))}),
-    }
+        MAP: dataset(
+            {"omega": [0.0, 8.0], "half_width": M},
+            {"fate": (("omega", "half_width"), [some(1 + 0 * M, 0.1), 1 + 0 * M])},
+        ),
+        LIVES: dataset({"half_width": M}, {"median": ("half_width", some(M, 0.02))}),
+        PROOFS: dataset({}, {"radius": ("row", [1.4e-16, 2.5e-16])}),
+        HARD: dataset({}, {"case": ("row", ["stiff", "tiny", "long"]),
+                           "error": ("row", [3e-13, 1e-9, 2e-12])}),
+    }  # fmt: skip
 
 
 @style.styled
@@ -111,9 +132,12 @@ def put_words(folder: Path, largest: float = 6.60403, verdict: str = "confirmed"
     write_json(folder / PART, {"read": [REGULAR], "rows": rows})
     table = f"# Claims\n\n| claim | verdict |\n|-------|---------|\n| bounded | {verdict} |\n"
     (folder / TABLE).write_text(table)
-    times = '<section id="run"><p>Wall time: 96 s</p></section>'
+    times = '<section id="run">\n<p>Wall time: 96 s</p>\n</section>'
     page = f"<html><p>The claim is {verdict}.</p><p>It is {largest}.</p>{times}</html>\n"
     (folder / REPORT).write_text(page)
+    code = base64.b64encode(b"\0asm" + bytes(range(64))).decode()
+    data = f'<script type="application/json">{{"code": "{code}"}}</script>'
+    (folder / LIVE).write_text(f"<html>{data}<p>Run a case.</p></html>\n")
 
 
 def make_run(folder: Path, seed: int = 0) -> Path:

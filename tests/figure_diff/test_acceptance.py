@@ -5,7 +5,17 @@ import numpy as np
 import pytest
 from latticode.datasets.json_files import load_json, write_json
 from latticode.datasets.netcdf import read
-from made_up_results import CHAOTIC, CONFIGURATION, LEDGER, NAMES, PICTURE, REGULAR, REPORT, TABLE
+from made_up_results import (
+    CHAOTIC,
+    CONFIGURATION,
+    LEDGER,
+    LIVE,
+    NAMES,
+    PICTURE,
+    REGULAR,
+    REPORT,
+    TABLE,
+)
 from pendula.figure_diff import Status, acceptance, baseline, hashes
 from pendula.figure_diff.acceptance import AcceptanceError, check, choose
 
@@ -103,7 +113,7 @@ def test_what_is_kept_is_every_sample_in_single_precision_unless_more_digits_are
     with netCDF4.Dataset(run.accepted / REGULAR) as data:
         assert data["l2"].filters()["zlib"] and data["l2"].filters()["complevel"] == 9
     absent = {name for name in NAMES if not (run.accepted / name).exists()}
-    assert absent == {REPORT, "figures/fig2.pdf", "figures/fig4.pdf"}
+    assert absent == {REPORT, LIVE, "figures/fig2.pdf", "figures/fig4.pdf"}
 
 
 @pytest.mark.parametrize("name", [REGULAR, PICTURE, LEDGER])

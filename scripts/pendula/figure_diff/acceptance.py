@@ -23,7 +23,8 @@ from .baseline import (
     unlike_settings,
 )
 from .compare_datasets import fault_of_form
-from .compare_shown import damage, hash_of
+from .compare_pictures import damage, edited
+from .compare_shown import hash_of
 
 ALL = "accept all files, so that all are of one run"
 OWN = """run it without --configfile and --config; for a baseline of another configuration give a \
@@ -104,13 +105,15 @@ def _read(name: str, path: Path) -> bytes | xr.Dataset:
     """Return what a file holds; raises DatasetError or AcceptanceError if it is damaged."""
     if name.endswith(".nc"):
         data = read(path)
-        if fault := fault_of_form(path):
+        if fault := fault_of_form(path, data):
             raise AcceptanceError(f"{path} {fault}; delete it and run snakemake to make it again")
         return data
     if name.endswith(".json") and not name.startswith(FIGURES):
         load_json(path)
     content = path.read_bytes()
-    fault = damage(path, content) if name.endswith(PICTURES) else "" if content else "is empty"
+    fault = "" if content else "is empty"
+    if name.endswith(PICTURES):
+        fault = damage(path, content) or (name.startswith(FIGURES) and edited(path, content))
     if fault:
         raise AcceptanceError(f"{path} {fault}: delete it and run snakemake to make it again")
     return content

@@ -1,8 +1,9 @@
-"""Which numbers rest on chaos, so that two right runs may differ in them by any amount.
+"""Which numbers rest on chaos, and how far they may be off in a right run.
 
-One definition of the horizon of trust, from the accepted run: the time at which the run by Taylor's
-method, whose only errors are roundings, leaves the reference by MARGIN of the tolerance. Until then
-those of any right run are smaller than the tolerance. A case without such a time is regular.
+The accepted run says it: the run by Taylor's method, whose only errors are roundings, leaves the
+reference by `difference` of full scale. Those of any right run are smaller than that over MARGIN.
+The horizon of trust is the time at which this reaches the tolerance; a case without one is regular.
+From then on a number is the less known the later it is, until nothing of it is.
 """
 
 import re
@@ -26,6 +27,10 @@ ROUNDING = 1e-8
 MARGIN = 0.001
 """Other solvers round ten times as often as Taylor's, or more, and roundings add up."""
 
+LOCAL, UNKNOWN = 10.0, 0.1
+"""How much more than a norm the numbers of single sites may be off after the horizon; and what part
+of full scale an error has that no longer grows as a small one does, so that it may be any."""
+
 TRUST, ROUNDED_ONLY = "checks/trust.nc", "taylor"
 """The dataset with the differences to the references, and the solver among those of it."""
 
@@ -40,8 +45,9 @@ RESTS_ON_CHAOS = [
 """Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
 the file or along a dimension."""
 
-DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]
-"""Variables that are divided by the largest value of a run: of a chaotic one, it is in the tail."""
+OF_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far", "figures/growth_law:law"]
+"""Variables that rest on the tail of a run at all times: they are divided by its largest value, or
+are a law whose speeds are measured on it."""
 
 STEADY = [
     *("*omega", "*:start", "*_start", "*:true_*", "*_undriven", "*:stated_drift"),
@@ -58,34 +64,58 @@ class Chaos(NamedTuple):
 
     horizons: Mapping[str, float]
     """The horizon of trust of each chaotic case, and -inf for each sweep over one, by name."""
+    errors: Mapping[str, tuple[np.ndarray, np.ndarray]] = {}
+    """By the name of a chaotic case, times, and what a right run may be off until each of them."""
+    regular_omegas: frozenset[float] = frozenset()
+    """The detunings at which no case is chaotic."""
 
-    def beyond(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
-        """Return which values of the variable `key` of the dataset `name` cannot be judged.
+    def freedom(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
+        """Return how far each value of the variable `key` of the dataset `name` may be off.
 
+        This is a part of the largest: zero for a regular number, infinity where nothing is known.
         A case or a sweep is known by the parts of its name in the name of the file and in the words
         along the dimensions: the curve `large` in figures/fig3 is of fig3_large.
         """
         variable, stem = data.variables[key], name.removesuffix(".nc")
-        label, found = f"{stem}:{key}", np.zeros(variable.shape, bool)
+        label, nothing = f"{stem}:{key}", np.zeros(variable.shape)
         if are_coordinates(key, variable):  # a star does not mean them
-            return found | (label in RESTS_ON_CHAOS)
+            return np.full(variable.shape, np.inf if label in RESTS_ON_CHAOS else 0.0)
         if _is_one_of(label, STEADY):
-            return found
+            return nothing
         if _is_one_of(label, RESTS_ON_CHAOS):
-            return ~found
+            return np.where(self._at_regular_omegas(variable, data), nothing, np.inf)
         if variable.dtype.kind != "f":  # counts and parameters
-            return found
-        has_horizon = not _is_one_of(label, DIVIDED_BY_THE_TAIL)
-        times = _times(variable, data) if has_horizon else np.inf
+            return nothing
+        return self._of_cases(variable, data, stem, _is_one_of(label, OF_THE_TAIL))
+
+    def _at_regular_omegas(self, variable: xr.Variable, data: xr.Dataset) -> np.ndarray:
+        """Return which values stand at a detuning at which no case of the paper is chaotic."""
+        if "omega" not in variable.dims:
+            return np.array(False)
+        axis = [-1 if dimension == "omega" else 1 for dimension in variable.dims]
+        return np.isin(data["omega"].values, list(self.regular_omegas)).reshape(axis)
+
+    def _of_cases(
+        self, variable: xr.Variable, data: xr.Dataset, stem: str, of_the_tail: bool
+    ) -> np.ndarray:
+        """Return the freedom of values, of which some are of chaotic cases or sweeps."""
+        freedom = np.zeros(variable.shape)
+        times = np.inf if of_the_tail else _times(variable, data)
         labels = [_labels(dimension, data) for dimension in variable.dims]
         for place in np.ndindex(*map(len, labels)):
             pairs = list(zip(labels, place, strict=True))
             words = _parts(stem).union(*(along[i] for along, i in pairs))
-            hits = [at for known, at in self.horizons.items() if _parts(known) <= words]
-            if hits:
+            cases = [known for known in self.horizons if _parts(known) <= words]
+            if cases:
                 index = (slice(i, i + 1) if len(along) > 1 else slice(None) for along, i in pairs)
-                found[tuple(index)] = times >= min(hits)
-        return found
+                freedom[tuple(index)] = np.max([self._until(case, times) for case in cases], axis=0)
+        return freedom
+
+    def _until(self, case: str, times: np.ndarray | float) -> np.ndarray:
+        """Return how far the numbers of a case may be off at these times."""
+        tau, error = self.errors.get(case, (np.zeros(1), np.full(1, np.inf)))
+        at = np.searchsorted(tau, times).clip(max=len(tau) - 1)
+        return np.where(np.asarray(times) < self.horizons[case], 0.0, error[at])
 
 
 def _is_one_of(label: str, patterns: Iterable[str]) -> bool:
@@ -97,14 +127,23 @@ def are_coordinates(key: str, variable: xr.Variable) -> bool:
     return variable.dims in ((key,), (key.removesuffix("_tau"),))
 
 
-def horizons(folder: Path, sweeps: Mapping[str, Any]) -> dict[str, float]:
-    """Return the horizons that the baseline in `folder`, which has these sweeps, tells."""
+def known_chaos(folder: Path, configuration: Mapping[str, Any]) -> Chaos:
+    """Return what the baseline in `folder`, of this configuration, tells of chaos."""
     trust = read(folder / TRUST)
-    apart = trust["difference"].sel(solver=ROUNDED_ONLY) > MARGIN * TOLERANCE
-    first = trust["tau"].values[apart.argmax("tau").values]
-    pairs = zip(trust["case"].values, first, apart.any("tau").values, strict=True)
-    found = {str(case): float(tau) for case, tau, is_chaotic in pairs if is_chaotic}
-    return found | {name: -np.inf for name, sweep in sweeps.items() if sweep["case"] in found}
+    difference = trust["difference"].sel(solver=ROUNDED_ONLY).transpose("case", "tau")
+    grown = np.maximum.accumulate(difference.fillna(0.0).values, axis=1) / MARGIN
+    tau, horizons, errors = trust["tau"].values, {}, {}
+    for case, error in zip(map(str, trust["case"].values), grown, strict=True):
+        if (late := error > TOLERANCE).any():
+            horizons[case] = float(tau[late.argmax()])
+            errors[case] = tau, np.where(error < UNKNOWN, LOCAL * error, np.inf)
+    sweeps, cases = (configuration.get(name, {}) for name in ("sweeps", "cases"))
+    swept = {name: -np.inf for name, sweep in sweeps.items() if sweep["case"] in horizons}
+    omegas = [
+        {float(cases[name]["omega"]) for name in cases if (name in horizons) == chaotic}
+        for chaotic in (False, True)
+    ]
+    return Chaos(horizons | swept, errors, frozenset(omegas[0] - omegas[1]))
 
 
 def _parts(text: str) -> set[str]:

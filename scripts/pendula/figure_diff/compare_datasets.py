@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import netCDF4
+import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import LENGTH, MARK, DatasetError, read
 
@@ -17,6 +18,10 @@ from .chaos import Chaos, are_coordinates
 
 WORK = ("steps", "rejected_steps", "right_hand_sides")
 """Attributes that count what a solver did: they follow every rounding, also of a regular run."""
+
+
+SHOWN_OTHERWISE = ("coordinates",)
+"""Attributes that xarray shows by what they mean."""
 
 
 class Unlike(NamedTuple):
@@ -28,22 +33,27 @@ class Unlike(NamedTuple):
 
 
 def compare(
-    name: str, new: Path, accepted: Mapping[str, Any], kept: Path, chaos: Chaos
+    name: str,
+    new: Path,
+    accepted: Mapping[str, Any],
+    kept: Path,
+    chaos: Chaos,
+    scatter: Mapping[str, float],
 ) -> tuple[Status, str]:
     """Return status and reason of the dataset `name`, in the file `new`, with its accepted hashes.
 
-    `kept` is the copy in the baseline.
+    `kept` is the copy in the baseline, `scatter` what is known of chaotic variables (`scatter`).
     """
     try:
         content = read(new)
     except DatasetError:
         return Status.DAMAGED, "cannot be read"
-    if fault := fault_of_form(new):
+    if fault := fault_of_form(new, content):
         return Status.DAMAGED, fault
     if hashes.of(content).items() <= accepted.items():
         return Status.IDENTICAL, ""
     was = read(kept)
-    found = list(differences(name, was, content, accepted["variables"], chaos))
+    found = list(differences(name, was, content, accepted["variables"], chaos, scatter))
     if faults := [each.says for each in found if each.is_fault] or [*values.jumps(was, content)]:
         return Status.DIFFERENT, "; ".join(faults[:3])
     if beyond := [each.says for each in found if each.beyond]:
@@ -52,18 +62,40 @@ def compare(
     return Status.WITHIN, "; ".join([each.says for each in found][:3])
 
 
-def fault_of_form(path: Path) -> str:
-    """Return a fault that xarray does not show: no checksum, groups, idle dimensions."""
+def fault_of_form(path: Path, content: xr.Dataset) -> str:
+    """Return what a file holds beside its `content` as xarray shows it, or that it has no checksum.
+
+    That is groups, types, dimensions without a variable or without an end, and attributes by which
+    xarray turns values into others.
+    """
     if not path.read_bytes()[-LENGTH:].startswith(MARK):
         return "has lost the checksum in its last line: it was written by another program"
     with netCDF4.Dataset(path) as file:
         used = {name for variable in file.variables.values() for name in variable.dimensions}
-        hidden = [*file.groups, *(file.dimensions.keys() - used)]
-    return f"has a group or a dimension without a variable: {hidden[0]}" if hidden else ""
+        endless = [name for name, each in file.dimensions.items() if each.isunlimited()]
+        hidden = {
+            "group": [*file.groups],
+            "type": [*file.cmptypes, *file.enumtypes, *file.vltypes],
+            "dimension without a variable": [*(file.dimensions.keys() - used)],
+            "dimension without an end": endless,
+            "hidden attribute": [
+                f"{name}:{key}"
+                for name, variable in file.variables.items()
+                for key in variable.ncattrs()
+                if key not in (*content.variables[name].attrs, *SHOWN_OTHERWISE)
+            ],
+        }
+    told = [f"has a {kind}: {names[0]}" for kind, names in hidden.items() if names]
+    return told[0] if told else ""
 
 
 def differences(
-    name: str, was: xr.Dataset, now: xr.Dataset, accepted: Mapping[str, str], chaos: Chaos
+    name: str,
+    was: xr.Dataset,
+    now: xr.Dataset,
+    accepted: Mapping[str, str],
+    chaos: Chaos,
+    scatter: Mapping[str, float],
 ) -> Iterator[Unlike]:
     """Yield all that differs from what is kept; `accepted` are the texts of hashes."""
     yield from _of_attributes("", was.attrs, now.attrs)
@@ -77,7 +109,8 @@ def differences(
         if (now_kind := hashes.kind(after)) != kind:
             yield Unlike(True, 0, f"{key} is {now_kind} in place of {kind}")
         elif hashes.of_values(after) != hash_of_values:
-            yield _of_values(key, before, after, chaos.beyond(name, key, now), now)
+            known = scatter.get(f"{name.removesuffix('.nc')}:{key}")
+            yield _of_values(key, before, after, chaos.freedom(name, key, now), now, known)
 
 
 def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[Unlike]:
@@ -90,12 +123,19 @@ def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[Unlike]:
             yield Unlike(not counts_work, int(counts_work), says)
 
 
-def _of_values(key: str, was: xr.Variable, now: xr.Variable, chaotic, data: xr.Dataset) -> Unlike:
-    """Compare values with other bits; `chaotic` says which of them rest on chaos."""
-    is_text = hashes.are_words(was)
+def _of_values(
+    key: str,
+    was: xr.Variable,
+    now: xr.Variable,
+    freedom: np.ndarray,
+    data: xr.Dataset,
+    scatter: float | None,
+) -> Unlike:
+    """Compare values with other bits; `freedom` says which of them rest on chaos."""
+    is_text, chaotic = hashes.are_words(was), freedom > 0.0
     if is_text or (are_coordinates(key, now) and not chaotic.all()):
         return Unlike(True, 0, f"{key} holds other {'words' if is_text else 'coordinates'}")
-    if fault := values.fault(key, was, now, chaotic, data):
+    if fault := values.fault(key, was, now, freedom, data, scatter):
         return Unlike(True, 0, fault)
     count = int(chaotic.sum())
     of_chaos = f"{count} of {chaotic.size} numbers of {key} rest on chaos"

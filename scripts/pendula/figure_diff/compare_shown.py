@@ -4,25 +4,18 @@ Where all datasets have the accepted bits, not a letter may differ. Else a numbe
 tolerance or by its last digit. Only what follows a dataset that is beyond comparison may be off by
 more: measured numbers and their sentences in a ledger, limits and ends of curves in a figure.
 Verdicts, criteria, cut-offs, labels, colours, and what each curve shows must still be equal.
-
-A picture carries the fingerprint of the description beside it (`drawing.description`), and that the
-digest of the data: so one of other data, an older run or another figure is told on any machine. Its
-pixels are compared coarsely; with other bytes it is a fault where the accepted versions drew it.
 """
 
 import json
 import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from latticode.datasets.digest import digest, fingerprint
+from latticode.datasets.digest import digest
 from latticode.datasets.json_files import ENTRY, load_json
 from latticode.datasets.netcdf import DatasetError, read
-from PIL import Image
 
 from . import Status, hashes, values
 from .chaos import TOLERANCE
@@ -32,12 +25,20 @@ NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
-OF_THE_MACHINE = {
-    "report.html": rb'<section id="run">(?:(?!</?section).)*</section>',
-    "live.html": rb'"code": "[\w+/=]*"',
+OF_THE_MACHINE = {"report.html": re.compile(rb'<section id="run">.*?</section>', re.DOTALL)}
+"""What a page holds of the machine: its processor, versions, and times of jobs."""
+
+JOB = re.compile(rb'<tr><th scope="row">[\w/.]+</th><td>[\d.]+</td><td>\d+</td></tr>\n')
+PROCESSOR = re.compile(rb'(<th scope="row">processor</th><td>)[^<]*')
+VERSION_OR_TIME = re.compile(rb"\b\d[\w.+]*")
+
+OF_VERSIONS = {
+    "live.html": re.compile(rb'"code": "[\w+/=]*"'),
+    "article.html": re.compile(rb'"data:image/png;base64,[\w+/=]*"'),
+    "report.html": re.compile(rb' width="\d+" height="\d+"'),
 }
-"""What two pages hold of the machine, each once: processor, versions and times of jobs; and code
-that numba writes for the processor, whose bits are compared where it runs."""
+"""What other versions of packages write otherwise in a page: compiled code, and pictures or their
+sizes."""
 
 FREE = {"because", "rests_on"}
 """Entries of a ledger whose words follow measured numbers."""
@@ -61,26 +62,36 @@ Known = Mapping[str, Status]
 def comparable(name: str, content: bytes) -> bytes:
     """Return what is compared of the file `name` of a run: of a page, not what is of the machine.
 
-    A mark stays in its place, so that it cannot be lost; where it stands twice, all is compared.
+    There the rows of jobs, the processor and all numbers are left out. What else it says is
+    compared, and where it stands twice, all is.
     """
-    if name not in OF_THE_MACHINE:
+    parts = OF_THE_MACHINE[name].findall(content) if name in OF_THE_MACHINE else []
+    if len(parts) != 1:
         return content
-    around = re.split(OF_THE_MACHINE[name], content, flags=re.DOTALL)
-    return b"(of the machine)".join(around) if len(around) == 2 else content
+    words = PROCESSOR.sub(rb"\1", JOB.sub(b"", parts[0]))
+    return content.replace(parts[0], VERSION_OR_TIME.sub(b"#", words))
 
 
 def hash_of(name: str, content: bytes) -> str:
-    """Return the hash of a file; of a page also that of its words, which follow no number."""
+    """Return the hash of a file; of a page three: of what versions decide, the rest, its words.
+
+    The words follow no number.
+    """
     shown = comparable(name, content)
     if not name.endswith(".html"):
         return hashes.of_bytes(shown)
-    parts = re.split(IN_TAGS, shown)
-    words = parts if name == "live.html" else [part for part in parts if not DIGIT.search(part)]
-    return f"{hashes.of_bytes(shown)} {hashes.of_bytes(b'|'.join(words))}"
+    of_versions = b"".join(OF_VERSIONS[name].findall(shown)) if name in OF_VERSIONS else b""
+    rest = OF_VERSIONS[name].sub(b"(of versions)", shown) if name in OF_VERSIONS else shown
+    words = re.split(IN_TAGS, shown)
+    words = words if name == "live.html" else [part for part in words if not DIGIT.search(part)]
+    return " ".join(map(hashes.of_bytes, (of_versions, rest, b"|".join(words))))
 
 
-def compare(new: Path, was: str, datasets: Known) -> tuple[Status, str]:
-    """Return status and reason of the text in `new`, which rests on `datasets`, beside `was`."""
+def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> tuple[Status, str]:
+    """Return status and reason of the text in `new`, which rests on `datasets`, beside `was`.
+
+    Where not the same versions drew a figure, they may have chosen other ticks.
+    """
     is_json = new.suffix == ".json"
     try:
         now = new.read_text("utf-8")
@@ -91,12 +102,18 @@ def compare(new: Path, was: str, datasets: Known) -> tuple[Status, str]:
         return Status.DAMAGED, "has a wrong checksum, or none: it was edited or damaged"
     beyond, may_differ = 0, not set(datasets.values()) <= {Status.IDENTICAL}
     for path, *pair in _differences(before, after):
-        judged = _judge(path, *pair, (before, after), datasets) if may_differ else Status.DIFFERENT
-        if judged == Status.DIFFERENT:
-            return judged, f"reads {_beside(*map(str, pair))} ({'.'.join(map(str, path))})"
+        if "ticks" in path and not same_drawing:
+            judged = Status.BEYOND
+        else:
+            judged = _judge(path, *pair, (before, after), datasets) if may_differ else None
+        if judged not in (Status.BEYOND, Status.WITHIN):
+            return (
+                Status.DIFFERENT,
+                f"reads {_beside(*map(str, pair))} ({'.'.join(map(str, path))})",
+            )
         beyond += judged == Status.BEYOND
     if beyond:
-        return Status.BEYOND, f"{beyond} entries follow datasets that cannot be compared"
+        return Status.BEYOND, f"{beyond} entries follow what cannot be compared"
     if not may_differ:
         return Status.DIFFERENT, f"reads {_beside(was, now)}" if was != now else "shows other data"
     return Status.WITHIN, "follows the datasets, with the same words"
@@ -206,11 +223,9 @@ def _beside(was: str, now: str) -> str:
     return " in place of ".join(f'"{part}"' for part in parts)
 
 
-MARK = re.compile(rb"(?:Description\0|/Keywords \()([0-9a-f]{64})")
-"""Where a PNG and a PDF carry the fingerprint of their description."""
-
-
-def compare_description(accepted: Path, new: Path, data: Status) -> tuple[Status, str]:
+def compare_description(
+    accepted: Path, new: Path, data: Status, same_drawing: bool
+) -> tuple[Status, str]:
     """Return status and reason of a description; `data` is the status of the dataset beside it."""
     try:
         text = new.read_text("utf-8")
@@ -220,51 +235,5 @@ def compare_description(accepted: Path, new: Path, data: Status) -> tuple[Status
     if described != shown:
         return Status.DIFFERENT, "describes other data than the dataset beside it holds"
     was = accepted.read_text("utf-8")
-    return (Status.IDENTICAL, "") if text == was else compare(new, was, {"": data})
-
-
-def compare_picture(
-    new: Path, kept: Path, same_bytes: bool, described: Status
-) -> tuple[Status, str]:
-    """Return status and reason of a PNG or a PDF; `described` is the status of its description."""
-    content, text = new.read_bytes(), new.with_suffix(".json")
-    if fault := damage(new, content):
-        return Status.DAMAGED, fault
-    mark = MARK.search(content)
-    if not (mark and text.exists() and mark[1].decode() == fingerprint(text.read_text("utf-8"))):
-        stale = "was not written with its description: it is stale, or of another figure"
-        return Status.DIFFERENT, stale
-    if same_bytes:
-        return Status.IDENTICAL, ""
-    if described.is_fault:
-        return Status.DIFFERENT, "shows what its description says, which is a fault"
-    if new.suffix == ".png" and not _look_alike(kept, new):
-        return Status.DIFFERENT, "looks otherwise than the accepted picture"
-    return Status.BEYOND, f"other bytes, which belong to its description; that is {described}"
-
-
-def _look_alike(*paths: Path) -> bool:
-    """Return whether two pictures are alike in a few large blocks, as in those of other versions.
-
-    Other versions differ by up to 7 of 255 shades, other chaotic curves by 2, other figures by 8.
-    """
-    with Image.open(paths[0]) as was, Image.open(paths[1]) as now:
-        apart = np.subtract(was.size, now.size)
-        blocks = [
-            np.asarray(image.convert("RGB").resize((24, 16), Image.Resampling.BOX), float)
-            for image in (was, now)
-        ]
-    return abs(apart).max() <= 4 and abs(blocks[1] - blocks[0]).mean() < 7.5
-
-
-def damage(path: Path, content: bytes) -> str:
-    """Return in words why a picture is not whole, or nothing."""
-    if path.suffix == ".pdf":
-        whole = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
-        return "" if whole else "is no whole PDF"
-    try:
-        Image.open(BytesIO(content)).verify()  # checksums, at which `load` does not look
-        Image.open(BytesIO(content)).load()
-    except (OSError, SyntaxError, ValueError):
-        return "is no whole PNG"
-    return ""
+    same = Status.IDENTICAL, ""
+    return same if text == was else compare(new, was, {"": data}, same_drawing)

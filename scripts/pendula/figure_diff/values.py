@@ -1,10 +1,10 @@
 """Compares the numbers of a variable with the accepted ones, row by row of equal words.
 
-A regular number may be off by TOLERANCE of the largest of its row, an error of rounding by a
-factor, and a proven bound by a part of itself. A number that rests on chaos differs from one right
-run to the next, but within limits: it keeps its sign and its range, over a row it differs by less
-than it is large, and its steps in time are not much longer. These limits are about twice what runs
-show whose epsilon is moved by its last bits (`.ci/elsewhere moved`).
+A regular number may be off by TOLERANCE of the largest of its row, and an error of rounding by a
+factor. A proven bound may grow by a part of itself: a smaller one is not what was proved. A number
+that rests on chaos differs from one right run to the next, but within limits: soon after the
+horizon by little, later by at most TIMES_SCATTER what rows of right runs differ by (`scatter`). It
+keeps its sign and its range, and its steps in time are not much longer.
 """
 
 import re
@@ -22,8 +22,9 @@ NOISE = 1e-11
 UNIT, FACTOR = 1e-15, 100.0
 """A rounding of one, and by what factor an error may differ that is a sum of roundings."""
 
-PROVEN, PROVEN_APART = re.compile("bound|radius"), 0.01
-"""Names of what is proved, which is no error of rounding however small it is."""
+PROVEN, GROWN = re.compile("bound|radius"), 0.01
+"""Names of what is proved, which is no error of rounding however small it is, and how much larger
+it may be."""
 
 SCATTERED = re.compile("error|deviation|correlation|width|drift|uncertainty")
 """Names of what a few runs say of their own scatter, which is uncertain itself."""
@@ -31,8 +32,12 @@ SCATTERED = re.compile("error|deviation|correlation|width|drift|uncertainty")
 SIGNED = re.compile("correlation|energy|region_mean")
 """Names of what may have either sign."""
 
-APART, SCATTER, LONG, SMALL = 0.6, 4.0, 100, 0.01
-"""Limits of the mean difference of chaotic rows, and of their scatter; LONG rows also keep their
+TIMES_SCATTER, LEAST, APART = 2.5, 0.05, 0.6
+"""Limit of the mean difference of a chaotic row: so many times its scatter, but at least so large a
+part of its mean size, and such a part where the scatter is not known."""
+
+SCATTER, LONG, SMALL = 4.0, 100, 0.01
+"""By what factor what is SCATTERED may be larger or smaller; LONG chaotic rows also keep their
 range. What is SMALL beside the largest of the variable may be anything."""
 
 ROUNDED = 1e-5
@@ -46,15 +51,28 @@ run."""
 
 
 def fault(
-    key: str, was: xr.Variable, now: xr.Variable, chaotic: np.ndarray, data: xr.Dataset
+    key: str,
+    was: xr.Variable,
+    now: xr.Variable,
+    freedom: np.ndarray,
+    data: xr.Dataset,
+    scatter: float | None,
 ) -> str:
-    """Return what is wrong with numbers of `now`, or an empty text; `chaotic` says which are."""
+    """Return what is wrong with numbers of `now`, or an empty text.
+
+    `freedom` is how far each may be off (see `Chaos`), `scatter` by how much the chaotic ones of
+    right runs differ, of their mean size, if that is known.
+    """
     before, after = was.values.astype(float), now.values.astype(float)
     largest, is_exact = hashes.largest(before), now.dtype.kind != "f"
+    apart = APART if scatter is None else max(TIMES_SCATTER * scatter, LEAST)
     for row in rows(now, data):
-        old, new, rests = (np.atleast_1d(each[row]) for each in (before, after, chaotic))
+        old, new, free = (np.atleast_1d(each[row]) for each in (before, after, freedom))
+        rests = free > 0.0
         says = _of_regular(key, old[~rests], new[~rests], largest, is_exact)
-        says = says or (rests.any() and _of_chaotic(key, old[rests], new[rests], SMALL * largest))
+        if not says and rests.any():
+            says = _soon_after_the_horizon(key, old, new, free)
+            says = says or _of_chaotic(key, old[rests], new[rests], SMALL * largest, apart)
         if says:
             return f"{key} {says}"
     return ""
@@ -79,10 +97,13 @@ def jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
 
 
 def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
-    """Yield an index for each combination of words along the dimensions."""
-    words = [
-        dim in data.variables and hashes.are_words(data.variables[dim]) for dim in variable.dims
-    ]
+    """Yield an index for each combination of words along the dimensions.
+
+    The words may be the coordinate of a dimension, or any text along it alone.
+    """
+    texts = {each.dims[0] for each in data.variables.values()
+             if each.ndim == 1 and hashes.are_words(each)}  # fmt: skip
+    words = [dim in texts for dim in variable.dims]
     sizes = [size if word else 1 for size, word in zip(variable.shape, words, strict=True)]
     for place in np.ndindex(*sizes):
         yield tuple(i if word else slice(None) for i, word in zip(place, words, strict=True))
@@ -95,8 +116,7 @@ def _of_regular(key: str, old: np.ndarray, new: np.ndarray, largest: float, exac
     if gaps := int((~same & ~np.isfinite(apart)).sum()):
         return f"has NaN or infinity elsewhere, at {gaps} places"
     if PROVEN.search(key):
-        off = (apart[~same] / np.maximum(abs(old[~same]), np.finfo(float).tiny)).max(initial=0.0)
-        return "" if off <= PROVEN_APART else f"is off by {off:.2g} of what is proved"
+        return _of_proven(old[~same], new[~same])
     scale, off = hashes.largest(old), float(apart[~same].max(initial=0.0))
     tolerance = TOLERANCE * (FACTOR if SCATTERED.search(key) else 1.0)
     if off <= (0.0 if exact else tolerance * scale + NOISE * largest):
@@ -107,14 +127,38 @@ def _of_regular(key: str, old: np.ndarray, new: np.ndarray, largest: float, exac
     return f"is off by {off / (scale or 1):.2g} of its largest value, {allowed:.2g} is allowed"
 
 
+def _of_proven(old: np.ndarray, new: np.ndarray) -> str:
+    """Return what is wrong with bounds: a smaller one is not proved."""
+    grown = (new - old) / np.maximum(abs(old), np.finfo(float).tiny)
+    least, most = grown.min(initial=0.0), grown.max(initial=0.0)
+    if least < -TOLERANCE:
+        return f"is smaller than what was proved, by {-least:.2g} of it"
+    return "" if most <= GROWN else f"is off by {most:.2g} of what is proved"
+
+
 def are_roundings(was: float, now: float) -> bool:
     """Return whether two sizes may be those of one error of rounding."""
     small, large = sorted(max(abs(each), UNIT) for each in (was, now))
     return large < ROUNDING and large < FACTOR * small
 
 
-def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float) -> str:
-    """Return what no right run of a chaotic case has, though nobody knows its numbers."""
+def _soon_after_the_horizon(key: str, old: np.ndarray, new: np.ndarray, free: np.ndarray) -> str:
+    """Return where numbers differ by more than errors can have grown to by then."""
+    known = (free > 0.0) & np.isfinite(free) & np.isfinite(old) & np.isfinite(new)
+    if SCATTERED.search(key) or not known.any():  # an error is no part of the solution
+        return ""
+    grown = free[known] * (hashes.largest(old) or 1.0)
+    beyond = (abs(new - old)[known] / grown).max()
+    if beyond <= 1.0:
+        return ""
+    return f"is off soon after the horizon by {beyond:.2g} times what errors can have grown to"
+
+
+def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float, most: float) -> str:
+    """Return what no right run of a chaotic case has, though nobody knows its numbers.
+
+    Its mean difference is at most the part `most` of its mean size.
+    """
     if np.isfinite(old).all() and not np.isfinite(new).all():
         return "has NaN or infinity where there was none"
     both = np.isfinite(old) & np.isfinite(new)
@@ -128,7 +172,7 @@ def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float) -> str
     if SCATTERED.search(key) or old.min() < 0 < old.max() or new.min() < 0 < new.max():
         is_alike = 1 / SCATTER <= (new_size + small) / (size + small) <= SCATTER
         return "" if is_alike else differs
-    if apart > APART * size + small:
+    if apart > most * size + small:
         return differs
     outside = max(new.max() - old.max(), old.min() - new.min())
     if old.size >= LONG and outside > np.ptp(old) + small:

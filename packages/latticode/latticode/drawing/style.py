@@ -7,6 +7,7 @@ from pathlib import Path
 from textwrap import fill
 
 import matplotlib
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -22,6 +23,7 @@ from latticode.datasets.netcdf import save as save_dataset
 
 from .description import as_text, describe
 from .light_fonts import light_fonts
+from .seals import PIXELS, digest_of_pixels, sealed_pdf
 
 DPI = 300
 """The resolution of the PNG, in pixels per inch."""
@@ -193,7 +195,7 @@ def save(
     A `note` stands below the panels.
 
     Both pictures carry the fingerprint of the description, and the description that of the data, so
-    that a picture of other data is told by its content.
+    that a picture of other data is told by its content; and a digest of what they show (`seals`).
     """
     if note:
         # without a layout engine, nothing makes room: half of the space below the panels is free
@@ -213,13 +215,15 @@ def save(
         text = as_text(describe(figure, data)) + "\n"
         new_description.write_text(text, encoding="utf-8")
         mark = fingerprint(text)
+        pixels, quick = np.asarray(figure.canvas.buffer_rgba()), {"compress_level": 3}
         inside = {"Software": None, "Panels": _panels(figure), "Description": mark}
-        pixels, quick = figure.canvas.buffer_rgba(), {"compress_level": 3}
+        inside[PIXELS] = digest_of_pixels(pixels)
         imsave(new_png, pixels, dpi=figure.dpi, metadata=inside, format="png", pil_kwargs=quick)
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
-        with light_fonts():
-            FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})
+        with light_fonts(), BytesIO() as drawn:
+            FigureCanvasPdf(figure).print_pdf(drawn, metadata={**undated, "Keywords": mark})
+            new_pdf.write_bytes(sealed_pdf(drawn.getvalue()))
         save_dataset(new_netcdf, data.assign_attrs(title=title))
 
 

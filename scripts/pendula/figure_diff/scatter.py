@@ -1,0 +1,66 @@
+"""By how much numbers that rest on chaos differ from one right run to the next.
+
+    python -m pendula.figure_diff.scatter tests/baseline RESULTS...
+
+measures it on folders of results of right runs, such as those of `.ci/elsewhere moved`, beside the
+baseline, and writes it there. For each variable it is the largest mean difference of a row of equal
+words, as a part of its mean size.
+"""
+
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from latticode.datasets.json_files import load_json, write_json
+from latticode.datasets.netcdf import DatasetError, read
+
+from . import values
+from .chaos import Chaos, known_chaos
+
+SCATTER, RECORD = "scatter.json", "hashes.json"
+DIGITS = 3
+"""Significant digits that are kept."""
+
+
+def known_scatter(folder: Path) -> dict[str, float]:
+    """Return the scatter of each variable, by dataset:variable, that the baseline knows.
+
+    A damaged record counts as none, which has wider limits.
+    """
+    try:
+        return load_json(folder / SCATTER)["scatter"]
+    except (DatasetError, OSError):
+        return {}
+
+
+def measure(folder: Path, runs: Sequence[Path]) -> dict[str, float]:
+    """Return the scatter of all variables of right runs about the baseline in `folder`."""
+    record = load_json(folder / RECORD)
+    chaos, scatter = known_chaos(folder, record["configuration"]), {}
+    for name in (name for name in record["files"] if name.endswith(".nc")):
+        was, others = read(folder / name), [read(run / name) for run in runs]
+        for key in map(str, was.variables):
+            parts = [part for now in others for part in _parts(name, key, was, now, chaos)]
+            if parts:
+                scatter[f"{name.removesuffix('.nc')}:{key}"] = float(f"{max(parts):.{DIGITS}g}")
+    return scatter
+
+
+def _parts(name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos) -> Iterator[float]:
+    """Yield the mean difference of each chaotic row of a variable, as a part of its mean size."""
+    if was[key].dtype.kind not in "fi" or values.SCATTERED.search(key):
+        return
+    rests = chaos.freedom(name, key, was) > 0.0
+    old, new = (each[key].values.astype(float) for each in (was, now))
+    known = rests & np.isfinite(old) & np.isfinite(new)
+    for row in values.rows(was.variables[key], was):
+        before, after = (np.atleast_1d(each[row])[np.atleast_1d(known[row])] for each in (old, new))
+        if size := float(abs(before).mean()) if before.size else 0.0:
+            yield float(abs(after - before).mean()) / size
+
+
+if __name__ == "__main__":
+    baseline, *results = map(Path, sys.argv[1:])
+    write_json(baseline / SCATTER, {"scatter": measure(baseline, results)})
