@@ -11,6 +11,7 @@ asked for; DatasetError, where a file cannot be read or written.
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from numbers import Integral
 from pathlib import Path
 
 import xarray as xr
@@ -98,28 +99,56 @@ def made(initialise: Callable, keys: dict, **place) -> None:
         raise in_words(error, "the case", ("cases", "case"), **place) from None
 
 
-def _affordable(case: cases.Case, hours: float | None) -> None:
+def _limits(hours: float | None, gigabytes: float | None) -> dict[str, float]:
+    """Return the limits that are given, by name."""
+    given = {"hours": hours, "gigabytes": gigabytes}
+    return {name: limit for name, limit in given.items() if limit is not None}
+
+
+def _affordable(case: cases.Case, given: Mapping[str, float]) -> None:
     """Raise ConfigurationError if a run takes more than it may.
 
     A run of minutes says what it will take.
     """
     require(case, cases.Case, CASE)
     try:
-        limits = Limits() if hours is None else Limits(hours=hours)
+        limits = Limits(**given)
     except ValidationError as error:
         raise in_words(error, "the limit") from None
     # The second problem chooses the times of its snapshots, which needs a run that is not too long.
     for problem in (case.problem, case.shown_problem):
         found = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
         if found:
-            text = found[1].replace("limits.hours", "hours").replace("limits.", "")
-            raise list_faults([f"{found[0]}: {text}"], "the case")
+            raise list_faults([f"{found[0]}: {_as_argument(found[1])}"], "the case")
     _announce(case.cost(case.shown_problem()))
+
+
+def _as_argument(text: str) -> str:
+    """Return what a message says of a limit with the argument that raises it."""
+    for name in Limits.model_fields:
+        if f"limits.{name} allows" in text:
+            text = text.replace(f"limits.{name}", name)
+            return text.replace("raise the limit", f"raise it by the argument {name}")
+    return text
+
+
+def _load(sections: Mapping, limits: Mapping[str, float]):
+    """Return a configuration of a notebook's case; errors name arguments in place of keys."""
+    try:
+        return load({**sections, "limits": limits})
+    except ConfigurationError as error:
+        raise ConfigurationError(_as_argument(str(error))) from None
 
 
 def _announce(takes: cost.Cost) -> None:
     if takes.seconds > cost.WORTH_SAYING:
         print(f"the run takes {takes}", flush=True)
+
+
+NEEDLESS = (
+    "initial values have imaginary parts, and the equations are those of real fields: the run is of"
+    " their continuation to complex numbers"
+)
 
 
 def _print_remark(solver: Mapping) -> None:
@@ -158,7 +187,9 @@ CASE = "a case, as `Case` makes it"
 RUN = "a run, as `simulate` and `read` return it"
 
 
-def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.Dataset:
+def simulate(
+    case: Case, name: str = "case", hours: float | None = None, gigabytes: float | None = None
+) -> xr.Dataset:
     """Integrate a case and return its trajectory.
 
     Coordinates: tau (time,), component (the fields), site (-M..M), part ("re", "im", or "value",
@@ -172,8 +203,9 @@ def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.D
 
     Attributes: every parameter, the solver's controls and its work, `name` as "case".
 
-    A run that would take more than `hours` (1 if they are left out) or 8 GB of memory is refused
-    before it starts; one of some minutes says first what it takes.
+    A run that would take more than `hours` or `gigabytes` of memory (1 and 8 if they are left out)
+    is refused before it starts; one of some minutes says first what it takes. The time follows from
+    the fastest rate at the start: motion that decays takes less.
 
     Raises ConfigurationError for such a run; IntegrationError, with the reason, where the solver
     cannot reach end_time with the digits that were asked for.
@@ -184,11 +216,13 @@ def simulate(case: Case, name: str = "case", hours: float | None = None) -> xr.D
     >>> run["l2"].shape, run["modulus"].shape, round(float(run["l2"][0, -1]), 12)
     ((1, 201), (1, 21, 201), 1.5)
     """
-    _affordable(case, hours)
+    _affordable(case, _limits(hours, gigabytes))
     require(name, str, "a name for the dataset")
     problem = case.kind.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
     _print_remark(trajectory.solver)
+    if case.has_needless_imaginary_parts:
+        print(NEEDLESS, flush=True)
     variables, attributes = trajectory_contents(name, problem, trajectory)
     return timed(as_xarray(variables | final_state(problem, trajectory), attributes))
 
@@ -217,6 +251,7 @@ def sweep(
     windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
     name: str = "sweep",
     hours: float | None = None,
+    gigabytes: float | None = None,
 ) -> xr.Dataset:
     """Integrate a case on chains of many half-widths; return maxima and means of its norms.
 
@@ -230,7 +265,8 @@ def sweep(
     "[10, 50]". Attributes as in `simulate`.
 
     Raises ConfigurationError for windows off the grid, initial data outside a chain, or a sweep
-    that would take more than `hours` (1 if they are left out); IntegrationError as `simulate`.
+    that would take more than `hours` or `gigabytes` (1 and 8 if they are left out);
+    IntegrationError as `simulate`.
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
@@ -240,8 +276,8 @@ def sweep(
     """
     require(case, cases.Case, CASE)
     asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
-    limits = {} if hours is None else {"limits": {"hours": hours}}
-    settings = load({"cases": {name: case}, "sweeps": {name: asked}} | limits)
+    limits = _limits(hours, gigabytes)
+    settings = _load({"cases": {name: case}, "sweeps": {name: asked}}, limits)
     _announce(settings.cost_of_sweep(name))
     checked, problem = settings.sweeps[name], case.kind.of(settings.swept_problem(name))
     result = sweeps.sweep(problem, checked.half_widths, checked.windows)
@@ -258,6 +294,7 @@ def survey(
     hours: float | None = None,
     cores: int = 1,
     together: Mapping[str, Iterable] | None = None,
+    gigabytes: float | None = None,
 ) -> xr.Dataset:
     """Make many runs of a case and keep a few numbers of each.
 
@@ -272,10 +309,12 @@ def survey(
     together: what varies along one more axis, all names from one value to the next.
 
     Returns a dataset whose dimensions are the axes, "member", and "component" for what each field
-    has. A run that cannot be made to its end has NaN.
+    has. A run that cannot be made to its end has NaN, and a line says how many there are: they are
+    the attribute failed_runs, and "failure" has the reason of each. So "remark" says which runs are
+    not by the solver of the case, and why.
 
-    Raises ConfigurationError for what has no meaning, or would take more than `hours` (1 if they
-    are left out).
+    Raises ConfigurationError for what has no meaning, or would take more than `hours` or
+    `gigabytes` (1 and 8 if they are left out).
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={"c": 1}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
@@ -285,6 +324,9 @@ def survey(
     (('c', 'component'), [1.5, 1.5, 1.5])
     """
     require(case, cases.Case, CASE)
+    if not isinstance(cores, Integral) or isinstance(cores, bool) or cores < 1:
+        text = f"cores: is {values.shown(cores)}; give a whole number of 1 or more"
+        raise list_faults([text], "the survey")
     kept = [keep] if isinstance(keep, str) or callable(keep) else list(keep)
     asked = {
         "case": name,
@@ -294,8 +336,8 @@ def survey(
         "keep": [one for one in kept if not callable(one)] or ["max_l2"],
         "window": window and tuple(window),
     }
-    limits = {} if hours is None else {"limits": {"hours": hours}}
-    settings = load({"cases": {name: case}, "surveys": {name: asked}} | limits)
+    limits = _limits(hours, gigabytes)
+    settings = _load({"cases": {name: case}, "surveys": {name: asked}}, limits)
     _announce(settings.cost_of_survey(name))
     plan = settings.surveys[name].plan._replace(
         keep=tuple(kept), by_half_width=settings.values_by_half_width(name)

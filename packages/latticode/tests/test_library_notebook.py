@@ -17,6 +17,7 @@ from latticode import (
     lap,
     notebook,
     simulate,
+    sin,
     survey,
     sweep,
 )
@@ -122,3 +123,23 @@ def test_a_survey_is_drawn_against_one_axis_over_two_as_maps_or_by_member():
     assert (drawn == over_two["final_l2"].isel(component=0).T).all()
     points = notebook.draw_survey(survey(case, {}, keep=["final_l2"], members=members))
     assert points.axes[0].get_lines()[0].get_linestyle() == "None"
+
+
+@pytest.mark.parametrize("cores", [0, -1, 1.5, True, "2"])
+def test_a_survey_on_no_core_is_refused_by_name(cores):
+    with pytest.raises(ConfigurationError, match=r"cores: is .* give a whole number of 1 or more"):
+        survey(CASE, {"c": [0.5]}, cores=cores)
+
+
+def test_imaginary_parts_that_nothing_reads_are_refused_and_others_explained(capsys):
+    turning = Model(fields="u", parameters={}, i_dt=lambda p, u: 1j * sin(u.right.real - u.real))
+    with pytest.raises(ConfigurationError, match=r"site 0 gives u the imaginary part 2, which no"):
+        Case(model=turning, initial={0: ["1+2j"]}, half_width=3)
+    growing = Model(fields="x", parameters={}, i_dt=lambda p, x: 1j * (x.left * x - x))
+    waves = Model(fields="u", parameters={}, i_dt=lambda p, u: 1j * (lap(u) - abs2(u) * u))
+    for model, explained in ((growing, True), (waves, False)):
+        case = Case(model=model, initial={0: ["1+2j"]}, half_width=3, end_time=0.1)
+        simulate(case)
+        assert ("the equations are those of real fields" in capsys.readouterr().out) == explained
+        simulate(case.changed(initial={0: [1]}))
+        assert capsys.readouterr().out == ""

@@ -32,14 +32,14 @@ estimate = partial(cost.estimate, measure=demand)
 def with_checks(problem: Mapping) -> Cost:
     """Return the cost of a user's case: of its run, and of the checks that own_cases makes of it.
 
-    Those of pendula are a second run and the amplitudes.
+    Those of pendula are two runs and the amplitudes.
     """
     checks = cost.runs_of_checks(problem)
     if problem.get("mu"):
         plain = {key: value for key, value in problem.items() if key not in ("mu", "model")}
         solver = {"name": "taylor", "rtol": cost.TIGHTEST["taylor"]}
-        checks = [checks[0], plain | {"solver": solver, "snapshot_every": 0}]
-    return cost.total(map(estimate, [problem, *checks]))
+        checks = [*checks[:2], plain | {"solver": solver, "snapshot_every": 0}]
+    return cost.of_checked(map(estimate, [problem, *checks]))
 
 
 def fastest_rate(problem: Mapping) -> float:

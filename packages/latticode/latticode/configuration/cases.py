@@ -309,10 +309,27 @@ class Case(Model):
                 names = ", ".join(self.fields)
                 has = f"{len(values)} value{'s' * (len(values) != 1)}"
                 yield "initial", f"site {site} has {has}; give {count}, [{names}]"
+        yield from self._needless_imaginary_parts()
         outside = [site for site in self.initial if abs(site) > m]
         if outside:
             text = f"site {outside[0]} lies outside the chain, whose sites run from -{m} to {m}"
             yield "initial", text
+
+    def _needless_imaginary_parts(self) -> Iterator[tuple[str, str]]:
+        """Yield an imaginary part that no equation reads or changes, and that norms would count."""
+        alone = getattr(self.model, "without_imaginary_parts", ())
+        for site, values in self.initial.items():
+            for name, z in zip(self.fields, values, strict=False):
+                if name in alone and z.imag:
+                    text = f"site {site} gives {name} the imaginary part {z.imag:g}, which no"
+                    yield "initial", f"{text} equation reads or changes; give a real number"
+                    return
+
+    @property
+    def has_needless_imaginary_parts(self) -> bool:
+        """Whether data have imaginary parts, and equations are those of real fields."""
+        complex_data = any(z.imag for values in self.initial.values() for z in values)
+        return complex_data and getattr(self.model, "continues_real_equations", False)
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a solver that does not take the equations of the case."""

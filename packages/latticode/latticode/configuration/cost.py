@@ -90,6 +90,8 @@ def demand(problem: Mapping) -> Demand:
     model, initial = problem["model"], problem["initial"]
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
     peak = max(max(map(abs, values)) for values in initial.values())
+    if not model.second_order:
+        peak *= 0.5**0.5  # of both parts of a complex field, whose squares add up to its own
     alike = model.even and not any(isinstance(one, list) for one in problem["parameters"].values())
     even = alike and all(initial.get(-site) == values for site, values in initial.items())
     sites = problem["half_width"] + 1 if even else 2 * problem["half_width"] + 1
@@ -159,9 +161,29 @@ def runs_of_checks(problem: Mapping) -> list[Mapping]:
     return [problem, again, tangent, tangent]
 
 
+KEPT_TO_COMPARE = 2.5
+"""Memory of two runs whose fields are compared, over that of one run."""
+LOCALISED = {"seconds": 3e-5, "bytes": 80.0}
+"""Of a localised state with its exponents, for each entry of its matrix: Newton's method solves
+with this matrix on the way to the full coupling, and its eigenvalues follow."""
+MOST_UNKNOWNS = 1000
+"""Longer chains have no such check."""
+
+
 def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
-    """Return the cost of a run and of its checks."""
-    return total(estimate(one, measure) for one in [problem, *runs_of_checks(problem)])
+    """Return the cost of a run and of all its checks, a localised state among them."""
+    runs = of_checked([estimate(one, measure) for one in [problem, *runs_of_checks(problem)]])
+    unknowns = 4.0 * measure(problem).pairs  # two real numbers a field and site
+    entries = unknowns**2 if unknowns <= MOST_UNKNOWNS else 0.0
+    state = Cost(LOCALISED["seconds"] * entries, LOCALISED["bytes"] * entries)
+    return total([runs, state])
+
+
+def of_checked(runs: Iterable[Cost]) -> Cost:
+    """Return the cost of runs two of which are compared field by field, one of them the first."""
+    first, *_ = runs = list(runs)
+    compared = first._replace(seconds=0.0, memory=KEPT_TO_COMPARE * first.memory)
+    return total([*runs, compared])
 
 
 def total(costs: Iterable[Cost]) -> Cost:

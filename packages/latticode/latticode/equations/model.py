@@ -29,6 +29,7 @@ from .graph import (
     MOTION,
     ZERO,
     Node,
+    add,
     derivative,
     evaluate,
     in_order,
@@ -38,6 +39,7 @@ from .graph import (
     node,
     number,
     rebuilt,
+    sub,
 )
 from .model_file import BEFORE, SEED, placed, run_file, same
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
@@ -278,6 +280,49 @@ class Model:
         return self.second_order and not any(one.operands[1] for one in found)
 
     @cached_property
+    def without_imaginary_parts(self) -> tuple[str, ...]:
+        """The complex fields whose imaginary parts never change and are never read."""
+        read = {one.operands[:2] for one in leaves_in(self.rates, "field")}
+        return tuple(
+            field for c, field in enumerate(self.fields)
+            if not self.second_order and (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
+        )  # fmt: skip
+
+    @cached_property
+    def continues_real_equations(self) -> bool:
+        """Whether the equations are those of real fields, as of x' = x y, written for complex ones.
+
+        Then they keep real data real and are not linear, and no rate reads a conjugate: it changes
+        i times as much with an imaginary part as with the real one (Cauchy and Riemann).
+        """
+        if self.second_order:
+            return False
+        draw = np.random.default_rng(1).uniform(0.5, 1.5, 1000)
+        leaves = leaves_in(self.rates, "field")
+        weights = {
+            (c, by): number(draw[i]) for i, (c, _, by) in enumerate(one.operands for one in leaves)
+        }
+
+        def along(part: int) -> list[Node]:
+            return derivative(
+                self.rates,
+                lambda one: (
+                    weights[one.operands[::2]]
+                    if one.operation == "field" and one.operands[1] == part
+                    else ZERO
+                ),
+            )
+
+        real, imaginary = along(0), along(1)
+        still = rebuilt(
+            self.rates[1::2],
+            lambda one, _: ZERO if one.operation == "field" and one.operands[1] else None,
+        )
+        odd = [sub(a, b) for a, b in zip(real[::2], imaginary[1::2], strict=True)]
+        odd += [add(a, b) for a, b in zip(real[1::2], imaginary[::2], strict=True)]
+        return bool(leaves_in(real, "field")) and all(map(_vanishes, [*still, *odd]))
+
+    @cached_property
     def driven(self) -> bool:
         """Whether the equations depend on the time."""
         return bool(leaves_in(self.rates, "time"))
@@ -297,12 +342,15 @@ class Model:
                 return peak
             return sizes.get(one.operands[0], 1.0) if one.operands else 1.0
 
-        rows = np.zeros(len(self.rates))
+        slopes = np.zeros((len(self.rates), len(self.rates)))
         for found in leaves_in(self.rates, "field"):
             change = derivative(self.rates, lambda one, found=found: number(one is found))
+            component, part, _ = found.operands
             with np.errstate(all="ignore"):
-                rows += np.abs(evaluate(change, lambda one: np.float64(size(one))))
-        return float(rows.max() if peak else np.nan_to_num(rows, posinf=0.0).max())
+                slopes[:, 2 * component + part] += np.abs(
+                    evaluate(change, lambda one: np.float64(size(one)))
+                )
+        return _largest_eigenvalue(slopes if peak else np.nan_to_num(slopes, posinf=0.0))
 
     def tangent(self) -> "Model":
         """Return the model of a solution and a small perturbation of it: twice the fields."""
@@ -325,6 +373,21 @@ class Model:
             conserved={},
         )
         return other
+
+
+def _largest_eigenvalue(matrix: np.ndarray) -> float:
+    """Return an upper bound of the largest eigenvalue of a matrix without negative entries.
+
+    It is the 64th root of the norm of its 64th power: x'' = -k x turns at sqrt(k), and not at k.
+    """
+    bound, exponent = 1.0, 1.0
+    for _ in range(6):
+        largest = matrix.max()
+        if not 0.0 < largest < np.inf:
+            return float(largest) if largest else 0.0
+        bound, matrix = bound * largest**exponent, matrix / largest
+        matrix, exponent = matrix @ matrix, 0.5 * exponent
+    return float(bound * matrix.sum(axis=1).max() ** exponent)
 
 
 class _Parameters:

@@ -126,6 +126,35 @@ def test_a_run_that_cannot_end_is_nan_and_the_others_are_numbers():
     assert np.isnan(found["exponent"][1])
 
 
+def test_failed_runs_are_counted_and_each_has_its_reason(capsys):
+    survey = Survey({"omega": [1.0, 1e300, 2.0], "gamma": [0.0, 1.0]}, ("max_l2",))
+    found = run_survey(dimers(), survey)
+    (line,) = capsys.readouterr().out.splitlines()
+    assert line.startswith(
+        "2 of 6 runs failed and have NaN; the first, omega = 1e+300, gamma = 0: "
+    )
+    failed = np.isnan(found["max_l2"]).all(axis=-1)
+    assert ((found["failure"] != "") == failed).all() and failed.sum() == 2
+    assert "taylor stopped at tau = 0" in found["failure"][1, 0]
+    data = as_xarray(*survey_contents("own", dimers(), survey, found))
+    assert data.attrs["failed_runs"] == 2 and data["failure"].dims == ("omega", "gamma")
+    whole = run_survey(dimers(), Survey({"omega": [1.0]}, ("max_l2",)))
+    data = as_xarray(*survey_contents("own", dimers(), Survey({"omega": [1.0]}), whole))
+    assert data.attrs["failed_runs"] == 0 and "failure" not in data
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("parts", [2, 3])
+def test_reasons_of_failed_runs_are_joined_from_parts(parts):
+    survey = Survey({"omega": [1.0, 2.0, 1e300, 3.0]}, ("max_l2",))
+
+    def in_parts(problems, make):
+        return joined([run_part(problems, make, part, parts) for part in range(parts)])
+
+    found = run_survey(dimers(), survey, in_parts)
+    assert [bool(text) for text in found["failure"]] == [False, False, True, False]
+
+
 @pytest.mark.parametrize(
     ("axes", "keep", "told"),
     [
