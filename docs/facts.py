@@ -11,15 +11,21 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from latticode.datasets.json_files import load_json
+from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
+from latticode.measures.confidence import chance_inside, chance_of_counts, share_limits
 from pendula.article.values import KEPT, counts, largest_bound
+from pendula.configuration.paper import paper
+from pendula.ledger.chances import ALLOWED, RARE
 from pendula.report.results import Results
-from pendula.report.words import case_of, number
+from pendula.report.words import case_of, number, plainly
 
 from benchmarks import reproduction
 from benchmarks import scale as scale_of
 
 BASELINE = Path(__file__).resolve().parents[1] / "tests/baseline"
+SMALLEST_SHOWN = 1e-9
+"""Smaller chances are no news."""
 
 
 class Accepted(Results):
@@ -41,11 +47,59 @@ def topics(accepted: Results) -> dict[str, Any]:
     return {
         "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
         "largest_bound": largest_bound(accepted),
+        "right_runs": right_runs(load_json(BASELINE / "quoted/right_runs.json")),
         "speed": speed(accepted["speed/work_precision"]),
         "speeds": speeds(accepted),
         "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
         "full_run": full_run(json.loads(kept.read_text(encoding="utf-8"))),
     }
+
+
+def right_runs(kept: dict) -> dict:
+    """Return the chances that a right run turns a verdict: the largest, and those by design."""
+    rows = sorted(kept["rows"], key=lambda row: -row["chance"])
+    shown = [row for row in rows if row["chance"] >= SMALLEST_SHOWN]
+    return {
+        "runs": str(kept["runs"]),
+        "claims": str(sum(not row["control"] for row in rows)),
+        "controls": str(sum(bool(row["control"]) for row in rows)),
+        "allowed": number(ALLOWED),
+        "smallest": number(SMALLEST_SHOWN),
+        "rows": [
+            [f"`{row['claim']}`", row["control"] or "(the claim)", plainly(row["nearest"]),
+             number(row["chance"], 1)]
+            for row in shown
+        ],
+        "designed": [[f"`{claim}`", what, number(chance, 1)] for claim, what, chance in designed()],
+    }  # fmt: skip
+
+
+def designed() -> list[tuple[str, str, float]]:
+    """Return the chances that follow from the tests themselves: by claim, what must happen."""
+    second = paper()["chaos"]["second_solver"]
+    drawn, others = second["members"], second["first_members"]
+    inside = len(second["half_widths"]) * chance_inside(drawn // 2, drawn, others)
+    of_spread = paper()["breathers"]["sensitivity"]["members"]
+    wrong = least_share_above_half(of_spread)
+    spread = read(BASELINE / "quoted/breathers.nc")["share"].sel(size=[0.01, 0.1]).values
+    return [
+        ("second_solver", "a run of the same law is as far from the mean", RARE.number),
+        ("one_integral", "a vanishing exponent is beyond its limits", RARE.number),
+        ("ensemble_fig5_conjecture", "equal means seem to grow", 0.5 * RARE.number),
+        ("ensemble_fig6_diverges", "equal means seem to grow", 0.5 * RARE.number),
+        ("waiting_grows", "times that do not depend on μ seem to", 0.5 * RARE.number),
+        ("second_solver_sweeps", "half of the runs of one law are out of range", inside),
+        (
+            "spreading_is_an_accident",
+            "the upper limit of the share that spreads is above a half",
+            sum(chance_of_counts(wrong, of_spread, float(share)) for share in spread),
+        ),
+    ]
+
+
+def least_share_above_half(members: int) -> int:
+    """Return the least count of members whose share has an upper confidence limit of a half."""
+    return next(n for n in range(members) if share_limits(n, members).high >= 0.5)
 
 
 def speed(data: xr.Dataset) -> dict:

@@ -21,6 +21,7 @@ SOURCE = ROOT / "docs/source"
 PAGES = {
     ROOT / "README.md": SOURCE / "README.md.j2",
     ROOT / "docs/accuracy_and_speed.md": SOURCE / "accuracy_and_speed.md.j2",
+    ROOT / "docs/report.md": SOURCE / "report.md.j2",
     ROOT / "docs/article.md": write.HERE / "article.md.j2",
 }
 """The template of each page that has one."""

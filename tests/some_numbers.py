@@ -61,7 +61,7 @@ def limits_of_all_counts() -> Contents:
     counts, scores = np.arange(MEMBERS + 1), np.linspace(0.1, 9.0, MEMBERS)
     limits = {
         "student": [confidence.student(n) for n in counts[1:]],
-        "chance": [confidence.chance_of_draw(scores, 0.0, 1.0, n) for n in counts[2:]],
+        "chance": [[confidence.chance_below(-one, n) for one in scores] for n in counts[1:]],
         "share": [confidence.share_limits(n, MEMBERS)[1:] for n in counts],
         "rate": [confidence.event_rate([0.5] * n + [np.inf], 0.0, 1.0)[1:] for n in counts],
     }

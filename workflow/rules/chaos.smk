@@ -1,6 +1,6 @@
 # Chaos in the chain: how fast small errors grow, and what that leaves to be trusted.
-LYAPUNOV, ENSEMBLES, MEMBERS = (
-    getattr(SETTINGS.chaos, name) for name in ("lyapunov", "ensembles", "members")
+LYAPUNOV, ENSEMBLES, SECOND, MEMBERS = (
+    getattr(SETTINGS.chaos, name) for name in ("lyapunov", "ensembles", "second_solver", "members")
 )
 LIFETIMES = SETTINGS.chaos.lifetimes
 STARTS, CLOCKS = ("amplitudes", "ratio"), ("size", "seed", "window", "level")
@@ -37,7 +37,23 @@ use rule dataset as measure_ensembles with:
     params:
         **values_of(ENSEMBLES, "size", "seed"),
         call=function("pendula.studies.chaos.ensembles.measure_ensembles"),
-        swept=swept(ENSEMBLES),
+        swept={name: {**member_of(name), **dict(one)} for name, one in ENSEMBLES.sweeps.items()},
+
+
+use rule dataset as measure_second_solver with:
+    "A chaotic sweep by the paper's second solver with two steps, and by the solver of the ensembles"
+    input:
+        kernels=kernels("taylor", "crank_nicolson"),
+        chunks=parts_of("checks/second_solver"),
+    pathvars:
+        made="checks/second_solver",
+    params:
+        **values_of(SECOND, "half_widths", "members", "first_members", "seed"),
+        call=function("pendula.studies.chaos.ensembles.measure_second_solver"),
+        first=member_of(SECOND.sweep)["problem"],
+        second=by_second_solver(SECOND.sweep),
+        windows=member_of(SECOND.sweep)["windows"],
+        size=ENSEMBLES.size,
 
 
 use rule dataset as measure_members with:

@@ -114,7 +114,7 @@ OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SOLVER_CHECKS = ["solvers", "trust"]
-CHAOS_CHECKS = ["lyapunov", "ensembles", "members", "lifetimes"]
+CHAOS_CHECKS = ["lyapunov", "ensembles", "second_solver", "members", "lifetimes"]
 THEORY_CHECKS = [
     "not_shown",
     "errata",
@@ -146,11 +146,7 @@ def runs_by(solver):
 
 TRAJECTORIES = datasets("trajectories", *PAPER_CASES)
 SWEEPS = datasets("sweeps", *PAPER_SWEEPS)
-SECOND_SWEEPS = datasets(
-    "sweeps",
-    *(f"{sweep}.crank_nicolson" for sweep in ("fig5_left", "fig6_left", "fig6_right")),
-    "fig6_right.crank_nicolson_coarse",
-)
+SECOND_SWEEPS = datasets("sweeps", "fig5_left.crank_nicolson", "fig6_left.crank_nicolson")
 
 
 def one_of(names):

@@ -4,7 +4,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
     "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown")],
     "solvers": [
         *(*datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"), *SECOND_SWEEPS),
-        *checks("cases", "lyapunov", "ensembles", "members", "solvers"),
+        *checks("cases", "lyapunov", "second_solver", "members", "solvers"),
     ],
     "theory": checks("lyapunov", "identities", *THEORY_CHECKS),
     "chaos": [

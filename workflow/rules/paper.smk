@@ -61,12 +61,11 @@ use rule sweep as sweep_by_second_solver with:
     "A sweep of the paper by its second solver: results/sweeps/{sweep}.crank_nicolson.nc"
     input:
         kernels=kernels("crank_nicolson"),
-        chunks=parts_of("sweeps/{sweep}.crank_nicolson{step}"),
+        chunks=parts_of("sweeps/{sweep}.crank_nicolson"),
     pathvars:
-        made="sweeps/<paper_sweep>.crank_nicolson{step,(_coarse)?}",
+        made="sweeps/<paper_sweep>.crank_nicolson",
     params:
-        problem=lambda wildcards: by_second_solver(wildcards.sweep, wildcards.step),
-        half_widths=lambda wildcards: half_widths_of(wildcards.sweep),
+        problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson"),
 
 
 use rule figure as fig1 with:

@@ -73,22 +73,6 @@ def without_solver(problem):
     return {key: value for key, value in problem.items() if key != "solver"}
 
 
-def by_second_solver(sweep, coarse):
-    """Return the problem of a sweep by the paper's second solver.
-
-    A `coarse` run takes two steps from one output time to the next, so that any output step will do.
-    """
-    problem = SETTINGS.swept_problem(sweep, "crank_nicolson")
-    step = {"step": problem["output_step"] / 2} if coarse else {}
-    return {**problem, "solver": {**problem["solver"], **step}}
-
-
-def half_widths_of(sweep):
-    """Return the half-widths of a sweep by the second solver: of a chaotic one, of its ensemble."""
-    chaotic = SETTINGS.chaos.ensembles.sweeps
-    return (chaotic if sweep in chaotic else SETTINGS.sweeps)[sweep].half_widths
-
-
 def followed(cases, tolerance, solver="taylor", **changes):
     return {case: run_of(case, tolerance, solver, **changes) for case in cases}
 
@@ -97,16 +81,24 @@ def longest(cases):
     return max(SETTINGS.cases[case].end_time for case in cases)
 
 
-def swept(ensembles):
-    """Return by sweep what its ensemble runs, to the end of the windows that are drawn."""
-    found = {}
-    for name, one in ensembles.sweeps.items():
-        sweep, chosen = SETTINGS.sweeps[name], {"output_step": ensembles.output_step}
-        windows = [list(window) for window in (sweep.drawn.max, sweep.drawn.mean)]
-        chosen["end_time"] = max(end for _, end in windows)
-        problem = run_of(sweep.case, ensembles.tolerance, **chosen)
-        found[name] = {"problem": problem, "windows": windows, **dict(one)}
-    return found
+def member_of(sweep):
+    """Return what a member of the ensemble of a sweep runs, to the end of the drawn windows."""
+    ensembles, drawn = SETTINGS.chaos.ensembles, SETTINGS.sweeps[sweep].drawn
+    windows = [list(window) for window in (drawn.max, drawn.mean)]
+    times = {"output_step": ensembles.output_step, "end_time": max(end for _, end in windows)}
+    problem = run_of(SETTINGS.sweeps[sweep].case, ensembles.tolerance, **times)
+    return {"problem": problem, "windows": windows}
+
+
+def by_second_solver(sweep):
+    """Return the problems of a sweep by the paper's second solver, with its step and a coarse one.
+
+    A coarse run takes two steps from one output time to the next, so that any output step will do.
+    """
+    problem = SETTINGS.swept_problem(sweep, "crank_nicolson")
+    problem |= {"end_time": member_of(sweep)["problem"]["end_time"], "snapshot_every": 0}
+    steps = problem["solver"]["step"], problem["output_step"] / 2
+    return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
 
 
 def drawn_windows(sweep):

@@ -89,12 +89,6 @@ class Numbers:
         """Return the same in per cent."""
         return self.n(claim, key)._replace(text=percent(self.ledger.value(claim, key)))
 
-    def longest(self, sweep: str, before: int) -> Quote:
-        """Return the largest half-width of the ensembles of a sweep, or one `before` it."""
-        name = "checks/ensembles"
-        means = self.results[name]["l2_mean"].sel(sweep=sweep, reading="text").dropna("half_width")
-        return self.results.quote(name, float(means["half_width"][-1 - before]))
-
     def verdicts(self, figure: int) -> str:
         """Return how many of the paper's claims on a figure have each verdict."""
         return counted_verdicts(on_figure(self.ledger.rows, figure))
@@ -115,7 +109,6 @@ def gather(results: Results) -> dict[str, Any]:
         "share_span",
         "n",
         "share_of",
-        "longest",
         "verdicts",
         "figure_holds",
     )

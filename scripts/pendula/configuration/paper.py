@@ -138,7 +138,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     """
     folder, _, rest = name.partition("/")
     stem, _, solver = rest.partition(".")
-    by = (f"solvers.{solver.removesuffix('_coarse')}",) if solver else ()
+    by = (f"solvers.{solver}",) if solver else ()
     if folder == "sweeps":
         return (*_swept([stem]), *by)
     if stem in paper()["cases"]:
@@ -151,7 +151,8 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     part = _at(sections[-1]) if sections else {}
     named = paper()["cases"] if stem in ALL_CASES else part.get("cases", ())
     cases = [part["case"]] if "case" in part else [case for case in named if not on or case in on]
-    sweeps = [sweep for sweep in part.get("sweeps", ()) if not on or sweep in on]
+    swept = [part["sweep"]] if "sweep" in part else part.get("sweeps", ())
+    sweeps = [sweep for sweep in swept if not on or sweep in on]
     return (*sections, *_swept(sweeps), *(f"cases.{case}" for case in cases))
 
 
@@ -170,6 +171,8 @@ def _sections(folder: str, stem: str) -> list[str]:
     """Return the sections of the configuration that decide a dataset of a study, its own last."""
     if stem in ("solvers", "trust"):
         return ["solvers"]
+    if stem == "second_solver":
+        return ["solvers.crank_nicolson", "chaos.ensembles", "chaos.second_solver"]
     if folder == "checks":
         return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # those of the theory rest on none
     if folder == "breathers":

@@ -1,6 +1,7 @@
 """The ledger of claims: every sentence of the paper that numbers can decide, with its verdict.
 
 `claim`      a claim, as a study declares it above the function that decides it
+`chances`    how likely another right run turns a verdict
 `changes`    the verbs that make wrong cases
 `chaos`      what ensembles of nearly equal initial conditions can show
 `criterion`  what decides, and prints itself

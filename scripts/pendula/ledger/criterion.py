@@ -12,6 +12,8 @@ from collections.abc import Mapping
 from enum import StrEnum
 from typing import NamedTuple, SupportsFloat
 
+from latticode.numerics.elementary import log
+
 Measured = Mapping[str, float]
 RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
@@ -24,6 +26,10 @@ class Criterion(ABC):
     @abstractmethod
     def failing(self, measured: Measured) -> list[str]:
         """Return the names whose numbers do not keep the criterion."""
+
+    @abstractmethod
+    def rooms(self, measured: Measured) -> dict[str, float]:
+        """Return by name how far a number lies within its limit; it is negative beyond it."""
 
     def holds(self, measured: Measured) -> bool:
         """Return whether all numbers keep the criterion."""
@@ -49,6 +55,13 @@ class Limit(Criterion):
     def failing(self, measured: Measured) -> list[str]:
         return [name for name in self.names if not self.keeps(measured[name])]
 
+    def room(self, value: float) -> float:
+        """Return how far one number lies within the limit; it is negative beyond it."""
+        return self.limit - value if self.sign[0] == "<" else value - self.limit
+
+    def rooms(self, measured: Measured) -> dict[str, float]:
+        return {name: self.room(measured[name]) for name in self.names}
+
     @property
     def words(self) -> str:
         """What must keep the limit."""
@@ -70,6 +83,16 @@ class AtMost(Limit):
     sign = "<="
 
 
+class Distance(AtMost):
+    """No distance is above the limit; beyond it, it may be many times as large.
+
+    So what it lacks there, and how that scatters, is counted in factors.
+    """
+
+    def room(self, value: float) -> float:
+        return super().room(value) if value <= self.limit else -float(log(value / self.limit))
+
+
 class Above(Limit):
     """Each number is greater than the limit."""
 
@@ -88,6 +111,9 @@ class WithinFactor(Below):
     def keeps(self, value: float) -> bool:
         return 1.0 / self.limit < value < self.limit
 
+    def room(self, value: float) -> float:
+        return float(log(self.limit) - abs(log(value))) if value > 0.0 else -math.inf
+
     def __str__(self) -> str:
         return f"{plain(1.0 / self.limit)} < {super().__str__()}"
 
@@ -101,6 +127,9 @@ class Near(Limit):
 
     def keeps(self, value: float) -> bool:
         return abs(value - self.target) <= self.limit
+
+    def room(self, value: float) -> float:
+        return self.limit - abs(value - self.target)
 
     def __str__(self) -> str:
         if self.target == 0.0:
@@ -117,6 +146,9 @@ class AllOf(Criterion):
 
     def failing(self, measured: Measured) -> list[str]:
         return [name for one in self.criteria for name in one.failing(measured)]
+
+    def rooms(self, measured: Measured) -> dict[str, float]:
+        return {name: room for one in self.criteria for name, room in one.rooms(measured).items()}
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.criteria))
@@ -188,10 +220,13 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
     return Finding(numbers, criterion, verdict, caveat)
 
 
-def undecided(measured: Measured, because: str) -> Finding:
-    """Return the finding on a claim that the numbers at hand cannot decide."""
+def undecided(measured: Measured, because: str, criterion: Criterion | None = None) -> Finding:
+    """Return the finding on a claim that the numbers at hand cannot decide.
+
+    A `criterion` says on which sides of their limits the numbers lie for which this is so.
+    """
     numbers = {name: float(value) for name, value in measured.items()}
-    return Finding(numbers, None, Verdict.UNDECIDED, because)
+    return Finding(numbers, criterion, Verdict.UNDECIDED, because)
 
 
 def not_applicable(because: str) -> Finding:

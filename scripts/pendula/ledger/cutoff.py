@@ -6,7 +6,7 @@ float: while a claim is decided it notes that it was read, and it can be moved, 
 can decide the claim again with each of its cut-offs a third smaller and larger.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import wraps
 from typing import Any, NamedTuple
 
@@ -54,17 +54,23 @@ def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> lis
 
     `verdict_of` decides again.
     """
-    found = []
+    return [
+        f"{other} with {value:.3g} instead of {cutoff.number:.3g}"
+        for cutoff, value, other in each_move(read, verdict_of)
+        if other != verdict
+    ]
+
+
+def each_move(read: set[Cutoff], decide: Callable[[], Any]) -> Iterator[tuple[Cutoff, float, Any]]:
+    """Yield each move of the cut-offs in `read`: the cut-off, its value, what `decide` returns."""
     for cutoff in sorted(read):
         for factor in MOVES:
             _moved[cutoff] = factor
             try:
-                other, value = verdict_of(), cutoff.value
+                moved = cutoff.value, decide()
             finally:
                 _moved.clear()
-            if other != verdict:
-                found.append(f"{other} with {value:.3g} instead of {cutoff.number:.3g}")
-    return found
+            yield cutoff, *moved
 
 
 def once(measure: Callable) -> Callable:

@@ -9,7 +9,7 @@ from pendula.configuration.paper import Differences, reason
 
 from .claim import Claim, Control, Wrong
 from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
-from .cutoff import flips, reading
+from .cutoff import each_move, flips, reading
 from .missing import missing
 
 
@@ -72,6 +72,20 @@ def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
     except UndecidableError as reason:
         return undecided({}, str(reason))
     return decide(claim, {**sources, **fed})
+
+
+def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
+    """Return all that is found for a claim: "" by its cut-offs, and by each move of them.
+
+    Controls have their descriptions as names, moves the values that they move a cut-off to.
+    """
+    finding, cutoffs = reading(lambda: decide(claim, sources))
+    moves = {
+        f"{value:.4g} instead of {cutoff.number:.4g} ({cutoff.origin})": other
+        for cutoff, value, other in each_move(cutoffs, lambda: decide(claim, sources))
+    }
+    controls = {control.says: feed(claim, control, sources) for control in claim.controls}
+    return {"": finding} | moves | controls
 
 
 def passes(control: Control, finding: Finding) -> bool | None:

@@ -3,7 +3,7 @@
 import numpy as np
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import pair_l2
-from pendula.studies.chaos.ensembles import draw_swept, measure_ensembles
+from pendula.studies.chaos.ensembles import draw_swept, measure_ensembles, measure_second_solver
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
@@ -23,3 +23,22 @@ def test_half_widths_have_draws_of_their_own_and_each_reading_its_window():
         np.mean([one[1:3].mean() for one in norms]),
     ]
     np.testing.assert_allclose(data["l2_mean"].sel(sweep="b", half_width=13), expected, rtol=1e-3)
+
+
+def test_runs_of_the_second_solver_have_its_steps_and_draws_of_their_own():
+    steps = [0.05, 0.125]
+    first = PROBLEM.plain()
+    second = [
+        first | {"solver": {"name": "crank_nicolson", "step": step, "tolerance": 1e-13,
+                            "iterations": 50}}
+        for step in steps
+    ]  # fmt: skip
+    windows = [(0.5, 1.0), (0.25, 0.5)]
+    data = measure_second_solver(first, second, [3, 4], windows, 1e-3, 2, 5, seed=1)
+    assert data["solver_step"].values.tolist() == steps and data.attrs["window"] == "[0.5, 1]"
+    assert data["first_l2"].shape == (2, 5) and data["l2"].shape == (2, 2, 2)
+    alone = draw_swept(PROBLEM.of(second[1]), [4], 1e-3, 2, seed=1 + 2)
+    expected = [pair_l2(simulate(one))[2][2:].max() for one in alone]
+    np.testing.assert_array_equal(data["l2"].sel(solver_step=0.125, half_width=4), expected)
+    drawn = np.concatenate([data[name].values.ravel() for name in ("l2", "first_l2")])
+    assert len(np.unique(drawn)) == drawn.size == 18

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from oracle import slope
 from pendula.models.bounds import (
     extent,
     proven_region,
@@ -17,8 +18,10 @@ from pendula.models.bounds import (
 from pendula.models.linear_chain import finite_rate, gamma_0, growth_rate, infinite_rate
 from pendula.studies.theory import theorems
 from pendula.studies.theory.equations import one_pair, total_energy
+from pendula.studies.theory.stability import edge_wave
 from pendula.studies.theory.theorems import check_sharpness, largest_of_energy
 from problems import constants_of
+from scipy.integrate import solve_ivp
 
 NEGATIVE, POSITIVE = constants_of((1.0, 1.0, -4.0)), constants_of((1.0, 1.0, 8.0))
 OTHERS = ((0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0))
@@ -97,7 +100,26 @@ def test_a_tiny_wave_reaches_what_the_linear_equations_say(monkeypatch, sites):
     kappa = 4.0 + 4.0 * np.sin(0.5 * np.pi / (sites + 1)) ** 2  # as far from the band at both Omega
     growth = (kappa + 2.0) / (kappa - 2.0)
     assert found["reached"][:2] == pytest.approx(2 * [2 / (kappa - 2)], rel=1e-6)
-    assert found["least_constant"] == pytest.approx(growth, rel=1e-6)
+    assert found["least_constant"] == pytest.approx([growth, growth], rel=1e-6)
+    assert found["proof_constant"].tolist() == [5.0, 5.0]  # (8 + 2) / 2 and (4 + 2 + 4) / 2
+
+
+@pytest.mark.parametrize(("theorem", "omega"), [(0, 8.0), (1, -4.0)])
+def test_the_power_of_the_wave_grows_in_time_by_the_least_constant(monkeypatch, theorem, omega):
+    """SciPy runs the equations from the wave with its least P."""
+    sites = 11
+    monkeypatch.setattr(theorems, "LONG", sites)
+    constant = check_sharpness()["data_vars"]["least_constant"]["data"][theorem]
+    start = 1e-4 * edge_wave(omega, sites)
+
+    def rates(_, z):
+        return slope(z.reshape(2, -1), (1.0, 1.0, omega), "dirichlet").ravel()
+
+    run = solve_ivp(rates, (0.0, 2.0), start.ravel(), method="DOP853", rtol=1e-11, atol=1e-16,
+                    max_step=0.01)  # fmt: skip
+    powers = (np.abs(run.y) ** 2).sum(axis=0)
+    assert powers[0] == pytest.approx(powers.min())
+    assert powers.max() / powers[0] == pytest.approx(constant, rel=1e-4)
 
 
 def test_above_the_bottom_of_the_energy_a_rough_wave_comes_nearer_to_the_bound_of_theorem_3():

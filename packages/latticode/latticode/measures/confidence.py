@@ -1,14 +1,18 @@
-"""Confidence limits: of a mean of few members, of a share, of a median, of a rate.
+"""Confidence limits: of a mean of few members, of a share, of a median, of a rate, of an order.
 
 Quantiles of the distributions are rounded to six digits, because the last bits of the special
 functions behind them differ between machines.
 """
 
+from collections.abc import Sequence
+from itertools import combinations
 from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 from scipy import special
+
+from ..numerics.elementary import exp
 
 CONFIDENCE = 0.95
 """Limits enclose the true value in so many of all repetitions, as is the custom."""
@@ -56,14 +60,29 @@ def difference_limits(one, other, confidence: float = CONFIDENCE) -> Limits:
     return Limits(difference, difference - off, difference + off)
 
 
-def chance_of_draw(value, mean, deviation, members: int):
-    """Return the chance that one more draw is at least as far from the mean as `value`.
+def chance_inside(most: int, draws: int, members: int) -> float:
+    """Return the chance that at most `most` of `draws` lie within the range of `members` others.
 
-    `mean` and `deviation` are those of `members` normal draws, numbers or arrays of one shape; the
-    chance is that of Student's t with the error of the mean included.
+    All are independent draws of one continuous law, whatever it is: those outside are the first and
+    the last in an order of all of them.
     """
-    score = np.abs(value - mean) / (deviation * sqrt(1.0 + 1.0 / members))
-    return np.round(2.0 * special.stdtr(members - 1, -score), 6)
+    total = special.gammaln(np.array([draws + members + 1.0, members + 1.0, draws + 1.0]))
+    outside = np.arange(draws - most, draws + 1.0)
+    inner = draws + members - outside - 2.0
+    ways = special.gammaln(inner + 1.0) - special.gammaln(members - 1.0)
+    ways = ways - special.gammaln(inner - members + 3.0)
+    orders = exp(ways - (total[0] - total[1] - total[2]))
+    return float(f"{((outside + 1.0) * orders).sum():.3g}")
+
+
+def chance_of_counts(least: int, members: int, share: float) -> float:
+    """Return the chance that at least `least` of `members` are of a kind with this share."""
+    return float(f"{special.bdtrc(least - 1.0, members, share):.3g}")
+
+
+def chance_below(score: float, freedom: float) -> float:
+    """Return the chance that a draw of Student's t is below a score, to three digits."""
+    return float(f"{special.stdtr(freedom, score):.3g}")
 
 
 def _freedom(parts, draws):
@@ -130,6 +149,25 @@ def event_rate(times, start: float, end: float, confidence: float = CONFIDENCE) 
     low = _rounded(special.chdtri(2 * events, 1.0 - tail)) if events else 0.0
     high = _rounded(special.chdtri(2 * (events + 1), tail))
     return Limits(events / watched, 0.5 * low / watched, 0.5 * high / watched)
+
+
+def order_limits(groups: Sequence[np.ndarray], confidence: float = CONFIDENCE) -> Limits:
+    """Return the share of pairs in which a value of an earlier group is larger, and its limits.
+
+    Pairs are of values of two `groups`; equal values count half, and values may be infinite. The
+    limits have the width of Jonckheere's test (Biometrika 41 (1954) 133): if all values are draws
+    of one law, they enclose 1/2 with this confidence, or a larger one where values are equal.
+    """
+    larger = pairs = 0.0
+    for earlier, later in combinations([np.asarray(group, float) for group in groups], 2):
+        larger += (earlier[:, None] > later).sum() + 0.5 * (earlier[:, None] == later).sum()
+        pairs += len(earlier) * len(later)
+    sizes = np.array([len(group) for group in groups], float)
+    total = sizes.sum()
+    spread = total * total * (2.0 * total + 3.0) - (sizes * sizes * (2.0 * sizes + 3.0)).sum()
+    deviation = sqrt(spread / 72.0) / pairs
+    off = _rounded(special.ndtri(0.5 * (1.0 + confidence))) * deviation
+    return Limits(larger / pairs, larger / pairs - off, larger / pairs + off)
 
 
 def _rounded(value: float) -> float:

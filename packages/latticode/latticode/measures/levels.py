@@ -16,18 +16,6 @@ def levelling(
     return _first_of_tail(half_widths, np.abs(values / values[-1] - 1.0) <= tolerance, least)
 
 
-def levelling_of_means(
-    half_widths: np.ndarray, means: np.ndarray, errors: np.ndarray, apart: float, least: int = 3
-) -> float:
-    """Return the half-width from which no mean differs from the last by more than the noise.
-
-    The noise is `apart` standard errors of the difference, a quantile of Student's t. The
-    half-width is infinite if fewer than `least` means agree.
-    """
-    noise = apart * np.sqrt(errors * errors + errors[-1] * errors[-1])
-    return _first_of_tail(half_widths, np.abs(means - means[-1]) <= noise, least)
-
-
 def _first_of_tail(half_widths: np.ndarray, near: np.ndarray, least: int) -> float:
     first = len(near) - int(np.argmin(near[::-1])) if not near.all() else 0
     return float(half_widths[first]) if first <= len(near) - least else np.inf

@@ -1,5 +1,7 @@
 """Confidence limits: against SciPy's own, and how often they enclose what is known."""
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 from latticode.measures import confidence
@@ -41,18 +43,6 @@ def test_limits_of_a_share_are_exact(stats, count, members):
     np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-5)
     known = stats.binomtest(count, members).proportion_ci(0.8, "exact")
     assert confidence.share_limits(count, members, 0.8)[1:] == pytest.approx(tuple(known), rel=1e-5)
-
-
-def test_one_more_draw_has_every_chance_alike(stats):
-    draws = RNG.normal(2.0, 3.0, size=(9, 4000))
-    members, new = draws[:8], draws[8]
-    moments = members.mean(axis=0), members.std(axis=0, ddof=1)
-    chances = confidence.chance_of_draw(new, *moments, 8)
-    for level in (0.05, 0.5, 0.9):
-        assert np.mean(chances < level) == pytest.approx(level, abs=0.025)
-    assert confidence.chance_of_draw(2.0, 2.0, 3.0, 8) == 1.0
-    known = 2.0 * stats.t.sf(3.0 / np.sqrt(1.125), 7)
-    assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == round(known, 6)
 
 
 def test_limits_of_a_rate_are_those_of_chi_squared(stats):
@@ -97,3 +87,46 @@ def test_the_limits_of_a_ratio_are_just_what_student_s_t_allows():
     assert confidence.ratio_limits((2.0, 3.0), (0.0, 0.0), 6) == (1.5, 1.5, 1.5)
     small = confidence.ratio_limits((0.1, 0.2), (0.01, 0.02), 8)  # of another unit
     assert tuple(small) == pytest.approx(tuple(found))
+
+
+def test_limits_of_an_order_have_the_width_of_all_orders():
+    """All orders of 3 + 2 + 2 values are known, and the share of pairs in each of them."""
+    orders = set(permutations((0, 0, 0, 1, 1, 2, 2)))
+    groups = [[np.flatnonzero(np.array(order) == one) for one in range(3)] for order in orders]
+    shares = np.array([confidence.order_limits(one)[0] for one in groups])
+    assert shares.min() == 0.0 and shares.max() == 1.0
+    half = confidence.order_limits(groups[0], 0.95).half
+    assert half == pytest.approx(1.959964 * shares.std(), rel=1e-5)
+
+
+def test_limits_of_an_order_enclose_a_half_if_the_group_does_not_matter():
+    drawn = RNG.random((2000, 4, 8))
+    found = np.array([confidence.order_limits(groups) for groups in drawn])
+    assert np.mean((found[:, 1] <= 0.5) & (found[:, 2] >= 0.5)) == pytest.approx(0.95, abs=0.02)
+
+
+def test_an_order_of_infinite_and_of_equal_values():
+    never, late, soon = [np.inf, np.inf], [5.0, np.inf], [1.0, 2.0]
+    assert confidence.order_limits([never, late, soon]).value == pytest.approx(11 / 12)
+    assert confidence.order_limits([soon, soon]).value == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(("most", "draws", "members"), [(0, 2, 2), (1, 3, 4), (2, 4, 3), (4, 4, 5)])
+def test_the_chance_of_draws_within_a_range_is_that_of_all_orders(most, draws, members):
+    orders = set(permutations((0,) * draws + (1,) * members))
+    inside = []
+    for order in orders:
+        range_of = np.flatnonzero(order)
+        places = np.flatnonzero(np.array(order) == 0)
+        inside.append(((places > range_of[0]) & (places < range_of[-1])).sum())
+    expected = np.mean(np.array(inside) <= most)
+    assert confidence.chance_inside(most, draws, members) == pytest.approx(expected, rel=1e-2)
+
+
+def test_the_chance_below_a_score_is_student_s(stats):
+    assert confidence.chance_below(-7.0, 20) == pytest.approx(stats.t.cdf(-7.0, 20), rel=1e-2)
+
+
+def test_the_chance_of_counts_is_binomial(stats):
+    expected = stats.binom.sf(52, 128, 0.22)
+    assert confidence.chance_of_counts(53, 128, 0.22) == pytest.approx(expected, rel=1e-2)

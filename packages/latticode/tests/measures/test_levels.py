@@ -1,8 +1,8 @@
-"""Where curves level off, what range they have, and the means of ensembles with their errors."""
+"""Where curves level off."""
 
 import numpy as np
 import pytest
-from latticode.measures.levels import levelling, levelling_of_means
+from latticode.measures.levels import levelling
 
 WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
 
@@ -23,21 +23,3 @@ WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
 )
 def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end(values, more, found):
     assert levelling(WIDTHS, np.array(values), **more) == found
-
-
-@pytest.mark.parametrize(
-    ("means", "errors", "more", "found"),
-    [
-        ([1.0, 2.0, 2.9, 3.1, 3.0], [0.1] * 5, {}, 20.0),
-        ([1.0, 2.0, 2.9, 3.1, 3.0], [0.01] * 5, {}, np.inf),
-        ([1.0, 2.0, 2.9, 3.1, 3.0], [1.0] * 5, {}, 5.0),
-        ([9.0, 10.0, 0.0, 0.0, 0.0], [3.0, 3.0, 3.0, 3.0, 4.0], {}, 5.0),  # by just the noise
-        ([9.0, 10.0, 0.0, 0.0, 0.0], [3.0, 3.0, 3.0, 3.0, 4.0], {"apart": 1.9}, 20.0),
-        ([1.0, 2.0, 3.0, 4.0, 4.0], [0.01] * 5, {}, np.inf),
-        ([1.0, 2.0, 3.0, 4.0, 4.0], [0.01] * 5, {"least": 2}, 40.0),
-        ([1.0, 2.0, 3.0, 3.2, 3.4], [0.1] * 5, {}, np.inf),
-    ],
-)
-def test_means_are_level_where_their_errors_hide_the_rest(means, errors, more, found):
-    given = np.array(means), np.array(errors)
-    assert levelling_of_means(WIDTHS, *given, **{"apart": 2.0} | more) == found

@@ -4,7 +4,7 @@ Where the motion is chaotic one run is one draw; what another computer would dra
 distribution.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -12,6 +12,7 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.registry import NAMES
 from latticode.measures.levels import moments
 from latticode.simulation.ensembles import draw_members
+from latticode.simulation.problem import name_window
 from latticode.simulation.runs import Run, run_all
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, STATISTICS, windowed
@@ -72,6 +73,47 @@ def measure_ensembles(
     data = xr.merge([described, xr.concat(parts, described["sweep"], join="outer")])
     title = "Ensembles of the chaotic sweeps, from almost equal data"
     return data.assign_attrs({**described.attrs, "title": title, "perturbation": size})
+
+
+def measure_second_solver(
+    first: Mapping, second: Sequence[Mapping], half_widths: Sequence[int],
+    windows: Sequence[tuple[float, float]], size: float, members: int, first_members: int,
+    seed: int, run: Run = run_all,
+) -> xr.Dataset:  # fmt: skip
+    """Return the maxima of l2 over the window of the text, of runs by the paper's second solver.
+
+    `second` are its problems, which differ in the step, and `first` is that by the solver of the
+    ensembles, as plain values. Each has draws of its own at each half-width: `members` of each of
+    `second`, and `first_members` of `first`.
+    """
+    sizes = [first_members, *(members for _ in second)]
+    drawn = [
+        draw_swept(Problem.of(problem), half_widths, size, count, seed + number)
+        for number, (problem, count) in enumerate(zip([first, *second], sizes, strict=True))
+    ]
+    norms = run([member for part in drawn for member in part], lambda one: read_norms(one, windows))
+    values = np.split(norms["l2"][:, 0], np.cumsum([len(part) for part in drawn])[:-1])
+    of_first, *of_second = (part.reshape(len(half_widths), -1) for part in values)
+    says = f"{NAMES['l2']} of the pair, largest over the window"
+    steps = [problem["solver"]["step"] for problem in second]
+    data = xr.Dataset(
+        {
+            "first_l2": (("half_width", "first_member"), of_first, {"long_name": says}),
+            "l2": (
+                ("solver_step", "half_width", "member"),
+                np.array(of_second),
+                {"long_name": f"{says}, by the second solver"},
+            ),
+        },
+        {
+            "half_width": ("half_width", list(half_widths), {"long_name": NAMES["half_width"]}),
+            "solver_step": ("solver_step", steps, {"long_name": "step of the second solver"}),
+        },
+    )
+    _, shared = describe_cases({"sweep": Problem.of(first)})
+    about = {"perturbation": size, "seed": seed, "window": name_window(windows[0])}
+    title = "A chaotic sweep by the paper's second solver, from almost equal data"
+    return data.assign_attrs({**shared, **about, "title": title})
 
 
 def _moments(norms: Mapping[str, np.ndarray], about: Mapping) -> xr.Dataset:

@@ -61,6 +61,15 @@ Ensembles = model(
     **RANDOM,
 )
 
+# A chaotic sweep by the second solver, with its own step and a coarse one, and by the first.
+SecondSolver = model(
+    sweep=Name,
+    half_widths=Counts,
+    members=Annotated[Whole, Field(ge=2)],
+    first_members=Annotated[Whole, Field(ge=2)],
+    seed=Natural,
+)
+
 # Ensembles of every case, each member reduced to numbers over windows of time.
 Members = model(
     windows=Annotated[list[Window], Field(min_length=2, max_length=2), Distinct],
@@ -92,6 +101,7 @@ class Settings(Model):
 
     lyapunov: Lyapunov
     ensembles: Ensembles
+    second_solver: SecondSolver
     members: Members
     lifetimes: Lifetimes
 
@@ -100,6 +110,7 @@ class Settings(Model):
         absent = [
             *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
             *settings.absent("sweeps", "ensembles.sweeps", list(self.ensembles.sweeps)),
+            *settings.absent("sweeps", "second_solver.sweep", [self.second_solver.sweep]),
             *settings.absent("cases", "lifetimes.case", [self.lifetimes.case]),
         ]
         yield from absent
@@ -122,6 +133,9 @@ class Settings(Model):
         for name, swept in self.ensembles.sweeps.items():
             if name in settings.sweeps and settings.sweeps[name].case == case:
                 found[f"ensembles.sweeps.{name}"] = min(swept.half_widths)
+        swept = self.second_solver
+        if swept.sweep in settings.sweeps and settings.sweeps[swept.sweep].case == case:
+            found["second_solver.half_widths"] = min(swept.half_widths)
         return found
 
     def runs_of(self, settings: Configuration) -> Iterator[Runs]:
@@ -140,22 +154,13 @@ class Settings(Model):
             "lyapunov.size",
             followed.size,
         )
-        drawn = self.ensembles
-        for name, one in drawn.sweeps.items():
-            sweep = settings.sweeps[name]
-            ends = {"end_time": max(sweep.drawn.max[1], sweep.drawn.mean[1])}
-            chosen = {**ends, "output_step": drawn.output_step}
-            yield Runs(
-                f"ensembles.sweeps.{name}.members",
-                "ensembles.tolerance",
-                [
-                    settings.run_of(sweep.case, drawn.tolerance, half_width=m, **chosen)
-                    for m in one.half_widths
-                ],
-                one.members,
-                "ensembles.size",
-                drawn.size,
-            )
+        for name, one in self.ensembles.sweeps.items():
+            key = f"ensembles.sweeps.{name}.members"
+            yield self._swept(settings, key, name, one.half_widths, one.members)
+        second = self.second_solver
+        members = second.first_members + 2 * second.members
+        key = "second_solver.first_members"
+        yield self._swept(settings, key, second.sweep, second.half_widths, members)
         given = self.members
         ends = {"end_time": max(end for _, end in given.windows)}
         chosen = {**ends, "output_step": given.output_step, "snapshot_every": 1}
@@ -163,6 +168,17 @@ class Settings(Model):
         every = "members.members", "members.tolerance", runs, given.members
         yield Runs(*every, "members.size", given.size)
         yield self._lives(settings)
+
+    def _swept(self, settings, key: str, name: str, half_widths, members: int) -> Runs:
+        """Return the runs of the members of a sweep by the solver of the ensembles."""
+        drawn, sweep = self.ensembles, settings.sweeps[name]
+        ends = {"end_time": max(sweep.drawn.max[1], sweep.drawn.mean[1])}
+        chosen = {**ends, "output_step": drawn.output_step}
+        runs = [
+            settings.run_of(sweep.case, drawn.tolerance, half_width=m, **chosen)
+            for m in half_widths
+        ]
+        return Runs(key, "ensembles.tolerance", runs, members, "ensembles.size", drawn.size)
 
     def _lives(self, settings: Configuration) -> Runs:
         """Return the runs from each amplitude, whose number of looks is that of its outputs."""

@@ -7,6 +7,7 @@ from latticode.measures.confidence import student
 from latticode.measures.growth import PARTS
 
 from pendula.ledger import changes
+from pendula.ledger.chances import RARE
 from pendula.ledger.claim import Control, Kind, checks, claim
 from pendula.ledger.criterion import (
     Above,
@@ -18,12 +19,8 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
-from pendula.ledger.cutoff import Cutoff
 
 SECTION = 2
-
-SIGNIFICANT = Cutoff(0.05, "the level that is customary in statistics, for all spectra together")
-
 
 IDENTITIES = checks("identities")
 
@@ -120,7 +117,7 @@ def one_integral(lyapunov) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
     # With a second integral at least four exponents of a spectrum vanish, and one of these beyond
     # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
-    level = 1.0 - SIGNIFICANT.value / (4 * lyapunov.sizes["spectrum_case"])
+    level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(PARTS - 1, level) / student(PARTS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
     # those that lie nearer to zero than exponents to each other
@@ -128,21 +125,22 @@ def one_integral(lyapunov) -> Finding:
     told = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
     measured["most_resolved_pairs"] = told.max()
+    says = "vanishing pairs of Lyapunov exponents in every spectrum"
+    one_pair = AtLeast(1.0, "fewest_pairs", says=says), AtMost(1.0, "most_pairs", says=says)
     if measured["most_resolved_pairs"] <= 1.0 < measured["most_pairs"]:
         many = ", ".join(map(str, pairs["spectrum_case"].values[pairs.values > 1.0]))
         return undecided(
             measured,
             "each integral makes a pair of Lyapunov exponents vanish, and on a short chain the runs"
             f" of {many} are too short to exclude that a second pair vanishes",
+            AllOf(one_pair[1], AtMost(1.0, "most_resolved_pairs", says="pairs close to zero")),
         )
     caveat = (
         "each integral makes a pair of Lyapunov exponents vanish, and on short chaotic chains "
         "exactly one pair does; this excludes another integral only where these runs went"
     )
     fails = "a second pair of Lyapunov exponents vanishes, or none does"
-    says = "vanishing pairs of Lyapunov exponents in every spectrum"
-    criterion = AllOf(AtLeast(1.0, "fewest_pairs", says=says), AtMost(1.0, "most_pairs", says=says))
-    return judge(measured, criterion, caveat, fails)
+    return judge(measured, AllOf(*one_pair), caveat, fails)
 
 
 @by_algebra(

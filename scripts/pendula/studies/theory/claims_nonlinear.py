@@ -363,7 +363,7 @@ def sharp_theorems(check) -> Finding:
     by_size = Above(SHARP, *shares, says="share of the bound by the size that is reached")
     sharp = AllOf(growths, by_energy, by_size)
     if set(sharp.failing(measured)) == set(shares):
-        return undecided(measured, _by_energy_alone(measured))
+        return undecided(measured, _by_energy_alone(measured), sharp)
     return judge(measured, sharp)
 
 

@@ -10,7 +10,6 @@ from pendula.ledger.changes import roll, scale, take
 from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
 from pendula.ledger.criterion import (
     AllOf,
-    AtLeast,
     AtMost,
     Below,
     Finding,
@@ -118,37 +117,59 @@ def next_states(thermal):
     return roll(("power", "antisymmetric_power"), {"omega": 1})(thermal)
 
 
+def next_state_between(thermal):
+    """Return thermal states with the power with A = -B of the next Omega alone."""
+    return roll("antisymmetric_power", {"omega": 1})(thermal)
+
+
 @claim(
     "Beyond the paper",
     "Behind each front the infinite chain is in thermal equilibrium, where each pendulum oscillates"
     " at a finite amplitude.",
     unbounded("omegas", "thermal"),
-    (Control("the thermal states of the next Omega", {"thermal": next_states}),),
+    (
+        Control("the thermal states of the next Omega", {"thermal": next_states}),
+        Control(
+            "the thermal states with A = -B of the next Omega alone",
+            {"thermal": next_state_between},
+        ),
+    ),
 )
 def unbounded_equilibrium(run, thermal) -> Finding:
+    """Require that the limits of P behind the second fronts, and its means between, are near.
+
+    Between the fronts P relaxes over hundreds of sites, of which short runs have few. Members
+    scatter there so much that limits for all Omega together would admit almost any state: so the
+    means of the members decide, which can fail.
+    """
     times_of(run)
     omegas, tries = run["omega"].values, 2 * run.sizes["variant"]
     formed = np.isfinite(second_speeds(run)[0])
     both = np.where(formed[:, None], mean_powers(run, BEHIND), np.nan)
     ratios = ratios_of(both, thermal_powers(thermal, run), tries)
     alone = thermal_powers(thermal, run, "antisymmetric_power")
-    between = ratios_of(mean_powers(run, BETWEEN), alone, tries)
+    between = mean_powers(run, BETWEEN).mean(axis=1) / alone
+    known = np.isfinite(between)
+    if known.sum() < FEW:
+        raise UndecidableError("fewer than three regions have formed")
+    furthest = np.nanargmax(np.abs(between - 1.0))
     measured = {
         "at_least": min(one.low for one in ratios),
         "at_most": max(one.high for one in ratios),
-        "between_at_most": min(one.high for one in between),
-        "between_at_least": max(one.low for one in between),
+        "between_least": between[known].min(),
+        "between_largest": between[known].max(),
     }
     says = "confidence interval of P behind the second front over thermal P"
-    alone_says = "P between the fronts over that of the thermal state with A = -B"
+    alone_says = "mean P between the fronts over that of the thermal state with A = -B"
     criterion = AllOf(
         Near(1.0, CHANGE, "at_least", "at_most", says=says),
-        AtLeast(1.0 - CHANGE.value, "between_at_most", says=f"upper limit of {alone_says}"),
-        AtMost(1.0 + CHANGE.value, "between_at_least", says=f"lower limit of {alone_says}"),
+        Near(1.0, CHANGE, "between_least", "between_largest", says=alone_says),
     )
     absent = ", ".join(f"{omega:g}" for omega in omegas[~formed])
-    only = f"at Omega = {absent} only the equilibrium with A = -B is reached" if absent else ""
-    return judge(measured, criterion, only)
+    only = f"at Omega = {absent} only the equilibrium with A = -B is reached; " if absent else ""
+    off = f"{abs(between[furthest] - 1.0):.0%} at Omega = {omegas[furthest]:g}"
+    slow = f"P between the fronts, which relaxes over hundreds of sites, is off by up to {off}"
+    return judge(measured, criterion, only + slow)
 
 
 @claim(

@@ -1,0 +1,63 @@
+"""Keep the chances that another right run turns a verdict, for docs/report.md and its test.
+
+Run as `python docs/right_runs.py FOLDER ...` with the results of several right runs, which differ
+in last bits or seeds; `.ci/elsewhere moved` makes some and does so. Writes
+tests/baseline/quoted/right_runs.json, and fails where verdicts differ or a chance is too large.
+"""
+
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "scripts")]
+
+from latticode.datasets.json_files import write_json  # noqa: E402
+from latticode.datasets.netcdf import read  # noqa: E402
+from pendula.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn  # noqa: E402
+from pendula.ledger.claim import Claim  # noqa: E402
+from pendula.ledger.criterion import Finding  # noqa: E402
+from pendula.ledger.verdicts import all_claims, look, needed  # noqa: E402
+
+KEPT = ROOT / "tests/baseline/quoted/right_runs.json"
+
+
+def look_at(folder: Path) -> dict[str, dict[str, Finding]]:
+    """Return by claim all that is found in the results of a run."""
+    sources = {name: read(folder / f"{name}.nc") for name in needed()}
+    return {claim.name: look(claim, sources) for claim in all_claims()}
+
+
+def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[dict]:
+    """Yield a row for a claim and for each of its controls, from what is found in each run."""
+    controls = [control.says for control in claim.controls]
+    moves = [name for name in looks[0] if name and name not in controls]
+    chances = {"": chance_of_claim(looks, moves)}
+    chances |= {says: chance_to_turn([found[says] for found in looks]) for says in controls}
+    for says, chance in chances.items():
+        verdicts = dict.fromkeys(str(found[says].verdict) for found in looks)
+        yield {
+            "claim": claim.name,
+            "control": says,
+            "verdicts": list(verdicts),
+            "chance": chance.value,
+            "nearest": chance.nearest,
+        }
+
+
+def keep_chances(folders: Sequence[Path], path: Path = KEPT) -> list[dict]:
+    """Write the rows of all claims, and return those that another right run may turn."""
+    runs = [look_at(folder) for folder in folders]
+    rows = [
+        row for claim in all_claims() for row in rows_of(claim, [run[claim.name] for run in runs])
+    ]
+    write_json(path, {"runs": len(runs), "rows": rows})
+    return [row for row in rows if row["chance"] >= ALLOWED or len(row["verdicts"]) > 1]
+
+
+if __name__ == "__main__":
+    turned = keep_chances([Path(folder) for folder in sys.argv[1:]])
+    for row in turned:
+        print(f"{row['claim']} {row['control']}: {', '.join(row['verdicts'])},"
+              f" chance {row['chance']:.2g} by {row['nearest']}", file=sys.stderr)  # fmt: skip
+    sys.exit(bool(turned))
