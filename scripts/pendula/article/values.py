@@ -30,6 +30,8 @@ QUOTED = f"{KEPT}/quoted/"
 LONG = f"{QUOTED}unbounded"
 MARK = "†"
 """It follows each result of a long study, which a full run does not make again."""
+ROUNDING = 1e-9
+"""A number with a smaller relative error is printed without it."""
 UPWARD = 1.05
 """By so much a bound grows before two of its digits are printed: they are then no smaller."""
 
@@ -49,7 +51,8 @@ class Numbers:
         data = self.results[name].sel(labels)
         if f"{variable}_error" in data and f"{variable}_low" not in data:
             value, error = (float(data[f"{variable}{part}"]) for part in ("", "_error"))
-            return self.long(name, with_error(value, error))
+            exact = error < ROUNDING * abs(value)
+            return self.long(name, number(value, digits) if exact else with_error(value, error))
         return self._say(name, data, variable, lambda one: number(one, digits))
 
     def share(self, name: str, variable: str, **labels) -> Quote:

@@ -106,6 +106,8 @@ def solitons_unstable(periodic) -> Finding:
     short, long = (away["soliton_growth"].isel(soliton_half_width=i) for i in (0, -1))
     measured = {
         "solitons": away.sizes["soliton_frequency"],
+        "lowest_frequency": away["soliton_frequency"].min(),
+        "highest_frequency": away["soliton_frequency"].max(),
         "least_power": away["soliton_power"].min(),
         "largest_power": away["soliton_power"].max(),
         "least_growth": long.min(),
