@@ -87,18 +87,22 @@ def slope_of(text, parameters, boundary, fields, second_order):
     made = run(text)
     equations = made["d2_dt2" if second_order else "i_dt"]
     takes_velocities = equations.__code__.co_argcount > 1 + fields
-    given = {
-        name: beyond_ends(value, boundary, of_field=False) if np.ndim(value) else value
-        for name, value in parameters.items()
-    }
+
+    def everywhere(value, like):
+        return beyond_ends(np.broadcast_to(value, like.shape), boundary, of_field=False)
 
     def slope(t, y):
-        rows = [beyond_ends(row, boundary) for row in y.reshape(fields * (1 + second_order), -1)]
+        states = y.reshape(fields * (1 + second_order), -1)
+        rows = [beyond_ends(state, boundary) for state in states]
+        given = {
+            name: everywhere(value, states[0]) for name, value in {**parameters, "t": t}.items()
+        }
         arguments = rows if takes_velocities else rows[:fields]
-        returned = equations(SimpleNamespace(**given, t=t), *arguments)
+        returned = equations(SimpleNamespace(**given), *arguments)
         returned = returned if isinstance(returned, tuple) else (returned,)
         inside = [
-            np.broadcast_to(one, rows[0].shape)[MARGIN:-MARGIN].view(np.ndarray) for one in returned
+            np.broadcast_to(rate, rows[0].shape)[MARGIN:-MARGIN].view(np.ndarray)
+            for rate in returned
         ]
         if second_order:
             return np.concatenate([y[y.size // 2 :], *inside])

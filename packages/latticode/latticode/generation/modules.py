@@ -49,8 +49,10 @@ CLOCK_SERIES = """\
 @cache
 def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
     """Return the parts of rates, and of what their series carry along."""
-    found = with_carried(list(rates), site_dependent)[-1]
-    return parts_of([*rates, *(one for pair in found for one in pair)], site_dependent)
+    # where a function becomes a leaf, a sign may move out of a constant: -p.k / (1 + x * x)
+    with_leaves, _, found = with_carried(list(rates), site_dependent)
+    carried = (one for pair in found for one in pair)
+    return parts_of([*rates, *with_leaves, *carried], site_dependent)
 
 
 def at_time_text(parts: Parts, names: Names) -> str:

@@ -33,10 +33,11 @@ SECOND = {
         lambda t, x, v, r, s, vr, vs: np.exp(s - x) - np.exp(x - r)
         + (3 + x - s) ** -7 - (3 + r - x) ** -7,
     ),
-    "forces of parameters and of clocks alone": (
-        lambda p, x, v: 0.5 * p.k - 0.3 * cos(p.k) - sqrt(2 + cos(p.k * p.t)) + lap(x) - v,
+    "forces of parameters and of clocks alone, and a quotient of them": (
+        lambda p, x, v: 0.5 * p.k - 0.3 * cos(p.k) - sqrt(2 + cos(p.k * p.t)) + lap(x) - v
+        - p.k / (2 + x * x),
         lambda t, x, v, r, s, vr, vs: 0.35 - 0.3 * np.cos(0.7) - np.sqrt(2 + np.cos(0.7 * t))
-        + (r + s - 2 * x) - v,
+        + (r + s - 2 * x) - v - 0.7 / (2 + x * x),
     ),
     "relativistic, damped, with friction between neighbours, and driven": (
         lambda p, x, v: (1 - 0.05 * v * v) * sqrt(1 - 0.05 * v * v) * (lap(x) - x) - 0.2 * v
