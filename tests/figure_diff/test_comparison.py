@@ -1,5 +1,7 @@
 """What decides: environment, bits, chaos; missing and extra files; the page and the last lines."""
 
+import json
+
 import made_up_results as made_up
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICT
 from pendula.figure_diff import Status, baseline
 from pendula.figure_diff.chaos import LOCAL, MARGIN, TOLERANCE, Chaos, known_chaos
 from pendula.figure_diff.compare_pictures import damage, edited
-from pendula.figure_diff.compare_shown import comparable
+from pendula.figure_diff.compare_shown import comparable, compare
 from pendula.figure_diff.comparison_page import compare_results
 
 
@@ -67,6 +69,24 @@ def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run, m
     made_up.put_words(moved.made, largest=6.9, verdict="not reproduced")
     found = moved.findings(any_bits=True)
     assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].says
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "status"),
+    [
+        ({"points": 1, "x": [9.0, 9.0], "y": [100.0, 100.0]}, {"points": 0}, Status.BEYOND),
+        ({"points": 0}, {"points": 2, "x": [8.0, 9.0], "y": [100.0, 100.0]}, Status.BEYOND),
+        ({"points": 8, "shows": "life"}, {"points": 8}, Status.DIFFERENT),
+        ({"points": 8, "shows": "life"}, {"points": 8, "shows": "end"}, Status.DIFFERENT),
+    ],
+)
+def test_a_curve_of_chaotic_numbers_may_lose_all_points_and_not_what_it_shows(
+    was, now, status, tmp_path
+):
+    text, described = tmp_path / "figure.json", [{"panels": [{"curves": [c]}]} for c in (was, now)]
+    text.write_text(json.dumps(described[1]))
+    chaotic = {"": Status.BEYOND}
+    assert compare(text, json.dumps(described[0]), chaotic)[0] == status
 
 
 def test_times_of_a_machine_are_no_part_of_the_report(run):

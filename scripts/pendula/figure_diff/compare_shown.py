@@ -46,6 +46,9 @@ FREE = {"because", "rests_on"}
 PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
 """Entries of a description whose numbers follow the data."""
 
+ENDS = {"x", "y", "shows", "x leaves", "y leaves"}
+"""Entries of a description that a curve has only where there are points on it."""
+
 LOOSE, FEW, LARGE = 0.4, 0.01, 10.0
 """How far such a place may follow chaos, as a part of the larger end, and a number of points; how
 many times larger than one, or than it was, a measured number may be. Bands and bars may reach twice
@@ -146,6 +149,8 @@ def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> St
         return Status.BEYOND
     if chaotic and "measured" in entries and {was, now} & {None, "infinite"}:
         return Status.BEYOND
+    if chaotic and {*path[-1:]} & ENDS and any(_has_no_points(path, text) for text in texts):
+        return Status.BEYOND
     if _words(str(was)) != _words(str(now)):
         return Status.DIFFERENT
     pairs = zip(*(NUMBER.findall(str(each)) for each in (was, now)), strict=True)
@@ -163,10 +168,16 @@ def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> St
     return Status.BEYOND if may_be else Status.DIFFERENT
 
 
+def _has_no_points(path: tuple, text: Any) -> bool:
+    """Return whether an entry is that of a curve on which nothing lies, as of no late median."""
+    curve = _entry(text, path[:-1])
+    return isinstance(curve, dict) and curve.get("points") == 0
+
+
 def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bool:
     """Return whether a limit or an end of a curve follows chaos, on the scale of its axis."""
     if path[-1] == "points":  # gaps in a logarithm, or a state that has just formed
-        return abs(now - was) <= max(2.0 if "areas" in path else 1.0, FEW * was)
+        return abs(now - was) <= max(2.0, FEW * was)
     panels = [_entry(text, path[:2]) for text in (before, after)]
     if "y" in path and panels[0]["y"].get("scale") == "log":
         return 1 / values.SCATTER <= now / was <= values.SCATTER

@@ -17,6 +17,7 @@ WORDS = {
     "low": "lower confidence limit of the",
     "high": "upper confidence limit of the",
 }
+LATER = "end of the runs, which comes before the"
 CAPTION = (
     "(a) At Ω = {omega}, against the initial amplitude A₀, with B₀ = {ratio} A₀: the time at which "
     "P of the chain first reaches half of its final value, and the time at which the central pair "
@@ -29,30 +30,41 @@ CAPTION = (
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
-    """Return times and shares of the runs, and their medians or means with their limits."""
-    names = [*CLOCKS, "centre_share"]
-    shown, limits = lifetimes[names], limits_of(lifetimes)
+    """Return times and shares of the runs, and their medians or means with their limits.
+
+    What comes after the runs stands at their end. Such medians are rows of their own, so that the
+    figure has the same curves whether there are any.
+    """
+    names, end = [*CLOCKS, "centre_share"], float(lifetimes.attrs["end_time"])
+    shown, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
     for name in names:
-        for word, values in zip(WORDS, limits[name], strict=True):
-            about = {"long_name": f"{WORDS[word]} {name.replace('_', ' ')}"}
-            shown = shown.assign({f"{name}_{word}": ("start_amplitude", values, about)})
+        has_ended = limits[name].value < end
+        rows = dict(zip(WORDS, limits[name], strict=True))
+        rows |= {"middle": np.where(has_ended, rows["middle"], np.nan)}
+        rows |= {"later": np.where(has_ended, np.nan, end)} if name in CLOCKS else {}
+        for word, values in rows.items():
+            about = {"long_name": f"{WORDS.get(word, LATER)} {name.replace('_', ' ')}"}
+            row = "start_amplitude", np.minimum(values, end), about
+            shown = shown.assign({f"{name}_{word}": row})
     said = ("omega", "members", "ratio", "end_time", "window_start", "window_end", "perturbation")
     numbers = {name: f"{float(lifetimes.attrs[name]):g}" for name in said}
     pairs = 2 * int(lifetimes.attrs["half_width"]) + 1
-    shown = shown.assign(
-        end=((), float(lifetimes.attrs["end_time"]), {"long_name": "end of the runs"}),
-        pairs=((), pairs, {"long_name": "number of pairs"}),
-    )
+    shown = shown.assign(pairs=((), pairs, {"long_name": "number of pairs"}))
     return shown.assign_attrs(caption=CAPTION.format(**numbers))
 
 
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
     """Draw both clocks against A_0 in the left panel, and the share of P on the centre right."""
-    figure, end = style.new_figure(style.WIDTH, 2.5), float(data["end"])
+    figure = style.new_figure(style.WIDTH, 2.5)
     left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     for name, label in (("transition", "chain"), ("life", "central pair")):
-        _draw_runs(left, data, name, *CLOCKS[name], label, end)
+        _draw_runs(left, data, name, *CLOCKS[name], label)
+        colour, _, aside = CLOCKS[name]
+        a0, later = data["start_amplitude"].values + aside, data[f"{name}_later"].values
+        open_marks = {"markerfacecolor": "white", "markersize": 4.5}
+        said = "after the runs" if name == "life" else None
+        left.plot(a0, later, "^", color=colour, label=said, **open_marks)
     left.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
     left.set(yscale="log", ylabel=r"time $\tau$")
     _draw_runs(right, data, "centre_share", style.RED, "s", 0.0)
@@ -67,25 +79,14 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
 
 def _draw_runs(
     axes: Axes, data: xr.Dataset, name: str, colour: str, mark: str, aside: float,
-    label: str | None = None, end: float = np.inf,
+    label: str | None = None,
 ) -> None:  # fmt: skip
     """Draw the runs of one number as small marks, and their middle with its limits."""
     a0 = data["start_amplitude"].values + aside
     runs = data[name].transpose("start_amplitude", "member").values
-    axes.plot(
-        a0,
-        np.minimum(runs, end),
-        ".",
-        color=style.PALE[colour],
-        markersize=2.5,
-        label="single runs",
-    )
-    middle, low, high = (np.minimum(data[f"{name}_{word}"].values, end) for word in WORDS)
-    ended, bars = middle < end, np.array([middle - low, high - middle])
+    axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label="single runs")
+    middle, low, high = (data[f"{name}_{word}"].values for word in WORDS)
     axes.errorbar(
-        a0[ended], middle[ended], bars[:, ended], marker=mark, color=colour, ls="none",
+        a0, middle, np.array([middle - low, high - middle]), marker=mark, color=colour, ls="none",
         elinewidth=0.8, capsize=2, markersize=3.5, label=label,
     )  # fmt: skip
-    if not ended.all():
-        later = {"label": "after the runs", "markerfacecolor": "white", "markersize": 4.5}
-        axes.plot(a0[~ended], middle[~ended], "^", color=colour, **later)
