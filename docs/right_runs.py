@@ -16,7 +16,7 @@ from latticode.datasets.json_files import write_json  # noqa: E402
 from latticode.datasets.netcdf import read  # noqa: E402
 from pendula.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn  # noqa: E402
 from pendula.ledger.claim import Claim  # noqa: E402
-from pendula.ledger.criterion import Finding  # noqa: E402
+from pendula.ledger.criterion import Finding, Verdict  # noqa: E402
 from pendula.ledger.verdicts import all_claims, look, needed  # noqa: E402
 
 KEPT = ROOT / "tests/baseline/quoted/right_runs.json"
@@ -28,6 +28,13 @@ def look_at(folder: Path) -> dict[str, dict[str, Finding]]:
     return {claim.name: look(claim, sources) for claim in all_claims()}
 
 
+def verdict_of(found: Mapping[str, Finding], moves: Sequence[str]) -> Verdict:
+    """Return the verdict on a claim, which has a caveat if a moved cut-off turns it."""
+    verdict = found[""].verdict
+    turns = any(found[move].verdict != verdict for move in moves)
+    return Verdict.CAVEAT if turns and verdict == Verdict.CONFIRMED else verdict
+
+
 def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[dict]:
     """Yield a row for a claim and for each of its controls, from what is found in each run."""
     controls = [control.says for control in claim.controls]
@@ -35,7 +42,9 @@ def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[di
     chances = {"": chance_of_claim(looks, moves)}
     chances |= {says: chance_to_turn([found[says] for found in looks]) for says in controls}
     for says, chance in chances.items():
-        verdicts = dict.fromkeys(str(found[says].verdict) for found in looks)
+        verdicts = dict.fromkeys(
+            str(found[says].verdict if says else verdict_of(found, moves)) for found in looks
+        )
         yield {
             "claim": claim.name,
             "control": says,
