@@ -3,8 +3,11 @@
 Every key of every case is edited in tests/edits/edits.py, which takes half an hour.
 """
 
+import os
+import subprocess
+
 import yaml
-from helpers import ROOT, command_of, planned, run_ready
+from helpers import ROOT, command_of, planned, run_ready, snakemake
 from latticode.datasets.netcdf import read
 
 
@@ -13,6 +16,36 @@ def test_a_snakefile_from_elsewhere_writes_where_one_is(tmp_path):
     result = run_ready(command, tmp_path)
     assert "Drawing results/figures/fig1.png" in result.stdout + result.stderr
     assert [path.name for path in tmp_path.iterdir()] == [".snakemake"]
+
+
+def test_a_folder_may_have_braces_in_its_name(clone, tmp_path):
+    """Snakemake would take what is in them for a wildcard, in the paths of environments."""
+    folder = clone.rename(tmp_path / "x{y}")
+    result = snakemake(folder, folder, "fig1")
+    assert result.returncode == 0, result.stderr
+    assert (folder / "results/figures/fig1.png").exists()
+
+
+STORAGE = """
+from snakemake_interface_storage_plugins import storage_object, storage_provider
+class StorageProvider(storage_provider.StorageProviderBase): ...
+class StorageObject(storage_object.StorageObjectRead, storage_object.StorageObjectWrite): ...
+StorageProvider.__abstractmethods__ = frozenset()
+"""
+"""What passes for a storage of Snakemake until a file is asked of it."""
+
+
+def test_a_default_storage_is_refused_by_a_sentence(tmp_path):
+    (plugin := tmp_path / "snakemake_storage_plugin_made_up").mkdir()
+    (plugin / "__init__.py").write_text(STORAGE)
+    options = "--default-storage-provider", "made-up", "--default-storage-prefix", "x", "fig1"
+    command = command_of(ROOT, tmp_path, ROOT / "config/quick.yaml", *options)
+    done = subprocess.run(
+        command, env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True
+    )
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert "--default-storage-provider made-up does not work here" in done.stderr
+    assert "UndefinedPathvarException" not in done.stderr
 
 
 MODULE = """

@@ -12,7 +12,7 @@ rule job:
     pathvars:
         made="{made,(?!)}",
     conda:
-        "../envs/pinned.yaml"
+        environment("pinned")
     params:
         code=digest("call.py"),
     message:
@@ -30,7 +30,7 @@ rule dataset:
     pathvars:
         made="{made,(?!)}",
     conda:
-        "../envs/pinned.yaml"
+        environment("pinned")
     params:
         code=digest("dataset.py"),
     message:
@@ -49,7 +49,7 @@ rule figure:
         made="{made,(?!)}",
     priority: -1  # after datasets, of which the last are followed by claims, one after the other
     conda:
-        "../envs/pinned.yaml"
+        environment("pinned")
     params:
         code=digest("figure.py"),
         differs=differs_of,

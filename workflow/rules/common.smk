@@ -50,6 +50,13 @@ if workflow.is_main_process and not workflow.dryrun:
     except OSError as error:
         stop(f"{os.path.abspath('.')} takes no files ({error.strerror}): make room, and run again")
 
+# Its pull request 3969 taught Snakemake to apply them to files, and left out where these are in a storage.
+if provider := workflow.storage_settings.default_storage_provider:
+    stop(
+        f"--default-storage-provider {provider} does not work here, since Snakemake does not apply the "
+        "pathvars of single rules there. Leave it out, and copy results/ to the storage afterwards"
+    )
+
 # Jobs find the library and the benchmarks. Jupyter sets its own backend of matplotlib for all that it starts,
 # which fails where it is not installed; the variable is left alone if absent, so that no import is repeated.
 os.environ.update(PYTHONPATH=os.pathsep.join(LIBRARIES))
@@ -201,6 +208,15 @@ def refuse_what_slurm_never_starts():
     ]
     if refused := never_started(requests, partitions_of_slurm()):
         stop("\n".join(refused))
+
+
+def environment(name):
+    """Return a function that gives the file of a conda environment.
+
+    Snakemake would take what is in braces in the path of the project for a wildcard.
+    """
+    path = f"{PROJECT}/workflow/envs/{name}.yaml".replace("{", "{{").replace("}", "}}")
+    return lambda wildcards: path
 
 
 # --- Names of files -------------------------------------------------------------------------------

@@ -54,7 +54,7 @@ use rule dataset as reference_case with:
     pathvars:
         made="reference/<paper_case>",
     conda:
-        "../envs/reference.yaml"
+        environment("reference")
     resources:
         **asked(lambda wildcards: LONG),
     params:
