@@ -109,7 +109,7 @@ def soliton_variables(
 ) -> dict[str, Variable]:  # fmt: skip
     """Return P of the solitons A = B, and the growth of their perturbations on each chain.
 
-    A growth that a longer chain makes smaller is one of the waves between its ends.
+    A growth that depends on the length is one of the waves between the ends.
     """
     constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
     powers, rates = np.empty((2, len(half_widths), len(frequencies)))
