@@ -18,7 +18,8 @@ from pendula.article.values import KEPT, counts, largest_bound
 from pendula.configuration.paper import paper
 from pendula.ledger.chances import ALLOWED, RARE
 from pendula.report.results import Results
-from pendula.report.words import case_of, number, plainly
+from pendula.report.words import case_of, markdown, number, plainly, symbols, with_error
+from pendula.varied import names_of, numbers_in, single_numbers, variations_of
 
 from benchmarks import reproduction
 from benchmarks import scale as scale_of
@@ -26,6 +27,13 @@ from benchmarks import scale as scale_of
 BASELINE = Path(__file__).resolve().parents[1] / "tests/baseline"
 SMALLEST_SHOWN = 1e-9
 """Smaller chances are no news."""
+LONG_STUDIES = {
+    "unbounded": "The infinite chain",
+    "chaos": "The transition at Ω = 0",
+    "breathers": "Fates of an excited pair at Ω = −4",
+    "pendula": "Pendula over the top",
+}
+"""The long studies, by the names of their files in tests/baseline/quoted."""
 
 
 class Accepted(Results):
@@ -52,6 +60,7 @@ def topics(accepted: Results) -> dict[str, Any]:
         "speeds": speeds(accepted),
         "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
         "full_run": full_run(json.loads(kept.read_text(encoding="utf-8"))),
+        "variations": variations(accepted),
     }
 
 
@@ -100,6 +109,54 @@ def designed() -> list[tuple[str, str, float]]:
 def least_share_above_half(members: int) -> int:
     """Return the least count of members whose share has an upper confidence limit of a half."""
     return next(n for n in range(members) if share_limits(n, members).high >= 0.5)
+
+
+def variations(accepted: Results) -> dict:
+    """Return by study the tables of numbers that were measured again with other choices."""
+    studies = []
+    for name, title in LONG_STUDIES.items():
+        data = accepted[f"quoted/{name}"]
+        numbers = [number_and_variations(data, number) for number in numbers_in(data)]
+        studies += [{"title": title, "numbers": numbers}] * bool(numbers)
+    return {"targets": "unbounded transition fates sensitivity over_the_top", "studies": studies}
+
+
+def number_and_variations(data: xr.Dataset, name: str) -> dict:
+    """Return what a number means, its choices, and a table of its values at all labels."""
+    places = [here for one, here in single_numbers(data) if one == name]
+    labels = [variations_of(here, name) for here in places]
+    changed = list(dict.fromkeys(label for one in labels for label in one))
+    head = [
+        "at",
+        "printed",
+        "statistical error",
+        *(symbols(one.replace("_", " ")) for one in changed),
+    ]
+    rows = [
+        [
+            place_of(data[name], here),
+            with_error(*(float(here[one]) for one in names_of(name)[:2])),
+            number(here[names_of(name)[2]], 2),
+            *(number(again[one], 4) if one in again else "" for one in changed),
+        ]
+        for here, again in zip(places, labels, strict=True)
+    ]
+    choices = data[name].attrs["choices"].replace("_", " ") or "the choices of what it follows from"
+    meaning = symbols(data[name].attrs["long_name"])
+    return {
+        "meaning": meaning[0].upper() + meaning[1:],
+        "choices": symbols(choices),
+        "table": markdown(head, rows),
+    }
+
+
+def place_of(variable: xr.DataArray, here: xr.Dataset) -> str:
+    """Return the labels of a single number, such as Ω = 2."""
+    values = {dim: here[dim].item() for dim in variable.dims}
+    texts = [
+        f"{dim} = {number(one) if isinstance(one, float) else one}" for dim, one in values.items()
+    ]
+    return symbols(", ".join(texts).replace("omega", "Omega").replace("_", " "))
 
 
 def speed(data: xr.Dataset) -> dict:

@@ -20,69 +20,16 @@ sys.path[:0] = [str(ROOT / "scripts")]
 
 import pendula.names  # noqa: E402, F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import read, save  # noqa: E402
-from latticode.measures.spreading import fit_exponent  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.studies.breathers.figures import SAME_RUNS  # noqa: E402
-from pendula.studies.unbounded.measured import speeds  # noqa: E402
 
-CASES = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]["cases"]
 QUOTED = ROOT / "tests/baseline/quoted"
-HALF = "half of its 95 % confidence interval"
-OCTAVES = 2
-"""The exponents hold for so many of the last octaves of time."""
-OF_RUNS = ("epsilon", "gamma", "solver", "solver_rtol", "solver_atol")
-OF_FRONTS = [
-    *("second_front_speed", "second_front_speed_error"),
-    *("power_behind", "power_behind_error", "power_between", "power_between_error"),
-    *("thermal_power", "thermal_antisymmetric_power"),
-]
 
 
 def of_unbounded(folder: Path) -> xr.Dataset:
-    """Return exponents, fronts and powers of the infinite chain, by case and by Omega."""
-    about = {"long_name": "case of the paper, on the infinite chain"}
-    cases = [_case(read(folder / f"{name}.nc")) for name in CASES]
-    run, fronts = read(folder / "omegas.nc"), read(folder / "fronts.nc")
-    fits = [_exponent(run, variant).value for variant in range(run.sizes["variant"])]
-    omegas = _numbers({
-        "omega_end": (float(run["tau"][-1]), "slow time at the end of these runs"),
-        "omega_exponent": (xr.DataArray(fits, dims="omega"), "exponent of tau in the l2 norm"),
-    })  # fmt: skip
-    by_case = xr.concat(cases, xr.Variable("case", CASES, about))
-    return _about(xr.merge([by_case, omegas, fronts[OF_FRONTS]]), run, *OF_RUNS)
-
-
-def _case(run: xr.Dataset) -> xr.Dataset:
-    """Return the numbers of a case."""
-    (speed, *_), (error, *_) = speeds(run)
-    exponent = _exponent(run)
-    sites = 2 * int(run["front"].isel(piece_tau=-1).max()) + 1
-    predicted = float(run["predicted_speed"][0])
-    return _numbers({
-        "end": (float(run["tau"][-1]), "slow time at the end"),
-        "sites": (sites, "sites that the front has passed at the end"),
-        "speed": (speed, "speed of the front, sites per unit of tau"),
-        "speed_error": (error, f"{HALF}, or its resolution"),
-        "predicted_speed": (predicted, "speed of linear spreading, sites per unit of tau"),
-        "exponent": (exponent.value, "exponent of tau in the l2 norm"),
-        "exponent_error": (exponent.half, HALF),
-    })  # fmt: skip
-
-
-def _numbers(told: dict[str, tuple]) -> xr.Dataset:
-    """Return a dataset of numbers, each with what it is."""
-    return xr.Dataset({
-        name: xr.DataArray(value).assign_attrs(long_name=meaning)
-        for name, (value, meaning) in told.items()
-    })  # fmt: skip
-
-
-def _exponent(run: xr.Dataset, variant: int = 0):
-    """Return the exponent of tau in l2 with its confidence interval."""
-    values = run["l2"].isel(variant=variant).transpose("member", "tau").values
-    tau = run["tau"].values
-    return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
+    """Return the numbers of the infinite chain with their variations, by Omega."""
+    return read(folder / "numbers.nc")
 
 
 def of_numbers(path: Path, *names: str) -> xr.Dataset:
@@ -144,7 +91,7 @@ def main(results: Path, folder: Path = QUOTED) -> None:
     """Keep whatever of the long studies the folder of results holds."""
     folder.mkdir(exist_ok=True)
     for (study, last), reduced in {
-        ("unbounded", "omegas"): of_unbounded,
+        ("unbounded", "numbers"): of_unbounded,
         ("pendula", "varied"): lambda folder: of_numbers(folder / "varied.nc", "settled"),
         ("chaos", "lifetimes"): lambda folder: of_numbers(folder / "lifetimes.nc"),
         ("breathers", "fates"): of_breathers,

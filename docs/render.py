@@ -22,6 +22,7 @@ PAGES = {
     ROOT / "README.md": SOURCE / "README.md.j2",
     ROOT / "docs/accuracy_and_speed.md": SOURCE / "accuracy_and_speed.md.j2",
     ROOT / "docs/report.md": SOURCE / "report.md.j2",
+    ROOT / "docs/variations.md": SOURCE / "variations.md.j2",
     ROOT / "docs/article.md": write.HERE / "article.md.j2",
 }
 """The template of each page that has one."""

@@ -3,12 +3,13 @@
 from pendula.studies.unbounded.settings import GROWTH_CASES
 
 UNBOUNDED = SETTINGS.unbounded
+VARIED = "levels", "edges"
 
 
 rule unbounded:
     "The long study of the infinite chain (takes about ten minutes): results/long/"
     input:
-        datasets("long/unbounded", *UNBOUNDED.names, "fronts"),
+        datasets("long/unbounded", *UNBOUNDED.names, "fronts", "transverse", "noise", "numbers"),
         expand("<results>/long/figures/{name}.png", name=["growth_law", "fronts"]),
 
 
@@ -31,6 +32,83 @@ use rule dataset as spread with:
         ),
         rest=lambda wildcards: of_size(UNBOUNDED, wildcards).rest,
         members=lambda wildcards: of_size(UNBOUNDED, wildcards).runs[wildcards.study].members,
+        given=lambda wildcards: values_of(UNBOUNDED.long, *VARIED) if wildcards.size else {},
+
+
+use rule spread as spread_again with:
+    "The long study with a coarser tolerance: results/long/coarse/unbounded/{study}.nc"
+    input:
+        chunks=parts_of("long/coarse/unbounded/{study}"),
+    pathvars:
+        made="long/coarse/unbounded/{study,omegas|fig3_large}",
+    resources:
+        **asked(lambda wildcards: LONG),
+    params:
+        problems=lambda wildcards: UNBOUNDED.problems(
+            SETTINGS.problem(UNBOUNDED.case_of(wildcards.study)),
+            wildcards.study,
+            UNBOUNDED.long.made_coarsely,
+        ),
+        rest=UNBOUNDED.long.rest,
+        members=lambda wildcards: UNBOUNDED.long.runs[wildcards.study].members,
+        given=values_of(UNBOUNDED.long, *VARIED),
+
+
+use rule dataset as solve_transverse with:
+    "The growth of a small A + B where A = -B, and the speed of the second front that follows"
+    input:
+        chunks=parts_of("long/unbounded/transverse"),
+    pathvars:
+        made="long/unbounded/transverse",
+    resources:
+        **asked(lambda wildcards: LONG),
+    params:
+        **values_of(UNBOUNDED.long.transverse, "members", "tolerances", "perturbations"),
+        call=function("pendula.studies.unbounded.transverse.solve_transverse"),
+        problems=UNBOUNDED.timed(
+            SETTINGS.problem(UNBOUNDED.omegas.case),
+            UNBOUNDED.omegas.values,
+            UNBOUNDED.long.transverse.end_times(UNBOUNDED.omegas.values),
+        ),
+        rest=UNBOUNDED.long.rest,
+        seed=UNBOUNDED.seed,
+
+
+use rule dataset as follow_noise with:
+    "The second front where noise sets A + B going"
+    input:
+        chunks=parts_of("long/unbounded/noise"),
+    pathvars:
+        made="long/unbounded/noise",
+    resources:
+        **asked(lambda wildcards: LONG),
+    params:
+        **values_of(UNBOUNDED.long.noise, "members", "tolerances"),
+        **values_of(UNBOUNDED, "perturbation", "seed"),
+        call=function("pendula.studies.unbounded.noise.follow_noise"),
+        problems=UNBOUNDED.timed(
+            SETTINGS.problem(UNBOUNDED.omegas.case),
+            UNBOUNDED.long.noise.omegas,
+            UNBOUNDED.long.noise.end_times,
+        ),
+        noises=UNBOUNDED.long.noise.sizes,
+        rest=UNBOUNDED.long.rest,
+
+
+use rule dataset as vary_numbers with:
+    "The numbers of the long study, each measured again with its choices changed"
+    input:
+        omegas="<results>/long/unbounded/omegas.nc",
+        omegas_coarse="<results>/long/coarse/unbounded/omegas.nc",
+        large="<results>/long/unbounded/fig3_large.nc",
+        large_coarse="<results>/long/coarse/unbounded/fig3_large.nc",
+        thermal="<results>/unbounded/thermal.nc",
+        transverse="<results>/long/unbounded/transverse.nc",
+        noise="<results>/long/unbounded/noise.nc",
+    pathvars:
+        made="long/unbounded/numbers",
+    params:
+        call=function("pendula.studies.unbounded.variations.vary_numbers"),
 
 
 use rule dataset as thermal with:

@@ -21,7 +21,7 @@ from pendula.ledger.rows import (
     whether_it_holds,
 )
 from pendula.report.results import Results
-from pendula.report.words import Quote, number, percent, span, with_error
+from pendula.report.words import FIRM, Quote, number, percent, span, with_error
 from pendula.studies.paper.solvers import ORDER
 
 KEPT = "../tests/baseline"
@@ -54,6 +54,18 @@ class Numbers:
             exact = error < ROUNDING * abs(value)
             return self.long(name, number(value, digits) if exact else with_error(value, error))
         return self._say(name, data, variable, lambda one: number(one, digits))
+
+    def span(self, name: str, variable: str, digits: int = 3) -> Quote:
+        """Return the range of a number over all its labels, which contains their errors."""
+        data = self.results[name]
+        value, error = (data[f"{variable}{part}"].values for part in ("", "_error"))
+        return self.long(name, span(np.array([value - error, value + error]), digits))
+
+    def percent_of(self, name: str, variable: str, **labels) -> Quote:
+        """Return a number with its error in per cent."""
+        data = self.results[name].sel(labels)
+        value, error = (100.0 * float(data[f"{variable}{part}"]) for part in ("", "_error"))
+        return self.long(name, f"({with_error(value, error)}){FIRM}%")
 
     def share(self, name: str, variable: str, **labels) -> Quote:
         """Return a fraction in per cent."""
@@ -107,6 +119,8 @@ def gather(results: Results) -> dict[str, Any]:
     functions = (
         "labels",
         "of",
+        "span",
+        "percent_of",
         "share",
         "range_of",
         "share_span",
@@ -129,12 +143,10 @@ def gather(results: Results) -> dict[str, Any]:
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
         "cells": results["checks/chart"]["measured"].size,
         "mark": MARK,
-        "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),
         "omegas": results.quote(LONG, study.sizes["omega"]),
-        "over_thermal": {
-            name: numbers.long(LONG, span(ratio.values, 3))
-            for name, ratio in over_thermal(study).items()
-        },
+        "levels": [results.quote(LONG, level, 2) for level in study["level"].values],
+        "noises": [results.quote(LONG, float(size), 2) for size in study["noise"].values[:-1]],
+        "left_out": results.say(LONG, str(study.attrs["edge"])),
         "largest_bound": largest_bound(results),
         "radius": upward(results["certified/breathers"]["radius"].max()),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
@@ -178,14 +190,6 @@ def regular_error(results: Results, solver: str) -> Quote:
     regular = results["checks/lyapunov"]["chaotic"] == 0
     errors = results["checks/trust"]["difference"].sel(solver=solver).where(regular)
     return results.quote("checks/trust", float(errors.max()), 2)
-
-
-def over_thermal(study: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Return the measured powers over those of the thermal states, (omega,), by region."""
-    return {
-        "behind": study["power_behind"] / study["thermal_power"],
-        "between": study["power_between"] / study["thermal_antisymmetric_power"],
-    }
 
 
 def largest_bound(results: Results) -> str:

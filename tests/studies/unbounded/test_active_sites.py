@@ -80,3 +80,18 @@ def test_means_are_those_of_the_sites_well_behind_and_well_between_the_fronts():
     nothing, all_of_it = region_means(sites, 110.0, -1.0)
     assert np.isnan(nothing).all() and all_of_it[0] == pytest.approx(powers[1:70].mean())
     assert np.isnan(region_means(sites, 45.0, 40.0)[1]).all()
+
+
+def test_several_levels_and_edges_are_looked_at_in_one_run():
+    """The first of each are those of a run with these alone; a lower level lies further out."""
+    problem = problem_of(
+        "fig4_small", half_width=None, solver=TIGHT, end_time=40.0, output_step=2.0
+    )
+    one = run_long(problem, REST, levels=(1e-2,), edges=(5,))
+    several = run_long(problem, REST, levels=(1e-2, 1e-6), edges=(5, 20))
+    np.testing.assert_array_equal(several["second_front"][:, 0], one["second_front"])
+    np.testing.assert_array_equal(several["means"][:, 0], one["means"])
+    np.testing.assert_array_equal(several["front"], one["front"])
+    assert (several["second_front"][-1, 1] > several["second_front"][-1, 0]).all()
+    assert several["means"].shape == (20, 2, 2, 2)
+    assert abs(several["means"][-1, 1] - several["means"][-1, 0]).max() > 0.0

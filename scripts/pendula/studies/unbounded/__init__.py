@@ -3,5 +3,7 @@
 From the bottom: `sums` (the unknowns), `bulk` (the states behind the fronts), `transfer` and
 `thermal` (the thermal states that these are compared with), `active_sites` (a long run on the sites
 in motion), `front` (the predicted speed of the first front), `long_runs` (ensembles), `measured`
-(speeds, powers, the law of growth); `settings` holds the choices of the configuration.
+(speeds, powers, the law of growth), `transverse` (the predicted speed of the second front), `noise`
+(that front with noise), `variations` (all numbers of long runs, measured again with other choices);
+`settings` holds the choices of the configuration.
 """

@@ -9,7 +9,7 @@ Sites are added between two pieces of a run. Each piece starts the solver again 
 alone. A state holds S and D (see `sums`).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from latticode.integrators import DONE, FAULTS
@@ -22,7 +22,7 @@ from latticode.simulation.systems import make_system, solvers_of
 
 from pendula.problem import Problem
 
-from .bulk import PIECE, find_front, region_means, site_powers
+from .bulk import EDGE, LEVEL, PIECE, find_front, region_means, site_powers
 from .sums import halves, in_sums, turned
 
 BLOCK, GUARD = 64, 32
@@ -103,22 +103,36 @@ def in_pieces(
 # --- What is kept of a run ------------------------------------------------------------------------
 
 
-def run_long(problem: Problem, rest: float) -> dict[str, np.ndarray]:
+def run_long(
+    problem: Problem,
+    rest: float,
+    levels: Sequence[float] = (LEVEL,),
+    edges: Sequence[int] = (EDGE,),
+) -> dict[str, np.ndarray]:
     """Return the series of a run of `problem`, whose chain has no ends.
 
-    These are l2 and linf of the pair (A, B) by `tau`, and by `piece_tau` the sites of both fronts,
-    -1 where there is none, and `means` as of `region_means`. Of data that are not even in n, all
-    but the norms are of the sites 0..W.
+    These are l2 and linf of the pair (A, B) by `tau`, and by `piece_tau` the site of the front,
+    those of the second front at all `levels`, -1 where there is none, and `means` as of
+    `region_means` at all `edges`, whose regions end at the second front of the first level. There
+    is no axis of a single level, nor of a single edge. Of data that are not even in n, all but the
+    norms are of the sites 0..W.
     """
     outputs, looks = [], []
     for times, record, _, sites in in_pieces(in_sums(problem), rest):
         first = 1 if outputs else 0  # the first output ends the piece before
         outputs.append(np.array([times, *_norms(record)])[:, first:])
-        front, second = find_front(site_powers(sites)), find_front(site_powers(sites[:2]))
-        looks.append((times[-1], front, second, region_means(sites, front, second)))
+        power = site_powers(sites[:2])
+        front, second = find_front(site_powers(sites)), [find_front(power, one) for one in levels]
+        means = [region_means(sites, front, second[0], edge) for edge in edges]
+        looks.append((times[-1], front, _one_or_all(second), _one_or_all(means)))
     series = dict(zip(("tau", "l2", "linf"), np.concatenate(outputs, axis=1), strict=True))
     names = ("piece_tau", "front", "second_front", "means")
     return series | dict(zip(names, map(np.array, zip(*looks, strict=True)), strict=True))
+
+
+def _one_or_all(values: list) -> np.ndarray:
+    """Return the only value, or an array of all if they are several."""
+    return np.array(values if len(values) > 1 else values[0])
 
 
 def _norms(record: Record) -> tuple[np.ndarray, np.ndarray]:

@@ -19,7 +19,8 @@ BEHIND, BETWEEN = REGIONS = ("behind the second front", "between the fronts")
 KINDS = ("P", "|S|^2")
 SHARE, EDGE, AHEAD = 0.9, 40, 10
 """The part of the way to a front that counts as behind it, and how many sites behind the first and
-ahead of the second front do not count as between them: there the state is yet to settle."""
+ahead of the second front do not count as between them: there the state is yet to settle. Behind the
+first it does so over some hundred sites, so that long runs leave out more of them than EDGE."""
 
 
 def site_powers(sites: np.ndarray) -> np.ndarray:
@@ -27,20 +28,20 @@ def site_powers(sites: np.ndarray) -> np.ndarray:
     return (sites * sites).sum(axis=0)
 
 
-def find_front(power: np.ndarray) -> float:
-    """Return the last site where the power (site,) is above LEVEL, -1 if none is."""
-    above = np.flatnonzero(power > LEVEL)
+def find_front(power: np.ndarray, level: float = LEVEL) -> float:
+    """Return the last site where the power (site,) is above a level, -1 if none is."""
+    above = np.flatnonzero(power > level)
     return float(above[-1]) if above.size else -1.0
 
 
-def region_means(sites: np.ndarray, front: float, second: float) -> np.ndarray:
+def region_means(sites: np.ndarray, front: float, second: float, edge: int = EDGE) -> np.ndarray:
     """Return the means of KINDS over REGIONS, (region, kind), NaN where one has no sites.
 
-    `sites` are rows of S and D. The centre is left out.
+    `sites` are rows of S and D. The centre is left out, and `edge` sites behind the first front.
     """
     values = np.array([site_powers(sites), site_powers(sites[:2])])
     ahead = max(1, int(second) + AHEAD) if second >= 0.0 else 1
-    regions = slice(1, int(SHARE * second)), slice(ahead, int(front) - EDGE)
+    regions = slice(1, int(SHARE * second)), slice(ahead, int(front) - edge)
     found = np.full((len(REGIONS), len(KINDS)), np.nan)
     for mean, region in zip(found, regions, strict=True):
         if region.stop > region.start:

@@ -71,8 +71,8 @@ def both_between(run):
 
 @claim(
     "Beyond the paper",
-    "Behind the front A = -B, until both fields are excited behind a second front, which is slower"
-    " where a region between the fronts forms.",
+    "Without noise A = -B behind the front, until both fields are excited behind a second front, "
+    "which is slower where a region between the fronts forms.",
     unbounded("omegas"),
     (
         Control("second fronts as fast as the first", take(second_front="front")),

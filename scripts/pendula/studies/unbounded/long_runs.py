@@ -1,6 +1,6 @@
 """Ensembles of long runs on infinite chains as datasets."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -14,7 +14,7 @@ from latticode.simulation.runs import Run, shaped
 from pendula.problem import Problem
 
 from .active_sites import run_long
-from .bulk import KINDS, PREDICTED_SPEED, REGIONS
+from .bulk import EDGE, KINDS, LEVEL, PREDICTED_SPEED, REGIONS
 from .front import linear_front
 
 
@@ -47,17 +47,21 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
 
 def spread_case(
     name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
-    run: Run,
+    run: Run, levels: Sequence[float] = (LEVEL,), edges: Sequence[int] = (EDGE,),
 ) -> Contents:  # fmt: skip
-    """Return the series of each problem and member."""
+    """Return the series of each problem and member, with fronts and regions as of `run_long`."""
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
-    found = run(members_of(problems, **ensemble), partial(run_long, rest=rest))
-    series = shaped(found, (len(problems), members))
+    make = partial(run_long, rest=rest, levels=levels, edges=edges)
+    series = shaped(run(members_of(problems, **ensemble), make), (len(problems), members))
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
-    return run_variables(problems, series), attributes(title, name, problems, rest, **ensemble)
+    variables = run_variables(problems, series, levels, edges)
+    return variables, attributes(title, name, problems, rest, **ensemble)
 
 
-def run_variables(problems: list[Problem], series: Mapping[str, np.ndarray]) -> dict[str, Variable]:
+def run_variables(
+    problems: list[Problem], series: Mapping[str, np.ndarray],
+    levels: Sequence[float] = (LEVEL,), edges: Sequence[int] = (EDGE,),
+) -> dict[str, Variable]:  # fmt: skip
     """Return the variables of series (variant, member, ...) of as many problems."""
     predicted = [linear_front(problem.constants) for problem in problems]
 
@@ -68,7 +72,14 @@ def run_variables(problems: list[Problem], series: Mapping[str, np.ndarray]) -> 
         return Variable(("variant", "member", *axes), series[name], long_name)
 
     both, place = "of A and B together", "site of the front"
+    level = ("level",) if len(levels) > 1 else ()
+    edge = ("edge",) if len(edges) > 1 else ()
+    axes = {
+        "level": Variable(level, levels, "least |S|^2 of a pair that the second front has passed"),
+        "edge": Variable(edge, edges, "sites behind the front that do not count as between both"),
+    }
     return {
+        **{name: axis for name, axis in axes.items() if axis.dimensions},
         "tau": Variable(("tau",), series["tau"][0, 0]),
         "piece_tau": Variable(
             ("piece_tau",), series["piece_tau"][0, 0], "slow time at the end of a piece of the run"
@@ -81,9 +92,11 @@ def run_variables(problems: list[Problem], series: Mapping[str, np.ndarray]) -> 
         "l2": of_runs("l2", ("tau",), f"{NAMES['l2']}, {both}"),
         "linf": of_runs("linf", ("tau",), f"{NAMES['linf']}, {both}"),
         "front": of_runs("front", ("piece_tau",), place),
-        "second_front": of_runs("second_front", ("piece_tau",), f"{place}, second one"),
+        "second_front": of_runs("second_front", ("piece_tau", *level), f"{place}, second one"),
         "region_mean": of_runs(
-            "means", ("piece_tau", "region", "kind"), "mean over a region; NaN: it has no sites"
+            "means",
+            ("piece_tau", *edge, "region", "kind"),
+            "mean over a region; NaN: it has no sites",
         ),
         "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
         "predicted_delay": of_variants(

@@ -28,54 +28,62 @@ FIRST_OF_LINE = 0.25
 """The line through l2^2 starts at this part of a run."""
 
 
-def mean_powers(run, region: str, kind: str = KINDS[0]) -> np.ndarray:
-    """Return a mean over a region and the late part of a run, (variant, member).
+def mean_powers(run, region: str, kind: str = KINDS[0], late: float = LATE) -> np.ndarray:
+    """Return a mean over a region and the `late` part of a run, at its end, (variant, member).
 
     Looks at which the region has no sites are left out; NaN where it never has.
     """
     tau, values = run["piece_tau"], run["region_mean"].sel(region=region, kind=kind)
-    late = values.isel(piece_tau=np.flatnonzero(tau > (1.0 - LATE) * tau[-1]))
-    return late.mean("piece_tau").transpose("variant", "member").values
+    at_end = values.isel(piece_tau=np.flatnonzero(tau > (1.0 - late) * tau[-1]))
+    return at_end.mean("piece_tau").transpose("variant", "member").values
 
 
 # --- The fronts -----------------------------------------------------------------------------------
 
 
-def resolution(tau: np.ndarray) -> float:
+def resolution(tau: np.ndarray, settled: float = SETTLED) -> float:
     """Return how well the speed of a front can be known from its places at `tau`.
 
     Places that are off by half a site either way change the slope of least squares by at most 3/2
     sites over the time of the fit, in all members alike.
     """
-    return 1.5 / ((1.0 - SETTLED) * float(tau[-1]))
+    return 1.5 / ((1.0 - settled) * float(tau[-1]))
 
 
-def speeds(run) -> tuple[np.ndarray, np.ndarray]:
+def speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     """Return the speed of the first front of each variant, and its limits.
 
     What a pulled front loses on its way is added back.
     """
     lost = run["predicted_delay"] * xr.DataArray(log(run["piece_tau"].values), dims="piece_tau")
-    return _slopes(run, run["front"] + lost)
+    return _slopes(run, run["front"] + lost, settled)
 
 
-def second_speeds(run) -> tuple[np.ndarray, np.ndarray]:
+def second_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     """Return the same of the second front, NaN where |S|^2 behind it has not reached LEVEL."""
     filled = mean_powers(run, BEHIND, KINDS[1]).mean(axis=1) > LEVEL
-    return tuple(np.where(filled, one, np.nan) for one in _slopes(run, run["second_front"]))
+    slopes = level_speeds(run, settled)
+    return tuple(np.where(filled, one, np.nan) for one in slopes)
 
 
-def _slopes(run, way) -> tuple[np.ndarray, np.ndarray]:
+def level_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
+    """Return the same of the last site where |S|^2 has reached a level, NaN where none has."""
+    reached = (run["second_front"].isel(piece_tau=-1) >= 0.0).all("member").values
+    slopes = _slopes(run, run["second_front"], settled)
+    return tuple(np.where(reached, one, np.nan) for one in slopes)
+
+
+def _slopes(run, way, settled: float) -> tuple[np.ndarray, np.ndarray]:
     """Return the slope of a front's way over the late time, its mean over members, and limits.
 
     These are those of the mean by Student's t, and no less than the `resolution`.
     """
     tau = run["piece_tau"].values
-    late = tau >= SETTLED * tau[-1]
+    late = tau >= settled * tau[-1]
     ways = way.transpose("variant", "member", "piece_tau").values[:, :, late]
     slopes = [[lay_line(tau[late], one).slope for one in members] for members in ways]
     limits = mean_limits(np.transpose(slopes))
-    return limits.value, np.maximum(_known(limits.half, 0.0), resolution(tau))
+    return limits.value, np.maximum(_known(limits.half, 0.0), resolution(tau, settled))
 
 
 def _known(halves, otherwise: float = np.nan):
@@ -94,15 +102,15 @@ def thermal_powers(thermal, run, name: str = "power") -> np.ndarray:
     return thermal[name].reindex(omega=run["omega"].values, method="nearest", tolerance=1e-9).values
 
 
-def law_of(run, thermal) -> np.ndarray:
+def law_of(run, thermal, second: np.ndarray | None = None) -> np.ndarray:
     """Return l2^2 as thermal states and speeds of fronts have it, (variant, tau); no constant fits.
 
     It is 2 (v_2 P + (v_1 - v_2) P') tau less 2 P' delay ln tau, which a pulled front loses on its
-    way; v_1 is predicted, v_2 is measured, and zero where no second front has formed. NaN where no
-    front is pulled or no state was solved.
+    way; v_1 is predicted, v_2 is that of `second` (variant,), or else measured, and zero where no
+    second front has formed. NaN where no front is pulled or no state was solved.
     """
     delay, first = run["predicted_delay"].values, run["predicted_speed"].values
-    second = np.nan_to_num(second_speeds(run)[0])
+    second = np.nan_to_num(second_speeds(run)[0] if second is None else second)
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     rates = 2.0 * (second * both + (first - second) * alone)
     lost, tau = 2.0 * alone * delay, np.maximum(run["tau"].values, 1.0)
@@ -110,18 +118,21 @@ def law_of(run, thermal) -> np.ndarray:
     return np.where(delay[:, None] > 0.0, law, np.nan)
 
 
-def slope_ratios(run, thermal, confidence: float = CONFIDENCE) -> list[Limits]:
+def slope_ratios(
+    run, thermal, confidence: float = CONFIDENCE, second: np.ndarray | None = None,
+    first: float = FIRST_OF_LINE,
+) -> list[Limits]:  # fmt: skip
     """Return the slope of l2^2 over its law of each variant, with limits over the members.
 
-    Where the law begins is not known: an offset is fitted.
+    Where the law begins is not known: an offset is fitted. `second` are speeds as of `law_of`.
     """
-    kept = run["tau"].values >= FIRST_OF_LINE * float(run["tau"][-1])
+    kept = run["tau"].values >= first * float(run["tau"][-1])
     squares = run["l2"].transpose("variant", "member", "tau").values[:, :, kept] ** 2
     return [
         fit_line(law, curves, law[0], confidence).slope
         if np.isfinite(law).all()
         else Limits(np.nan, np.nan, np.nan)
-        for law, curves in zip(law_of(run, thermal)[:, kept], squares, strict=True)
+        for law, curves in zip(law_of(run, thermal, second)[:, kept], squares, strict=True)
     ]
 
 

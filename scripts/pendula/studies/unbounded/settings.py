@@ -10,6 +10,7 @@ from latticode.configuration.cases import is_multiple
 from latticode.configuration.solvers import Dop853, Taylor
 from latticode.configuration.values import (
     Count,
+    Counts,
     Model,
     Name,
     Names,
@@ -17,6 +18,8 @@ from latticode.configuration.values import (
     Number,
     Numbers,
     Positive,
+    Positives,
+    Tolerance,
     Whole,
     model,
 )
@@ -48,6 +51,47 @@ class Size(Model):
     runs: dict[Name, model(end_time=Positive, members=Count)]
 
 
+class Transverse(Model):
+    """Where the growth of a small A + B is measured, and how long; the first values are printed."""
+
+    end_time: Positive
+    slow_from: Number  # the Omega from which on runs end later
+    slow_end_time: Positive
+    members: Count
+    tolerances: list[Tolerance]
+    perturbations: Positives
+
+    def end_times(self, omegas: list[float]) -> list[float]:
+        """Return the end time at each Omega."""
+        return [self.slow_end_time if one >= self.slow_from else self.end_time for one in omegas]
+
+
+class Noise(Model):
+    """Which noise is added to A + B, where and how long; the first tolerance is printed."""
+
+    omegas: Numbers
+    end_times: list[Positive]  # one for each Omega
+    sizes: Positives
+    members: Count
+    tolerances: list[Tolerance]
+
+
+class LongSize(Size):
+    """The long study, and what its numbers are varied by; the first of each is printed."""
+
+    levels: Positives  # of |S|^2 behind the second front
+    edges: Counts  # sites behind the first front that do not count as between both
+    coarse: Tolerance  # at which runs are made again
+    transverse: Transverse
+    noise: Noise
+
+    @property
+    def made_coarsely(self) -> "LongSize":
+        """The study with the coarser tolerance."""
+        changes = dict.fromkeys(("rtol", "atol"), self.coarse)
+        return self.model_copy(update={"solver": self.solver.model_copy(update=changes)})
+
+
 class Settings(Model):
     """Section `unbounded` of the configuration."""
 
@@ -59,7 +103,7 @@ class Settings(Model):
     starts: model(case=Name, values=Annotated[list[tuple[Number, Number]], Field(min_length=1)])
     nodes: Annotated[Whole, Field(ge=8, le=100)]
     short: Size
-    long: Size
+    long: LongSize
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases of the configuration, or takes too long."""
@@ -89,6 +133,7 @@ class Settings(Model):
             return
         for label, size in sizes.items():
             yield from self._faults_of_size(settings, label, size)
+        yield from self._faults_of_noise()
 
     def _faults_of_band(self, settings: Configuration) -> Faults:
         """Yield why no front has a state behind it: outside of the unstable band none spreads."""
@@ -97,6 +142,13 @@ class Settings(Model):
         if not any(low < omega < high for omega in self.omegas.values):
             text = f"has no value between {low:g} and {high:g}, where zero is unstable"
             yield "omegas.values", f"{text} (for epsilon and gamma of cases.{self.omegas.case})"
+
+    def _faults_of_noise(self) -> Faults:
+        """Yield whether there is not one end time for each Omega."""
+        noise = self.long.noise
+        if len(noise.end_times) != len(noise.omegas):
+            text = f"has {len(noise.end_times)} values; give one for each of the omegas"
+            yield "long.noise.end_times", f"{text}, of which there are {len(noise.omegas)}"
 
     def _faults_of_size(self, settings: Configuration, label: str, size: Size) -> Faults:
         for name, run in size.runs.items():
@@ -145,3 +197,11 @@ class Settings(Model):
             return [base | {"initial": {0: pair}} for pair in self.starts.values]
         omegas = self.omegas.values if name == OMEGAS else [base["omega"]]
         return [base | {"omega": omega} for omega in omegas]
+
+    def timed(
+        self, case: Mapping[str, Any], omegas: list[float], end_times: list[float]
+    ) -> list[dict]:
+        """Return the problems of the long study at each of `omegas`, each with its end time."""
+        base = self.problems(case, self.omegas.case, self.long)[0]
+        pairs = zip(omegas, end_times, strict=True)
+        return [base | {"omega": omega, "end_time": end} for omega, end in pairs]

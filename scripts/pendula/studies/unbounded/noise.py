@@ -1,0 +1,110 @@
+"""How the second front moves if noise sets A + B going behind the first, as rounding errors do.
+
+Noise of a part sigma of |D|, drawn anew at every site at every look, is added to S. Runs in A and B
+themselves have the noise of their rounding errors, which is about 1e-16 of |D|.
+"""
+
+from functools import partial
+
+import numpy as np
+import xarray as xr
+from latticode.measures.confidence import mean_limits
+from latticode.measures.spreading import lay_line
+from latticode.numerics.draws import normal
+from latticode.simulation.runs import Run
+
+from pendula.problem import Problem
+from pendula.varied import Estimate, Printed, as_dataset, vary_several
+
+from .active_sites import in_pieces
+from .bulk import LEVEL, find_front, site_powers
+from .long_runs import members_of
+from .sums import in_sums, turned
+
+ROUNDING = "A and B in doubles"
+"""In place of a size of noise: the run is made in A and B, whose rounding errors are the noise."""
+
+LEVELS, LATE, SHORTER = (LEVEL, 1.0), (0.5, 0.25), (1.0, 0.5)
+"""Least |S|^2 behind the second front; the part of a run, at its end, over which it is followed;
+and the part of a run that is made. The second of each is a variation."""
+CHOICES = {"part of the run": SHORTER, "part fitted": LATE, "level": LEVELS}
+MEANINGS = {
+    "noisy_second_speed": "speed of the second front with noise, in sites per unit of tau",
+    "distance": "mean distance of the second front with noise from the first, in sites",
+}
+
+
+def follow_noise(
+    problems: list[Problem], rest: float, noises: list[float], members: int, perturbation: float,
+    tolerances: list[float], seed: int, run: Run,
+) -> xr.Dataset:  # fmt: skip
+    """Return speeds of the second front and its distance from the first, (noise, omega).
+
+    The last noise is ROUNDING. They are of the first of `tolerances`; others are variations.
+    """
+    runs = []
+    for tolerance in tolerances:
+        solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+        again = [problem.changed(solver=solver) for problem in problems]
+        runs += members_of(again, members, perturbation, seed)
+    sizes = [*noises, ROUNDING]
+    made = run(runs, partial(follow_front, noises=sizes, rest=rest, seed=seed))["numbers"]
+    shape = (len(tolerances), len(problems), members, len(sizes), len(MEANINGS))
+    made = made.reshape(*shape, *map(len, CHOICES.values()))
+
+    def measure(tolerance, **choices) -> dict[str, Estimate]:
+        place = tuple(CHOICES[name].index(value) for name, value in choices.items())
+        of_choices = made[tolerances.index(tolerance)][(..., *place)]  # (omega, member, noise, .)
+        limits = mean_limits(np.moveaxis(of_choices, (1, 3, 2), (0, 1, 2)))
+        return {name: (limits.value[n], limits.half[n]) for n, name in enumerate(MEANINGS)}
+
+    varied = vary_several(measure, {"tolerance": tolerances, **CHOICES})
+    along = ("noise", "omega")
+    printed = {name: Printed(along, varied[name], MEANINGS[name]) for name in MEANINGS}
+    labels = np.array([f"{noise:g}" for noise in noises] + [ROUNDING], object)
+    coordinates = {
+        "noise": ("noise", labels, {"long_name": "noise added to A + B, a part of |A - B|"}),
+        "omega": ("omega", [one.constants.omega for one in problems], {"long_name": "detuning"}),
+    }
+    title = "The second front on infinite chains with noise in A + B"
+    return as_dataset(printed, coordinates).assign_attrs(title=title)
+
+
+def follow_front(problem: Problem, noises: list, rest: float, seed: int) -> dict[str, np.ndarray]:
+    """Return the numbers of MEANINGS for each noise under all CHOICES, (noise, number, ...)."""
+    return {"numbers": np.array([_numbers_of(problem, noise, rest, seed) for noise in noises])}
+
+
+def _numbers_of(problem: Problem, noise: float | str, rest: float, seed: int) -> np.ndarray:
+    tau, fronts, seconds = places_of(problem, noise, rest, seed)
+    found = np.empty((len(MEANINGS), len(SHORTER), len(LATE), len(LEVELS)))
+    for i, part in enumerate(SHORTER):
+        for j, late in enumerate(LATE):
+            kept = (tau > (1.0 - late) * part * tau[-1]) & (tau <= part * tau[-1])
+            for k, second in enumerate(seconds.T[:, kept]):
+                slope = lay_line(tau[kept], second).slope
+                found[:, i, j, k] = slope, (fronts[kept] - second).mean()
+    return found
+
+
+def places_of(
+    problem: Problem, noise: float | str, rest: float, seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return times, the places of the first front, and those of the second, (time, level).
+
+    Each member draws its noise anew: its initial data are a part of the seed.
+    """
+    in_doubles = noise == ROUNDING
+    rng = np.random.default_rng([seed, *problem.initial.view(np.uint64).ravel()])
+    pieces = in_pieces(problem if in_doubles else in_sums(problem), rest)
+    tau, fronts, seconds = [], [], []
+    for times, _, _, sites in pieces:
+        sums = turned(sites) if in_doubles else sites
+        power = site_powers(sums[:2])
+        tau.append(times[-1])
+        fronts.append(find_front(site_powers(sums)))
+        seconds.append([find_front(power, level) for level in LEVELS])
+        if not in_doubles:
+            size = np.sqrt(site_powers(sites[2:]))
+            sites[:2] += noise * normal(rng, (2, size.size)) * size
+    return np.array(tau), np.array(fronts), np.array(seconds)

@@ -1,0 +1,186 @@
+"""Whether a small A + B grows on the chaotic chain with A = -B, and how fast it spreads.
+
+To first order in S = (A + B) / sqrt 2, D = (A - B) / sqrt 2 moves alone behind the first front, and
+S obeys a linear equation with D in its coefficients. At a site that moves at a velocity v, |S|
+grows as exp(lambda(v) tau). Without noise S spreads at the velocity v_2 at which lambda vanishes,
+as errors do in chaotic media (Cencini and Torcini, Phys. Rev. E 63 (2001) 056201), and at that of
+the first front where lambda is positive up to there.
+
+Noise of a part sigma of |D| sets S going wherever the first front has passed. From there S grows
+along all velocities. So at d sites behind the front, whose speed is v_1, it has grown by
+exp(kappa d), where kappa is the largest lambda(v) / (v_1 - v). If kappa > 0, S is of order one at
+ln(1 / sigma) / kappa sites behind the first front, and the second front follows the first.
+
+The equations are those of `sums`, with S so small that its squares are lost in rounding errors.
+"""
+
+from functools import partial
+
+import numpy as np
+import xarray as xr
+from latticode.measures.confidence import mean_limits
+from latticode.measures.spreading import lay_line
+from latticode.numerics.elementary import log
+from latticode.simulation.runs import Run
+
+from pendula.problem import Problem
+from pendula.varied import Estimate, Printed, as_dataset, vary_several
+
+from .active_sites import in_pieces
+from .front import linear_front
+from .long_runs import members_of
+from .sums import in_sums
+
+SMALL, LEAST = 1e-20, 1e-300
+"""The largest |S| after each piece of a run, and the least that counts: less loses digits."""
+
+VELOCITIES = 64
+"""Parts into which velocities up to the first front's are cut."""
+
+NEAR, LATE, SHORTER = (8, 16), (0.5, 0.25), (1.0, 0.5)
+"""Sites to each side of which the largest |S| is taken, since it vanishes here and there; the part
+of a run, at its end, over which growth is measured; and the part of a run that is made. The second
+of each is a variation."""
+
+
+def solve_transverse(
+    problems: list[Problem], rest: float, members: int, perturbations: list[float],
+    tolerances: list[float], seed: int, run: Run,
+) -> xr.Dataset:  # fmt: skip
+    """Return predicted speeds of the second front, exponents at rest, and kappa, over Omega.
+
+    They are of the first of `perturbations` and of `tolerances`; the others are variations.
+    """
+    settings = [(tolerances[0], one) for one in perturbations]
+    settings += [(tolerance, perturbations[0]) for tolerance in tolerances[1:]]
+    runs = []
+    for tolerance, perturbation in settings:
+        solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+        again = [problem.changed(solver=solver) for problem in problems]
+        runs += members_of(again, members, perturbation, seed)
+    exponents = run(runs, partial(exponents_of, rest=rest))["exponents"]
+    by_setting = exponents.reshape(len(settings), len(problems), members, -1)
+    by_setting = dict(zip(settings, by_setting, strict=True))
+    return as_numbers(problems, by_setting, tolerances, perturbations)
+
+
+def as_numbers(problems, by_setting, tolerances, perturbations) -> xr.Dataset:
+    """Return the dataset of exponents (omega, member, ...) by tolerance and perturbation."""
+
+    def measure(tolerance, perturbation, **choices) -> dict[str, Estimate]:
+        shape = (len(problems), -1, *map(len, CHOICES.values()), VELOCITIES)
+        exponents = by_setting[tolerance, perturbation].reshape(shape)
+        place = tuple(CHOICES[name].index(value) for name, value in choices.items())
+        spans = [
+            choices["part of the run"] * choices["part fitted"] * one.end_time for one in problems
+        ]
+        return numbers_of(problems, exponents[:, :, *place, :], 1.0 / np.array(spans))
+
+    choices = {"tolerance": tolerances, "perturbation": perturbations, **CHOICES}
+    varied = vary_several(measure, choices)
+    printed = {name: Printed(("omega",), varied[name], MEANINGS[name]) for name in MEANINGS}
+    omegas = ("omega", [one.constants.omega for one in problems], {"long_name": "detuning"})
+    title = "Growth of a small A + B on the infinite chain with A = -B"
+    return as_dataset(printed, {"omega": omegas}).assign_attrs(title=title)
+
+
+CHOICES = {"part of the run": SHORTER, "part fitted": LATE, "sites near": NEAR}
+MEANINGS = {
+    "predicted_second_speed": "predicted speed of the second front, in sites per unit of tau",
+    "exponent_at_rest": "exponent of |A + B| at a fixed site of the chain with A = -B",
+    "growth_behind_front": "kappa, the growth of |A + B| per site behind the first front",
+}
+
+
+def exponents_of(problem: Problem, rest: float) -> dict[str, np.ndarray]:
+    """Return the exponent of |S| at each velocity under all CHOICES, flat, from a small S like D.
+
+    It is NaN where |S| falls below LEAST: there it decreases beside the largest.
+    """
+    start, speed = in_sums(problem), linear_front(problem.constants).speed
+    d = start.initial[1]
+    start = start.changed(initial=np.array([SMALL * d, d]))
+    grown, tau, logs = 0.0, [], []
+    for times, _, state, sites in in_pieces(start, rest):
+        sizes = np.abs(sites[:2]).max(axis=0)  # squares would underflow
+        places = (velocities() * speed * times[-1]).astype(int)
+        logs.append([_log_near(sizes, places, near) + grown for near in NEAR])
+        largest = sizes.max()
+        state[:2] *= SMALL / largest
+        grown += float(log(largest / SMALL))
+        tau.append(times[-1])
+    return {"exponents": _slopes(np.array(tau), np.array(logs)).ravel()}
+
+
+def velocities() -> np.ndarray:
+    """Return the velocities of the exponents, over that of the first front."""
+    return np.arange(VELOCITIES) / VELOCITIES
+
+
+def _log_near(sizes: np.ndarray, places: np.ndarray, near: int) -> np.ndarray:
+    """Return the logarithm of the largest size near each place, NaN below LEAST."""
+    nearby = np.array([sizes[max(0, at - near) : at + near + 1].max(initial=0.0) for at in places])
+    return np.where(nearby > LEAST, log(np.maximum(nearby, LEAST)), np.nan)
+
+
+def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
+    """Return the slopes of logs (time, near, velocity), (part, fitted, near, velocity)."""
+    return np.array([[_slopes_within(tau, logs, part * tau[-1], late) for late in LATE]
+                     for part in SHORTER])  # fmt: skip
+
+
+def _slopes_within(tau: np.ndarray, logs: np.ndarray, end: float, late: float) -> np.ndarray:
+    """Return the slopes over the `late` part before `end`, (near, velocity)."""
+    kept = (tau > (1.0 - late) * end) & (tau <= end)
+    curves = logs[kept].reshape(kept.sum(), -1).T
+    return np.array([lay_line(tau[kept], one).slope for one in curves]).reshape(logs.shape[1:])
+
+
+# --- Numbers of exponents -------------------------------------------------------------------------
+
+
+def numbers_of(
+    problems: list[Problem], exponents: np.ndarray, least: np.ndarray
+) -> dict[str, Estimate]:
+    """Return the numbers of MEANINGS with their errors, from exponents (omega, member, velocity).
+
+    The errors are half of the 95 % limits of the mean over the members. If no exponent is above
+    `least` (omega,), |S| grew by less than a factor of e, which could not be told from a power of
+    tau, and no second front is predicted.
+    """
+    fronts = np.array([linear_front(problem.constants).speed for problem in problems])
+    means = exponents.mean(axis=1)
+    grows = np.nanmax(means, axis=1) > least
+    second = np.array([[crossing_of(one) for one in of_members] for of_members in exponents])
+    behind = np.array([[largest_ratio(one) for one in of_members] for of_members in exponents])
+    crossing = np.array([crossing_of(one) for one in means])
+    kappa = np.array([largest_ratio(one) for one in means])
+    return {
+        "predicted_second_speed": (
+            np.where(grows, crossing * fronts, np.nan),
+            mean_limits(second.T).half * fronts,
+        ),
+        "exponent_at_rest": (means[:, 0], mean_limits(exponents[:, :, 0].T).half),
+        "growth_behind_front": (kappa / fronts, mean_limits(behind.T).half / fronts),
+    }
+
+
+def crossing_of(exponents: np.ndarray) -> float:
+    """Return the velocity from which on exponents (velocity,) are negative, over the first front's.
+
+    It is interpolated: one if the last is positive, and zero if none is. NaN are negative.
+    """
+    positive = np.flatnonzero(exponents > 0.0)
+    if not positive.size:
+        return 0.0
+    here = positive[-1]
+    if here == exponents.size - 1:
+        return 1.0
+    high, low = exponents[here], exponents[here + 1]
+    part = high / (high - low) if np.isfinite(low) else 0.5
+    return float((here + part) / VELOCITIES)
+
+
+def largest_ratio(exponents: np.ndarray) -> float:
+    """Return the largest exponent over the velocity that is left to the first front's."""
+    return float(np.nanmax(exponents / (1.0 - velocities())))

@@ -1,0 +1,273 @@
+"""The numbers of long runs on infinite chains, each measured again with its choices changed.
+
+A long study is made with two tolerances. Its other choices are of the measurement: the part of a
+run that is read or fitted, the level at which the second front is found, and how many sites behind
+the first front do not count as between both.
+"""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import xarray as xr
+from latticode.measures.confidence import Limits, mean_limits
+from latticode.measures.spreading import fit_exponent, lay_line
+from latticode.numerics.elementary import log
+
+from pendula.varied import Estimate, Printed, Varied, as_dataset, names_of, vary
+
+from .bulk import BEHIND, BETWEEN, POWER, PREDICTED_SPEED
+from .measured import (
+    FIRST_OF_LINE,
+    LATE,
+    SETTLED,
+    level_speeds,
+    mean_powers,
+    second_speeds,
+    slope_ratios,
+    speeds,
+    thermal_powers,
+)
+from .noise import ROUNDING
+
+OCTAVES = 2
+"""Exponents are fitted over so many of the last octaves of time."""
+PART, PREDICTED = [1.0, 0.5], ["predicted", "measured"]
+SPEED = "in sites per unit of tau"
+ROUNDING_ERROR = 2.0**-53
+
+
+def vary_numbers(
+    omegas: xr.Dataset, omegas_coarse: xr.Dataset, large: xr.Dataset, large_coarse: xr.Dataset,
+    thermal: xr.Dataset, transverse: xr.Dataset, noise: xr.Dataset,
+) -> xr.Dataset:  # fmt: skip
+    """Return the numbers of long runs over Omega and of fig3_large with their variations.
+
+    Beside them are those that were predicted, and had their variations before.
+    """
+    over_omega = by_tolerance(omegas, omegas_coarse)
+    numbers = {
+        **numbers_of_fronts(over_omega),
+        **numbers_of_states(over_omega, thermal),
+        **numbers_of_growth(over_omega, thermal, transverse),
+        "large_exponent": exponent_of_case(by_tolerance(large, large_coarse)),
+    }
+    coordinates = {
+        "omega": ("omega", omegas["omega"].values, {"long_name": "detuning"}),
+        "level": ("level", omegas["level"].values, omegas["level"].attrs),
+    }
+    data = as_dataset(numbers, coordinates).assign(without_choices(omegas, thermal))
+    distances = as_dataset(
+        {"predicted_distance": predict_distances(noise, transverse)}, noise.coords
+    )
+    title = "Numbers of long runs on infinite chains, with their variations"
+    about = {name: omegas.attrs[name] for name in ABOUT}
+    about |= {"end_time": float(omegas["tau"][-1]), "large_end_time": float(large["tau"][-1])}
+    about |= {"large_members": large.attrs["members"], "edge": int(omegas["edge"][0])}
+    parts = [data, transverse, noise, distances]
+    merged = xr.merge([part.drop_attrs(deep=False) for part in parts], join="outer")
+    return merged.assign_attrs(title=title, **about)
+
+
+ABOUT = ("epsilon", "gamma", "members", "solver", "solver_rtol", "solver_atol", "rest")
+
+
+def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]:
+    """Return what is counted, or computed without a choice, over Omega."""
+    last = omegas["front"].isel(piece_tau=-1).max("member").values
+    both, alone = (thermal_powers(thermal, omegas, f"{of}power") for of in ("", "antisymmetric_"))
+    state = f"{POWER} in the thermal state"
+    found = {
+        "sites": ((2 * last + 1).astype(int), "sites that the front has passed at the end"),
+        "predicted_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
+        "thermal_power": (both, state),
+        "thermal_antisymmetric_power": (alone, f"{state} of the chain with A = -B"),
+    }
+    return {name: ("omega", one, {"long_name": words}) for name, (one, words) in found.items()}
+
+
+def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
+    """Return ln(1 / noise) / kappa, the distance of the second front from the first, with noise.
+
+    The noise of A and B in doubles is that of a rounding error.
+    """
+    sizes = [ROUNDING_ERROR if one == ROUNDING else float(one) for one in noise["noise"].values]
+    there = transverse.sel(omega=noise["omega"].values)
+    logs = -log(np.array(sizes))[:, None]
+    kappa, error = (there[names_of("growth_behind_front")[n]].values for n in (0, 2))
+    again = there[names_of("growth_behind_front")[3]].dropna("variation", how="all")
+    varied_kappa = {str(one["variation"].item()): logs / one.values for one in again.T}
+    number = Varied(logs / kappa, logs * error / (kappa * kappa), {}, varied_kappa)
+    words = "predicted distance of the second front with noise from the first, in sites"
+    return Printed(("noise", "omega"), number, words)
+
+
+def by_tolerance(*runs: xr.Dataset) -> dict[float, xr.Dataset]:
+    """Return runs by the tolerance of their solver, in this order."""
+    return {float(run.attrs["solver_rtol"]): run for run in runs}
+
+
+def read_part(run: xr.Dataset, part: float, **at: float) -> xr.Dataset:
+    """Return a run up to a part of its end time, at a level and an edge."""
+    end = part * float(run["tau"][-1])
+    return run.sel(tau=slice(0.0, end), piece_tau=slice(0.0, end), **at)
+
+
+def _first(run: xr.Dataset) -> dict[str, float]:
+    """Return the level and the edge that come first."""
+    return {name: run[name].values[0] for name in ("level", "edge")}
+
+
+def varied(
+    runs: Mapping[float, xr.Dataset], measure: Callable[..., Estimate], **choices: list
+) -> Varied:
+    """Return what `measure(run, ...)` returns, for all choices, and parts and tolerances of runs.
+
+    A choice of level or edge chooses the fronts and regions of the run.
+    """
+
+    def measured(**chosen) -> Estimate:
+        run = runs[chosen.pop("tolerance")]
+        at = {key: chosen.pop(key, first) for key, first in _first(run).items()}
+        return measure(read_part(run, chosen.pop("part_of_run"), **at), **chosen)
+
+    return vary(measured, {"tolerance": list(runs), "part_of_run": PART, **choices})
+
+
+def _with_half(limits: Limits) -> Estimate:
+    return limits.value, np.where(np.isfinite(limits.half), limits.half, np.nan)
+
+
+# --- Numbers over Omega ---------------------------------------------------------------------------
+
+
+def numbers_of_fronts(runs: Mapping[float, xr.Dataset]) -> dict[str, Printed]:
+    """Return the speeds of both fronts, and of the places where |S|^2 has reached each level."""
+    levels = [float(level) for level in next(iter(runs.values()))["level"].values]
+    fitted = [SETTLED, 0.5 * SETTLED, 2.0 * SETTLED]
+    first = varied(runs, _by_part(speeds), left_out_part=fitted)
+    second = varied(runs, _by_part(second_speeds), left_out_part=fitted, level=levels[:3])
+    of_levels = varied_levels(runs, fitted)
+    along = ("omega",)
+    return {
+        "front_speed": Printed(along, first, f"speed of the first front, {SPEED}"),
+        "second_front_speed": Printed(along, second, f"speed of the second front, {SPEED}"),
+        "level_speed": Printed(
+            ("level",),
+            of_levels,
+            f"speed at which sites with |S|^2 above a level spread, at the largest Omega, {SPEED}",
+        ),
+    }
+
+
+def _by_part(measure: Callable[..., Estimate]) -> Callable[..., Estimate]:
+    return lambda run, left_out_part: measure(run, left_out_part)
+
+
+def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> Varied:
+    """Return the speeds of the last sites above each level at the largest Omega, (level,)."""
+
+    def measured(tolerance: float, part_of_run: float, left_out_part: float) -> Estimate:
+        run = runs[tolerance].isel(variant=[int(runs[tolerance]["omega"].values.argmax())])
+        found = [
+            level_speeds(read_part(run, part_of_run, level=level), left_out_part)
+            for level in run["level"].values
+        ]
+        return tuple(np.concatenate(values) for values in zip(*found, strict=True))
+
+    choices = {"tolerance": list(runs), "part_of_run": PART, "left_out_part": fitted}
+    return vary(measured, choices)
+
+
+def numbers_of_states(runs: Mapping[float, xr.Dataset], thermal: xr.Dataset) -> dict[str, Printed]:
+    """Return the powers behind both fronts, and these over those of thermal states."""
+    edges = [int(edge) for edge in next(iter(runs.values()))["edge"].values]
+    numbers = {}
+    for name, region, state, choices in (
+        ("behind", BEHIND, "power", {}),
+        ("between", BETWEEN, "antisymmetric_power", {"edge": edges}),
+    ):
+        for quantity, expected in (("power", None), ("ratio", state)):
+            measure = _power_of(region, thermal, expected)
+            number = varied(runs, measure, averaged_part=[LATE, 0.5 * LATE], **choices)
+            over = " over that of the thermal state" if expected else ""
+            numbers[f"{quantity}_{name}"] = Printed(("omega",), number, f"{POWER} {region}{over}")
+    return numbers
+
+
+def _power_of(region: str, thermal: xr.Dataset, state: str | None) -> Callable[..., Estimate]:
+    """Return a function that measures the power in a region, over that of a thermal state."""
+
+    def measure(run: xr.Dataset, averaged_part: float) -> Estimate:
+        limits = mean_limits(mean_powers(run, region, late=averaged_part).T)
+        unit = thermal_powers(thermal, run, state) if state else 1.0
+        formed = np.isfinite(second_speeds(run)[0]) | (region != BEHIND)
+        return np.where(formed, limits.value / unit, np.nan), _with_half(limits)[1] / unit
+
+    return measure
+
+
+def numbers_of_growth(
+    runs: Mapping[float, xr.Dataset], thermal: xr.Dataset, transverse: xr.Dataset
+) -> dict[str, Printed]:
+    """Return exponents of tau in l2, and the slope of l2^2 over that of its law."""
+    octaves = [OCTAVES, OCTAVES // 2, 2 * OCTAVES]
+    with_offset = varied(runs, exponents, octaves=octaves)
+    plain = varied(runs, plain_exponents, octaves=octaves)
+
+    omegas = next(iter(runs.values()))["omega"].values
+    predicted = transverse["predicted_second_speed"].sel(omega=omegas).values
+
+    def ratio(run: xr.Dataset, second_speed: str, fitted_from: float) -> Estimate:
+        speed = predicted if second_speed == PREDICTED[0] else None
+        limits = slope_ratios(run, thermal, second=speed, first=fitted_from)
+        return np.array([one.value for one in limits]), np.array([one.half for one in limits])
+
+    first = [FIRST_OF_LINE, 2.0 * FIRST_OF_LINE]
+    law = varied(runs, ratio, second_speed=PREDICTED, fitted_from=first)
+    maximum = varied(runs, growths_of_maximum)
+    along = ("omega",)
+    return {
+        "maximum_growth": Printed(
+            along, maximum, "relative growth of the mean l-infinity norm of an octave within two"
+        ),
+        "exponent": Printed(
+            along, with_offset, "exponent of tau in l2, with a free offset of l2^2"
+        ),
+        "plain_exponent": Printed(along, plain, "slope of log l2 over log tau"),
+        "slope_ratio": Printed(along, law, "slope of l2^2 over that of its law"),
+    }
+
+
+def exponents(run: xr.Dataset, octaves: int) -> Estimate:
+    """Return the exponent of tau in l2 over the last octaves, with a free offset, (variant,)."""
+    tau, start = run["tau"].values, float(run["tau"][-1]) * 0.5**octaves
+    curves = run["l2"].transpose("variant", "member", "tau").values
+    limits = [fit_exponent(tau, members, start) for members in curves]
+    return np.array([one.value for one in limits]), np.array([one.half for one in limits])
+
+
+def plain_exponents(run: xr.Dataset, octaves: int) -> Estimate:
+    """Return the slope of log l2 over log tau in the last octaves, (variant,)."""
+    kept = run["tau"].values >= float(run["tau"][-1]) * 0.5**octaves
+    tau, curves = run["tau"].values[kept], run["l2"].transpose("member", "variant", "tau").values
+    slopes = [[lay_line(log(tau), log(one[kept])).slope for one in member] for member in curves]
+    return _with_half(mean_limits(slopes))
+
+
+def growths_of_maximum(run: xr.Dataset) -> Estimate:
+    """Return by how much the mean of l-infinity in the last octave is above that two before."""
+    tau = run["tau"]
+    before = run["linf"].sel(tau=(tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)).mean("tau")
+    growth = run["linf"].sel(tau=tau > tau[-1] / 2.0).mean("tau") / before - 1.0
+    return _with_half(mean_limits(growth.transpose("member", "variant").values))
+
+
+def exponent_of_case(runs: Mapping[float, xr.Dataset]) -> Printed:
+    """Return the exponent of tau in l2 of a case."""
+
+    def measure(run: xr.Dataset, octaves: int) -> Estimate:
+        value, error = exponents(run, octaves)
+        return value[0], error[0]
+
+    number = varied(runs, measure, octaves=[OCTAVES, OCTAVES // 2, 2 * OCTAVES])
+    return Printed((), number, "exponent of tau in l2 of the large case at Omega = -4")
