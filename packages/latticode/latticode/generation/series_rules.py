@@ -296,8 +296,10 @@ class Series:
         return one.operands[0].level == CONSTANT and one.operands[0] not in self.names.at_sites
 
     def _terms(self, one: Node) -> list[Node]:
-        """Return the terms of a sum; a sum of products is one term."""
-        if one.operation not in ("add", "sub", "neg") or is_sum_of_products(one):
+        """Return the terms of a sum; a sum of products is one term, and one of constants."""
+        if one.level == CONSTANT or is_sum_of_products(one):
+            return [one]
+        if one.operation not in ("add", "sub", "neg"):
             return [one]
         return [term for operand in one.operands for term in self._terms(operand)]
 

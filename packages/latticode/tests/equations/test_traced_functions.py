@@ -87,6 +87,17 @@ def test_forces_and_velocities_equal_scipy(name, boundary):
         np.testing.assert_allclose(found, expected, rtol=0, atol=error)
 
 
+def test_rates_of_parameters_alone_move_fields_steadily():
+    model = Model(
+        fields=("u", "v"), parameters={"k": 0.7},
+        i_dt=lambda p, u, v: (-0.5j * p.k, 0.4 * p.k * sin(p.k)),
+    )  # fmt: skip
+    initial = np.random.default_rng(5).normal(size=(2, SITES)) + 0j
+    found = simulate(problem(model, initial, "free")).final
+    rates = np.array([[-0.35], [-0.28j * np.sin(0.7)]])
+    np.testing.assert_allclose(found, initial + rates, rtol=0, atol=1e-12)
+
+
 def test_a_domain_that_is_left_ends_the_run_and_gives_no_numbers():
     model = Model(fields="x", parameters={}, d2_dt2=lambda p, x: sqrt(x) - 2)
     initial = np.full((1, SITES), 0.5 + 0j)
