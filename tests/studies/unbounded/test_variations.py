@@ -9,6 +9,7 @@ from pendula.problem import Constants
 from pendula.studies.unbounded.claims import SLOW
 from pendula.studies.unbounded.front import linear_front
 from pendula.studies.unbounded.long_runs import run_variables
+from pendula.studies.unbounded.measured import measure_fronts
 from pendula.studies.unbounded.noise import ROUNDING
 from pendula.studies.unbounded.variations import (
     exponent_of_case,
@@ -92,6 +93,13 @@ def test_exponents_are_fitted_with_an_offset_and_plainly():
     assert numbers["exponent"].number.value == pytest.approx([0.4], abs=0.02)
     assert numbers["plain_exponent"].number.value == pytest.approx([0.4], abs=0.02)
     assert exponent_of_case(runs).number.value == pytest.approx(0.4, abs=0.02)
+
+
+def test_figures_of_long_runs_show_the_first_level_and_edge():
+    run = made_up(1e-8, relaxing=80.0)
+    fronts = measure_fronts(run, THERMAL)
+    assert fronts["second_front_speed"].values == pytest.approx([1.5])
+    assert fronts["power_between"].values == pytest.approx([ALONE - 80.0 / EDGES[0]])
 
 
 def test_noise_leaves_the_second_front_a_distance_behind_the_first():

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from pendula.drawing import name_case
 
-from .measured import law_of
+from .measured import law_of, with_first_choices
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-", "lw": 1.1},
@@ -45,6 +45,7 @@ def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dat
 
 
 def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
+    run = with_first_choices(run)
     known = all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
     law = law_of(run, thermal)[0] if known else np.full(run.sizes["tau"], np.nan)
     norms = run[["l2", "linf"]].isel(variant=0)

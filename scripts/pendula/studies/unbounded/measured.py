@@ -38,6 +38,11 @@ def mean_powers(run, region: str, kind: str = KINDS[0], late: float = LATE) -> n
     return at_end.mean("piece_tau").transpose("variant", "member").values
 
 
+def with_first_choices(run: xr.Dataset) -> xr.Dataset:
+    """Return a run with the first of its levels and edges, of which short runs have one each."""
+    return run.isel(level=0, edge=0, missing_dims="ignore")
+
+
 # --- The fronts -----------------------------------------------------------------------------------
 
 
@@ -141,6 +146,7 @@ def slope_ratios(
 
 def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     """Return speeds of the fronts and powers behind them over Omega, beside predicted ones."""
+    omegas = with_first_choices(omegas)
     (first, first_error), (second, second_error) = speeds(omegas), second_speeds(omegas)
     formed = np.where(np.isfinite(second), 1.0, np.nan)
     behind = mean_limits((mean_powers(omegas, BEHIND) * formed[:, None]).T)
