@@ -42,7 +42,7 @@ def test_a_session_that_leaves_a_file_in_the_project_fails_and_names_it(tmp_path
     done = subprocess.run(
         [sys.executable, *words, str(tmp_path)],
         cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "tests")},
+        env={**os.environ, "PYTHONPATH": str(ROOT / "tests"), "PYTEST_ADDOPTS": ""},
         capture_output=True,
         text=True,
     )

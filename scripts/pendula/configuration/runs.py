@@ -6,15 +6,13 @@ from typing import Any, NamedTuple
 
 from latticode.configuration import cost
 from latticode.configuration.cost import Cost
+from latticode.configuration.surveys import FARTHEST
 from latticode.simulation.feasibility import Obstacle
 
 from pendula.feasibility import find_fault
 from pendula.problem import Constants
 
 from .cost import estimate
-
-FARTHEST = 5.0
-"""Normal draws are hardly ever larger."""
 
 
 class Runs(NamedTuple):

@@ -27,6 +27,8 @@ from .values import (
 )
 
 MOST_RUNS = 10_000_000
+FARTHEST = 5.0
+"""Normal draws are hardly ever larger."""
 MOST_CHECKED = 1000
 """Of an axis with more values only the ends are checked before the runs."""
 
@@ -136,6 +138,10 @@ class Survey(Model):
         ]
         if found:
             return found
+        if self.members:
+            found = self._faults_of_members(case)
+        if found:
+            return found
         for point in [*self.corners(), *self._values_one_by_one()]:
             try:
                 case.at(point)
@@ -150,6 +156,17 @@ class Survey(Model):
             text = f"ends at {self.window[1]:g}, after the shortest run, which ends at {span:g}"
             found.append(("window", text))
         return found
+
+    def _faults_of_members(self, case: Case) -> list[tuple[str, str]]:
+        """Return why no solver can follow data as large as those of a member may be."""
+        factor = 1.0 + FARTHEST * self.members.size
+        larger = {site: [factor * z for z in data] for site, data in case.initial.items()}
+        try:
+            case.model_validate({**case.model_dump(), "snapshot_step": None, "initial": larger})
+        except ValidationError as error:
+            texts = [text for fault in error.errors() for _, text in _texts(fault)]
+            return [("members.size", f"is {self.members.size:g}, and {texts[0]}")]
+        return []
 
     def corners(self) -> list[dict[str, Any]]:
         """Return the first and the last value of all axes together: runs that are checked."""
@@ -168,6 +185,10 @@ class Survey(Model):
             yield from (
                 first | dict(zip(self.together, row, strict=True)) for row in rows[:MOST_CHECKED]
             )
+
+
+def _texts(fault: dict) -> list[tuple[str, str]]:
+    return fault["ctx"]["found"] if fault["type"] == "faults" else [("", fault["msg"])]
 
 
 def _plain(name: str, value: complex) -> Any:
