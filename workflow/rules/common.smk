@@ -236,8 +236,8 @@ def figure_files(stem):
 
 
 def kernels(*solvers):
-    compiled = ["taylor" if solver == "auto" else solver for solver in solvers]
-    return [f"<results>/kernels/{name}.txt" for name in compiled]
+    pairs = [["taylor", "dop853"] if solver == "auto" else [solver] for solver in solvers]
+    return [f"<results>/kernels/{name}.txt" for pair in pairs for name in pair]
 
 
 def kernels_of(problem, *solvers):

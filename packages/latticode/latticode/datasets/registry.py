@@ -59,7 +59,7 @@ SOLVER_NAMES = {
     "delfour_fortin_payre": "Delfour\N{EN DASH}Fortin\N{EN DASH}Payre",
     "dop853": "DOP853",
     "taylor": "Taylor",
-    "auto": "Taylor by error",
+    "auto": "two methods by error",
     "kahan_li": "Kahan\N{EN DASH}Li",
 }
 """The solvers as figures and pages write them."""
