@@ -23,7 +23,7 @@ from latticode import (
 )
 from latticode.datasets import netcdf
 from latticode.datasets.trajectories import trajectory_contents
-from latticode.drawing import runs, style
+from latticode.drawing import runs, style, surveys
 from latticode.simulation.simulate import simulate as made
 
 LADDER = Model(
@@ -143,3 +143,13 @@ def test_imaginary_parts_that_nothing_reads_are_refused_and_others_explained(cap
         assert ("the equations are those of real fields" in capsys.readouterr().out) == explained
         simulate(case.changed(initial={0: [1]}))
         assert capsys.readouterr().out == ""
+
+
+def test_a_survey_with_failed_runs_is_drawn_and_says_how_many_are_left_out():
+    escaping = Model(fields="x", parameters={"k": 1.0}, d2_dt2=lambda p, x: p.k * x * x * x)
+    case = Case(model=escaping, initial={0: [1]}, half_width=1, end_time=2)
+    found = survey(case, {"k": [0.1, 0.5, 9.0]}, keep=["final_l2"])
+    assert found.attrs["failed_runs"] == 1 and str(found["failure"][2].values).startswith("taylor")
+    drawn = surveys.gather_survey(found)
+    assert "failed are left out; there are 1." in drawn.attrs["caption"]
+    assert len(notebook.draw_survey(found).axes) == 1

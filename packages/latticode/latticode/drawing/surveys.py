@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from latticode.datasets.surveys import TEXTS
 from latticode.measures.confidence import mean_limits
 
 from . import style
@@ -23,6 +24,7 @@ def gather_survey(survey: xr.Dataset) -> xr.Dataset:
     """Return what the figure shows: the first axes, of further ones their first value."""
     axes = [name for name in survey.dims if name not in ("component", "member")]
     drawn = survey.isel(dict.fromkeys(axes[2:], 0))
+    drawn = drawn.drop_vars([name for name in TEXTS if name in drawn])
     kind = ("points", "line", "map")[min(len(axes), 2)]
     x, y = ([_name(survey, name) for name in axes] + ["", ""])[:2]
     kept = "; ".join(str(one.attrs["long_name"]) for one in drawn.data_vars.values())
@@ -31,6 +33,8 @@ def gather_survey(survey: xr.Dataset) -> xr.Dataset:
         caption += " Members of the ensemble are averaged; bars are 95 % limits of the mean."
     if axes[2:]:
         caption += f" Of {', '.join(axes[2:])} the first value is shown."
+    if failed := survey.attrs.get("failed_runs"):
+        caption += f" Runs that failed are left out; there are {failed}."
     return drawn.assign_attrs(caption=caption, kind=kind)
 
 
