@@ -41,7 +41,9 @@ RESTS_ON_CHAOS = [
     *("checks/lifetimes:*", "figures/lifetimes:*", "figures/fates:*fate"),
     "checks/second_solver:*l2",
     # Chains without ends, at the detuning of a chaotic case
-    *("figures/fronts:*", "unbounded/fronts:*", "unbounded/omegas:*"),
+    *("figures/fronts:*", "unbounded/fronts:*", "unbounded/omegas:*", "unbounded/starts:*"),
+    # The amplitude equations beside an ensemble of pendula
+    "pendula/over_the_top:amplitude_power",
 ]
 """Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
 the file or along a dimension."""

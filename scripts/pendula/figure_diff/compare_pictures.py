@@ -35,6 +35,8 @@ ESCAPED = re.compile(rb"\\(?:\d{3}|.)", re.DOTALL)
 WORDS, TEX = ("text", "title", "label", "ticks"), re.compile(r"\\[a-zA-Z]+|[${}\\^_ ]")
 """Entries of a description whose words a reader sees, and what is not a letter in them."""
 
+NAMED_IN_A_LEGEND = ("curves", "areas", "images", "shapes")
+
 MARK = re.compile(rb"(?:Description\0|/Keywords \()([0-9a-f]{64})")
 """Where a PNG and a PDF carry the fingerprint of their description."""
 
@@ -102,7 +104,8 @@ def letters_in(pdf: bytes) -> int:
 def letters_of(description: Any, key: str = "") -> int:
     """Return how many letters the words of a description have, without commands of TeX."""
     if isinstance(description, dict):
-        return sum(letters_of(part, name) for name, part in description.items())
+        shown = {name: part for name, part in description.items() if name not in NAMED_IN_A_LEGEND}
+        return sum(letters_of(part, name) for name, part in shown.items())
     if isinstance(description, list):
         return sum(letters_of(part, key) for part in description)
     return len(TEX.sub("", description)) if key in WORDS else 0

@@ -149,7 +149,7 @@ def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> St
         return Status.BEYOND
     if chaotic and "measured" in entries and {was, now} & {None, "infinite"}:
         return Status.BEYOND
-    if chaotic and {*path[-1:]} & ENDS and any(_has_no_points(path, text) for text in texts):
+    if chaotic and {*path[-1:]} & ENDS and 0 in [_points_on(path[:-1], each) for each in texts]:
         return Status.BEYOND
     if _words(str(was)) != _words(str(now)):
         return Status.DIFFERENT
@@ -168,14 +168,17 @@ def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> St
     return Status.BEYOND if may_be else Status.DIFFERENT
 
 
-def _has_no_points(path: tuple, text: Any) -> bool:
-    """Return whether an entry is that of a curve on which nothing lies, as of no late median."""
-    curve = _entry(text, path[:-1])
-    return isinstance(curve, dict) and curve.get("points") == 0
+def _points_on(path: tuple, text: Any) -> int | None:
+    """Return how many points a curve has, or None where the entry is of no curve."""
+    curve = _entry(text, path)
+    return curve.get("points") if isinstance(curve, dict) else None
 
 
 def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bool:
     """Return whether a limit or an end of a curve follows chaos, on the scale of its axis."""
+    points = [_points_on(path[:-2], text) for text in (before, after)]
+    if points[0] != points[1]:  # its ends are those of other points
+        return True
     if path[-1] == "points":  # gaps in a logarithm, or a state that has just formed
         return abs(now - was) <= max(2.0, FEW * was)
     panels = [_entry(text, path[:2]) for text in (before, after)]
