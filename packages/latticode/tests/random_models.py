@@ -182,7 +182,7 @@ def drawn(seed, attempt=0):
     rates = ",\n        ".join(map(rate, names))
     function = "d2_dt2" if second_order else "i_dt"
     text = f"def {function}({arguments}):\n    return (\n        {rates},\n    )\n"
-    half_width = int(max(1, reach, 2 * reach * symmetric) + rng.integers(0, 6))
+    half_width = int(max(reach, 2 * reach * symmetric) + rng.integers(0, 6))
     sites = 2 * half_width + 1
     start = rng.normal(size=(len(names), sites, 2)) @ (0.3, 0.3j)
     if kind == "phases":
