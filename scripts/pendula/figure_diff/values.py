@@ -173,7 +173,7 @@ def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float, most: 
         is_alike = 1 / SCATTER <= (new_size + small) / (size + small) <= SCATTER
         return "" if is_alike else differs
     if apart > most * size + small:
-        return differs
+        return f"rests on chaos, but differs by too much: by {apart / (size or 1):.2g} of its size"
     outside = max(new.max() - old.max(), old.min() - new.min())
     if old.size >= LONG and outside > np.ptp(old) + small:
         return f"leaves the range of the accepted values by {outside:.2g}"
