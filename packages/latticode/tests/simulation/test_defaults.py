@@ -5,7 +5,7 @@ import pytest
 from latticode import Case, Model, abs2, check, lap, simulate, sqrt, survey, sweep
 from latticode.configuration.files import ConfigurationError
 from latticode.configuration.messages import load
-from latticode.simulation.integration import IntegrationError
+from latticode.simulation.simulate import IntegrationError
 from scipy.integrate import solve_ivp
 
 DRAG = Model(
