@@ -15,7 +15,9 @@ from helpers import chosen
 from latticode.checks import check_breather
 from latticode.datasets.netcdf import Variable, read, save, write
 from latticode.datasets.trajectories import Contents
+from latticode.localised.rest import describe_unstable_rest
 from latticode.measures import confidence
+from latticode.numerics.elementary import modulus
 from pendula.studies.breathers.contents import periodic_contents, steady_contents
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import CHECKS, run_checks
@@ -28,6 +30,7 @@ MEMBERS = 100
 PLAYED = {
     "packages/latticode/latticode/checks.py": ("own",),
     "packages/latticode/latticode/localised/breathers.py": ("own", "proofs", "steady"),
+    "packages/latticode/latticode/localised/rest.py": ("rest",),
     "packages/latticode/latticode/measures/confidence.py": ("confidence",),
     "scripts/pendula/studies/breathers/multipliers.py": ("periodic",),
     "scripts/pendula/studies/breathers/periodic.py": ("periodic",),
@@ -47,7 +50,8 @@ def make(given: Path, made: Path) -> None:
     coupling = float(breathers.epsilon), float(breathers.gamma)
     contents = {
         "confidence": limits_of_all_counts(),
-        "periodic": periodic_contents(*coupling, **breathers.periodic.model_dump()),
+        "rest": sentence_on_rest(),
+        "periodic": periodic_contents(*coupling, **breathers.periodic.model_dump(exclude={"long"})),
         "proofs": breathers_contents(**chosen("certified").breathers.model_dump()),
         "steady": steady_contents(*coupling, **breathers.steady.model_dump()),
         "thermal": solve_thermal(*coupling, list(chains.omegas.values), chains.nodes),
@@ -70,6 +74,15 @@ def limits_of_all_counts() -> Contents:
         for name, values in limits.items()
     }
     return variables, {"title": "Confidence limits"}
+
+
+def sentence_on_rest() -> Contents:
+    """Return what is said of a chain without coupling in which the central pair alone moves."""
+    problem = problem_of("fig4_small", epsilon=0.0)
+    moduli = np.stack([modulus(problem.amplitudes)] * 2, axis=-1)
+    moduli[:, problem.half_width, 1] += 1.0
+    sentence = Variable(("sentence",), [describe_unstable_rest(problem, moduli)], "on rest")
+    return {"sentences": sentence}, {"title": "Sites at rest"}
 
 
 if __name__ == "__main__":
