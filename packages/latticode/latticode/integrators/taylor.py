@@ -197,6 +197,21 @@ def fifteenth_root(x):
 
 
 @kernel
+def step_of_earlier_orders(series, tolerance):
+    """Return a step where the last two terms vanish, as in a series of t^4 alone.
+
+    It is that of the highest order above ORDER / 2 that does not, infinite where there is none. The
+    eighth root is shorter than that of such an order where the tolerance is below the coefficient.
+    """
+    for k in range(ORDER - 2, ORDER // 2, -1):
+        coefficient = largest_modulus(series, k)
+        if coefficient > 0.0:
+            root = sixteenth_root(tolerance / coefficient)
+            return root * root if root < 1.0 else root
+    return np.inf
+
+
+@kernel
 def allowed_step(series, rtol, atol):
     """Return the step at which the last two terms equal the tolerance; NaN where they overflow."""
     size = largest_modulus(series, 0)
@@ -204,6 +219,8 @@ def allowed_step(series, rtol, atol):
     if not last + last_but_one < np.inf:
         return np.nan
     tolerance = atol + rtol * size
+    if last == 0.0 and last_but_one == 0.0:
+        return step_of_earlier_orders(series, tolerance)
     return min(sixteenth_root(tolerance / last), fifteenth_root(tolerance / last_but_one))
 
 

@@ -5,7 +5,7 @@ import pytest
 from latticode.equations.model import Model, ModelError, abs2, conj, cos, exp, lap, log, sin, sqrt
 from latticode.simulation.simulate import IntegrationError, simulate
 from latticode.simulation.systems import solver_names
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 from test_traced_models import TIGHT, beside, problem
 
 SITES = 13
@@ -96,6 +96,16 @@ def test_rates_of_parameters_alone_move_fields_steadily():
     found = simulate(problem(model, initial, "free")).final
     rates = np.array([[-0.35], [-0.28j * np.sin(0.7)]])
     np.testing.assert_allclose(found, initial + rates, rtol=0, atol=1e-12)
+
+
+def test_a_series_of_every_fourth_order_alone_limits_the_step():
+    """From t = 0 the last two terms of the series vanish, and so do not show how far it holds."""
+    model = Model(
+        fields="u", parameters={}, i_dt=lambda p, u: 1j * exp(-sin(p.t * p.t) * sin(p.t * p.t))
+    )
+    found = simulate(problem(model, np.zeros((1, SITES)) + 1.0, "free")).final
+    expected = 1.0 + quad(lambda t: np.exp(-(np.sin(t * t) ** 2)), 0.0, 1.0, epsabs=1e-14)[0]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-11)
 
 
 def test_a_domain_that_is_left_ends_the_run_and_gives_no_numbers():
