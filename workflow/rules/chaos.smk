@@ -3,7 +3,7 @@ LYAPUNOV, ENSEMBLES, SECOND, MEMBERS = (
     getattr(SETTINGS.chaos, name) for name in ("lyapunov", "ensembles", "second_solver", "members")
 )
 LIFETIMES = SETTINGS.chaos.lifetimes
-STARTS, CLOCKS = ("amplitudes", "ratio"), ("size", "seed", "window", "level")
+STARTS, CLOCKS = ("amplitudes", "ratio"), ("size", "seed", "window", "level", "multiple")
 SPECTRUM = LYAPUNOV.spectrum
 
 

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 import xarray as xr
+from accepted import dataset
 from latticode.datasets.netcdf import as_xarray
 from latticode.simulation.simulate import simulate
+from matplotlib.markers import CARETUPBASE
 from oracle import slope
-from pendula.studies.chaos import clocks, lifetimes
+from pendula.studies.chaos import clocks, figures, lifetimes
 from problems import problem_of
 from scipy.integrate import solve_ivp
 
@@ -62,6 +64,8 @@ def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
     modulus = np.ones((2, 5, 3))
     modulus[:, 2] = [1.5, 1.0, 0.5]
     assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]
+    assert lifetimes.shares_alike(modulus, 2.0).tolist() == [True, True, True]
+    assert lifetimes.shares_alike(modulus, 0.5).tolist() == [False, False, True]
 
 
 def test_limits_are_medians_of_times_and_means_of_the_rest():
@@ -76,13 +80,41 @@ def test_limits_are_medians_of_times_and_means_of_the_rest():
 
 def test_members_of_the_long_study_are_measured_with_each_choice_changed():
     chosen = {"tolerance": 1e-7, "output_step": 0.1, "size": 0.01, "seed": 3}
-    chosen |= {"window": (10.0, 12.0), "level": 0.5}
+    chosen |= {"window": (10.0, 12.0), "level": 0.5, "multiple": 1.0}
     case, changes = problem(end_time=12.0), {"level": [0.25], "seed": [4]}
     data = lifetimes.vary_lifetimes(case, [2.0, 9.0], 0.2, 6, chosen, changes)
     again = as_xarray(
-        *lifetimes.measure_lifetimes(case, [2.0, 9.0], 0.2, 0.01, 6, 4, (10.0, 12.0), 0.5)
+        *lifetimes.measure_lifetimes(case, [2.0, 9.0], 0.2, 0.01, 6, 4, (10.0, 12.0), 0.5, 1.0)
     )
     assert data["variation"].values.tolist() == ["seed = 4", "level = 0.25"]
     expected = np.median(again["transition"], axis=1)
     np.testing.assert_allclose(data["transition_varied"].sel(variation="seed = 4"), expected)
     assert (data["transition_varied"].sel(variation="level = 0.25") < data["transition"]).all()
+
+
+def test_an_upper_limit_that_no_run_reached_is_an_arrow_and_no_end_of_a_bar():
+    """Of eleven lives from three amplitudes three, none and seven outlast the runs."""
+    lives = np.tile(np.arange(1.0, 12.0), (3, 1))
+    lives[0, 8:] = lives[2, 4:] = np.inf
+    over = ("start_amplitude", "member")
+    data = xr.Dataset(dict.fromkeys(clocks.NUMBERS, (over, lives.clip(max=9.0))))
+    said = dict.fromkeys(("omega", "ratio", "window_start", "window_end", "perturbation"), 1.0)
+    data = data.assign(life=(over, lives)).assign_coords(start_amplitude=[1.0, 2.0, 3.0])
+    data = data.assign_attrs(said, members=11, end_time=20.0, half_width=30)
+    shown = figures.gather_lifetimes(data)
+    assert shown["life_open"].values == pytest.approx([20.0, np.nan, np.nan], nan_ok=True)
+    assert shown["life_later"].values == pytest.approx([np.nan, np.nan, 20.0], nan_ok=True)
+    left, _ = figures.draw_lifetimes(shown).axes
+    arrows = [line for line in left.lines if line.get_marker() == CARETUPBASE]
+    assert [y for line in arrows for y in line.get_ydata() if np.isfinite(y)] == [20.0]
+    ends = [line.get_ydata() for line in left.lines if line.get_marker() == "_"]
+    assert ends and all(np.nanmax(y) < 20.0 for y in ends)
+
+
+def test_the_accepted_life_of_the_centre_is_varied_by_the_power_that_ends_it():
+    """Half of the mean power ends a life later, and twice the mean power earlier."""
+    quoted = dataset("quoted/chaos").sel(start_amplitude=slice(3.0, 7.0))
+    again = quoted["life_varied"]
+    later, earlier = (again.sel(variation=f"multiple = {one}") for one in ("0.5", "2"))
+    assert (earlier < quoted["life"]).all() and (quoted["life"] < later).all()
+    assert (quoted["life_low"] <= earlier).all() and (later <= quoted["life_high"]).all()

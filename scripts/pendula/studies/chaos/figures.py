@@ -18,22 +18,23 @@ WORDS = {
     "high": "upper confidence limit of the",
 }
 LATER = "end of the runs, which comes before the"
+OPEN = "end of the runs, which comes before the upper confidence limit of the"
 CAPTION = (
     "(a) At Ω = {omega}, against the initial amplitude A₀, with B₀ = {ratio} A₀: the time at which "
     "P of the chain first reaches half of its final value, and the time at which the central pair "
     "first holds at most the mean power of a pair. (b) Share of P on the central pair, mean over "
     "[{window_start}, {window_end}], and the mean share of a pair (dotted). Pale: {members} runs "
     "from each A₀, perturbed by {perturbation}. Dark: medians in (a) and means in (b), with "
-    "confidence intervals. A run in which the centre keeps more until τ = {end_time} is drawn at "
-    "this time."
+    "confidence intervals; an arrow ends at the end of the runs, above which the upper limit is. A "
+    "run in which the centre keeps more until τ = {end_time} is drawn at this time."
 )
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
     """Return times and shares of the runs, and their medians or means with their limits.
 
-    What comes after the runs stands at their end. Such medians are rows of their own, so that the
-    figure has the same curves whether there are any.
+    What comes after the runs stands at their end. Such medians are rows of their own, and so are
+    such upper limits, so that the figure has the same curves whether there are any.
     """
     names, end = [*CLOCKS, "centre_share"], float(lifetimes.attrs["end_time"])
     shown, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
@@ -41,9 +42,13 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
         has_ended = limits[name].value < end
         rows = dict(zip(WORDS, limits[name], strict=True))
         rows |= {"middle": np.where(has_ended, rows["middle"], np.nan)}
-        rows |= {"later": np.where(has_ended, np.nan, end)} if name in CLOCKS else {}
+        if name in CLOCKS:
+            is_open = has_ended & (rows["high"] > end)
+            rows |= {"later": np.where(has_ended, np.nan, end)}
+            rows |= {"open": np.where(is_open, end, np.nan)}
         for word, values in rows.items():
-            about = {"long_name": f"{WORDS.get(word, LATER)} {name.replace('_', ' ')}"}
+            meaning = (WORDS | {"later": LATER, "open": OPEN})[word]
+            about = {"long_name": f"{meaning} {name.replace('_', ' ')}"}
             row = "start_amplitude", np.minimum(values, end), about
             shown = shown.assign({f"{name}_{word}": row})
     said = ("omega", "members", "ratio", "end_time", "window_start", "window_end", "perturbation")
@@ -60,10 +65,11 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
     left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     for name, label in (("transition", "chain"), ("life", "central pair")):
         _draw_runs(left, data, name, *CLOCKS[name], label)
+        _draw_open_limits(left, data, name)
         colour, _, aside = CLOCKS[name]
         a0, later = data["start_amplitude"].values + aside, data[f"{name}_later"].values
         open_marks = {"markerfacecolor": "white", "markersize": 4.5}
-        said = "after the runs" if name == "life" else None
+        said = "median after the runs" if name == "life" else None
         left.plot(a0, later, "^", color=colour, label=said, **open_marks)
     left.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
     left.set(yscale="log", ylabel=r"time $\tau$")
@@ -77,6 +83,14 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
     return figure
 
 
+def _draw_open_limits(axes: Axes, data: xr.Dataset, name: str) -> None:
+    """Draw an arrow from each median whose upper limit comes after the runs to their end."""
+    colour, _, aside = CLOCKS[name]
+    a0, middle = data["start_amplitude"].values + aside, data[f"{name}_middle"].values
+    rise = data[f"{name}_open"].values - middle
+    axes.errorbar(a0, middle, rise, lolims=True, color=colour, ls="none", elinewidth=0.8)
+
+
 def _draw_runs(
     axes: Axes, data: xr.Dataset, name: str, colour: str, mark: str, aside: float,
     label: str | None = None,
@@ -84,8 +98,11 @@ def _draw_runs(
     """Draw the runs of one number as small marks, and their middle with its limits."""
     a0 = data["start_amplitude"].values + aside
     runs = data[name].transpose("start_amplitude", "member").values
-    axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label="single runs")
+    said = f"single runs, {label}" if label else None
+    axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label=said)
     middle, low, high = (data[f"{name}_{word}"].values for word in WORDS)
+    if f"{name}_open" in data:  # these bars have no upper end: see `_draw_open_limits`
+        high = np.where(data[f"{name}_open"].notnull(), middle, high)
     axes.errorbar(
         a0, middle, np.array([middle - low, high - middle]), marker=mark, color=colour, ls="none",
         elinewidth=0.8, capsize=2, markersize=3.5, label=label,

@@ -2,9 +2,9 @@
 
 Zero is unstable, so that the chain around the centre is always set in motion. The *transition* of
 the chain is over when P first reaches half of its final value, the mean over a window of time. The
-*life* of the centre ends when the central pair first holds at most P / N, where N is the number of
-pairs. From a large amplitude the centre outlives the transition: it stays excited inside a chaotic
-chain. Lives that outlast the run are censored.
+*life* of the centre ends when the central pair first holds at most a multiple of P / N, the mean
+power of a pair. From a large amplitude the centre outlives the transition: it stays excited inside
+a chaotic chain. Lives that outlast the run are censored.
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,15 +29,19 @@ SPAN = 10.0
 that it follows. Pieces of a run start from the state alone."""
 
 
-def follow(problem: Problem, window: Sequence[float], level: float) -> dict[str, float]:
-    """Run a problem until its centre first holds at most its share of P, or to the end.
+def follow(
+    problem: Problem, window: Sequence[float], level: float, multiple: float = 1.0
+) -> dict[str, float]:
+    """Run a problem until its centre first holds at most `multiple` of P / N, or to the end.
 
     Returns NUMBERS of the run, with `level` in place of one half. `window` must end before the run.
     """
     first = simulate(problem.changed(end_time=window[1], snapshot_every=1), energy=False)
     numbers = in_window(first, window, level)
-    ended = np.flatnonzero(shares_alike(first.modulus))
-    life = float(first.tau[ended[0]]) if ended.size else later_life(problem, first, window[1])
+    ended = np.flatnonzero(shares_alike(first.modulus, multiple))
+    if ended.size:
+        return numbers | {"life": float(first.tau[ended[0]])}
+    life = later_life(problem, first, window[1], multiple)
     return numbers | {"life": life}
 
 
@@ -54,7 +58,7 @@ def in_window(run: Trajectory, window: Sequence[float], level: float) -> dict[st
     }
 
 
-def later_life(problem: Problem, run: Trajectory, start: float) -> float:
+def later_life(problem: Problem, run: Trajectory, start: float, multiple: float) -> float:
     """Return when the centre first holds its share of P after `start`, where `run` has ended."""
     remaining = problem.end_time - start
     if remaining <= 0.0:
@@ -63,29 +67,29 @@ def later_life(problem: Problem, run: Trajectory, start: float) -> float:
     piece = problem.changed(end_time=remaining / spans, snapshot_every=1)
     for done in range(spans):
         run = simulate(piece.changed(initial=run.final), energy=False)
-        ended = np.flatnonzero(shares_alike(run.modulus))
+        ended = np.flatnonzero(shares_alike(run.modulus, multiple))
         if ended.size:
             return float(start + done * piece.end_time + run.tau[ended[0]])
     return np.inf
 
 
-def shares_alike(modulus: np.ndarray) -> np.ndarray:
-    """Return whether the central pair holds at most 1 / N of P, (time,).
+def shares_alike(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
+    """Return whether the central pair holds at most `multiple` / N of P, (time,).
 
     `modulus` is (component, site, time), with an odd number N of sites.
     """
     power = (modulus**2).sum(axis=0)
-    return power[len(power) // 2] <= power.mean(axis=0)
+    return power[len(power) // 2] <= multiple * power.mean(axis=0)
 
 
 def measure_lifetimes(
     problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int,
-    window: Sequence[float], level: float, run: Run = run_all,
+    window: Sequence[float], level: float, multiple: float, run: Run = run_all,
 ) -> Contents:  # fmt: skip
     """Return NUMBERS of `members` runs from each amplitude A_0 with B_0 = `ratio` A_0."""
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
-    kept = run(drawn, partial(follow, window=window, level=level))
+    kept = run(drawn, partial(follow, window=window, level=level, multiple=multiple))
     over = ("start_amplitude",)
     variables = {
         "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
@@ -98,6 +102,7 @@ def measure_lifetimes(
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "ratio": ratio}
     about |= {"perturbation": size, "members": members, "seed": seed}
     about |= {"window_start": window[0], "window_end": window[1], "level": level}
+    about |= {"multiple": multiple}
     title = "The transition at Omega = 0 and the life of the centre, against the initial amplitude"
     return variables, {**shared, "title": title, **about}
 
@@ -108,11 +113,11 @@ def vary_lifetimes(
 ) -> xr.Dataset:  # fmt: skip
     """Return the medians and means of `limits_of`, measured again with each choice changed."""
 
-    def measure(tolerance, output_step, size, seed, window, level):
+    def measure(tolerance, output_step, size, seed, **clocks):
         solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
         start = problem.changed(solver=solver, output_step=output_step)
         return limits_of(as_xarray(
-            *measure_lifetimes(start, amplitudes, ratio, size, members, int(seed), window, level)
+            *measure_lifetimes(start, amplitudes, ratio, size, members, int(seed), **clocks)
         ))  # fmt: skip
 
     choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}

@@ -40,7 +40,7 @@ class Spectrum(Model):
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
 """What all ensembles have: the solver's tolerance, the size of a change, and the seed."""
 
-VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level"]
+VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", "multiple"]
 """Choices of a study that its long runs change."""
 
 # The largest exponents of every case, on a span of time.
@@ -90,6 +90,7 @@ class Lifetimes(Model):
     tolerance: Tolerance
     window: Window
     level: Annotated[Positive, Field(lt=1)]
+    multiple: Positive
     end_time: Positive
     output_step: Positive
     seed: Natural
