@@ -20,7 +20,8 @@ RANGES = ("span", "range_of", "share_span")
 OF_DATASETS, OF_CLAIMS = ("of", "percent_of", "share", *RANGES), ("n", "share_of")
 CHOSEN = (
     "end_time large_end_time members large_members perturbation start start_amplitude ratio points "
-    "size mu settled level window_start window_end"
+    "size mu settled level window_start window_end "
+    "noise_end_time"
 )
 WITHOUT = {
     **dict.fromkeys(CHOSEN.split(), "was chosen"),

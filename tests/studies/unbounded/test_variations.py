@@ -12,6 +12,7 @@ from pendula.studies.unbounded.long_runs import run_variables
 from pendula.studies.unbounded.measured import measure_fronts
 from pendula.studies.unbounded.noise import ROUNDING
 from pendula.studies.unbounded.variations import (
+    differences,
     exponent_of_case,
     numbers_of_fronts,
     numbers_of_growth,
@@ -112,6 +113,25 @@ def test_noise_leaves_the_second_front_a_distance_behind_the_first():
     assert distance.error == pytest.approx(distance.value * 0.02)
 
 
+def test_what_two_noises_have_in_common_cancels_in_the_difference_of_their_distances():
+    """Both distances have the constant 7, which one choice doubles, and their errors add up."""
+    along, omega = ("omega",), {"omega": ("omega", [0.0])}
+    kappa = vary(lambda tolerance: ([0.5], [0.0]), {"tolerance": [1e-8, 1e-10]})
+    growth = as_dataset({"growth_behind_front": Printed(along, kappa, "growth")}, omega)
+    labels = np.array(["1e-16", "1e-08", ROUNDING], object)
+    logs = np.log(10.0) * np.array([[16.0], [8.0], [16.0]])
+
+    def measure(level):
+        return 2.0 * logs + 7.0 * level, np.array([[3.0], [4.0], [0.0]])
+
+    distance = Printed(("noise", "omega"), vary(measure, {"level": [1.0, 2.0]}), "distance")
+    noise = as_dataset({"distance": distance}, {"noise": ("noise", labels), **omega})
+    numbers = {name: one.number for name, one in differences(noise, growth).items()}
+    for number in numbers.values():
+        assert number.value == pytest.approx([16.0 * np.log(10.0)])
+    assert numbers["distance_difference"].error == pytest.approx([5.0])
+
+
 # --- The accepted long study ----------------------------------------------------------------------
 
 
@@ -146,9 +166,9 @@ def test_measured_fronts_and_states_are_the_predicted_ones(quoted):
     of 1e-8 is predicted to: a constant remains, since growth begins at no one site.
     """
     within(quoted, "second_front_speed", "predicted_second_speed")
-    nearer = quoted["distance"].sel(noise="1e-16") - quoted["distance"].sel(noise="1e-08")
-    weaker = quoted.sel(noise="1e-08", omega=[0.0, 2.0, 4.0])
-    off = abs(nearer - weaker["predicted_distance"])
+    within(quoted, "distance_difference", "predicted_distance_difference")
+    weaker = quoted.sel(noise="1e-08")
+    off = abs(quoted["distance_difference"] - weaker["predicted_distance"]).dropna("omega")
     assert off.size == 3 and (off < weaker["predicted_distance_error"]).all()
     assert abs(quoted["ratio_between"].sel(omega=2.0) - 1.0) < 0.01
     assert quoted["ratio_between_error"].sel(omega=2.0) < 0.01

@@ -79,7 +79,7 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
     for axes, letter in ((left, "a"), (right, "b")):
         axes.set(xlabel="initial amplitude $A_0$", xticks=data["start_amplitude"].values)
         axes.set_title(f"({letter})", loc="left")
-    style.name_legend(figure, left, right)
+    style.name_legend(figure, left, right, columns=4)
     return figure
 
 

@@ -67,7 +67,9 @@ def follow_noise(
         "omega": ("omega", [one.constants.omega for one in problems], {"long_name": "detuning"}),
     }
     title = "The second front on infinite chains with noise in A + B"
-    return as_dataset(printed, coordinates).assign_attrs(title=title)
+    ends = [one.end_time for one in problems], {"long_name": "end time of the runs with noise"}
+    data = as_dataset(printed, coordinates).assign(noise_end_time=("omega", *ends))
+    return data.assign_attrs(title=title)
 
 
 def follow_front(problem: Problem, noises: list, rest: float, seed: int) -> dict[str, np.ndarray]:

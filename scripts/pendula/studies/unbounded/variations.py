@@ -57,7 +57,11 @@ def vary_numbers(
     }
     data = as_dataset(numbers, coordinates).assign(without_choices(omegas, thermal))
     distances = as_dataset(
-        {"predicted_distance": predict_distances(noise, transverse)}, noise.coords
+        {
+            "predicted_distance": predict_distances(noise, transverse),
+            **differences(noise, transverse),
+        },
+        noise.coords,
     )
     title = "Numbers of long runs on infinite chains, with their variations"
     about = {name: omegas.attrs[name] for name in ABOUT}
@@ -99,6 +103,34 @@ def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
     number = Varied(logs / kappa, logs * error / (kappa * kappa), {}, varied_kappa)
     words = "predicted distance of the second front with noise from the first, in sites"
     return Printed(("noise", "omega"), number, words)
+
+
+def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, Printed]:
+    """Return by how much the distance is larger with the first size of noise than with the second.
+
+    It is ln(second / first) / kappa, where the constant of neither distance is left: growth begins
+    at no one site. The errors of both measured distances are taken as independent.
+    """
+    first, second = (noise.isel(noise=n) for n in (0, 1))
+    predicted = predict_distances(noise, transverse).number
+    errors = [one["distance_statistical_error"].values for one in (first, second)]
+    both = np.sqrt(errors[0] ** 2 + errors[1] ** 2)
+    changes = first["distance_varied"] - second["distance_varied"]
+    again = {
+        str(one["variation"].item()): one.values for one in changes.transpose("variation", ...)
+    }
+    measured = Varied((first["distance"] - second["distance"]).values, both, {}, again)
+    computed = Varied(
+        predicted.value[0] - predicted.value[1],
+        predicted.statistical_error[0] - predicted.statistical_error[1],
+        {},
+        {label: one[0] - one[1] for label, one in predicted.variations.items()},
+    )
+    words = "difference of the distances with the first and the second size of noise, in sites"
+    return {
+        "distance_difference": Printed(("omega",), measured, words),
+        "predicted_distance_difference": Printed(("omega",), computed, f"predicted {words}"),
+    }
 
 
 def by_tolerance(*runs: xr.Dataset) -> dict[float, xr.Dataset]:
