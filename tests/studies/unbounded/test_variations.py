@@ -7,9 +7,10 @@ from accepted import dataset
 from latticode.datasets.netcdf import as_xarray
 from pendula.problem import Constants
 from pendula.studies.unbounded.claims import SLOW
+from pendula.studies.unbounded.claims_state import largest_change
 from pendula.studies.unbounded.front import linear_front
 from pendula.studies.unbounded.long_runs import run_variables
-from pendula.studies.unbounded.measured import measure_fronts
+from pendula.studies.unbounded.measured import measure_fronts, with_first_choices
 from pendula.studies.unbounded.noise import ROUNDING
 from pendula.studies.unbounded.variations import (
     differences,
@@ -85,6 +86,18 @@ def test_the_law_is_that_of_predicted_speeds(predicted, ratio):
         other = predicted * BOTH + (FRONT.speed - predicted) * ALONE
         assert law.value == pytest.approx([expected / other], abs=1e-3)
         assert law.error == pytest.approx([abs(1.0 - expected / other)], rel=0.05)
+
+
+def test_the_row_on_the_law_says_how_little_one_state_behind_both_fronts_would_change():
+    """With v_2 = 1.5 and states of 18 and 19 that is 3 %, with equal states nothing."""
+    law = 1.5 * BOTH + (FRONT.speed - 1.5) * ALONE
+    expected = max(abs(FRONT.speed * one / law - 1.0) for one in (BOTH, ALONE))
+    assert (
+        largest_change(with_first_choices(made_up(1e-8)), THERMAL) == pytest.approx(expected)
+        and expected > 0.02
+    )
+    equal = THERMAL.assign(antisymmetric_power=THERMAL["power"])
+    assert largest_change(with_first_choices(made_up(1e-8)), equal) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_exponents_are_fitted_with_an_offset_and_plainly():

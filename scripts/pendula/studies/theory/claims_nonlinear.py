@@ -63,6 +63,15 @@ def of_one_distance(well_posed):
     return well_posed.assign(distance=well_posed["distance"] * sizes.max() / sizes)
 
 
+def beyond_runs(well_posed, time: str) -> str:
+    """Return the caveat of what was seen on runs, up to an attribute `time`."""
+    largest, end = well_posed["initial_power"].max(), well_posed.attrs[time]
+    return (
+        f"computed from random initial conditions with P up to {largest:g} and for |tau| up to"
+        f" {end:g}; beyond these it rests on the proof"
+    )
+
+
 @of_lemma_2(
     "For every initial condition in l2 the solution exists at all times.",
     controls=(
@@ -82,11 +91,7 @@ def global_existence(identities, well_posed) -> Finding:
         AtMost(1.0, "from_start", says="largest P of a run over the bound (19)"),
         AtMost(1.0, "steepest", says="largest change of log P over 4 gamma times its duration"),
     )
-    largest, end = well_posed["initial_power"].max(), well_posed.attrs["end_time"]
-    caveat = (
-        f"computed from random initial conditions with P up to {largest:g} and for |tau| up to"
-        f" {end:g}; beyond these it rests on the proof, where (19) keeps P finite"
-    )
+    caveat = f"{beyond_runs(well_posed, 'end_time')}, where (19) keeps P finite"
     return judge(left | measured, criterion, caveat)
 
 
@@ -117,7 +122,8 @@ def uniqueness(identities, well_posed) -> Finding:
         AtMost(1.0, "rate", says=RATE),
         Below(ONE_SOLUTION, "between_solvers", says="distance of the solutions by two solvers"),
     )
-    return judge(left | measured, criterion)
+    caveat = f"{beyond_runs(well_posed, 'close_time')}, where M is finite"
+    return judge(left | measured, criterion, caveat)
 
 
 RATE = "largest growth of the log of a distance over (2 gamma + M^2 / 2) tau"
@@ -146,7 +152,9 @@ def continuous_dependence(identities, well_posed) -> Finding:
     orders = Near(
         1.0, TOLD, "least_order", "largest_order", says="order of a distance in the first"
     )
-    return judge(left | measured, AllOf(nothing_left(left), AtMost(1.0, "rate", says=RATE), orders))
+    criterion = AllOf(nothing_left(left), AtMost(1.0, "rate", says=RATE), orders)
+    caveat = f"{beyond_runs(well_posed, 'close_time')}, where the rate bounds the distance"
+    return judge(left | measured, criterion, caveat)
 
 
 @by_algebra(

@@ -117,59 +117,43 @@ def next_states(thermal):
     return roll(("power", "antisymmetric_power"), {"omega": 1})(thermal)
 
 
-def next_state_between(thermal):
-    """Return thermal states with the power with A = -B of the next Omega alone."""
-    return roll("antisymmetric_power", {"omega": 1})(thermal)
-
-
 @claim(
     "Beyond the paper",
-    "Behind each front the infinite chain is in thermal equilibrium, where each pendulum oscillates"
-    " at a finite amplitude.",
+    "Behind the second front the infinite chain is in thermal equilibrium, where each pendulum "
+    "oscillates at a finite amplitude.",
     unbounded("omegas", "thermal"),
-    (
-        Control("the thermal states of the next Omega", {"thermal": next_states}),
-        Control(
-            "the thermal states with A = -B of the next Omega alone",
-            {"thermal": next_state_between},
-        ),
-    ),
+    (Control("the thermal states of the next Omega", {"thermal": next_states}),),
 )
 def unbounded_equilibrium(run, thermal) -> Finding:
-    """Require that the limits of P behind the second fronts, and its means between, are near.
+    """Require that the limits of P behind the second fronts are near that of the thermal state.
 
-    Between the fronts P relaxes over hundreds of sites, of which short runs have few. Members
-    scatter there so much that limits for all Omega together would admit almost any state: so the
-    means of the members decide, which can fail.
+    Between the fronts P relaxes over hundreds of sites, of which short runs have few: these runs
+    decide nothing there.
     """
     times_of(run)
-    omegas, tries = run["omega"].values, 2 * run.sizes["variant"]
+    omegas, tries = run["omega"].values, run.sizes["variant"]
     formed = np.isfinite(second_speeds(run)[0])
     both = np.where(formed[:, None], mean_powers(run, BEHIND), np.nan)
-    ratios = ratios_of(both, thermal_powers(thermal, run), tries)
-    alone = thermal_powers(thermal, run, "antisymmetric_power")
-    between = mean_powers(run, BETWEEN).mean(axis=1) / alone
-    known = np.isfinite(between)
-    if known.sum() < FEW:
-        raise UndecidableError("fewer than three regions have formed")
-    furthest = np.nanargmax(np.abs(between - 1.0))
+    expected = thermal_powers(thermal, run)
+    ratios = ratios_of(both, expected, tries)
     measured = {
         "at_least": min(one.low for one in ratios),
         "at_most": max(one.high for one in ratios),
-        "between_least": between[known].min(),
-        "between_largest": between[known].max(),
     }
     says = "confidence interval of P behind the second front over thermal P"
-    alone_says = "mean P between the fronts over that of the thermal state with A = -B"
-    criterion = AllOf(
-        Near(1.0, CHANGE, "at_least", "at_most", says=says),
-        Near(1.0, CHANGE, "between_least", "between_largest", says=alone_says),
-    )
-    absent = ", ".join(f"{omega:g}" for omega in omegas[~formed])
-    only = f"at Omega = {absent} only the equilibrium with A = -B is reached; " if absent else ""
-    off = f"{abs(between[furthest] - 1.0):.0%} at Omega = {omegas[furthest]:g}"
-    slow = f"P between the fronts, which relaxes over hundreds of sites, is off by up to {off}"
-    return judge(measured, criterion, only + slow)
+    apart = np.nanmax(np.abs(thermal_powers(thermal, run, "antisymmetric_power") / expected - 1.0))
+    caveat = f"P alone hardly tells this state from that with A = -B, whose P is within {apart:.0%}"
+    if absent := ", ".join(f"{omega:g}" for omega in omegas[~formed]):
+        caveat += f"; no second front has formed at Omega = {absent}"
+    return judge(measured, Near(1.0, CHANGE, "at_least", "at_most", says=says), caveat)
+
+
+def largest_change(run, thermal) -> float:
+    """Return by how much the slope of the law changes at most with one state behind both fronts."""
+    both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
+    first, second = run["predicted_speed"].values, np.nan_to_num(second_speeds(run)[0])
+    law = second * both + (first - second) * alone
+    return np.nanmax(np.abs(first * np.array([both, alone]) / law - 1.0))
 
 
 @claim(
@@ -197,6 +181,10 @@ def unbounded_slope(run, thermal) -> Finding:
         for omega, one in zip(omegas, ratios, strict=True)
         if one.low > 1.0 or one.high < 1.0
     ]
-    caveat = f"significantly off at Omega = {', '.join(apart)}" if apart else ""
+    caveat = (
+        "these runs test the size of the slope, and hardly that there are two states: with p or p' "
+        f"behind both fronts the law would change by at most {largest_change(run, thermal):.0%}"
+    )
+    caveat += f"; significantly off at Omega = {', '.join(apart)}" if apart else ""
     says = "slope of l2^2 over that of its law"
     return judge(measured, Near(1.0, CHANGE, "least", "largest", says=says), caveat)
