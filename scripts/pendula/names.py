@@ -20,6 +20,7 @@ NAMES.update(
         "curve_omega": "detuning Omega, on a finer grid",
         "panel": "panel of the figure",
         "initial_size": "size of the initial data, small or large",
+        "course": "course of time, forward or backward",
         # the problem
         "omega": "detuning Omega",
         "gamma": "strength of the drive, gamma",

@@ -2,6 +2,8 @@
 # Snakemake does not see a change in a module that a script imports. So what a job calls stands among
 # its parameters with a hash of all code that it rests on.
 
+from pendula.studies.chaos.settings import steps_beside
+
 CALLED = {}
 
 
@@ -91,13 +93,10 @@ def member_of(sweep):
 
 
 def by_second_solver(sweep):
-    """Return the problems of a sweep by the paper's second solver, with its step and a coarse one.
-
-    A coarse run takes two steps from one output time to the next, so that any output step will do.
-    """
+    """Return the problems of a sweep by the paper's second solver, with its step and a coarse one."""
     problem = SETTINGS.swept_problem(sweep, "crank_nicolson")
     problem |= {"end_time": member_of(sweep)["problem"]["end_time"], "snapshot_every": 0}
-    steps = problem["solver"]["step"], problem["output_step"] / 2
+    steps = steps_beside(problem["solver"]["step"], problem["output_step"])
     return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
 
 

@@ -1,9 +1,11 @@
 """Ensembles of sweeps: members are runs with draws of their own."""
 
 import numpy as np
+import pytest
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import pair_l2
 from pendula.studies.chaos.ensembles import draw_swept, measure_ensembles, measure_second_solver
+from pendula.studies.chaos.settings import steps_beside
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
@@ -42,3 +44,10 @@ def test_runs_of_the_second_solver_have_its_steps_and_draws_of_their_own():
     np.testing.assert_array_equal(data["l2"].sel(solver_step=0.125, half_width=4), expected)
     drawn = np.concatenate([data[name].values.ravel() for name in ("l2", "first_l2")])
     assert len(np.unique(drawn)) == drawn.size == 18
+
+
+@pytest.mark.parametrize(("step", "steps"), [(0.0025, [0.0025, 0.0125]), (0.0125, [0.0125]),
+                                             (0.02, [0.0125, 0.02])])  # fmt: skip
+def test_steps_of_the_second_solver_rise_and_none_comes_twice(step, steps):
+    """A coordinate of a dataset that did not rise would tell its readers nothing."""
+    assert steps_beside(step, 0.025) == steps

@@ -28,16 +28,16 @@ def solved(start: np.ndarray, end_time: float) -> np.ndarray:
     return found.y[:, -1].reshape(2, -1)
 
 
-@pytest.mark.parametrize(("time", "sign"), [("forward", 1), ("backward", -1)])
+@pytest.mark.parametrize(("course", "sign"), [("forward", 1), ("backward", -1)])
 @pytest.mark.parametrize("direction", well_posed.DIRECTIONS)
-def test_distances_are_those_of_scipy_in_both_directions_of_time(check, time, sign, direction):
+def test_distances_are_those_of_scipy_in_both_directions_of_time(check, course, sign, direction):
     """Backward in time SciPy takes the data themselves, and the study their conjugates."""
-    start = well_posed.start_of(POWER, time)
+    start = well_posed.start_of(POWER, course)
     near = well_posed.perturbed(start, direction, 1e-4)
     start, near = (one.conj() if sign < 0 else one for one in (start, near))
     ends = [solved(one, sign * well_posed.CLOSE_TIME) for one in (start, near)]
     ratio = well_posed.distance_of(*ends) / well_posed.distance_of(start, near)
-    cell = {"omega": OMEGA, "initial_power": POWER, "time": time, "direction": direction}
+    cell = {"omega": OMEGA, "initial_power": POWER, "course": course, "direction": direction}
     assert float(check["distance"].sel(cell).sel(size=1e-4)) == pytest.approx(ratio, rel=1e-6)
 
 
@@ -70,3 +70,11 @@ def test_rows_on_lemma_2_are_decided_by_every_cell(check):
         changed[dict.fromkeys(changed.dims, 0)] = value
         sources["checks/well_posed"] = check.assign({variable: changed})
         assert decide(claims[name], sources).verdict == "not reproduced"
+
+
+def test_no_coordinate_has_the_name_of_an_axis_of_time(check):
+    """CF readers take a coordinate "time" for one, and its labels are no times."""
+    assert "time" not in check.variables and check["course"].values.tolist() == [
+        "forward",
+        "backward",
+    ]

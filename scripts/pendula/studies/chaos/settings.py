@@ -79,6 +79,14 @@ Members = model(
 )
 
 
+def steps_beside(step: float, output_step: float) -> list[float]:
+    """Return the step of the second solver and a coarse one, upward, or one where both are equal.
+
+    A coarse run takes two steps from one output time to the next, so that any output step will do.
+    """
+    return sorted({step, output_step / 2})
+
+
 class Lifetimes(Model):
     """The transition by two clocks, against the initial amplitude of the central pair."""
 

@@ -18,9 +18,9 @@ from pendula.problem import Constants
 
 from .equations import ENDS, constants_at, controls_of, random_amplitudes, run
 
-OMEGAS, POWERS, TIMES = [-4.0, 0.0, 8.0], [1.0, 26.0, 1000.0], ["forward", "backward"]
+OMEGAS, POWERS, COURSES = [-4.0, 0.0, 8.0], [1.0, 26.0, 1000.0], ["forward", "backward"]
 """Of the paper's figures; P(0) up to far above that of the large data, which is 26; and the
-direction of time."""
+course of time."""
 DIRECTIONS, SIZES = ["A alone", "one pair", "all sites"], [1e-4, 1e-6, 1e-8]
 """What is perturbed, and by how much of the norm."""
 SITES, SEED = 21, 11
@@ -30,14 +30,14 @@ SOLVER = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 
 
-def start_of(power: float, time: str) -> np.ndarray:
+def start_of(power: float, course: str) -> np.ndarray:
     """Return random amplitudes (2, N) with this P.
 
     The equations take the conjugate of a solution backward in time: so the conjugate data run
     forward as the data run backward.
     """
     amplitudes = np.sqrt(power) * random_amplitudes(SEED, SITES)
-    return amplitudes.conj() if time == "backward" else amplitudes
+    return amplitudes.conj() if course == "backward" else amplitudes
 
 
 def perturbed(amplitudes: np.ndarray, direction: str, size: float) -> np.ndarray:
@@ -89,9 +89,9 @@ def between_solvers(constants: Constants, start: np.ndarray) -> float:
 
 def check_well_posed() -> dict:
     """Run random data of several sizes, in both directions of time, and others close to them."""
-    cells = [(constants_at(omega), start_of(power, time))
-             for omega, power, time in product(OMEGAS, POWERS, TIMES)]  # fmt: skip
-    over = {"omega": OMEGAS, "initial_power": POWERS, "time": TIMES}
+    cells = [(constants_at(omega), start_of(power, course))
+             for omega, power, course in product(OMEGAS, POWERS, COURSES)]  # fmt: skip
+    over = {"omega": OMEGAS, "initial_power": POWERS, "course": COURSES}
     shape = tuple(map(len, over.values()))
     right = [margins(constants, start, constants.gamma) for constants, start in cells]
     wrong = [margins(constants_at(constants.omega, 2.0), start, constants.gamma)
