@@ -5,6 +5,7 @@ function stands for a topic: a template says `{{ scale.minutes }}`. No number is
 """
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,46 @@ LONG_STUDIES = {
     "pendula": "Pendula over the top",
 }
 """The long studies, by the names of their files in tests/baseline/quoted."""
+DIGITS = 4
+"""So many digits has a number under a variation."""
+WITHOUT_EFFECT = {
+    "life": ("level",),
+    "transition": ("multiple",),
+    **dict.fromkeys(("centre_share", "l2", "linf"), ("level", "multiple")),
+    **dict.fromkeys(("passed", "power_excess"), ("settled",)),
+}
+"""Choices of the same study that a number does not depend on, by the number."""
+MEANINGS = {
+    "transition": "median time at which P of the chain first reaches a level of its final value",
+    "life": "median time at which the central pair first holds at most the mean power of a pair",
+    "centre_share": "mean share of P on the central pair in a window of tau",
+    "l2": "mean l2 norm in a window of tau",
+    "linf": "mean l-infinity norm in a window of tau",
+    "growth_behind_front": "growth κ of |A + B| per site behind the first front",
+    "power_excess": "relative excess of P of a site over that of the amplitudes on the same chain",
+}
+"""What numbers mean, where their datasets say it in names of variables."""
+CHOICES = {
+    "omega": "Omega",
+    "start_amplitude": "A_0",
+    "kind": "motion",
+    "majority": "share of P that decides the fate",
+    "size": "size of the perturbation",
+    "level": "level",
+    "window": "window of tau",
+    "multiple": "multiple of the mean power that ends the time",
+    "tolerance": "tolerance of the solver",
+    "end_time": "end at tau",
+    "run_time": "end at tau",
+    "half_width": "half-width M",
+    "stride": "stride of the map in points",
+    "part_of_run": "part of the run",
+    "left_out_part": "part left out",
+    "edge": "pairs left out behind the front",
+    "settled": "settled from tau",
+    "steps": "steps of a period",
+}
+"""Choices and labels in words."""
 
 
 class Accepted(Results):
@@ -123,40 +164,55 @@ def variations(accepted: Results) -> dict:
 
 def number_and_variations(data: xr.Dataset, name: str) -> dict:
     """Return what a number means, its choices, and a table of its values at all labels."""
-    places = [here for one, here in single_numbers(data) if one == name]
+    places = [here for varied, here in single_numbers(data) if varied == name]
     labels = [variations_of(here, name) for here in places]
-    changed = list(dict.fromkeys(label for one in labels for label in one))
-    head = [
-        "at",
-        "printed",
-        "statistical error",
-        *(symbols(one.replace("_", " ")) for one in changed),
+    changed = [
+        label
+        for label in dict.fromkeys(label for again in labels for label in again)
+        if label.partition(" = ")[0] not in WITHOUT_EFFECT.get(name, ())
     ]
     rows = [
         [
             place_of(data[name], here),
-            with_error(*(float(here[one]) for one in names_of(name)[:2])),
+            with_error(*(float(here[part]) for part in names_of(name)[:2]), DIGITS),
             number(here[names_of(name)[2]], 2),
-            *(number(again[one], 4) if one in again else "" for one in changed),
+            *(number(again[label], DIGITS) if label in again else "" for label in changed),
         ]
         for here, again in zip(places, labels, strict=True)
     ]
-    choices = data[name].attrs["choices"].replace("_", " ") or "the choices of what it follows from"
-    meaning = symbols(data[name].attrs["long_name"])
+    head = ["at", "value", "statistical error", *map(choice_in_words, changed)]
+    meaning = symbols(MEANINGS.get(name) or data[name].attrs["long_name"])
     return {
         "meaning": meaning[0].upper() + meaning[1:],
-        "choices": symbols(choices),
+        "choices": choices_of(data[name]),
         "table": markdown(head, rows),
     }
+
+
+def choices_of(variable: xr.DataArray) -> str:
+    """Return in words the choices of a number that can change it."""
+    choices = re.findall(r"(\w[\w ]*) = (\([^)]*\)|[^,]*)", variable.attrs["choices"])
+    without = WITHOUT_EFFECT.get(str(variable.name), ())
+    texts = [choice_in_words(f"{key} = {what}") for key, what in choices if key not in without]
+    return ", ".join(texts) or "the choices of what it follows from"
+
+
+def choice_in_words(label: str) -> str:
+    """Return a choice and its value, such as "size = 0.01", in words."""
+    name, _, value = label.partition(" = ")
+    ends = re.fullmatch(r"\((.*), (.*)\)", value)
+    value = "{:g} to {:g}".format(*map(float, ends.groups())) if ends else value.replace("_", " ")
+    return symbols(f"{CHOICES.get(name) or name.replace('_', ' ')} = {value}")
 
 
 def place_of(variable: xr.DataArray, here: xr.Dataset) -> str:
     """Return the labels of a single number, such as Ω = 2."""
     values = {dim: here[dim].item() for dim in variable.dims}
     texts = [
-        f"{dim} = {number(one) if isinstance(one, float) else one}" for dim, one in values.items()
+        f"{CHOICES.get(dim, dim)} = {number(value) if isinstance(value, float) else value}"
+        for dim, value in values.items()
     ]
-    return symbols(", ".join(texts).replace("omega", "Omega").replace("_", " "))
+    return symbols(", ".join(texts))
 
 
 def speed(data: xr.Dataset) -> dict:

@@ -8,6 +8,7 @@ in one of the lists below with a reason.
 import json
 import re
 
+import numpy as np
 import pytest
 from facts import Accepted
 from pendula.article import write
@@ -20,8 +21,7 @@ RANGES = ("span", "range_of", "share_span")
 OF_DATASETS, OF_CLAIMS = ("of", "percent_of", "share", *RANGES), ("n", "share_of")
 CHOSEN = (
     "end_time large_end_time members large_members perturbation start start_amplitude ratio points "
-    "size mu settled level window_start window_end "
-    "noise_end_time"
+    "size mu settled level window_start window_end omega noise_end_time"
 )
 WITHOUT = {
     **dict.fromkeys(CHOSEN.split(), "was chosen"),
@@ -40,6 +40,7 @@ OF_THE_LEDGER = {
     "solitons_unstable": "is P of solutions, exact to rounding errors",
     "unbounded_starts": "is a share of runs, with the confidence limits that decide",
     "expansion_order": "is the order of an expansion, whose range over cases is printed",
+    "periodic_stable": "is the lowest frequency that was chosen",
     "same_sea": "is decided by the ledger against a bound",
 }
 """Claims whose numbers are printed, with the reason why nothing is varied."""
@@ -116,3 +117,94 @@ def test_a_number_without_variations_is_found(tokens):
     accepted[name]["distance_varied"] = varied.where(varied["omega"] != 2.0)
     assert {json.loads(one.split(", ", 1)[1].replace("'", '"'))["omega"]
             for one in unvaried(accepted, tokens)} == {2}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def printed() -> list[tuple[str, str, str, dict]]:
+    """Return of each number of a long study its text, dataset, name and labels."""
+    texts = []
+
+    def recording(write_number):
+        def write_and_record(self, name, variable, *digits, **labels):
+            quote = write_number(self, name, variable, *digits, **labels)
+            if variable.partition("_varied")[0].removesuffix("_low") in numbers_in(
+                self.results[name]
+            ):
+                texts.append((quote.text, name, variable, labels))
+            return quote
+
+        return write_and_record
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(write, "_untrue", lambda *_: [])
+        for function in OF_DATASETS:
+            patch.setattr(Numbers, function, recording(getattr(Numbers, function)))
+        write.markdown(Accepted())
+    return texts
+
+
+def values_meant(data, variable: str, definition: str = "", **labels) -> np.ndarray:
+    """Return a number's limits and variations, of a range those of every number, where finite.
+
+    Variations of `definition` are another thing, and are left out.
+    """
+    data = data.sel(labels)
+    name = variable.removesuffix("_varied").removesuffix("_low")
+    if variable.endswith("_varied"):
+        parts = [data[variable]]
+    elif definition:
+        varies = [not str(label).startswith(definition) for label in data[VARIATION].values]
+        parts = [data[name], data[f"{name}_varied"].isel({VARIATION: varies})]
+    elif f"{name}_low" in data:
+        parts = [data[f"{name}{end}"] for end in ("_low", "_high", "_varied")]
+    else:
+        error = data[f"{name}_error"]
+        parts = [data[name] - error, data[name] + error, data[f"{name}_varied"]]
+    values = np.concatenate([np.ravel(part) for part in parts])
+    return values[np.isfinite(values)]
+
+
+def interval_of(text: str) -> tuple[float, float]:
+    """Return the ends of the interval that a text gives; of a lone number, what rounds to it."""
+    plain = text.replace("\N{NO-BREAK SPACE}", " ").replace("−", "-").rstrip("†")
+    powers = "".maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+    plain = re.sub(r"10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda part: f"1e{part[1].translate(powers)}", plain)
+    scale = 0.01 if "%" in plain else 1.0
+    if "±" in plain:
+        common = re.search(r"\) × (1e-?\d+)$", plain)
+        value, error = re.findall(r"-?[\d.]+", plain)[:2]
+        scale *= float(common[1]) if common else 1.0
+        return scale * (float(value) - float(error)), scale * (float(value) + float(error))
+    numbers = re.findall(r"-?[\d.]+(?: × 1e-?\d+)?", plain)
+    ends = [float(number.replace(" × 1e", "e")) for number in numbers]
+    half = 0.0
+    if len(ends) == 1:
+        half = 0.5 * 10.0 ** -len(numbers[0].partition(".")[2])
+    return scale * (min(ends) - half), scale * (max(ends) + half)
+
+
+def excluded(accepted, printed) -> list[str]:
+    """Return the printed numbers whose interval leaves a limit or a variation out."""
+    names = []
+    for text, source, variable, labels in printed:
+        values = values_meant(accepted[source], variable, **labels)
+        if not values.size:  # printed as none
+            continue
+        low, high = interval_of(text)
+        if variable.endswith("_low"):  # "at least"
+            high = np.inf
+        off = 1e-6 * np.abs(values)  # sums of decimal fractions
+        if (values < low - off).any() or (values > high + off).any():
+            names.append(f"{text}: {variable} of {source}, {labels}")
+    return names
+
+
+def test_every_variation_lies_in_the_interval_that_is_printed(printed):
+    assert len(printed) > 60
+    assert excluded(Accepted(), printed) == []
+
+
+@pytest.mark.parametrize("text", ["7.0 to 7.4", "0.5 ± 0.1", "8 % (7 % to 9 %)"])
+def test_an_interval_that_leaves_a_variation_out_is_told(text):
+    source = f"{QUOTED}chaos"
+    assert excluded(Accepted(), [(text, source, "transition", {"definition": "level"})])

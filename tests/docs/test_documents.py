@@ -9,7 +9,10 @@ from facts.py.
 import re
 from pathlib import Path
 
+import facts
+import numpy as np
 import render
+from pendula.varied import VARIATION, numbers_in
 
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATES = render.PAGES
@@ -116,3 +119,27 @@ def test_the_readme_names_every_figure():
     figures = {path.stem for path in (ROOT / "tests/baseline/figures").glob("*.png")}
     shown = {f"fig{number}" for number in re.findall(r"^\| (\d)", text, re.MULTILINE)}
     assert figures <= shown | set(re.findall(r"`(\w+)`", text))
+
+
+def test_a_choice_that_is_left_out_changes_no_bit_of_its_number():
+    accepted, compared = facts.Accepted(), set()
+    for study in facts.LONG_STUDIES:
+        data = accepted[f"quoted/{study}"]
+        for name in set(numbers_in(data)) & set(facts.WITHOUT_EFFECT):
+            for label in map(str, data[VARIATION].values):
+                again = data[f"{name}_varied"].sel({VARIATION: label})
+                choice = label.partition(" = ")[0]
+                if choice in facts.WITHOUT_EFFECT[name]:
+                    measured = again.notnull()
+                    np.testing.assert_array_equal(again.where(measured), data[name].where(measured))
+                    compared.add((name, choice))
+    assert compared == {
+        (name, choice) for name, choices in facts.WITHOUT_EFFECT.items() for choice in choices
+    }
+
+
+def test_choices_of_numbers_are_written_in_words():
+    data = facts.Accepted()["quoted/chaos"]
+    assert facts.choice_in_words("window = (25.0, 60.0)") == "window of τ = 25 to 60"
+    assert facts.choices_of(data["life"]).count("=") == 6  # of seven, less the level
+    assert "_" not in "".join(map(facts.choices_of, map(data.get, numbers_in(data))))

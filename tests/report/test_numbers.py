@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 from pendula.report.results import ReportError, Results
 from pendula.report.words import (
+    DOWN,
+    UP,
     Quote,
     case_in_words,
+    enclosing_span,
     markdown,
-    measured,
     number,
+    outward,
     percent,
     plainly,
-    span,
     symbols,
     with_error,
 )
@@ -25,18 +27,16 @@ WRITTEN = [
     (number(0), "0"),
     (number(np.nan), "none"),
     (number(-np.inf), "−infinite"),
-    (measured(1.0), "1.00"),  # final zeros were measured
-    (measured(52.0), "52.0"),
-    (measured(123.4), "123"),
-    (measured(2.5e-7), "2.5 × 10⁻⁷"),
-    (with_error(0.50809, 0.00345), "0.508 ± 0.003"),  # the error sets the digits
+    (with_error(0.50809, 0.00345), "0.508 ± 0.004"),  # the error sets the digits
     (with_error(0.50809, 0.00138), "0.5081 ± 0.0014"),
     (with_error(-7.78631e-4, 5e-9), "(−7.78631 ± 0.00005) × 10⁻⁴"),
     (with_error(5e-4, 7e-4), "(5 ± 7) × 10⁻⁴"),
+    (with_error(2.6551, 0.0209), "2.66 ± 0.03"),  # rounding the number widens the error
+    (with_error(30.2522042, 1e-14, 4), "30.25"),  # the error of the arithmetic
     (with_error(2.5, np.nan), "2.5"),
-    (span([3.0, np.nan, 1.0]), "1.00 to 3.00"),
-    (span([2.0, 2.0]), "2.00"),
-    (span([np.nan]), "none"),
+    (enclosing_span(0.9473, 1.0021, 3), "0.947 to 1.003"),  # outward, to the same decimal places
+    (enclosing_span(9.4, 10.5, 2), "9.4 to 10.5"),
+    (enclosing_span(2.0, 2.0, 3), "2.00"),
     (percent(0.1287), "13 %"),
     (percent(398 / 400), "99.5 %"),
     (percent(0.9996), "99.96 %"),
@@ -55,6 +55,33 @@ WRITTEN = [
 @pytest.mark.parametrize(("found", "expected"), WRITTEN, ids=[text for _, text in WRITTEN])
 def test_numbers_and_cases_are_written(found, expected):
     assert found.replace("\N{NO-BREAK SPACE}", " ") == expected
+
+
+def test_an_interval_that_is_written_contains_the_one_that_is_meant():
+    draw = np.random.default_rng(5)
+    values, errors = draw.normal(size=1000), 10.0 ** draw.uniform(-3, 1, size=1000)
+    for value, error in zip(values, errors, strict=True):
+        text = with_error(value, error).replace("−", "-")
+        middle, width = map(float, text.split("\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}"))
+        assert middle - width <= value - error + 1e-9 * error
+        assert middle + width >= value + error - 1e-9 * error
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "down", "up"),
+    [
+        (7.85, 2, 7.8, 7.9),
+        (-7.85, 2, -7.9, -7.8),
+        (0.0507, 2, 0.05, 0.051),
+        (33.14, 4, 33.14, 33.14),
+        (9.96, 2, 9.9, 10.0),
+        (0.0, 2, 0.0, 0.0),
+        (np.inf, 2, np.inf, np.inf),
+    ],
+)
+def test_numbers_are_rounded_outward(value, digits, down, up):
+    found = outward(value, digits, DOWN), outward(value, digits, UP)
+    np.testing.assert_allclose(found, (down, up), rtol=1e-12)
 
 
 def test_links_are_seen_from_the_page():

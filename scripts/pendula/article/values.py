@@ -1,6 +1,7 @@
 """The numbers that the article quotes, by name, each read from a dataset and linked to it."""
 
 import json
+import re
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
@@ -21,17 +22,28 @@ from pendula.ledger.rows import (
     whether_it_holds,
 )
 from pendula.report.results import Results
-from pendula.report.words import FIRM, Quote, number, percent, span, with_error
+from pendula.report.words import (
+    DOWN,
+    FIRM,
+    UP,
+    Quote,
+    enclosing_span,
+    number,
+    outward,
+    percent,
+    with_error,
+)
 from pendula.studies.paper.solvers import ORDER
+from pendula.varied import VARIATION
 
 KEPT = "../tests/baseline"
 """Where committed datasets lie, seen from the article."""
 QUOTED = f"{KEPT}/quoted/"
-LONG = f"{QUOTED}unbounded"
+LONG, FRONTS = f"{QUOTED}unbounded", "unbounded/fronts"
 MARK = "†"
 """It follows each result of a long study, which a full run does not make again."""
-ROUNDING = 1e-9
-"""A number with a smaller relative error is printed without it."""
+PER_CENT_DIGITS = 2
+"""So many digits has a fraction in per cent."""
 UPWARD = 1.05
 """By so much a bound grows before two of its digits are printed: they are then no smaller."""
 
@@ -51,15 +63,12 @@ class Numbers:
         data = self.results[name].sel(labels)
         if f"{variable}_error" in data and f"{variable}_low" not in data:
             value, error = (float(data[f"{variable}{part}"]) for part in ("", "_error"))
-            exact = error < ROUNDING * abs(value)
-            return self.long(name, number(value, digits) if exact else with_error(value, error))
-        return self._say(name, data, variable, lambda one: number(one, digits))
+            return self.long(name, with_error(value, error, digits))
+        return self._say(name, data, variable, digits, lambda value: number(value, digits))
 
     def span(self, name: str, variable: str, digits: int = 3) -> Quote:
         """Return the range of a number over all its labels, which contains their errors."""
-        data = self.results[name]
-        value, error = (data[f"{variable}{part}"].values for part in ("", "_error"))
-        return self.long(name, span(np.array([value - error, value + error]), digits))
+        return self.long(name, enclosing_span(*self._limits(name, variable, {}), digits))
 
     def percent_of(self, name: str, variable: str, **labels) -> Quote:
         """Return a number with its error in per cent."""
@@ -69,28 +78,58 @@ class Numbers:
 
     def share(self, name: str, variable: str, **labels) -> Quote:
         """Return a fraction in per cent."""
-        return self._say(name, self.results[name].sel(labels), variable, percent)
+        return self._say(name, self.results[name].sel(labels), variable, PER_CENT_DIGITS, percent)
 
-    def range_of(self, name: str, variable: str, digits: int = 2, **labels) -> Quote:
-        """Return the range of several numbers, such as 6.9 to 7.5."""
-        return self.long(name, span(self.results[name].sel(labels)[variable].values, digits))
+    def range_of(
+        self, name: str, variable: str, digits: int = 2, definition: str = "", **labels
+    ) -> Quote:
+        """Return the range of several numbers with their limits, such as 6.7 to 7.9.
+
+        Variations of `definition` are left out: they measure another thing, printed by itself.
+        """
+        limits = self._limits(name, variable, labels, definition)
+        return self.long(name, enclosing_span(*limits, digits))
 
     def share_span(self, name: str, variable: str, **labels) -> Quote:
-        """Return the range of several fractions in per cent."""
-        parts = self.results[name].sel(labels)[variable].values
-        return self.long(name, f"{percent(parts.min())} to {percent(parts.max())}")
+        """Return the range of several fractions with their limits in per cent."""
+        low, high = self._limits(name, variable, labels)
+        ends = outward(low, PER_CENT_DIGITS, DOWN), outward(high, PER_CENT_DIGITS, UP)
+        return self.long(name, " to ".join(map(percent, ends)))
+
+    def _limits(
+        self, name: str, variable: str, labels: dict, definition: str = ""
+    ) -> tuple[float, float]:
+        """Return the least lower and the largest upper limit of all numbers of a variable."""
+        data = self.results[name].sel(labels)
+        value = data[variable]
+        if definition:
+            error = data[f"{variable}_statistical_error"]
+            again = data[f"{variable}_varied"]
+            varies = [not str(label).startswith(definition) for label in data[VARIATION].values]
+            again = again.isel({VARIATION: varies})
+            values = [value - error, value + error, again]
+        elif f"{variable}_low" in data:
+            values = [data[f"{variable}_low"], data[f"{variable}_high"]]
+        elif f"{variable}_error" in data:
+            values = [value - data[f"{variable}_error"], value + data[f"{variable}_error"]]
+        else:
+            values = [value]
+        return min(float(part.min()) for part in values), max(float(part.max()) for part in values)
 
     def _say(
-        self, name: str, data: xr.Dataset, variable: str, write: Callable[[float], str]
+        self, name: str, data: xr.Dataset, variable: str, digits: int, write: Callable[[float], str]
     ) -> Quote:
-        """Return a number with its confidence interval, if this has a width."""
-        given = data[variable] if variable in data.variables else data.attrs[variable]
-        ends = [write(float(data[end]))
-                for end in (f"{variable}_low", f"{variable}_high") if end in data]  # fmt: skip
-        told = write(float(given))
-        interval = f" ({' to '.join(ends)})" if set(ends) - {told} else ""
+        """Return a number with its confidence interval, if this has a width, rounded outward."""
+        value = float(data[variable] if variable in data.variables else data.attrs[variable])
+        middle = write(outward(value, digits, DOWN) if variable.endswith("_low") else value)
+        ends = [
+            write(outward(float(data[f"{variable}{end}"]), digits, direction))
+            for end, direction in (("_low", DOWN), ("_high", UP))
+            if f"{variable}{end}" in data
+        ]
+        interval = f" ({' to '.join(ends)})" if set(ends) - {middle} else ""
         say = self.long if variable in data.data_vars else self.results.say
-        return say(name, told + interval)
+        return say(name, middle + interval)
 
     def long(self, name: str, text: str) -> Quote:
         """Return a result, with a mark if it is of a long study."""
@@ -130,11 +169,13 @@ def gather(results: Results) -> dict[str, Any]:
         "figure_holds",
     )
     compared, study = results["checks/solvers"], results[LONG]
+    speed = results[f"{KEPT}/speed/work_precision"]
     return {
         **{name: getattr(numbers, name) for name in functions},
         "counts": counts(load(results)),
         "kept": QUOTED,
         "confidence": percent(CONFIDENCE),
+        "percent": percent,
         "cases": results.quote("checks/solvers", compared.sizes["case"]),
         "apart": results.quote(
             "checks/solvers", int(np.isfinite(compared["second_divergence"][:, 0]).sum())
@@ -149,19 +190,44 @@ def gather(results: Results) -> dict[str, Any]:
         "left_out": results.say(LONG, str(study.attrs["edge"])),
         "largest_bound": largest_bound(results),
         "radius": upward(results["certified/breathers"]["radius"].max()),
-        "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
-        "by_hand": by_hand(results[f"{KEPT}/speed/work_precision"]),
+        "peer": lambda name: times_as_long(speed, name),
+        "by_hand": times_as_long(speed, *(peer for peer in speed["peer"].values if "cpp" in peer)),
+        "fastest_in": wins_of_taylor(speed),
+        "spread_from": results.quote(LONG, spread_from(study)),
+        "grown": grown(numbers.ledger),
+        "least_between": results.say(FRONTS, percent(least_between(results[FRONTS]))),
         "full_run": full_run(results),
     }
 
 
-def by_hand(speed: xr.Dataset) -> str:
-    """Return a phrase that compares the fastest Taylor method in C++ with our best solver."""
-    of_cpp = [str(name).startswith("cpp_taylor") for name in speed["peer"].values]
-    ratio = float(speed["mean_ratio"][of_cpp].min())
-    if ratio < 1:
-        return f"is {number(1 / ratio)}{MARK} times faster"
-    return f"takes {number(ratio)}{MARK} times as long"
+def times_as_long(speed: xr.Dataset, *peers: str) -> str:
+    """Return the range over the cases of the fastest of such peers' times over our solver's."""
+    ratios = speed["ratio"].sel(peer=list(peers)).min("peer")
+    return f"{enclosing_span(float(ratios.min()), float(ratios.max()), 2)}{MARK}"
+
+
+def wins_of_taylor(speed: xr.Dataset) -> str:
+    """Return in how many cases the Taylor method takes the least time at equal error."""
+    best = speed["best_seconds"].dropna("solver", how="all").dropna("case", how="all")
+    wins = int((best.idxmin("solver") == "taylor").sum())
+    return f"{'all' if wins == best.sizes['case'] else f'{wins} of'} {best.sizes['case']} cases"
+
+
+def spread_from(study: xr.Dataset) -> float:
+    """Return the time from which the speeds at which A + B spreads are measured."""
+    left_out = re.search(r"left_out_part = ([\d.]+)", study["level_speed"].attrs["choices"])[1]
+    return float(left_out) * float(study.attrs["end_time"])
+
+
+def least_between(fronts: xr.Dataset) -> float:
+    """Return the least power between the fronts over that of the thermal state with A = -B."""
+    return float((fronts["power_between"] / fronts["thermal_antisymmetric_power"]).min())
+
+
+def grown(ledger: Ledger) -> Quote:
+    """Return of how many runs from other initial conditions the norm grows."""
+    share, runs = (ledger.value("unbounded_starts", key) for key in ("share", "runs"))
+    return ledger.quote("unbounded_starts", "share")._replace(text=f"{share * runs:.0f}")
 
 
 def counts(rows: list[dict]) -> dict[str, str]:

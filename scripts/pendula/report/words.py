@@ -1,7 +1,7 @@
 """How pages write numbers, cases, solvers, symbols and tables; a number links to its dataset."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,6 +15,11 @@ MINUS, TIMES = "−", "×"
 FIRM = "\N{NO-BREAK SPACE}"
 SMALL = 1e-3
 """Smaller numbers are written with a power of ten."""
+ROUNDING = 1e-9
+"""A number with a smaller relative error is written without it."""
+UP, DOWN = np.ceil, np.floor
+"""How `rounded` and `outward` round."""
+Direction = Callable[[float], float]
 SYMBOLS = {
     "Omega": "Ω",
     "A_0": "A₀",
@@ -70,20 +75,36 @@ def raised(exponent: str) -> str:
     return str(int(exponent)).translate(RAISED)
 
 
-def with_error(value: float, error: float) -> str:
-    """Return a number and its standard error, to the first digit of the error (two after a 1).
+def with_error(value: float, error: float, digits: int = 3) -> str:
+    """Return a number and its error, to the first digit of the error (two after a 1).
 
-    Small numbers with small errors have a common power of ten.
+    The error is rounded up, and includes what rounding does to the number: the interval that is
+    written contains the interval that is meant. Small numbers with small errors have a common power
+    of ten. A number whose error is that of the arithmetic has `digits` digits and no error.
     """
-    if not (np.isfinite(error) and error > 0):
-        return number(value)
+    if not (np.isfinite(error) and error > ROUNDING * abs(value)):
+        return number(value, digits)
     if max(abs(value), error) < SMALL:
         power = int(np.floor(np.log10(max(abs(value), error))))
         scaled = with_error(value / 10.0**power, error / 10.0**power)
         return f"({scaled}){FIRM}{TIMES}{FIRM}10{raised(str(power))}"
     first = int(np.floor(np.log10(error)))
     places = max(0, -first + (error < 2.0 * 10.0**first))
-    return f"{value:.{places}f}{FIRM}±{FIRM}{error:.{places}f}".replace("-", MINUS)
+    enclosing = rounded(error + abs(round(value, places) - value), places, UP)
+    return f"{value:.{places}f}{FIRM}±{FIRM}{enclosing:.{places}f}".replace("-", MINUS)
+
+
+def rounded(value: float, places: int, direction: Direction) -> float:
+    """Return a number rounded to decimal places, up or down; it may be off by 1e-9 of a place."""
+    scaled = value * 10.0**places
+    return float(direction(scaled - 1e-9 if direction is UP else scaled + 1e-9)) / 10.0**places
+
+
+def outward(value: float, digits: int, direction: Direction) -> float:
+    """Return a number rounded to so many digits, up or down."""
+    if not np.isfinite(value) or value == 0:
+        return float(value)
+    return rounded(value, digits - 1 - int(np.floor(np.log10(abs(value)))), direction)
 
 
 def percent(part: float, digits: int = 2) -> str:
@@ -97,20 +118,14 @@ def percent(part: float, digits: int = 2) -> str:
     return f"{rounded}{FIRM}%"
 
 
-def span(values, digits: int = 3) -> str:
-    """Return the range of measured numbers, such as 0.51 to 0.54; one number if both ends agree."""
-    if not np.isfinite(values).any():
-        return "none"
-    least, largest = (measured(edge(values), digits) for edge in (np.nanmin, np.nanmax))
-    return least if least == largest else f"{least} to {largest}"
+def enclosing_span(low: float, high: float, digits: int) -> str:
+    """Return the range of measured numbers, rounded outward, with so many digits of its lower end.
 
-
-def measured(value: float, digits: int = 3) -> str:
-    """Return a number with its final zeros, which were measured: 1.00, not 1."""
-    value = float(value)
-    if not np.isfinite(value) or not SMALL <= abs(value) < 10**digits:
-        return number(value, digits)
-    return f"{value:#.{digits}g}".rstrip(".").replace("-", MINUS)
+    Both ends have the same decimal places. `low` must be above zero.
+    """
+    places = max(0, digits - 1 - int(np.floor(np.log10(low))))
+    ends = rounded(low, places, DOWN), rounded(high, places, UP)
+    return " to ".join(dict.fromkeys(f"{end:.{places}f}" for end in ends))
 
 
 def symbols(text: str) -> str:

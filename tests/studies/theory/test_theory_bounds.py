@@ -16,7 +16,7 @@ from pendula.models.bounds import (
     with_positive_coupling,
 )
 from pendula.models.linear_chain import finite_rate, gamma_0, growth_rate, infinite_rate
-from pendula.studies.theory import theorems
+from pendula.studies.theory import claims_nonlinear, theorems
 from pendula.studies.theory.equations import one_pair, total_energy
 from pendula.studies.theory.stability import edge_wave
 from pendula.studies.theory.theorems import check_sharpness, largest_of_energy
@@ -132,6 +132,16 @@ def test_above_the_bottom_of_the_energy_a_rough_wave_comes_nearer_to_the_bound_o
     bound = 4.0 * sites * (10.0 + np.sqrt(100.0 + 0.5 * energy / sites))
     reached = check_sharpness()["data_vars"]["reached"]["data"][2]
     assert reached == pytest.approx(120.0 * sites / bound, rel=1e-12) and reached > 0.999
+
+
+def test_a_share_of_a_bound_is_not_rounded_up_to_the_whole():
+    constants = {
+        f"{form}_constant_{theorem}": 3.0
+        for form in claims_nonlinear.FORMS
+        for theorem in claims_nonlinear.SIZES
+    }
+    words = claims_nonlinear._by_energy_alone(constants | {"by_energy_theorem_3": 0.999895})
+    assert "at least 99.98% of each bound is reached" in words
 
 
 def test_the_largest_power_of_an_energy_has_that_energy():

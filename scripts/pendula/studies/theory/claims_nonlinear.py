@@ -386,6 +386,6 @@ def _by_energy_alone(measured: dict[str, float]) -> str:
         "the paper prints no constants: for small initial conditions with P(0) = delta the"
         f" inequalities of its proofs give P <= {one['proof']:.3g} delta at Omega = 8 and"
         f" {two['proof']:.3g} delta at Omega = -4, and {one['least']:.3g} delta and"
-        f" {two['least']:.3g} delta are enough; in terms of H at least {reached:.0%} of each bound"
-        " is reached"
+        f" {two['least']:.3g} delta are enough; in terms of H at least"
+        f" {np.floor(1e4 * reached) / 100:g}% of each bound is reached"
     )
