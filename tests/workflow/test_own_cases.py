@@ -93,7 +93,7 @@ def test_a_lost_part_is_made_again_alone(made, changed):
 
 def test_chunks_split_the_runs_of_a_study_into_jobs(tmp_path):
     """The references in multiprecision are made where they are asked for by name."""
-    datasets = {"fates": 1, "sensitivity": 1, "unbounded": 6, "fig5_left": 2}
+    datasets = {"fates": 1, "sensitivity": 1, "unbounded": 10, "fig5_left": 2}
     jobs = planned(ROOT, tmp_path, *datasets, "reference", "--config", "chunks=8")
     assert jobs["part"] == 8 * sum(datasets.values())
     assert jobs["reference_case"] == 6

@@ -11,7 +11,7 @@ NUMBERS = {
     "transition": "time at which P first reaches half of its final value",
     "life": "time at which the central pair first holds at most P / N, infinite if after the end",
     "centre_share": "share of P on the central pair, mean over the window",
-    "l2": "l2 norm of the chain, mean over the window",
+    "l2": "l2 norm over the chain, mean over the window",
     "linf": "l-infinity norm of the chain, mean over the window",
 }
 """What is kept of each run."""
