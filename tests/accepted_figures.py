@@ -58,7 +58,8 @@ FIGURES = {
         lambda chart: theory.gather_chart(chart, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
         "checks/chart",
     ),
-    "fronts": (unbounded.draw_fronts, unbounded.gather_fronts, "unbounded/fronts"),
+    "fronts": (unbounded.draw_fronts, unbounded.gather_fronts,
+               "unbounded/fronts", "quoted/unbounded"),
     "growth_law": (
         unbounded.draw_growth_law,
         lambda *data: unbounded.gather_growth_law(data[:-1], data[-1]),

@@ -14,6 +14,7 @@ from accepted_figures import FIGURES
 from latticode.datasets.netcdf import read, save
 from latticode.drawing import runs, style
 from latticode.drawing.description import describe
+from latticode.drawing.panels import BAR, BESIDE, SIZES
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
@@ -192,3 +193,64 @@ def test_the_fates_stay_apart_in_grey():
     linear = np.where(shades > 0.04045, ((shades + 0.055) / 1.055) ** 2.4, shades / 12.92)
     light = np.sort(116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16)
     assert np.diff(light).min() > 25
+
+
+# --- What single figures show -----------------------------------------------------------------
+
+
+def drawn(name: str) -> Figure:
+    """Return a figure of accepted datasets."""
+    draw, gather, *names = FIGURES[name]
+    return draw(gather(*map(dataset, names)))
+
+
+@pytest.mark.parametrize(("name", "label"), [("fig2", "wide, pale: multiprecision reference"),
+                                             ("growth_law", "range of the ensemble")])  # fmt: skip
+def test_a_key_of_what_is_red_and_blue_has_both_colours(name, label):
+    (legend,) = drawn(name).legends
+    place = [text.get_text() for text in legend.texts].index(label)
+    key = [one for column in legend._legend_handle_box.get_children()
+           for one in column.get_children()][place]  # fmt: skip
+    artists = key.get_children()[0].get_children()
+    colours = [one.get_facecolor() if hasattr(one, "get_facecolor") else one.get_color()
+               for one in artists]  # fmt: skip
+    red, blue = map(to_rgb, colours)
+    assert red[0] > red[2] and blue[2] > blue[0]
+
+
+def test_the_law_of_growth_has_a_panel_in_which_a_tenth_is_seen():
+    """Where one panel held five decades, a norm that is off by a tenth was on the law."""
+    *_, ratio = drawn("growth_law").axes
+    low, high = ratio.get_ylim()
+    assert ratio.get_yscale() == "linear" and high - low < 1.0 and low < 1.0 < high
+
+
+def test_fronts_have_the_predicted_speed_of_the_second_one_for_the_chain_of_the_long_study_alone():
+    fronts, long = dataset("unbounded/fronts"), dataset("quoted/unbounded")
+    gather = FIGURES["fronts"][1]
+    shown = gather(fronts, long)["predicted_second_speed"]
+    np.testing.assert_array_equal(shown, long["predicted_second_speed"].sel(omega=shown["omega"]))
+    assert gather(fronts)["predicted_second_speed"].isnull().all()
+    other = fronts.assign_attrs(gamma=2.0)
+    assert gather(other, long)["predicted_second_speed"].isnull().all()
+    lines = drawn("fronts").axes[0].lines
+    assert any(np.array_equal(one.get_ydata(), shown, equal_nan=True) for one in lines)
+
+
+def test_an_axis_of_time_has_no_ticks_beyond_the_end_and_equal_shares_are_seen():
+    figure = drawn("pendula_over_the_top")
+    figure.draw_without_rendering()
+    (axes,), end = figure.axes, float(dataset("pendula/over_the_top")["tau"][-1])
+    assert max(axes.get_xticks()) <= end < axes.get_xlim()[1]
+    steps = [line.get_linewidth() for line in axes.lines if line.get_drawstyle() == "steps-post"]
+    assert len(steps) > 5 and np.all(np.diff(steps) < 0.0)
+
+
+def test_bars_of_an_ensemble_cover_no_mark():
+    """Beside its mark, a bar keeps half of the width of both away from it, on paper."""
+    figure = drawn("fig5")
+    figure.draw_without_rendering()
+    right = figure.axes[1]
+    at = [right.transData.transform((m, 1.0))[0] for m in (100.0, BESIDE * 100.0)]
+    widths = [72.0 / figure.dpi * (at[1] - at[0]), 0.5 * max(SIZES.values()) + BAR["capsize"]]
+    assert widths[0] > widths[1]

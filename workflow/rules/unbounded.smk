@@ -152,3 +152,5 @@ use rule figure as draw_fronts with:
         made="<size>figures/fronts",
     params:
         call=function("pendula.studies.unbounded.figures.draw_fronts"),
+        # the numbers of `snakemake unbounded` as they are committed, predicted speeds among them
+        committed=committed(long="tests/baseline/quoted/unbounded.nc"),

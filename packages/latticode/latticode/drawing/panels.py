@@ -14,9 +14,9 @@ from .strips import NORMS
 
 MARKERS = {"l2": "o", "linf": "s"}  # the shapes tell the norms apart in grey too
 SIZES = {"max": 3.6, "mean": 2.4}
-BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.5}
-BESIDE = 1.06
-"""Bars of ensembles stand so far beside the dots: a factor on the half-width."""
+BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.2}
+BESIDE = 1.1
+"""Bars of ensembles stand so far beside the dots, and cover none: a factor on the half-width."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
 

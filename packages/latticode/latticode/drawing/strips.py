@@ -113,12 +113,13 @@ def name_legend(
     figure: Figure, components: Sequence[str], mark: str = "", under: bool = False
 ) -> None:
     """Put one legend above all: the components, what lies under them, and the dashed line."""
-    lines = [
-        Line2D([], [], color=style.colour_of(i), label=f"${style.symbol(one)}$", lw=1.6)
-        for i, one in enumerate(components)
-    ]
+    fields = range(len(components))
+    lines = [Line2D([], [], color=style.colour_of(i), lw=1.6) for i in fields]
+    labels = [f"${style.symbol(one)}$" for one in components]
     if under:
-        lines.append(Line2D([], [], color=pale_of(0), **UNDER))
+        lines.append(tuple(Line2D([], [], color=pale_of(i), lw=UNDER["lw"]) for i in fields))
+        labels.append(UNDER["label"])
     if mark:
-        lines.append(Line2D([], [], **DIVERGED | {"lw": 1.0}, label=mark))
-    figure.legend(handles=lines, loc="outside upper center", ncols=len(lines))
+        lines.append(Line2D([], [], **DIVERGED | {"lw": 1.0}))
+        labels.append(mark)
+    style.legend_above(figure, lines, labels, ncols=len(lines))

@@ -15,6 +15,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from matplotlib.layout_engine import PlaceHolderLayoutEngine
+from matplotlib.legend_handler import HandlerTuple
 from matplotlib.patheffects import withStroke
 
 from latticode.datasets import complete_or_absent
@@ -157,6 +158,12 @@ def name_legend(figure: Figure, *panels: Axes, columns: int = 7) -> None:
     legend = figure.legend(named.values(), named.keys(), columnspacing=1.2, **look)
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
+
+
+def legend_above(figure: Figure, handles: Sequence, labels: Sequence[str], **look) -> None:
+    """Put a legend above all panels. Handles in a tuple share a label, side by side."""
+    side_by_side = {tuple: HandlerTuple(ndivide=None, pad=0.3)}
+    figure.legend(handles, labels, loc="outside upper center", handler_map=side_by_side, **look)
 
 
 def name_units(values: xr.DataArray) -> str:

@@ -72,7 +72,7 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
         said = "median after the runs" if name == "life" else None
         left.plot(a0, later, "^", color=colour, label=said, **open_marks)
     left.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
-    left.set(yscale="log", ylabel=r"time $\tau$")
+    left.set(yscale="log", ylabel=r"time $\tau$", ymargin=0.08)
     _draw_runs(right, data, "centre_share", style.RED, "s", 0.0)
     right.axhline(1.0 / float(data["pairs"]), color="0.5", lw=0.8, ls=":", label="$1 / N$")
     right.set(ylabel="share of $P$", ylim=(0.0, None))

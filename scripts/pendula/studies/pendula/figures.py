@@ -6,11 +6,13 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 MARKS = "osD^vPX*"
+WIDER = 0.6
+"""Curves are wider than those above them by so many points, so that those of one share are seen."""
 BESIDE = 0.025
 """Confidence limits at the end stand so far beside each other, as a part of the time."""
 CAPTION = (
     "Pendula at Ω = {omega:g} by μ: share of the runs in which a pendulum has gone over the top by "
-    "τ, with confidence intervals at the end."
+    "τ, with confidence intervals at the end beside the curves. Wide curves lie below narrow ones."
 )
 
 
@@ -29,7 +31,8 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
     axes, count, tau = figure.subplots(), data.sizes["mu"], data["tau"].values
     for i, mu in enumerate(data["mu"].values):
         one, colour = data.isel(mu=i), colormaps["viridis"](0.95 * i / max(1, count - 1))
-        axes.step(tau, one["passed"], where="post", lw=1.3, color=colour)
+        width = 1.2 + WIDER * (count - 1 - i)
+        axes.step(tau, one["passed"], where="post", lw=width, color=colour)
         last, low, high = (float(one[name][-1]) for name in ("passed", "passed_low", "passed_high"))
         axes.errorbar(
             tau[-1] * (1.03 + BESIDE * i), last, [[last - low], [high - last]], capsize=1.5,
@@ -38,6 +41,8 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
         )  # fmt: skip
     axes.set(xlabel=r"$\tau$", ylabel="share of runs over the top")
     axes.set_xlim(0, tau[-1] * (1.03 + BESIDE * count))
+    axes.axvline(tau[-1], color="0.5", lw=0.6, ls=":")
+    axes.set_xticks([one for one in axes.get_xticks() if 0 <= one <= tau[-1]])
     axes.set_ylim(-0.03, 1.05)
     style.name_legend(figure, axes, columns=4)
     return figure

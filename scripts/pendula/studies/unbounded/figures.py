@@ -22,10 +22,14 @@ LOOKS = {
     "fig3_small": {"color": "#b07800", "ls": ":", "lw": 1.1},
 }
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
+CHAOTIC = ("fig4_small", "fig3_large")
+"""The cases whose members differ, so that their bands are seen."""
+BAND_ALPHA = 0.3
 FIRST_TAU, POINTS = 10.0, 120
 BAND = ("lowest", "mean", "highest")
 GROWTH_CAPTION = (
     "The infinite chain against τ. (a): the square of the ℓ² norm divided by τ. (b): the ℓ∞ norm. "
+    "(c): the square of the ℓ² norm over the law, where its states were solved. "
     "The dashed law follows from the thermal states behind the two fronts and the speeds of these. "
     "Bands reach from the lowest to the highest run of an ensemble."
 )
@@ -58,27 +62,32 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2^2 / tau beside its law, and l-infinity."""
+    """Draw l2^2 / tau beside its law, l-infinity, and l2^2 over its law on a scale of its own."""
     figure = style.new_figure(style.WIDTH, 2.4)
-    rate, linf = figure.subplots(1, 2, sharex=True)
+    rate, linf, ratio = figure.subplots(1, 3, sharex=True)
     for case in data["case"].values:
         one, look = data.sel(case=case), LOOKS[str(case)]
         tau = one["tau"]
         _draw_band(rate, tau, one["l2"] ** 2 / tau, look, name_case(one))
         rate.plot(tau, one["law"] / tau, **LAW)
         _draw_band(linf, tau, one["linf"], look)
+        if one["law"].notnull().any():
+            _draw_band(ratio, tau, one["l2"] ** 2 / one["law"], look)
+    ratio.axhline(1.0, **LAW)
     rate.set_yscale("log")
     rate.set_xscale("log")
     linf.set_ylim(bottom=0)
     rate.set_ylabel(r"squared $\ell^2$ norm / $\tau$")
+    ratio.set_ylabel(r"squared $\ell^2$ norm / law")
     linf.set_ylabel(rf"{panels.NORMS['linf']} norm")
-    for axes, letter in ((rate, "a"), (linf, "b")):
+    for axes, letter in ((rate, "a"), (linf, "b"), (ratio, "c")):
         axes.set_title(f"({letter})", loc="left")
         axes.set_xlabel(r"$\tau$")
     handles, labels = rate.get_legend_handles_labels()
-    handles += [Line2D([], [], **LAW), Patch(color="0.75")]
+    bands = tuple(Patch(color=LOOKS[case]["color"], alpha=BAND_ALPHA, lw=0) for case in CHAOTIC)
+    handles += [Line2D([], [], **LAW), bands]
     labels += ["law in the text", "range of the ensemble"]
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
+    style.legend_above(figure, handles, labels, ncols=3, columnspacing=1.4)
     return figure
 
 
@@ -86,7 +95,7 @@ def _draw_band(axes: Axes, tau, bands: xr.DataArray, look: dict, label: str | No
     """Draw the mean of an ensemble and the range of its members."""
     mean, low, high = (bands.sel(band=bound) for bound in ("mean", "lowest", "highest"))
     axes.plot(tau, mean, label=label, **look)
-    axes.fill_between(tau, low, high, color=look["color"], alpha=0.3, lw=0)
+    axes.fill_between(tau, low, high, color=look["color"], alpha=BAND_ALPHA, lw=0)
 
 
 # --- The two fronts -------------------------------------------------------------------------------
@@ -95,17 +104,28 @@ DOTS = {"marker": "o", "ms": 3.0, "lw": 0, "elinewidth": 0.9, "capsize": 1.5}
 FIRST = {**DOTS, "color": style.RED}
 SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
 LINE = LAW | {"ls": "-"}
+CHAIN = ("epsilon", "gamma")
+"""What two studies must have in common to be of one chain, beside their detunings."""
 FRONTS_CAPTION = (
-    "The two fronts on the infinite chain. (a): their speeds; the line is the predicted one of the "
-    "first. (b): the power per pair behind the second front and between the fronts over that of "
-    "the thermal state of both fields; dashed: the same ratio for the thermal state with A = −B. "
-    "Bars are confidence intervals of the mean."
+    "The two fronts on the infinite chain. (a): their speeds; the lines are the predicted ones, of "
+    "the second (dotted) by a longer study. (b): the power per pair behind the second front and "
+    "between the fronts over that of the thermal state of both fields; dashed: the same ratio for "
+    "the thermal state with A = −B. Bars are confidence intervals of the mean."
 )
 
 
-def gather_fronts(fronts: xr.Dataset) -> xr.Dataset:
-    """Return what `measured.measure_fronts` has made."""
-    return fronts.assign_attrs(caption=FRONTS_CAPTION)
+def gather_fronts(fronts: xr.Dataset, long: xr.Dataset | None = None) -> xr.Dataset:
+    """Return what `measured.measure_fronts` has made, and the predicted speed of the second front.
+
+    It is that of the numbers of the `long` study; NaN where this is of no such chain.
+    """
+    speed = xr.full_like(fronts["linear_speed"], np.nan, float)
+    if long is not None and all(long.attrs[name] == fronts.attrs[name] for name in CHAIN):
+        near = {"method": "nearest", "tolerance": 1e-9}
+        speed = long["predicted_second_speed"].reindex(omega=fronts["omega"].values, **near)
+    about = {"long_name": "predicted speed of the second front, in sites per unit of tau"}
+    predicted = "omega", speed.values, about
+    return fronts.assign(predicted_second_speed=predicted).assign_attrs(caption=FRONTS_CAPTION)
 
 
 @style.styled
@@ -115,6 +135,7 @@ def draw_fronts(data: xr.Dataset) -> Figure:
     speeds, powers = figure.subplots(1, 2)
     omega, thermal = data["omega"], data["thermal_power"]
     speeds.plot(omega, data["linear_speed"], **LINE)
+    speeds.plot(omega, data["predicted_second_speed"], **LAW | {"ls": ":"})
     powers.axhline(1.0, **LINE)
     powers.plot(omega, data["thermal_antisymmetric_power"] / thermal, **LAW)
     for axes, name, over, look, label in (
