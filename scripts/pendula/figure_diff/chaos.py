@@ -42,8 +42,8 @@ RESTS_ON_CHAOS = [
     "checks/second_solver:*l2",
     # Chains without ends, at the detuning of a chaotic case
     *("figures/fronts:*", "unbounded/fronts:*", "unbounded/omegas:*", "unbounded/starts:*"),
-    # The amplitude equations beside an ensemble of pendula
-    "pendula/over_the_top:amplitude_power",
+    # Ensembles of pendula at a chaotic detuning, and the amplitude equations beside them
+    *("pendula/over_the_top:*", "figures/pendula_over_the_top:*"),
 ]
 """Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
 the file or along a dimension."""

@@ -46,6 +46,8 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
             is_open = has_ended & (rows["high"] > end)
             rows |= {"later": np.where(has_ended, np.nan, end)}
             rows |= {"open": np.where(is_open, end, np.nan)}
+            # a bar without an upper end stops at its mark: see `_draw_open_limits`
+            rows |= {"high": np.where(is_open, rows["middle"], rows["high"])}
         for word, values in rows.items():
             meaning = (WORDS | {"later": LATER, "open": OPEN})[word]
             about = {"long_name": f"{meaning} {name.replace('_', ' ')}"}
@@ -101,8 +103,6 @@ def _draw_runs(
     said = f"single runs, {label}" if label else None
     axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label=said)
     middle, low, high = (data[f"{name}_{word}"].values for word in WORDS)
-    if f"{name}_open" in data:  # these bars have no upper end: see `_draw_open_limits`
-        high = np.where(data[f"{name}_open"].notnull(), middle, high)
     axes.errorbar(
         a0, middle, np.array([middle - low, high - middle]), marker=mark, color=colour, ls="none",
         elinewidth=0.8, capsize=2, markersize=3.5, label=label,
