@@ -49,7 +49,7 @@ PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
 ENDS = {"x", "y", "shows", "x leaves", "y leaves"}
 """Entries of a description that a curve has only where there are points on it."""
 
-LOOSE, FEW, LARGE = 0.4, 0.01, 10.0
+LOOSE, FEW, LARGE = 0.6, 0.01, 10.0
 """How far such a place may follow chaos, as a part of the larger end, and a number of points; how
 many times larger than one, or than it was, a measured number may be. Bands and bars may reach twice
 as far, and an axis follows what its panel shows, because one long bar doubles it."""
