@@ -190,6 +190,8 @@ def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bo
         reached, reaches = map(_reach, panels)
         grown = reaches / reached if reached else 1.0
     is_bar = "areas" in path or ("curves" in path and _entry(before, path[:4])["line"] == "None")
+    if is_bar and points[0] == 1:  # the end of a bar, which may lie close to zero
+        largest = max(largest, _reach(panels[0]))
     off, allowed = now - was * grown, LOOSE * largest * grown
     return -allowed <= off <= (largest if is_bar else allowed)
 

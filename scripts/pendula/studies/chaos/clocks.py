@@ -12,7 +12,7 @@ NUMBERS = {
     "life": "time at which the central pair first holds at most P / N, infinite if after the end",
     "centre_share": "share of P on the central pair, mean over the window",
     "l2": "l2 norm over the chain, mean over the window",
-    "linf": "l-infinity norm of the chain, mean over the window",
+    "linf": "l-infinity norm over the chain, mean over the window",
 }
 """What is kept of each run."""
 TIMES = ("transition", "life")
