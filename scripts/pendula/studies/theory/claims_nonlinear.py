@@ -51,16 +51,17 @@ HALF_OF_THE_RATE = twin(DISTANCE, "a rate of half of the drive")
 
 def of_a_neighbour(well_posed):
     """Return the runs with a solution from close by in place of that by the second solver."""
-    near = well_posed.sel(size=well_posed["size"].min(), drop=True)
+    near = well_posed.sel(perturbation_size=well_posed["perturbation_size"].min(), drop=True)
     return well_posed.assign(
-        between_solvers=float(well_posed["size"].min()) * near["distance"].min("direction")
+        between_solvers=float(well_posed["perturbation_size"].min())
+        * near["distance_ratio"].min("direction")
     )
 
 
 def of_one_distance(well_posed):
     """Return the runs with the distances of the largest perturbation in place of all."""
-    sizes = well_posed["size"]
-    return well_posed.assign(distance=well_posed["distance"] * sizes.max() / sizes)
+    sizes = well_posed["perturbation_size"]
+    return well_posed.assign(distance_ratio=well_posed["distance_ratio"] * sizes.max() / sizes)
 
 
 def beyond_runs(well_posed, time: str) -> str:
@@ -141,8 +142,11 @@ def continuous_dependence(identities, well_posed) -> Finding:
 
     So the later distance shrinks with the first one, and in proportion, as the rates are smooth.
     """
-    left, near = terms_left(identities, DISTANCE), well_posed.sortby("size")
-    logs = log(near["size"].values), log(near["distance"].transpose(..., "size").values)
+    left, near = terms_left(identities, DISTANCE), well_posed.sortby("perturbation_size")
+    logs = (
+        log(near["perturbation_size"].values),
+        log(near["distance_ratio"].transpose(..., "perturbation_size").values),
+    )
     order = 1.0 + np.diff(logs[1]) / np.diff(logs[0])
     measured = {
         "rate": well_posed["rate"].max(skipna=False),

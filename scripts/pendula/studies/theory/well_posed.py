@@ -109,9 +109,12 @@ def check_well_posed() -> dict:
         "between_solvers": "distance of the solutions by two solvers, over the initial norm",
     }
     ratios, rates = zip(*(dependence(*cell) for cell in cells), strict=True)
-    near = {"direction": DIRECTIONS, "size": SIZES}
+    near = {"direction": DIRECTIONS, "perturbation_size": SIZES}
     distances = {
-        "distance": (ratios, "distance of two solutions over that of their initial conditions"),
+        "distance_ratio": (
+            ratios,
+            "distance of two solutions over that of their initial conditions",
+        ),
         "rate": (rates, "growth of the log of the distance over (2 gamma + M^2 / 2) tau"),
     }
     found = table(
