@@ -14,10 +14,10 @@ sys.path[:0] = [str(ROOT / "scripts")]
 
 from latticode.datasets.json_files import write_json  # noqa: E402
 from latticode.datasets.netcdf import read  # noqa: E402
-from pendula.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn  # noqa: E402
-from pendula.ledger.claim import Claim  # noqa: E402
-from pendula.ledger.criterion import Finding, Verdict  # noqa: E402
-from pendula.ledger.verdicts import all_claims, look, needed  # noqa: E402
+from replication.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn  # noqa: E402
+from replication.ledger.claim import Claim  # noqa: E402
+from replication.ledger.criterion import Finding, Verdict  # noqa: E402
+from replication.ledger.verdicts import all_claims, look, needed  # noqa: E402
 
 KEPT = ROOT / "tests/baseline/quoted/right_runs.json"
 

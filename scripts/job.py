@@ -178,7 +178,7 @@ def step(text: str) -> None:
 
 def say(error: Exception) -> str:
     """Return an error in words; one that is not ours is named too, since its words may be few."""
-    ours = type(error).__module__.startswith(("pendula", "latticode"))
+    ours = type(error).__module__.startswith(("pendula", "replication", "latticode"))
     return str(error) if ours else f"{type(error).__name__}: {error}"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 import yaml
 from latticode.datasets.netcdf import read
-from pendula.ledger.changes import exchange, keep, put, scale, shift
+from replication.ledger.changes import exchange, keep, put, scale, shift
 
 ROOT = Path(__file__).parents[1]
 BASELINE = ROOT / "tests/baseline"

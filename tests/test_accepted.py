@@ -16,7 +16,7 @@ from accepted import (
     wrong_changes,
 )
 from latticode.datasets.json_files import load_json
-from pendula.ledger.verdicts import all_claims, decide, evaluate, needed
+from replication.ledger.verdicts import all_claims, decide, evaluate, needed
 
 CLAIM = {claim.name: claim for claim in all_claims()}
 

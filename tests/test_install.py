@@ -16,7 +16,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).resolve().parents[1]
-LIBRARY = ROOT / "scripts/pendula"
+LIBRARIES = [ROOT / "scripts/pendula", ROOT / "scripts/replication"]
 WRITTEN = [
     tomllib.loads((home / "pyproject.toml").read_text())
     for home in (ROOT, *sorted(ROOT.glob("packages/*")))
@@ -25,6 +25,7 @@ HOMES = {one["project"]["name"]: one for one in WRITTEN}
 """The pyproject.toml of each of our packages."""
 DECLARED = HOMES["pendula"]["project"]["dependencies"]
 PINS = [line for line in (ROOT / "environment.txt").read_text().split() if "==" in line]
+OURS = {"pendula", "replication", "latticode"}
 OPTIONAL = {"heyoka"}
 """What one command needs, which its page has the reader install."""
 
@@ -42,8 +43,10 @@ def imported_by(module: Path) -> set[str]:
 
 
 def test_the_library_declares_what_its_modules_import():
-    found = set().union(*map(imported_by, LIBRARY.rglob("*.py")))
-    others = found - set(sys.stdlib_module_names) - {"pendula", "latticode"} - OPTIONAL
+    found = set().union(
+        *(imported_by(path) for library in LIBRARIES for path in library.rglob("*.py"))
+    )
+    others = found - set(sys.stdlib_module_names) - OURS - OPTIONAL
     homes = packages_distributions()
     shipped = HOMES["latticode"]["project"]["dependencies"]  # it is installed with the library
     assert names(homes[name][0] for name in others) | names(shipped) == names(DECLARED)

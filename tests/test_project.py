@@ -10,7 +10,7 @@ from latticode.kernels import sources
 from pendula.sources import SCRIPTS
 
 ROOT = Path(__file__).resolve().parents[1]
-PACKAGES = [sources.ROOTS[name] / name for name in ("latticode", "pendula")]
+PACKAGES = [sources.ROOTS[name] / name for name in ("latticode", "replication", "pendula")]
 
 
 def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():
@@ -30,7 +30,7 @@ def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():
 
 
 RULES = "".join(path.read_text() for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
-CALLED = sorted(set(re.findall(r'"((?:pendula|benchmarks)\.[\w.]+)"', RULES)))
+CALLED = sorted(set(re.findall(r'"((?:pendula|replication|benchmarks)\.[\w.]+)"', RULES)))
 """Every function that a rule calls."""
 DRAWING = [name for name in CALLED if ".studies." in name and ".draw" in name]
 COMPUTING = [
@@ -49,7 +49,7 @@ def files_behind(function: str) -> set[str]:
 
 
 LIBRARY = "packages/latticode/latticode"
-PAGES = (f"{LIBRARY}/drawing/", "drawing.py", "report/", "figure_diff/", "archive/", "ledger/")
+PAGES = (f"{LIBRARY}/drawing/", "drawing.py", "scripts/replication/")
 
 
 @pytest.mark.parametrize("function", COMPUTING)
@@ -63,7 +63,8 @@ def test_what_computes_does_not_depend_on_what_is_drawn_or_written(function):
 
 def test_what_draws_does_not_depend_on_how_it_was_integrated():
     assert len(DRAWING) > 10
-    foreign = (f"{LIBRARY}/integrators/", "models/", "report/", "figure_diff/", "archive/")
+    general = [f"scripts/replication/{room}/" for room in ("report", "figure_diff", "archive")]
+    foreign = (f"{LIBRARY}/integrators/", "models/", *general)
     files = {(name, file) for name in DRAWING for file in files_behind(name)}
     assert [pair for pair in files if pair[1].startswith(foreign)] == []
     assert [name for name in DRAWING if (name, f"{LIBRARY}/drawing/style.py") not in files] == []

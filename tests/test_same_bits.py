@@ -19,8 +19,8 @@ from helpers import skip
 from latticode.datasets.netcdf import read
 from latticode.localised.tangents import grow
 from oracle import random_chain
-from pendula.figure_diff import hashes
 from problems import problem_from
+from replication.figure_diff import hashes
 
 HASHES = {
     "taylor": "f71cfb065655de7a",

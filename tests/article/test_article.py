@@ -8,7 +8,7 @@ from facts import BASELINE, Accepted
 from helpers import ROOT
 from html_tags import Tags
 from pendula.article import write
-from pendula.ledger.rows import load
+from replication.ledger.rows import load
 
 
 @pytest.fixture(scope="module")

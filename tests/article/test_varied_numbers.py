@@ -13,8 +13,8 @@ import pytest
 from facts import Accepted
 from pendula.article import write
 from pendula.article.values import QUOTED, Numbers
-from pendula.report.words import Quote
 from pendula.varied import VARIATION, numbers_in, variations_of
+from replication.report.words import Quote
 
 SECTION = "## Beyond the paper"
 RANGES = ("span", "range_of", "share_span")

@@ -12,11 +12,11 @@ from latticode.datasets.netcdf import read, write
 from latticode.measures.difference import first_above, norm_difference
 from latticode.simulation.simulate import simulate
 from oracle import CASES
-from pendula.figure_diff import hashes
 from pendula.live.write import write_live
 from pendula.problem import Problem
 from pendula.studies.breathers.fates import is_localised, power_by_distance
 from pendula.studies.paper.runs import run_case
+from replication.figure_diff import hashes
 from test_report_in_browser import resize, run
 from waiting import wait_for
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 from latticode.datasets.json_files import load_json
-from pendula.ledger.rows import on_figure
+from replication.ledger.rows import on_figure
 from waiting import wait_for
 
 PHONE = 600

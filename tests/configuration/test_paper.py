@@ -11,8 +11,8 @@ from helpers import skip
 from latticode.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load
 from pendula.configuration.paper import differences, paper, reason, rests_on
-from pendula.ledger.verdicts import all_claims, needed
 from pendula.studies.theory.checks import CHECKS
+from replication.ledger.verdicts import all_claims, needed
 
 ROOT = Path(__file__).resolve().parents[2]
 EDITS = {

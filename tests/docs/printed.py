@@ -18,7 +18,7 @@ from typing import NamedTuple
 import yaml
 from helpers import python_path, run_ready
 from latticode.configuration.files import merge
-from pendula.archive.contents import code_files
+from replication.archive.contents import code_files
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 SNAKEMAKE = re.compile(r"snakemake( |$)")

@@ -4,10 +4,10 @@ import xarray as xr
 from latticode.datasets.checks import broken
 from latticode.datasets.digest import fingerprint
 from latticode.datasets.json_files import load_json
-from pendula.ledger.criterion import Verdict
-from pendula.ledger.decide import decide_claims, tabulate_claims
-from pendula.ledger.verdicts import all_claims, needed
 from pendula.studies.theory.checks import CHECKS
+from replication.ledger.criterion import Verdict
+from replication.ledger.decide import decide_claims, tabulate_claims
+from replication.ledger.verdicts import all_claims, needed
 
 
 def test_every_picture_shows_what_is_described_beside_it(full_run):

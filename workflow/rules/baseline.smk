@@ -30,7 +30,7 @@ def baseline_told_at_the_end(wildcards):
 
 def accepted_files(wildcards):
     """Return the files to accept, or stop before any job with the reason."""
-    from pendula.figure_diff import acceptance  # here, since only accepting needs it
+    from replication.figure_diff import acceptance  # here, since only accepting needs it
 
     try:
         names = [path.removeprefix("results/") for path in everything()]

@@ -15,7 +15,7 @@ use rule job as report with:
     pathvars:
         made="report",
     params:
-        call=function("pendula.report.document.write_report"),
+        call=function("replication.report.document.write_report"),
         differs=DIFFERS,
 
 
@@ -72,7 +72,7 @@ use rule job as archive with:
     pathvars:
         made="archive",
     params:
-        call=function("pendula.archive.pack.pack_results"),
+        call=function("replication.archive.pack.pack_results"),
         made_by=lambda wildcards: code_of_jobs(),
         digests=lambda wildcards: {name: digest_of(PROJECT / name) for name in code_files(PROJECT)},
         configuration=lambda wildcards: config,

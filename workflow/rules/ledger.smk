@@ -25,7 +25,7 @@ DECIDED_IN = {part: [f"{part}/claims"] for part in RESTS_ON} | {
     "solvers": ["paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"],
 }
 DECIDING = {
-    part: function("pendula.ledger.decide.decide_claims", parts=modules)
+    part: function("replication.ledger.decide.decide_claims", parts=modules)
     for part, modules in DECIDED_IN.items()
 }
 
@@ -59,7 +59,7 @@ use rule job as claims with:
     pathvars:
         made="claims",
     params:
-        call=function("pendula.ledger.decide.join_claims"),
+        call=function("replication.ledger.decide.join_claims"),
 
 
 use rule job as claims_on_figures with:
@@ -71,4 +71,4 @@ use rule job as claims_on_figures with:
     pathvars:
         made="claims_figures",
     params:
-        call=function("pendula.ledger.decide.tabulate_claims"),
+        call=function("replication.ledger.decide.tabulate_claims"),

@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from latticode.measures.confidence import CONFIDENCE
-
-from pendula.configuration.schema import PAPER_CASES
-from pendula.ledger.claim import Kind, Origin
-from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import (
+from replication.ledger.claim import Kind, Origin
+from replication.ledger.criterion import Verdict
+from replication.ledger.rows import (
     Ledger,
     counted_verdicts,
     load,
@@ -21,8 +19,8 @@ from pendula.ledger.rows import (
     tally,
     whether_it_holds,
 )
-from pendula.report.results import Results
-from pendula.report.words import (
+from replication.report.results import Results
+from replication.report.words import (
     DOWN,
     FIRM,
     UP,
@@ -33,6 +31,8 @@ from pendula.report.words import (
     percent,
     with_error,
 )
+
+from pendula.configuration.schema import PAPER_CASES
 from pendula.studies.paper.solvers import ORDER
 from pendula.varied import VARIATION
 

@@ -15,14 +15,14 @@ import typst
 import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from latticode.datasets import complete_or_absent
+from replication.ledger.claim import Origin
+from replication.ledger.criterion import REFUTED, Verdict
+from replication.ledger.rows import load
+from replication.report.results import Results
+from replication.report.words import FIRM, Quote
 
 from pendula import RELEASED
 from pendula.configuration.paper import in_short
-from pendula.ledger.claim import Origin
-from pendula.ledger.criterion import REFUTED, Verdict
-from pendula.ledger.rows import load
-from pendula.report.results import Results
-from pendula.report.words import FIRM, Quote
 
 from .crosslinks import alternatives, link_mentions
 from .values import KEPT, gather

@@ -20,9 +20,8 @@ from latticode.kernels.webassembly import loader
 from latticode.measures.difference import VISIBLE
 from latticode.simulation.problem import read_initial
 from markupsafe import Markup
-
-from pendula.report import page
-from pendula.report.words import case_of
+from replication.report import page
+from replication.report.words import case_of
 
 from .experiments import EXPERIMENTS
 from .kernel import ODE45, compile_for_any_processor

@@ -5,9 +5,9 @@ import xarray as xr
 from latticode.checks import LOCALISED, UNSTABLE_REST
 from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.difference import VISIBLE
+from replication.report.words import number, percent
 
 from pendula.problem import PENDULA
-from pendula.report.words import number, percent
 
 # ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
 # more than this.

@@ -4,9 +4,8 @@ from pathlib import Path
 
 from latticode.datasets.netcdf import read, save
 from markupsafe import Markup
-
-from pendula.report.described import dataset, figure
-from pendula.report.document import Section, Table, write_page
+from replication.report.described import dataset, figure
+from replication.report.document import Section, Table, write_page
 
 from . import answers
 

@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 from latticode.measures.difference import VISIBLE
 from oracle import CASES, SOLVERS, hamiltonian
-from pendula.ledger.criterion import Verdict
 from pendula.studies.paper import solvers
 from pendula.studies.paper.claims_energy import drifts
 from problems import problem_of
+from replication.ledger.criterion import Verdict
 from two_norms import run
 
 

@@ -1,9 +1,9 @@
 """What breathers say of the paper's conclusion and of its large case at Omega = -4."""
 
-from pendula.ledger.changes import exchange, put, scale
-from pendula.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
-from pendula.ledger.claim import Control, claim
-from pendula.ledger.criterion import (
+from replication.ledger.changes import exchange, put, scale
+from replication.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
+from replication.ledger.claim import Control, claim
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtLeast,
@@ -13,7 +13,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )  # fmt: skip
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
 
 SECTION = 7
 PLACE = "Section 6, breathers"

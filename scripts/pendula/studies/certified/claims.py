@@ -1,8 +1,8 @@
 """What is proved of the curves of Figs 2 to 4, and of steady breathers."""
 
-from pendula.ledger.changes import put
-from pendula.ledger.claim import Control, claim
-from pendula.ledger.criterion import (
+from replication.ledger.changes import put
+from replication.ledger.claim import Control, claim
+from replication.ledger.criterion import (
     AllOf,
     AtLeast,
     AtMost,
@@ -11,7 +11,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )  # fmt: skip
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
 
 SECTION = 7
 CURVES, BREATHERS = "checks/trust", "certified/breathers"

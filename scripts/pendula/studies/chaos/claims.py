@@ -14,11 +14,10 @@ from latticode.measures.confidence import (
     difference_limits,
     mean_limits,
 )
-
-from pendula.ledger.changes import repeat, scale, take
-from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
-from pendula.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim
-from pendula.ledger.criterion import (
+from replication.ledger.changes import repeat, scale, take
+from replication.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
+from replication.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim
+from replication.ledger.criterion import (
     Above,
     AllOf,
     Below,
@@ -27,8 +26,8 @@ from pendula.ledger.criterion import (
     WithinFactor,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff, once
-from pendula.ledger.missing import FEWEST
+from replication.ledger.cutoff import Cutoff, once
+from replication.ledger.missing import FEWEST
 
 from .clocks import limits_of
 

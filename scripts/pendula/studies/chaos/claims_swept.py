@@ -16,11 +16,10 @@ import numpy as np
 from latticode.measures.confidence import Limits, ratio_limits, student
 from latticode.measures.levels import relative_range
 from latticode.measures.norms import total_power
-
-from pendula.ledger.chances import RARE
-from pendula.ledger.changes import keep, repeat, scale, take, take_from
-from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
-from pendula.ledger.claim import (
+from replication.ledger.chances import RARE
+from replication.ledger.changes import keep, repeat, scale, take, take_from
+from replication.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
+from replication.ledger.claim import (
     CHANGE,
     CONSTANT,
     FACTOR,
@@ -34,7 +33,7 @@ from pendula.ledger.claim import (
     sweeps,
     swept,
 )  # fmt: skip
-from pendula.ledger.criterion import (
+from replication.ledger.criterion import (
     Above,
     AllOf,
     Below,
@@ -44,7 +43,8 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
-from pendula.ledger.cutoff import once
+from replication.ledger.cutoff import once
+
 from pendula.models.bounds import theorem_2_constants
 from pendula.problem import Constants
 

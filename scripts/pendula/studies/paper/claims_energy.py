@@ -3,10 +3,9 @@
 from itertools import product
 
 import numpy as np
-
-from pendula.ledger.changes import repeat
-from pendula.ledger.claim import Control, checks, claim
-from pendula.ledger.criterion import (
+from replication.ledger.changes import repeat
+from replication.ledger.claim import Control, checks, claim
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtMost,

@@ -6,9 +6,8 @@ import numpy as np
 from latticode.measures.levels import correlation
 from latticode.measures.norms import largest, total_power
 from latticode.numerics.elementary import log
-
-from pendula.ledger.changes import take_from
-from pendula.ledger.claim import (
+from replication.ledger.changes import take_from
+from replication.ledger.claim import (
     CHANGE,
     FACTOR,
     MUCH,
@@ -19,7 +18,7 @@ from pendula.ledger.claim import (
     runs,
     sweeps,
 )
-from pendula.ledger.criterion import (
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtLeast,
@@ -30,7 +29,8 @@ from pendula.ledger.criterion import (
     WithinFactor,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
+
 from pendula.models.bounds import proven_region, theorem_1_bound
 from pendula.problem import Constants
 

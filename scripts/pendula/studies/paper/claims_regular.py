@@ -1,8 +1,9 @@
 """Sections 5 and 6: what stays bounded, and what is regular."""
 
-from pendula.ledger.changes import exchange
-from pendula.ledger.claim import Control, checks, claim
-from pendula.ledger.criterion import AtMost, Finding, judge
+from replication.ledger.changes import exchange
+from replication.ledger.claim import Control, checks, claim
+from replication.ledger.criterion import AtMost, Finding, judge
+
 from pendula.models.linear_chain import gamma_0
 
 SECTION = 5

@@ -9,13 +9,12 @@ right, are not, as some runs spread late: there a draw is compared with the rang
 import numpy as np
 from latticode.measures.confidence import student
 from latticode.measures.difference import VISIBLE
-
-from pendula.ledger import missing
-from pendula.ledger.chances import RARE
-from pendula.ledger.changes import put, repeat
-from pendula.ledger.chaos import MAJORITY
-from pendula.ledger.claim import FEWEST, Control, checks, claim, sweeps
-from pendula.ledger.criterion import (
+from replication.ledger import missing
+from replication.ledger.chances import RARE
+from replication.ledger.changes import put, repeat
+from replication.ledger.chaos import MAJORITY
+from replication.ledger.claim import FEWEST, Control, checks, claim, sweeps
+from replication.ledger.criterion import (
     Above,
     AllOf,
     Below,
@@ -25,7 +24,7 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
 
 SECTION = 5
 SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale, wider than a line")

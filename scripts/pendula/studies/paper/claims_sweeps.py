@@ -8,9 +8,8 @@ import numpy as np
 from latticode.measures import levels
 from latticode.measures.levels import levelling, relative_range
 from latticode.measures.norms import total_power
-
-from pendula.ledger.changes import scale
-from pendula.ledger.claim import (
+from replication.ledger.changes import scale
+from replication.ledger.claim import (
     CONSTANT,
     Control,
     at_one_omega,
@@ -20,7 +19,7 @@ from pendula.ledger.claim import (
     sweeps,
     swept,
 )
-from pendula.ledger.criterion import (
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtMost,
@@ -29,7 +28,8 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
+
 from pendula.models.bounds import proven_region, theorem_2_constants
 from pendula.problem import Constants
 

@@ -23,8 +23,8 @@ from latticode.measures.difference import (
 )
 from latticode.measures.norms import drift, total_power
 from latticode.simulation.simulate import simulate
+from replication.ledger.cutoff import Cutoff
 
-from pendula.ledger.cutoff import Cutoff
 from pendula.problem import Problem
 
 FIRST, SECOND, HALVED = "ode45", "crank_nicolson", "crank_nicolson_halved"

@@ -3,11 +3,10 @@
 import numpy as np
 from latticode.measures.confidence import difference_limits, order_limits
 from latticode.numerics.elementary import log
-
-from pendula.ledger.chances import RARE
-from pendula.ledger.changes import exchange, keep, repeat, scale
-from pendula.ledger.claim import FACTOR, Control, claim
-from pendula.ledger.criterion import (
+from replication.ledger.chances import RARE
+from replication.ledger.changes import exchange, keep, repeat, scale
+from replication.ledger.claim import FACTOR, Control, claim
+from replication.ledger.criterion import (
     Above,
     AtLeast,
     AtMost,
@@ -18,7 +17,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
 
 SECTION = 7
 LEMMA_1 = "Section 3, Lemma 1, for the pendula (1)"

@@ -2,11 +2,10 @@
 
 import numpy as np
 from latticode.numerics.elementary import log
-
-from pendula.ledger.changes import exchange, roll, shift, take
-from pendula.ledger.claim import Control, Kind, checks, claim
-from pendula.ledger.criterion import Above, AllOf, AtLeast, AtMost, Below, Finding, Near, judge
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.changes import exchange, roll, shift, take
+from replication.ledger.claim import Control, Kind, checks, claim
+from replication.ledger.criterion import Above, AllOf, AtLeast, AtMost, Below, Finding, Near, judge
+from replication.ledger.cutoff import Cutoff
 
 from .claims_model import by_algebra
 

@@ -5,11 +5,10 @@ from functools import wraps
 
 from latticode.measures.confidence import student
 from latticode.measures.growth import PARTS
-
-from pendula.ledger import changes
-from pendula.ledger.chances import RARE
-from pendula.ledger.claim import Control, Kind, checks, claim
-from pendula.ledger.criterion import (
+from replication.ledger import changes
+from replication.ledger.chances import RARE
+from replication.ledger.claim import Control, Kind, checks, claim
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtLeast,

@@ -4,10 +4,9 @@ from functools import partial
 
 import numpy as np
 from latticode.numerics.elementary import log
-
-from pendula.ledger.changes import exchange, put, scale, take
-from pendula.ledger.claim import Control, Kind, checks, claim, number
-from pendula.ledger.criterion import (
+from replication.ledger.changes import exchange, put, scale, take
+from replication.ledger.claim import Control, Kind, checks, claim, number
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtLeast,
@@ -18,7 +17,7 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
 
 from .claims_model import by_algebra, nothing_left, terms_left, twin
 

@@ -10,12 +10,11 @@ from collections.abc import Callable
 import numpy as np
 from latticode.measures.confidence import Limits, mean_limits, share_limits
 from latticode.measures.spreading import exponent_with_offset
-
-from pendula.ledger.changes import take
-from pendula.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY, almost_equal
-from pendula.ledger.claim import CHANGE, CONSTANT, FACTOR, SETTLED, Control, claim, unbounded
-from pendula.ledger.criterion import Above, AllOf, Below, Finding, UndecidableError, judge
-from pendula.ledger.cutoff import Cutoff, once
+from replication.ledger.changes import take
+from replication.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY, almost_equal
+from replication.ledger.claim import CHANGE, CONSTANT, FACTOR, SETTLED, Control, claim, unbounded
+from replication.ledger.criterion import Above, AllOf, Below, Finding, UndecidableError, judge
+from replication.ledger.cutoff import Cutoff, once
 
 SECTION = 5
 

@@ -5,10 +5,9 @@ Only the errors of what is measured count: limits of means over members, by Stud
 
 import numpy as np
 from latticode.measures.confidence import Limits, mean_limits
-
-from pendula.ledger.changes import roll, scale, take
-from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
-from pendula.ledger.criterion import (
+from replication.ledger.changes import roll, scale, take
+from replication.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
+from replication.ledger.criterion import (
     AllOf,
     AtMost,
     Below,
@@ -17,7 +16,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff
+from replication.ledger.cutoff import Cutoff
 
 from .bulk import BEHIND, BETWEEN, KINDS
 from .claims import sure, times_of

@@ -2,8 +2,8 @@
 
 import pytest
 import xarray as xr
-from pendula.ledger.chaos import almost_equal
-from pendula.ledger.criterion import Above, Verdict
+from replication.ledger.chaos import almost_equal
+from replication.ledger.criterion import Above, Verdict
 
 
 def sensitivity(*shares: float, sizes=(1e-8, 1e-6, 1e-3, 1e-1)) -> xr.Dataset:

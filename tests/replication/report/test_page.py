@@ -9,8 +9,8 @@ import pytest
 from accepted import BASELINE, ROOT
 from html_tags import Tags
 from latticode.datasets.json_files import load_json, sealed
-from pendula.report import document
-from pendula.report.described import Figure
+from replication.report import document
+from replication.report.described import Figure
 
 ROWS = [
     {"kind": "observation", "fact": ""} | row for row in load_json(BASELINE / "claims.json")["rows"]

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from latticode.datasets.netcdf import read
-
 from pendula.configuration.paper import Differences
 from pendula.sources import SCRIPTS
 

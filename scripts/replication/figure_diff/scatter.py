@@ -1,6 +1,6 @@
 """By how much numbers that rest on chaos differ from one right run to the next.
 
-    python -m pendula.figure_diff.scatter tests/baseline RESULTS...
+    python -m replication.figure_diff.scatter tests/baseline RESULTS...
 
 measures it on folders of results of right runs, such as those of `.ci/elsewhere moved`, beside the
 baseline, and writes it there. For each variable it is the largest mean difference of a row of equal

@@ -11,8 +11,8 @@ import yaml
 from helpers import ROOT
 from latticode.datasets import netcdf
 from pendula import __version__
-from pendula.archive import pack
-from pendula.archive.contents import METADATA, ArchiveError, code_files
+from replication.archive import pack
+from replication.archive.contents import METADATA, ArchiveError, code_files
 from rocrate.rocrate import ROCrate
 
 CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text())

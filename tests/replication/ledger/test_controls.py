@@ -3,10 +3,10 @@
 import math
 
 import pytest
-from pendula.ledger.claim import Claim, Control
-from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
-from pendula.ledger.cutoff import Cutoff
-from pendula.ledger.verdicts import evaluate, needed, passes
+from replication.ledger.claim import Claim, Control
+from replication.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
+from replication.ledger.cutoff import Cutoff
+from replication.ledger.verdicts import evaluate, needed, passes
 
 SECTION = 5
 """Of the paper, as modules of claims name it."""
@@ -34,7 +34,7 @@ def rows(monkeypatch):
     """Return a function of datasets and claims: the rows of the ledger."""
 
     def rows_of(sources, *claims):
-        monkeypatch.setattr("pendula.ledger.verdicts.all_claims", lambda: claims)
+        monkeypatch.setattr("replication.ledger.verdicts.all_claims", lambda: claims)
         return evaluate(sources)
 
     return rows_of

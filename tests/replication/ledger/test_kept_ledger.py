@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from accepted import BASELINE
 from latticode.datasets.json_files import load_json
-from pendula.ledger.claim import Origin
-from pendula.ledger.decide import join_claims
-from pendula.ledger.verdicts import evaluate
+from replication.ledger.claim import Origin
+from replication.ledger.decide import join_claims
+from replication.ledger.verdicts import evaluate
 
 ROWS = load_json(BASELINE / "claims.json")["rows"]
 TURNS = {

@@ -5,8 +5,8 @@ import pytest
 from accepted import BASELINE
 from facts import designed
 from latticode.datasets.json_files import load_json
-from pendula.ledger.chances import ALLOWED, chance_of_claim, chance_to_cross, chance_to_turn
-from pendula.ledger.criterion import (
+from replication.ledger.chances import ALLOWED, chance_of_claim, chance_to_cross, chance_to_turn
+from replication.ledger.criterion import (
     Above,
     AllOf,
     Below,
@@ -16,7 +16,7 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
-from pendula.ledger.verdicts import all_claims
+from replication.ledger.verdicts import all_claims
 
 RNG = np.random.default_rng(5)
 KEPT = load_json(BASELINE / "quoted/right_runs.json")

@@ -6,7 +6,7 @@ from pathlib import Path
 from latticode.datasets import complete_or_absent
 from latticode.datasets.json_files import write_json
 
-from pendula.report import page
+from replication.report import page
 
 from . import Status, Verdict
 from .baseline import compare

@@ -3,7 +3,7 @@
 from latticode.datasets.json_files import load_json, write_json
 from latticode.datasets.netcdf import read
 
-from pendula.report.words import markdown, write_markdown
+from replication.report.words import markdown, write_markdown
 
 from .rows import counted
 from .verdicts import evaluate, needed

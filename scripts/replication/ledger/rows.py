@@ -11,8 +11,8 @@ from .claim import Origin
 from .criterion import Verdict
 
 if TYPE_CHECKING:
-    from pendula.report.results import Results
-    from pendula.report.words import Quote
+    from replication.report.results import Results
+    from replication.report.words import Quote
 
 LEDGER = "claims.json"
 

@@ -11,7 +11,7 @@ import netCDF4
 import pytest
 from latticode.datasets.json_files import ENTRY, load_json, write_json
 from latticode.datasets.netcdf import LENGTH, MARK, read
-from pendula.figure_diff import Finding, Verdict, acceptance, baseline, scatter
+from replication.figure_diff import Finding, Verdict, acceptance, baseline, scatter
 
 
 class Run(NamedTuple):

@@ -9,11 +9,11 @@ from latticode.datasets.json_files import load_json
 from latticode.datasets.netcdf import read
 from latticode.drawing.seals import sealed_pdf
 from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICTURE, REGULAR, REPORT
-from pendula.figure_diff import Status, baseline
-from pendula.figure_diff.chaos import LOCAL, MARGIN, TOLERANCE, Chaos, known_chaos
-from pendula.figure_diff.compare_pictures import damage, edited
-from pendula.figure_diff.compare_shown import comparable, compare
-from pendula.figure_diff.comparison_page import compare_results
+from replication.figure_diff import Status, baseline
+from replication.figure_diff.chaos import LOCAL, MARGIN, TOLERANCE, Chaos, known_chaos
+from replication.figure_diff.compare_pictures import damage, edited
+from replication.figure_diff.compare_shown import comparable, compare
+from replication.figure_diff.comparison_page import compare_results
 
 
 def nudge(found):

@@ -18,11 +18,10 @@ import yaml
 from latticode.datasets import complete_or_absent
 from latticode.datasets.netcdf import read
 from latticode.kernels.sources import digest_of
-from rocrate.model import ContextEntity
-from rocrate.rocrate import ROCrate
-
 from pendula import __version__
 from pendula.sources import SCRIPTS
+from rocrate.model import ContextEntity
+from rocrate.rocrate import ROCrate
 
 from .contents import MANIFEST, ArchiveError, code_files
 

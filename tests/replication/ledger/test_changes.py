@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.ledger import changes
-from pendula.ledger.changes import exchange, keep, put, repeat, roll, scale, shift
-from pendula.ledger.criterion import UndecidableError
+from replication.ledger import changes
+from replication.ledger.changes import exchange, keep, put, repeat, roll, scale, shift
+from replication.ledger.criterion import UndecidableError
 
 
 @pytest.fixture

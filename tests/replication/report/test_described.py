@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import save
 from matplotlib.image import imsave
-from pendula.report.described import dataset, figure
+from replication.report.described import dataset, figure
 
 ABOUT = {"long_name": "height of <b>waves</b>", "units": "rad"}
 

@@ -16,8 +16,8 @@ from made_up_results import (
     REPORT,
     TABLE,
 )
-from pendula.figure_diff import Status, acceptance, baseline, hashes
-from pendula.figure_diff.acceptance import AcceptanceError, check, choose
+from replication.figure_diff import Status, acceptance, baseline, hashes
+from replication.figure_diff.acceptance import AcceptanceError, check, choose
 
 SHORT = {"cases": {"fig2_small": {"end_time": 4, "omega": 8}}}
 

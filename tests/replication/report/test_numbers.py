@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from pendula.report.results import ReportError, Results
-from pendula.report.words import (
+from replication.report.results import ReportError, Results
+from replication.report.words import (
     DOWN,
     UP,
     Quote,

@@ -5,9 +5,9 @@ from functools import cache, partial
 import pytest
 from accepted import dataset, datasets
 from pendula.configuration.paper import paper
-from pendula.ledger.claim import Claim, Control
-from pendula.ledger.criterion import Above, Verdict, judge
-from pendula.ledger.verdicts import all_claims, apart, decide, evaluate, feed, needed
+from replication.ledger.claim import Claim, Control
+from replication.ledger.criterion import Above, Verdict, judge
+from replication.ledger.verdicts import all_claims, apart, decide, evaluate, feed, needed
 
 SECTION = 5
 """Of the paper, as modules of claims name it."""
@@ -20,7 +20,7 @@ def grows(*runs):
 
 def row_of(monkeypatch, differs, needs, controls=(), on=()):
     claim = Claim("it", "Section 0", "It is so.", needs, grows, controls, on)
-    monkeypatch.setattr("pendula.ledger.verdicts.all_claims", lambda: (claim,))
+    monkeypatch.setattr("replication.ledger.verdicts.all_claims", lambda: (claim,))
     sources = dict.fromkeys(("trajectories/fig3_small", "checks/members"), 5.0)
     (row,) = evaluate(sources | {"trajectories/fig2_small": 1.0}, differs)
     return row

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from pendula.ledger.criterion import (
+from replication.ledger.criterion import (
     Above,
     AllOf,
     AtLeast,

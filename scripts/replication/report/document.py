@@ -11,10 +11,10 @@ from latticode.datasets import complete_or_absent
 from latticode.datasets.json_files import load_json
 from latticode.kernels.sources import describe_machine
 from markupsafe import Markup
-
-from pendula.ledger.criterion import Verdict
-from pendula.ledger.rows import counted, counted_origins, on_figure, whether_it_holds
 from pendula.sources import TOOK
+
+from replication.ledger.criterion import Verdict
+from replication.ledger.rows import counted, counted_origins, on_figure, whether_it_holds
 
 from .described import Dataset, Figure, dataset, figure
 from .page import render, script_of_report

@@ -15,11 +15,11 @@ from latticode.datasets.netcdf import LENGTH, save
 from latticode.drawing import style
 from latticode.drawing.seals import PIXELS, SEALED, digest_of_pixels, sealed_pdf
 from made_up_results import HORIZON, PICTURE, TAU
-from pendula.figure_diff import Status
-from pendula.figure_diff.compare_pictures import SHOWN, STREAM
-from pendula.ledger.changes import exchange, put, roll, scale, shift
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
+from replication.figure_diff import Status
+from replication.figure_diff.compare_pictures import SHOWN, STREAM
+from replication.ledger.changes import exchange, put, roll, scale, shift
 
 REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING = made_up.NAMES[:6]
 MAP, BOUND, LIVES, PROOFS, HARD = (
@@ -358,7 +358,7 @@ OF_CHAOS = (
 
 @pytest.mark.parametrize("name", OF_CHAOS)
 def test_a_planted_fault_is_found_in_a_run_with_other_last_bits(name, moved, known_of_moved):
-    """tests/figure_diff/test_comparison.py finds nothing in that run as it is."""
+    """tests/replication/figure_diff/test_comparison.py finds nothing in that run as it is."""
     (fault,) = (fault for fault in FAULTS if fault.name == name)
     fault.plant(moved)
     _, any_bits, elsewhere = moved.anew(fault.file, known_of_moved)
