@@ -15,9 +15,10 @@ from latticode.datasets.json_files import load_json
 from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.confidence import chance_inside, chance_of_counts, share_limits
-from pendula.article.values import KEPT, counts, largest_bound
+from pendula.article.values import counts, largest_bound
 from pendula.configuration.paper import paper
 from pendula.varied import names_of, numbers_in, single_numbers, variations_of
+from replication.article.numbers import KEPT
 from replication.ledger.chances import ALLOWED, RARE
 from replication.report.results import Results
 from replication.report.words import case_of, markdown, number, plainly, symbols, with_error

@@ -15,7 +15,7 @@ sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs"), str(ROOT)]
 
 import facts  # noqa: E402
 import moving_chain  # noqa: E402
-from pendula.article import write  # noqa: E402
+from pendula.article.write import ARTICLE  # noqa: E402
 
 SOURCE = ROOT / "docs/source"
 PAGES = {
@@ -23,7 +23,7 @@ PAGES = {
     ROOT / "docs/accuracy_and_speed.md": SOURCE / "accuracy_and_speed.md.j2",
     ROOT / "docs/report.md": SOURCE / "report.md.j2",
     ROOT / "docs/variations.md": SOURCE / "variations.md.j2",
-    ROOT / "docs/article.md": write.HERE / "article.md.j2",
+    ROOT / "docs/article.md": ARTICLE.folder / "article.md.j2",
 }
 """The template of each page that has one."""
 
@@ -39,7 +39,7 @@ def render() -> dict[Path, str]:
     values = facts.topics(accepted)
     found = {page: environment.get_template(PAGES[page].name).render(**values) for page in others}
     picture = {ROOT / "docs/moving_chain.svg": moving_chain.draw()}
-    return found | picture | {article: write.markdown(accepted)}
+    return found | picture | {article: ARTICLE.markdown(accepted)}
 
 
 if __name__ == "__main__":

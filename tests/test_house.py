@@ -30,7 +30,14 @@ THE_LIST = Path("studies/__init__.py")
 
 ROOMS = Rooms(LIBRARY, STOREYS)
 MODULES = ROOMS.modules
-GENERAL = Rooms(SCRIPTS / "replication", (("report", "figure_diff", "archive", "ledger"),))
+GENERAL = Rooms(
+    SCRIPTS / "replication",
+    (
+        ("article",),
+        ("report", "figure_diff", "archive", "ledger"),
+        ("differences", "variables"),
+    ),
+)
 """The rooms that any replication has."""
 
 

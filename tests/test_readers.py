@@ -23,7 +23,11 @@ from replication.ledger.claim import Claim, Origin
 from replication.ledger.verdicts import all_claims
 
 COMPARED, FIGURES = ("trajectories/", "sweeps/"), "figures/"
-ARTICLE = [ROOT / f"scripts/pendula/article/{name}" for name in ("article.md.j2", "values.py")]
+ARTICLE = [
+    ROOT / "scripts/pendula/article/article.md.j2",
+    ROOT / "scripts/pendula/article/values.py",
+    ROOT / "scripts/replication/article/numbers.py",
+]
 PAGES = [path for like in ("*.py", "source/*", "*.md") for path in ROOT.glob(f"docs/{like}")]
 PAGES = [*(path for path in PAGES if path.stem != "article"), ROOT / "codecheck.yml"]
 

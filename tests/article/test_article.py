@@ -7,26 +7,26 @@ import yaml
 from facts import BASELINE, Accepted
 from helpers import ROOT
 from html_tags import Tags
-from pendula.article import write
+from pendula.article.write import ARTICLE
+from replication.article import render
+from replication.article.numbers import KEPT
 from replication.ledger.rows import load
 
 
 @pytest.fixture(scope="module")
 def page() -> str:
     """Return the page of the accepted results."""
-    return write.page(Accepted())
+    return ARTICLE.page(Accepted())
 
 
 def test_equal_articles_have_equal_bytes_and_the_pages_that_a_journal_wants():
-    text = write.source(Accepted(), "/figures/{}.png")  # the baseline has no PDF
-    one, other = (write.typeset(text, BASELINE) for _ in range(2))
+    text = ARTICLE.source(Accepted(), "/figures/{}.png")  # the baseline has no PDF
+    one, other = (ARTICLE.typeset(text, BASELINE) for _ in range(2))
     assert one == other
     date = yaml.safe_load((ROOT / "CITATION.cff").read_text())["date-released"]
     assert f"D:{date:%Y%m%d}".encode() in one and b"/Author" in one
     assert 6 <= int(re.search(rb"/Count (\d+)", one)[1]) <= 9
-    assert "width:" not in "".join(
-        re.findall(r"image\(.*", write._converted(text, "typst", "article.typ"))
-    )
+    assert "width:" not in "".join(re.findall(r"image\(.*", ARTICLE.convert(text, "typst")))
 
 
 def test_the_page_asks_no_network_and_its_formulas_are_set(page):
@@ -45,11 +45,11 @@ def test_the_page_asks_no_network_and_its_formulas_are_set(page):
 def test_each_linked_number_leads_to_its_dataset(page):
     links = re.findall(r'href="([^"]*\.nc)" class="n"', page)
     assert len(links) > 80
-    assert all((BASELINE / link.removeprefix(f"{write.KEPT}/")).exists() for link in links)
+    assert all((BASELINE / link.removeprefix(f"{KEPT}/")).exists() for link in links)
 
 
 def test_the_metadata_have_what_the_journal_asks_for():
-    found = yaml.safe_load(write.describe(write.source(Accepted(), "")))
+    found = yaml.safe_load(ARTICLE.describe(ARTICLE.source(Accepted(), "")))
     required = (
         "title authors affiliations keywords code data replication abstract bibliography type"
     )
@@ -63,7 +63,7 @@ def test_the_metadata_have_what_the_journal_asks_for():
 def test_a_run_of_other_cases_has_a_notice():
     other = Accepted()
     other.differs = {"cases.fig2_small.omega": "fig2_small.omega (1 in place of 8)"}
-    text = write.markdown(other)
+    text = ARTICLE.markdown(other)
     assert "fig2_small.omega (1 in place of 8)" in text and "## Introduction" not in text
 
 
@@ -77,6 +77,6 @@ def test_a_run_of_other_cases_has_a_notice():
 def test_another_verdict_gives_a_notice(monkeypatch, claim, verdict):
     rows = load(Accepted())
     changed = [row | {"verdict": verdict} if row["name"] == claim else row for row in rows]
-    monkeypatch.setattr(write, "load", lambda _: changed)
-    text = write.markdown(Accepted())
+    monkeypatch.setattr(render, "load", lambda _: changed)
+    text = ARTICLE.markdown(Accepted())
     assert text.count(f"is: {verdict}.") == 1 and "## Introduction" not in text

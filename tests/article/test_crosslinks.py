@@ -5,12 +5,13 @@ import re
 import pytest
 from facts import Accepted
 from html_tags import Tags
-from pendula.article import crosslinks, write
+from pendula.article.write import ARTICLE
+from replication.article import crosslinks
 
 
 @pytest.fixture(scope="module")
 def text() -> str:
-    return write.source(Accepted(), "/figures/{}.png")
+    return ARTICLE.source(Accepted(), "/figures/{}.png")
 
 
 def test_every_heading_figure_table_equation_and_reference_has_an_id(text):
@@ -23,7 +24,7 @@ def test_every_heading_figure_table_equation_and_reference_has_an_id(text):
 
 
 def test_links_of_the_page_lead_to_its_parts_and_no_mention_is_left_out():
-    page = re.sub(r'src="[^"]*"', "", write.page(Accepted()))
+    page = re.sub(r'src="[^"]*"', "", ARTICLE.page(Accepted()))
     tags = Tags(page)
     inside = {link["href"] for link in tags.all("a") if link["href"].startswith("#")}
     assert len(inside) >= 15 and {link[1:] for link in inside} <= set(tags.ids)
@@ -45,7 +46,7 @@ def test_pictures_are_described_in_words_in_the_page_and_in_the_pdf(text):
     assert len(pictures) == text.count("\n![")
     assert all(len(words) > 60 and not re.search(r"[\\$*{]", words) for words in pictures.values())
     assert "norms of A and B at Ω = 8" in pictures["/figures/fig2.png"]
-    pdf = write.typeset(text, Accepted().path("claims.json").parent)
+    pdf = ARTICLE.typeset(text, Accepted().path("claims.json").parent)
     assert pdf.count(b"/Alt") >= len(pictures)
 
 

@@ -11,9 +11,10 @@ import re
 import numpy as np
 import pytest
 from facts import Accepted
-from pendula.article import write
-from pendula.article.values import QUOTED, Numbers
+from pendula.article.write import ARTICLE
 from pendula.varied import VARIATION, numbers_in, variations_of
+from replication.article import render
+from replication.article.numbers import QUOTED, Numbers
 from replication.report.words import Quote
 
 SECTION = "## Beyond the paper"
@@ -60,12 +61,12 @@ def tokens() -> list[tuple[bool, str, str, str, dict]]:
         return lambda self, claim, key, *_: token(function, claim, key, {})
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(write, "_untrue", lambda *_: [])
+        patch.setattr(render, "_untrue", lambda *_: [])
         for function in OF_DATASETS:
             patch.setattr(Numbers, function, of_dataset(function))
         for function in OF_CLAIMS:
             patch.setattr(Numbers, function, of_claim(function))
-        text = write.markdown(Accepted())
+        text = ARTICLE.markdown(Accepted())
     start = text.index(SECTION)
     end = text.index("\n## ", start + 1)
     return [
@@ -136,10 +137,10 @@ def printed() -> list[tuple[str, str, str, dict]]:
         return write_and_record
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(write, "_untrue", lambda *_: [])
+        patch.setattr(render, "_untrue", lambda *_: [])
         for function in OF_DATASETS:
             patch.setattr(Numbers, function, recording(getattr(Numbers, function)))
-        write.markdown(Accepted())
+        ARTICLE.markdown(Accepted())
     return texts
 
 

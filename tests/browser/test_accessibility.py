@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from facts import Accepted
 from helpers import skip
-from pendula.article import write
+from pendula.article.write import ARTICLE
 from test_report_in_browser import resize
 
 THEMES = "light", "dark"
@@ -26,7 +26,7 @@ def axe() -> str:
 @pytest.fixture(scope="module")
 def pages(full_run, tmp_path_factory) -> dict[str, Path]:
     article = tmp_path_factory.mktemp("article") / "article.html"
-    article.write_text(write.page(Accepted()), encoding="utf-8")
+    article.write_text(ARTICLE.page(Accepted()), encoding="utf-8")
     run = full_run / "results"
     return {"article": article, "live": run / "live.html"}
 

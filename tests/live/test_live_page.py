@@ -3,7 +3,7 @@
 import re
 
 from helpers import ROOT
-from pendula.article import write as article
+from pendula.article.write import ARTICLE
 from pendula.live import write as live
 from pendula.live.kernel import compile_for_any_processor
 from pendula.studies.breathers import figures
@@ -11,7 +11,7 @@ from pendula.studies.breathers import figures
 
 def test_localised_is_one_word_with_one_definition():
     """In the live page, in the article, in the figure of fates and in the terms of ARCHITECTURE."""
-    files = (live.HERE / "live.html.j2", article.HERE / "article.md.j2", ROOT / "ARCHITECTURE.md")
+    files = (live.HERE / "live.html.j2", ARTICLE.folder / "article.md.j2", ROOT / "ARCHITECTURE.md")
     texts = [figures.FATES_CAPTION, *(file.read_text(encoding="utf-8") for file in files)]
     defined = "central pair and its neighbours hold more than half of P"
     for text in texts:

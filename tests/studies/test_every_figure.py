@@ -19,9 +19,9 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from matplotlib.text import Text
-from pendula.article import write
 from pendula.own_cases import figures as own
 from pendula.studies.breathers.figures import LOOKS
+from replication.article.render import LAYOUTS
 
 A4 = 21.0
 """The width of a page in centimetres."""
@@ -161,7 +161,7 @@ def smallest(figure) -> tuple[float, float]:
 
     The article prints a figure as large as it is drawn, unless it is wider than the text.
     """
-    margin = re.search(r"margin: \(x: ([\d.]+)cm", (write.HERE / "article.typ").read_text())[1]
+    margin = re.search(r"margin: \(x: ([\d.]+)cm", (LAYOUTS / "article.typ").read_text())[1]
     printed = min(1.0, (A4 - 2 * float(margin)) / 2.54 / figure.get_figwidth())
     texts = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
     letters = {text.get_fontsize() for text in texts}

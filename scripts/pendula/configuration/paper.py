@@ -12,6 +12,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from replication.differences import Differences, in_short
+
 FILE = Path(__file__).with_suffix(".json")
 
 FREE = {"seed", "draw", "snapshot_step", "long", "points"}
@@ -23,10 +25,6 @@ AT_MOST = {"tolerance"}
 
 DATA = ("model", "epsilon", "gamma", "omega", "initial")
 """What of a case decides a solution on an infinite chain."""
-
-Differences = Mapping[str, str]
-"""By dotted path, in words, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in place of
-8)"}."""
 
 
 @cache
@@ -100,14 +98,6 @@ def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -
     statement is about some alone of all that a dataset of many holds.
     """
     return in_short(list(concerning(differs, names, on).values()))
-
-
-def in_short(said: list[str]) -> str:
-    """Return some differences as half a sentence; an empty text where there are none."""
-    if not said:
-        return ""
-    more = f" and {len(said) - 3} more" if len(said) > 3 else ""
-    return f"the configuration differs in {', '.join(said[:3])}{more}"
 
 
 def concerning(
