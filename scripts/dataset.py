@@ -1,7 +1,6 @@
 """A Snakemake job that computes datasets: its function is given what it takes, and returns them."""
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from inspect import isgenerator, signature
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from job import arguments, called, datasets_in, name_of, run, step
 from latticode.datasets.netcdf import Variable, read, save, write
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
 from latticode.datasets.trajectories import Contents
-from latticode.simulation.runs import Make, joined, run_part
+from latticode.simulation.runs import ManyRuns, joined, run_part
 from pendula.problem import Problem, by_name
 
 STEPS = 20
@@ -26,8 +25,8 @@ def make(snakemake) -> None:
     dataset states what the function was given, where the function does not state it already. A
     function that takes `step` is told by it how to say how far it is.
 
-    A function that takes `run` makes many runs by it. They are all made here, or read from the
-    input `chunks`. A job with the parameter `chunk`, such as [2, 8], makes and writes this part.
+    The runs of `ManyRuns` are all made here, or read from the input `chunks`. A job with the
+    parameter `chunk`, such as [2, 8], makes and writes every eighth run from number 2 on.
     """
     (function,) = called(snakemake)
     files = {name: datasets_in(value) for name, value in arguments(snakemake).items()}
@@ -36,12 +35,12 @@ def make(snakemake) -> None:
     names = [name_of(path) for paths in files.values() for path in paths]
     if "step" in signature(function).parameters:
         given.setdefault("step", step)
-    if "run" in signature(function).parameters:
-        given.setdefault("run", partial(run_or_read, snakemake))
-    try:
-        made = function(**given)
-    except PartIsMade as part:
-        return write(snakemake.output[0], *part_contents(*part.args))
+    made = function(**given)
+    if isinstance(made, ManyRuns):
+        if chunk := snakemake.params.get("chunk"):
+            retained = run_part(made.problems, made.retain, *chunk, report_progress)
+            return write(snakemake.output[0], *chunk_contents(retained))
+        made = made.conclude(retained_of(made, snakemake.input.get("chunks")))
     for path, contents in zip(snakemake.output, made if isgenerator(made) else [made], strict=True):
         told = of_output(path, plain)
         if isinstance(contents, tuple):
@@ -53,26 +52,21 @@ def make(snakemake) -> None:
             save(path, contents.assign_attrs({**contents.attrs, **(said | own(contents.attrs))}))
 
 
-class PartIsMade(BaseException):
-    """A function has made the part of its runs that its job is about, and need not go on."""
+def report_progress(done: int, count: int) -> None:
+    """Log how many runs are done, STEPS times in all."""
+    if done % max(1, count // STEPS) == 0:
+        step(f"{done} of {count} runs done")
 
 
-def run_or_read(snakemake, problems: Sequence[Problem], make: Make) -> dict[str, np.ndarray]:
-    """Return what is kept of many runs, and end the function if only a part of them is made."""
-
-    def tell(done: int, count: int) -> None:
-        if done % max(1, count // STEPS) == 0:
-            step(f"{done} of {count} runs done")
-
-    if files := snakemake.input.get("chunks"):
+def retained_of(runs: ManyRuns, files: Sequence[str] | None) -> dict[str, np.ndarray]:
+    """Return what is retained of all runs: read from files of chunks, or made if there are none."""
+    if files:
         return joined(map(arrays_of, files))
-    if part := snakemake.params.get("chunk"):
-        raise PartIsMade(run_part(problems, make, *part, tell))
-    return run_part(problems, make, progress=tell)
+    return run_part(runs.problems, runs.retain, progress=report_progress)
 
 
-def part_contents(found: Mapping[str, np.ndarray]) -> Contents:
-    """Return the contents of the dataset of a part."""
+def chunk_contents(found: Mapping[str, np.ndarray]) -> Contents:
+    """Return the contents of the dataset of a chunk of the runs."""
     variables = {
         name: Variable(
             ("run", *(f"{name}_{axis}" for axis in range(1, values.ndim))), values, "of each run"
@@ -83,7 +77,7 @@ def part_contents(found: Mapping[str, np.ndarray]) -> Contents:
 
 
 def arrays_of(path: str) -> dict[str, np.ndarray]:
-    """Return what the dataset of a part holds."""
+    """Return what the dataset of a chunk holds."""
     return {str(name): one.values for name, one in read(path).data_vars.items()}
 
 

@@ -17,23 +17,23 @@ ENDLESS = [CASE.changed(half_width=None, end_time=end, omega=0.5) for end in (40
 WINDOWS = [(1.0, 2.0)]
 
 
-def maps(run):
-    return map_fates({-4: CASE, 8: CASE}, [1.0, 3.0], run)[0]
+def maps():
+    return map_fates({-4: CASE, 8: CASE}, [1.0, 3.0])
 
 
-def ensembles(run):
+def ensembles():
     swept = {"problem": CASE.plain(), "half_widths": [5, 8], "members": 2, "windows": 2 * WINDOWS}
-    return measure_ensembles({"one": swept}, 1e-3, 1, run)
+    return measure_ensembles({"one": swept}, 1e-3, 1)
 
 
-def sweeps(run):
+def sweeps():
     """Of these chains all from M = 25 on stand for each other."""
-    return run_sweep("one", CASE, [4, 25, 30, 40, 6], WINDOWS, run)[0]
+    return run_sweep("one", CASE, [4, 25, 30, 40, 6], WINDOWS)
 
 
-def endless(run):
+def endless():
     """The fronts of members differ, and so does the number of cells that each has."""
-    return spread_case("one", ENDLESS, 1e-20, 3, 0.5, 1, run)[0]
+    return spread_case("one", ENDLESS, 1e-20, 3, 0.5, 1)
 
 
 def in_parts(count, problems, make):
@@ -42,7 +42,8 @@ def in_parts(count, problems, make):
 
 @pytest.mark.parametrize("study", [maps, ensembles, sweeps, endless])
 def test_the_number_of_parts_changes_no_bit(study):
-    whole, *others = (study(partial(in_parts, count)) for count in (1, 3, 8))
+    made = (study().make(partial(in_parts, count)) for count in (1, 3, 8))
+    whole, *others = (one[0] if isinstance(one, tuple) else one for one in made)
     for name, variable in whole.items():
         for other in others:
             found, expected = (getattr(one, "values", one) for one in (other[name], variable))

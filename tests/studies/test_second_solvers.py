@@ -31,7 +31,7 @@ def test_fates_of_regular_motions_are_those_of_every_solver(solver):
         amplitudes = 7.0 * (np.arange(4) + 0.5) / 4
         ends = {"end_time": 70.0, "output_step": 70.0, "solver": chosen}
         problems = {omega: problem_of(omega=omega, **ends) for omega in (-4.0, 8.0)}
-        return as_xarray(*map_fates(problems, amplitudes))["fate"]
+        return as_xarray(*map_fates(problems, amplitudes).make())["fate"]
 
     by_taylor, by_second = fates(TAYLOR), fates(solver)
     assert (by_taylor.sel(omega=8) == by_second.sel(omega=8)).all()
@@ -49,7 +49,7 @@ def test_as_many_perturbed_runs_spread_by_dop853():
         contents = sensitivity_contents(
             "fig3_large", problem.changed(solver=solver), [perturbation], members, seed
         )
-        spread.append(round(float(as_xarray(*contents)["share"][0]) * members))
+        spread.append(round(float(as_xarray(*contents.make())["share"][0]) * members))
     table = [[count, members - count] for count in spread]
     assert fisher_exact(table).pvalue > CHANCE
     assert fisher_exact([[members, 0], table[1]]).pvalue < CHANCE  # if all of them spread

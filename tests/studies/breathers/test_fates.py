@@ -79,7 +79,7 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
     assert fates.keep_fate(problem) == {"fate": expected}
-    found = as_xarray(*sensitivity.sensitivity_contents("one", problem, [0.0], 2, 1))
+    found = as_xarray(*sensitivity.sensitivity_contents("one", problem, [0.0], 2, 1).make())
     assert found["share"].values.tolist() == [float(expected == SPREADS)]
 
 
@@ -87,7 +87,7 @@ def maps(points, **changes):
     """Return the map at Omega = -4 and 8 of so many real amplitudes."""
     amplitudes = 5.0 * (np.arange(points) + 0.5) / points
     problems = {omega: pair_problem(omega, 1.0, 1.0, 10.0, **changes) for omega in (-4, 8)}
-    return as_xarray(*map_fates(problems, amplitudes))
+    return as_xarray(*map_fates(problems, amplitudes).make())
 
 
 def test_a_map_has_the_fate_of_each_of_its_data():

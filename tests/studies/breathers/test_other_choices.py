@@ -23,7 +23,7 @@ def test_areas_are_those_of_the_map_without_its_diagonal():
         (longer, amplitudes, data["area_varied"].sel(variation="end_time = 20")),
         (PROBLEM, amplitudes[::2], data["area_varied"].sel(variation="stride = 2")),
     ):
-        fates = as_xarray(*map_fates({-4.0: problem}, chosen))["fate"].values[0]
+        fates = as_xarray(*map_fates({-4.0: problem}, chosen).make())["fate"].values[0]
         unequal = fates[~np.eye(len(chosen), dtype=bool)]
         expected = [(unequal == place).mean() for place in range(len(FATES))]
         np.testing.assert_allclose(areas, expected)
@@ -35,7 +35,7 @@ def test_shares_are_those_of_as_many_runs_with_another_choice():
     sizes, members = [1e-6, 0.3], 5
     data = vary_shares("fig3_large", PROBLEM, sizes, members, RUNS | {"seed": 4}, {"seed": [5]})
     for seed, share in ((4, data["share"]), (5, data["share_varied"].sel(variation="seed = 5"))):
-        again = as_xarray(*sensitivity_contents("fig3_large", PROBLEM, sizes, members, seed))
+        again = as_xarray(*sensitivity_contents("fig3_large", PROBLEM, sizes, members, seed).make())
         np.testing.assert_array_equal(share, again["share"])
     assert (data["share_low"] <= data["share_varied"].min("variation")).all()
 

@@ -15,7 +15,7 @@ PROBLEM = problem_of("fig4_small", half_width=6, end_time=1.0, output_step=0.25,
 def test_half_widths_have_draws_of_their_own_and_each_reading_its_window():
     about = {"problem": PROBLEM.plain(), "members": 3, "windows": [(0.5, 1.0), (0.25, 0.5)]}
     swept = {"a": about | {"half_widths": [12]}, "b": about | {"half_widths": [13]}}
-    data = measure_ensembles(swept, 1e-3, 0)  # before the ends matter
+    data = measure_ensembles(swept, 1e-3, 0).make()  # before the ends matter
     means = data["l2_mean"].sel(reading="text")
     assert np.isnan(means.sel(sweep="a", half_width=13)) and means.notnull().sum() == 2
     assert not np.isclose(means.sel(sweep="a", half_width=12), means.sel(sweep="b", half_width=13))
@@ -36,7 +36,7 @@ def test_runs_of_the_second_solver_have_its_steps_and_draws_of_their_own():
         for step in steps
     ]  # fmt: skip
     windows = [(0.5, 1.0), (0.25, 0.5)]
-    data = measure_second_solver(first, second, [3, 4], windows, 1e-3, 2, 5, seed=1)
+    data = measure_second_solver(first, second, [3, 4], windows, 1e-3, 2, 5, seed=1).make()
     assert data["solver_step"].values.tolist() == steps and data.attrs["window"] == "[0.5, 1]"
     assert data["first_l2"].shape == (2, 5) and data["l2"].shape == (2, 2, 2)
     alone = draw_swept(PROBLEM.of(second[1]), [4], 1e-3, 2, seed=1 + 2)

@@ -84,7 +84,9 @@ def test_members_of_the_long_study_are_measured_with_each_choice_changed():
     case, changes = problem(end_time=12.0), {"level": [0.25], "seed": [4]}
     data = lifetimes.vary_lifetimes(case, [2.0, 9.0], 0.2, 6, chosen, changes)
     again = as_xarray(
-        *lifetimes.measure_lifetimes(case, [2.0, 9.0], 0.2, 0.01, 6, 4, (10.0, 12.0), 0.5, 1.0)
+        *lifetimes.measure_lifetimes(
+            case, [2.0, 9.0], 0.2, 0.01, 6, 4, (10.0, 12.0), 0.5, 1.0
+        ).make()
     )
     assert data["variation"].values.tolist() == ["seed = 4", "level = 0.25"]
     expected = np.median(again["transition"], axis=1)

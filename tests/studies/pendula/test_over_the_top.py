@@ -59,7 +59,7 @@ def test_power_is_compared_only_where_no_pendulum_is_over_the_top():
 def test_small_mu_stays_below_the_top_and_large_mu_goes_over_it():
     fast = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
     case = problem_of("fig4_small", solver=fast, end_time=6.0)
-    data = as_xarray(*measure_over_the_top(case, [0.1, 0.3], 1e-6, 2, 1, 5.0))
+    data = as_xarray(*measure_over_the_top(case, [0.1, 0.3], 1e-6, 2, 1, 5.0).make())
     assert np.isinf(data["passage_time"].sel(mu=0.1)).all()
     assert (data["passage_time"].sel(mu=0.3) < 5.0).all()
     assert data["passed"].isel(tau=-1).values.tolist() == [0.0, 1.0]

@@ -8,9 +8,9 @@ import numpy as np
 
 from latticode.integrators.families import instead_of_taylor
 from latticode.simulation.problem import Problem
-from latticode.simulation.runs import Run
+from latticode.simulation.runs import ManyRuns
 from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
-from latticode.simulation.survey_runs import run_survey
+from latticode.simulation.survey_runs import runs_of_survey
 from latticode.simulation.systems import integration_of
 
 from .netcdf import Variable
@@ -34,8 +34,8 @@ COUNTS = {"failure": "failed_runs", "remark": "runs_by_another_solver"}
 """What is said of runs where there is something to say, and the attributes with their numbers."""
 
 
-def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run) -> Contents:
-    """Return the contents of the dataset on a survey that plain values describe, run by `run`."""
+def make_survey(name: str, problem: Problem, survey: Mapping[str, Any]) -> ManyRuns:
+    """Return the runs of a survey that plain values describe, which give its dataset's contents."""
     members = survey["members"] and Members(**survey["members"])
     plan = Survey(
         survey["axes"],
@@ -44,7 +44,12 @@ def make_survey(name: str, problem: Problem, survey: Mapping[str, Any], run: Run
         members,
         survey["by_half_width"],
     )
-    return survey_contents(name, problem, plan, run_survey(problem, plan, run))
+    runs = runs_of_survey(problem, plan)
+
+    def contents(retained: dict[str, np.ndarray]) -> Contents:
+        return survey_contents(name, problem, plan, runs.conclude(retained))
+
+    return runs._replace(conclude=contents)
 
 
 def survey_contents(

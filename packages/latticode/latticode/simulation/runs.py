@@ -8,7 +8,7 @@ same bits in any number of parts.
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -83,6 +83,23 @@ def run_all(problems: Sequence[Problem], make: Make, cores: int = 1) -> dict[str
         for part in over:  # raise the error of the part that failed, not that of parts it ended
             part.result()
         return joined([part.result() for part in made])
+
+
+class ManyRuns(NamedTuple):
+    """A study of many runs: their problems, what is retained of each, and what all of them give.
+
+    `retain` makes the run of a problem and returns what is retained of it, by name. `conclude`
+    takes this of all runs, each (run, ...), and returns the result of the study. A workflow can
+    thus make the runs in any number of jobs.
+    """
+
+    problems: Sequence[Problem]
+    retain: Make
+    conclude: Callable[[dict[str, np.ndarray]], Any]
+
+    def make(self, run: Run = run_all) -> Any:
+        """Return the result of the study, its runs made by `run`."""
+        return self.conclude(run(self.problems, self.retain))
 
 
 def shaped(found: Mapping[str, np.ndarray], shape: Sequence[int]) -> dict[str, np.ndarray]:

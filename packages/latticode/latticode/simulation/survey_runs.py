@@ -11,7 +11,7 @@ from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
 
 from .problem import Problem
-from .runs import Run, run_all, shaped
+from .runs import ManyRuns, Run, run_all, shaped
 from .simulate import IntegrationError, Trajectory, simulate
 from .survey import CHAINS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
 from .sweep import mean_of, within
@@ -25,6 +25,14 @@ def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str
     the solver of the problem has its reason in "remark". A line is printed of each kind. Raises
     ValueError for what cannot be kept or changed.
     """
+    return runs_of_survey(problem, survey).make(run)
+
+
+def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
+    """Return the runs of a survey, which conclude with what `run_survey` returns.
+
+    Raises ValueError for what cannot be kept or changed.
+    """
     names_of(survey)
     known = {**problem.model.parameters, **problem.parameters}
     reach, fields = problem.initial.shape[1] // 2, len(problem.initial)
@@ -32,7 +40,11 @@ def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str
         if fault := fault_of_axis(name, known, range(-reach, reach + 1), fields):
             raise ValueError(f"axes: {fault}")
     problems = Surveyed(problem, survey)
-    found = run(problems, partial(_kept_of, survey=survey))
+    return ManyRuns(problems, partial(_kept_of, survey=survey), partial(_in_shape, problems))
+
+
+def _in_shape(problems: Surveyed, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Return what is kept of all runs in the survey's shape; print what failed."""
     texts = found.pop(TEXT)
     for kind, what in (("failure", "failed and have NaN"), ("remark", "are by another solver")):
         chosen = np.char.startswith(texts, kind)
@@ -42,7 +54,7 @@ def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str
             at = problems.place_of(first)
             count = f"{chosen.sum()} of {len(problems)} runs {what}"
             print(f"{count}; the first, {at}: {found[kind][first]}", flush=True)
-    return shaped(found, survey.shape)
+    return shaped(found, problems.survey.shape)
 
 
 TEXT = "text"

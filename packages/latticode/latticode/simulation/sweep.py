@@ -8,7 +8,7 @@ from latticode.integrators.families import remark_on
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.problem import Problem
 
-from .runs import Run, run_all
+from .runs import ManyRuns, Run, run_all
 from .simulate import Trajectory, simulate
 from .systems import site_dependent
 
@@ -24,7 +24,14 @@ Window = tuple[float, float]
 def sweep(
     problem: Problem, half_widths: Sequence[int], windows: Sequence[Window], run: Run = run_all
 ) -> dict[str, np.ndarray]:
-    """Integrate `problem` on chains of each half-width; return what `windowed` keeps of each.
+    """Integrate `problem` on chains of each half-width; return what `windowed` keeps of each."""
+    return runs_of_sweep(problem, half_widths, windows).make(run)
+
+
+def runs_of_sweep(
+    problem: Problem, half_widths: Sequence[int], windows: Sequence[Window]
+) -> ManyRuns:
+    """Return the runs of a sweep, which conclude with what `windowed` keeps of each.
 
     Where a run ends before anything has come to the ends of its chain, longer chains do the same,
     and those that follow are not run. Where parameters depend on the site, nobody knows.
@@ -45,7 +52,7 @@ def sweep(
             enough, inside = one.half_width, found
         return found
 
-    return run([problem.changed(half_width=width) for width in half_widths], make)
+    return ManyRuns([problem.changed(half_width=width) for width in half_widths], make, dict)
 
 
 def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.ndarray]:

@@ -8,7 +8,6 @@ from latticode.configuration.messages import load
 from latticode.datasets.surveys import make_survey
 from latticode.equations.model import Model, abs2, lap
 from latticode.simulation.problem import Problem
-from latticode.simulation.runs import run_all
 
 CHAIN = Model(
     fields="u", parameters={"c": 1.0, "exponent": 0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u
@@ -108,7 +107,7 @@ def test_a_survey_of_a_file_evaluates_functions_on_the_sites_of_each_run():
     asked["together"] = {"force": [0.1, 0.2], "half_width": [3, 6]}
     settings = load({"cases": {"mine": case}, "surveys": {"ends": asked}})
     problem = Problem.of(settings.surveyed_problem("ends"))
-    variables, _ = make_survey("ends", problem, settings.plain_survey("ends"), run_all)
+    variables, _ = make_survey("ends", problem, settings.plain_survey("ends")).make()
     alone = case.changed(half_width=6, parameters={"force": 0.2})
     assert variables["final_l2"].values[1] == notebook.simulate(alone)["l2"].values[0, -1]
 

@@ -28,7 +28,7 @@ from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
 from latticode.simulation.lattice import find_reduction, unpack
-from latticode.simulation.runs import Run, run_all
+from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import integrate
 from latticode.simulation.survey import Survey, Surveyed
 
@@ -115,10 +115,10 @@ def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
 
 
 def map_fates(
-    problems: Mapping[float, Problem], amplitudes: Sequence[float], run: Run = run_all,
+    problems: Mapping[float, Problem], amplitudes: Sequence[float],
     majority: float = MAJORITY,
-) -> Contents:  # fmt: skip
-    """Return the fate of data on one pair at each detuning, that of the problem under it.
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that map the fate of data on one pair, at the detuning of each problem.
 
     A_0 and B_0 go over `amplitudes`. Exchanging A and B changes no fate, so that one half of the
     map is run.
@@ -128,9 +128,21 @@ def map_fates(
     survey = Survey({"omega": list(problems), "initial.0.0, initial.0.1": data})
     (one, *_) = problems.values()
     runs = Surveyed(one.changed(initial=np.ones((2, 1))), survey)
-    fates = run(runs, partial(keep_fate, majority=majority))["fate"]
+
+    def conclude(retained: Mapping[str, np.ndarray]) -> Contents:
+        return _map_of(problems, amplitudes, retained["fate"].reshape(survey.shape))
+
+    return ManyRuns(runs, partial(keep_fate, majority=majority), conclude)
+
+
+def _map_of(
+    problems: Mapping[float, Problem], amplitudes: Sequence[float], fates: np.ndarray
+) -> Contents:
+    """Return the contents of the dataset of the fates (omega, data) of one half of the map."""
+    rows, columns = np.tril_indices(len(amplitudes))
+    (one, *_) = problems.values()
     mapped = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=np.int8)
-    mapped[:, rows, columns] = mapped[:, columns, rows] = fates.reshape(survey.shape)
+    mapped[:, rows, columns] = mapped[:, columns, rows] = fates
     flags = {"flag_values": np.arange(len(FATES), dtype=np.int8), "flag_meanings": " ".join(FATES)}
     variables = {
         "omega": Variable(("omega",), np.array(list(problems))),

@@ -39,7 +39,7 @@ def vary_areas(
     def measure(majority, stride, **settings):
         kept = amplitudes[:: int(stride)]
         changed = {problem.constants.omega: with_choices(problem, **settings)}
-        fates = map_fates(changed, kept, majority=majority)[0]["fate"].values[0]
+        fates = map_fates(changed, kept, majority=majority).make()[0]["fate"].values[0]
         half = fates[np.tril_indices(len(kept), -1)]
         counts = [int((half == place).sum()) for place in range(len(FATES))]
         return Limits(*np.transpose([share_limits(count, half.size) for count in counts]))
@@ -60,7 +60,7 @@ def vary_shares(
     def measure(majority, seed, **settings):
         changed = with_choices(problem, **settings)
         study = sensitivity_contents(name, changed, sizes, members, int(seed), majority=majority)
-        found = as_xarray(*study)
+        found = as_xarray(*study.make())
         return Limits(*(found[f"share{end}"].values for end in ("", "_low", "_high")))
 
     share = vary(measure, choices_of(chosen, variations))

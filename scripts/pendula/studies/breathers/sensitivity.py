@@ -14,7 +14,7 @@ from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, share_limits
 from latticode.simulation.ensembles import draw_members
-from latticode.simulation.runs import Run, run_all
+from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
 
@@ -23,9 +23,9 @@ from .fates import MAJORITY, SPREADS, keep_fate
 
 def sensitivity_contents(
     name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
-    run: Run = run_all, majority: float = MAJORITY,
-) -> Contents:  # fmt: skip
-    """Return the share that spreads for each relative size of the change."""
+    majority: float = MAJORITY,
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give the share that spreads for each relative size of the change."""
     # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
     drawn = [
@@ -33,15 +33,23 @@ def sensitivity_contents(
         for number, size in enumerate(sizes)
         for one in draw_members(at_the_end_alone, size, members, [seed, number])
     ]
-    fates = run(drawn, partial(keep_fate, majority=majority))["fate"]
+    about = describe_run(name, problem, problem.solver) | {"members": members, "seed": seed}
+    title = f"Which data close to those of {name} spread"
+
+    def conclude(retained: dict[str, np.ndarray]) -> Contents:
+        return _shares_of(sizes, members, retained["fate"]), {"title": title, **about}
+
+    return ManyRuns(drawn, partial(keep_fate, majority=majority), conclude)
+
+
+def _shares_of(sizes: Sequence[float], members: int, fates: np.ndarray) -> dict[str, Variable]:
+    """Return the share of the fates (run,) that spread, with its confidence limits, by size."""
     spread = (fates == SPREADS).reshape(len(sizes), members).sum(axis=1)
     share = Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
     by_size, said = ("size",), "share of runs that spread"
-    variables = {
+    return {
         "size": Variable(by_size, np.array(sizes), "size of a random change of the data, relative"),
         "share": Variable(by_size, share.value, said),
         "share_low": Variable(by_size, share.low, f"{said}, lower confidence limit"),
         "share_high": Variable(by_size, share.high, f"{said}, upper confidence limit"),
     }
-    about = describe_run(name, problem, problem.solver) | {"members": members, "seed": seed}
-    return variables, {"title": f"Which data close to those of {name} spread", **about}

@@ -13,7 +13,7 @@ from latticode.datasets.registry import NAMES
 from latticode.measures.levels import moments
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import name_window
-from latticode.simulation.runs import Run, run_all
+from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, STATISTICS, windowed
 
@@ -49,10 +49,10 @@ def read_norms(problem: Problem, windows) -> dict[str, np.ndarray]:
     return {norm: found[norm][pair, places, range(len(places))] for norm in NORMS}
 
 
-def measure_ensembles(
-    swept: Mapping[str, Mapping], size: float, seed: int, run: Run = run_all
-) -> xr.Dataset:
-    """Return the moments of the norms of sweeps, NaN at half-widths that another one has alone.
+def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> ManyRuns:
+    """Return the runs that give the moments of the norms of sweeps.
+
+    They are NaN at half-widths that another sweep has alone.
 
     `swept` gives by sweep its problem as plain values, half-widths, members at each of them, and
     the windows of the READINGS.
@@ -63,7 +63,18 @@ def measure_ensembles(
         for name, one in swept.items()
         for member in draw_swept(own[name], one["half_widths"], size, one["members"], seed)
     }
-    found, done, parts = run(list(windows), lambda one: read_norms(one, windows[one])), 0, []
+    return ManyRuns(
+        list(windows),
+        lambda one: read_norms(one, windows[one]),
+        lambda norms: _ensembles_of(norms, own, swept).assign_attrs(perturbation=size),
+    )
+
+
+def _ensembles_of(
+    found: Mapping[str, np.ndarray], own: Mapping[str, Problem], swept: Mapping[str, Mapping]
+) -> xr.Dataset:
+    """Return the dataset of the norms of all runs, sweep by sweep."""
+    done, parts = 0, []
     for one in swept.values():
         shape = len(one["half_widths"]), one["members"]
         kept = slice(done, done := done + shape[0] * shape[1])
@@ -72,15 +83,15 @@ def measure_ensembles(
     described["sweep"].attrs["long_name"] = NAMES["sweep"]
     data = xr.merge([described, xr.concat(parts, described["sweep"], join="outer")])
     title = "Ensembles of the chaotic sweeps, from almost equal data"
-    return data.assign_attrs({**described.attrs, "title": title, "perturbation": size})
+    return data.assign_attrs({**described.attrs, "title": title})
 
 
 def measure_second_solver(
     first: Mapping, second: Sequence[Mapping], half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]], size: float, members: int, first_members: int,
-    seed: int, run: Run = run_all,
-) -> xr.Dataset:  # fmt: skip
-    """Return the maxima of l2 over the window of the text, of runs by the paper's second solver.
+    seed: int,
+) -> ManyRuns:  # fmt: skip
+    """Return the runs by the paper's second solver that give the maxima of l2 over a window.
 
     `second` are its problems, which differ in the step, and `first` is that by the solver of the
     ensembles, as plain values. Each has draws of its own at each half-width: `members` of each of
@@ -91,12 +102,30 @@ def measure_second_solver(
         draw_swept(Problem.of(problem), half_widths, size, count, seed + number)
         for number, (problem, count) in enumerate(zip([first, *second], sizes, strict=True))
     ]
-    norms = run([member for part in drawn for member in part], lambda one: read_norms(one, windows))
-    values = np.split(norms["l2"][:, 0], np.cumsum([len(part) for part in drawn])[:-1])
+    about = {"perturbation": size, "seed": seed, "window": name_window(windows[0])}
+
+    def conclude(norms: Mapping[str, np.ndarray]) -> xr.Dataset:
+        values = np.split(norms["l2"][:, 0], np.cumsum([len(part) for part in drawn])[:-1])
+        data = _second_solver_of(values, half_widths, second)
+        _, shared = describe_cases({"sweep": Problem.of(first)})
+        title = "A chaotic sweep by the paper's second solver, from almost equal data"
+        return data.assign_attrs({**shared, **about, "title": title})
+
+    return ManyRuns(
+        [member for part in drawn for member in part],
+        lambda one: read_norms(one, windows),
+        conclude,
+    )
+
+
+def _second_solver_of(
+    values: Sequence[np.ndarray], half_widths: Sequence[int], second: Sequence[Mapping]
+) -> xr.Dataset:
+    """Return the maxima of l2 by both solvers, from those of the runs of each problem."""
     of_first, *of_second = (part.reshape(len(half_widths), -1) for part in values)
     says = f"{NAMES['l2']} of the pair, largest over the window"
     steps = [problem["solver"]["step"] for problem in second]
-    data = xr.Dataset(
+    return xr.Dataset(
         {
             "first_l2": (("half_width", "first_member"), of_first, {"long_name": says}),
             "l2": (
@@ -110,10 +139,6 @@ def measure_second_solver(
             "solver_step": ("solver_step", steps, {"long_name": "step of the second solver"}),
         },
     )
-    _, shared = describe_cases({"sweep": Problem.of(first)})
-    about = {"perturbation": size, "seed": seed, "window": name_window(windows[0])}
-    title = "A chaotic sweep by the paper's second solver, from almost equal data"
-    return data.assign_attrs({**shared, **about, "title": title})
 
 
 def _moments(norms: Mapping[str, np.ndarray], about: Mapping) -> xr.Dataset:

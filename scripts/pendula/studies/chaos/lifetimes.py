@@ -15,7 +15,7 @@ import xarray as xr
 from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
 from latticode.simulation.ensembles import draw_members
-from latticode.simulation.runs import Run, run_all
+from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.many_cases import describe_cases
@@ -84,27 +84,38 @@ def shares_alike(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
 
 def measure_lifetimes(
     problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int,
-    window: Sequence[float], level: float, multiple: float, run: Run = run_all,
-) -> Contents:  # fmt: skip
-    """Return NUMBERS of `members` runs from each amplitude A_0 with B_0 = `ratio` A_0."""
+    window: Sequence[float], level: float, multiple: float,
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give NUMBERS of members from each A_0, with B_0 = `ratio` A_0."""
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
-    kept = run(drawn, partial(follow, window=window, level=level, multiple=multiple))
-    over = ("start_amplitude",)
-    variables = {
-        "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
-        **{
-            name: Variable((*over, "member"), kept[name].reshape(-1, members), words)
-            for name, words in NUMBERS.items()
-        },
-    }
-    _, shared = describe_cases({"centre": problem})
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "ratio": ratio}
     about |= {"perturbation": size, "members": members, "seed": seed}
     about |= {"window_start": window[0], "window_end": window[1], "level": level}
     about |= {"multiple": multiple}
+
+    def conclude(numbers: Mapping[str, np.ndarray]) -> Contents:
+        variables, attributes = _lifetimes_of(problem, amplitudes, members, numbers)
+        return variables, attributes | about
+
+    return ManyRuns(drawn, partial(follow, window=window, level=level, multiple=multiple), conclude)
+
+
+def _lifetimes_of(
+    problem: Problem, amplitudes: list[float], members: int, numbers: Mapping[str, np.ndarray]
+) -> Contents:
+    """Return the contents of the dataset of NUMBERS, each (run,)."""
+    over = ("start_amplitude",)
+    variables = {
+        "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
+        **{
+            name: Variable((*over, "member"), numbers[name].reshape(-1, members), words)
+            for name, words in NUMBERS.items()
+        },
+    }
+    _, shared = describe_cases({"centre": problem})
     title = "The transition at Omega = 0 and the life of the centre, against the initial amplitude"
-    return variables, {**shared, "title": title, **about}
+    return variables, {**shared, "title": title}
 
 
 def vary_lifetimes(
@@ -116,9 +127,8 @@ def vary_lifetimes(
     def measure(tolerance, output_step, size, seed, **clocks):
         solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
         start = problem.changed(solver=solver, output_step=output_step)
-        return limits_of(as_xarray(
-            *measure_lifetimes(start, amplitudes, ratio, size, members, int(seed), **clocks)
-        ))  # fmt: skip
+        runs = measure_lifetimes(start, amplitudes, ratio, size, members, int(seed), **clocks)
+        return limits_of(as_xarray(*runs.make()))
 
     choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
     over, about = ("start_amplitude",), {"long_name": "initial amplitude A_0"}

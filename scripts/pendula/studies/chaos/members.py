@@ -16,7 +16,7 @@ from latticode.measures.levels import bands, correlation
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.problem import name_window
-from latticode.simulation.runs import Run, run_all, shaped
+from latticode.simulation.runs import ManyRuns, shaped
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, pair_l2, pair_linf
 
@@ -67,17 +67,28 @@ def relative_width(late: np.ndarray) -> float:
 
 def member_numbers(
     problems: dict[str, Problem], windows: list[Window], size: float, members: int, seed: int,
-    run: Run = run_all,
-) -> Contents:  # fmt: skip
-    """Return bands of the norms of each case, what REDUCED names of each member, and their scatter.
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give bands of norms of each case, and what REDUCED names of each member.
 
     `problems` are given by case, and keep all moduli; the sites are those of the longest chain.
     """
-    tau = next(iter(problems.values())).times
     reach = max(one.half_width for one in problems.values())
     drawn = [m for one in problems.values() for m in draw_members(one, size, members, seed)]
-    found = run(drawn, partial(reduce_run, windows=windows, reach=reach))
-    found = shaped(found, (len(problems), members))
+    about = {"perturbation": size, "members": members, "seed": seed}
+
+    def conclude(retained: dict[str, np.ndarray]) -> Contents:
+        found = shaped(retained, (len(problems), members))
+        variables, attributes = _numbers_of(problems, windows, reach, found)
+        return variables, {**attributes, **about, "band_share": QUANTILES[-1] - QUANTILES[0]}
+
+    return ManyRuns(drawn, partial(reduce_run, windows=windows, reach=reach), conclude)
+
+
+def _numbers_of(
+    problems: dict[str, Problem], windows: list[Window], reach: int, found: dict[str, np.ndarray]
+) -> Contents:
+    """Return the contents of the dataset of what `reduce_run` returns, each (case, member, ...)."""
+    tau = next(iter(problems.values())).times
     squares = [square_modulus(problem.initial) for problem in problems.values()]
     l2, linf = (np.sqrt([reduce(one) for one in squares]) for reduce in (np.sum, np.max))
     late = found["l2"][:, :, PAIR, tau >= windows[-1][0]]
@@ -105,6 +116,4 @@ def member_numbers(
         values = found[name].astype(np.float32) if name == "rms" else found[name]
         variables[name] = Variable(("case", "member", *rest), values, long_name)
     title = "Ensembles of every case, from almost equal data"
-    about = {"perturbation": size, "members": members, "seed": seed}
-    about["band_share"] = QUANTILES[-1] - QUANTILES[0]
-    return variables, {"title": title, **shared, **about}
+    return variables, {"title": title, **shared}

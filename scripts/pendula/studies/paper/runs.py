@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 from latticode.datasets.trajectories import Contents, sweep_contents, trajectory_contents
 from latticode.integrators.families import remark_on
-from latticode.simulation.runs import Run
+from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import simulate
-from latticode.simulation.sweep import sweep
+from latticode.simulation.sweep import runs_of_sweep
 
 from pendula.problem import Problem
 
@@ -24,8 +25,12 @@ def run_case(name: str, problem: Problem) -> Contents:
 
 def run_sweep(
     name: str, problem: Problem, half_widths: Sequence[int],
-    windows: Sequence[tuple[float, float]], run: Run,
-) -> Contents:  # fmt: skip
-    """Return the maxima and means of norms over `windows`, on chains of all `half_widths`."""
-    swept = sweep(problem, half_widths, windows, run)
-    return sweep_contents(name, problem, half_widths, windows, swept)
+    windows: Sequence[tuple[float, float]],
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give maxima and means of norms over `windows`, on all `half_widths`."""
+    runs = runs_of_sweep(problem, half_widths, windows)
+
+    def contents(retained: dict[str, np.ndarray]) -> Contents:
+        return sweep_contents(name, problem, half_widths, windows, runs.conclude(retained))
+
+    return runs._replace(conclude=contents)

@@ -21,7 +21,7 @@ from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, difference_limits, event_rate, share_limits
 from latticode.simulation.ensembles import draw_members
-from latticode.simulation.runs import Run, run_all, shaped
+from latticode.simulation.runs import ManyRuns, run_all, shaped
 from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.pendula import frequency
@@ -62,20 +62,31 @@ def late_square(run: Trajectory, problem: Problem) -> float:
 
 def measure_over_the_top(
     problem: Problem, mus: Sequence[float], size: float, members: int, seed: int, settled: float,
-    run: Run = run_all,
-) -> Contents:  # fmt: skip
-    """Return first passages of members of the case at each mu, shares by tau, and rates.
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give first passages of members at each mu, shares by tau, and rates."""
+    drawn = draw_members(problem, size, members, seed)
+    each = [one.changed(model=PENDULA, mu=float(mu)) for mu in mus for one in drawn]
+
+    def conclude(retained: dict[str, np.ndarray]) -> Contents:
+        return _passages_of(drawn, mus, settled, shaped(retained, (len(mus), members)))
+
+    return ManyRuns(each, passage, conclude)
+
+
+def _passages_of(
+    drawn: list[Problem], mus: Sequence[float], settled: float, retained: Mapping[str, np.ndarray]
+) -> Contents:
+    """Return the contents of the dataset of what `passage` returns, each (mu, member).
 
     All are watched equally long, so that a share is one minus the estimate of Kaplan and Meier.
     """
-    drawn = draw_members(problem, size, members, seed)
-    each = [one.changed(model=PENDULA, mu=float(mu)) for mu in mus for one in drawn]
-    times, powers = shaped(run(each, passage), (len(mus), members)).values()
+    times, powers = retained.values()
+    members, end_time = len(drawn), drawn[0].end_time
     of_amplitudes = run_all(drawn, amplitude_power)["site_power"]
-    tau = np.arange(1.0, int(problem.end_time) + 1.0)
+    tau = np.arange(1.0, int(end_time) + 1.0)
     counts = (times[..., None] <= tau).sum(axis=1)
     passed = [[share_limits(int(one), members) for one in row] for row in counts]
-    rates = [event_rate(row, settled, problem.end_time) for row in times]
+    rates = [event_rate(row, settled, end_time) for row in times]
     over = ("mu", "member")
     variables = {
         "mu": Variable(("mu",), list(mus)),
@@ -123,7 +134,7 @@ def vary_over_the_top(
         solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
         runs = problem.changed(solver=solver, end_time=run_time)
         study = measure_over_the_top(runs, mus, size, members, int(seed), settled)
-        return printed_numbers(as_xarray(*study), end_time)
+        return printed_numbers(as_xarray(*study.make()), end_time)
 
     choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
     numbers = vary_several(measure, choices | {"run_time": [end_time, 2.0 * end_time]})

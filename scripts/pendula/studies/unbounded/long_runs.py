@@ -9,7 +9,7 @@ from latticode.datasets.registry import NAMES
 from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
 from latticode.numerics.draws import normal
-from latticode.simulation.runs import Run, shaped
+from latticode.simulation.runs import ManyRuns, shaped
 
 from pendula.problem import Problem
 
@@ -47,15 +47,19 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
 
 def spread_case(
     name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
-    run: Run, levels: Sequence[float] = (LEVEL,), edges: Sequence[int] = (EDGE,),
-) -> Contents:  # fmt: skip
-    """Return the series of each problem and member, with fronts and regions as of `run_long`."""
+    levels: Sequence[float] = (LEVEL,), edges: Sequence[int] = (EDGE,),
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give what `run_long` returns of each problem and member."""
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
     make = partial(run_long, rest=rest, levels=levels, edges=edges)
-    series = shaped(run(members_of(problems, **ensemble), make), (len(problems), members))
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
-    variables = run_variables(problems, series, levels, edges)
-    return variables, attributes(title, name, problems, rest, **ensemble)
+
+    def conclude(retained: dict[str, np.ndarray]) -> Contents:
+        series = shaped(retained, (len(problems), members))
+        variables = run_variables(problems, series, levels, edges)
+        return variables, attributes(title, name, problems, rest, **ensemble)
+
+    return ManyRuns(members_of(problems, **ensemble), make, conclude)
 
 
 def run_variables(

@@ -11,7 +11,7 @@ import xarray as xr
 from latticode.measures.confidence import mean_limits
 from latticode.measures.spreading import lay_line
 from latticode.numerics.draws import normal
-from latticode.simulation.runs import Run
+from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
 from pendula.varied import Estimate, Printed, as_dataset, vary_several
@@ -36,11 +36,12 @@ MEANINGS = {
 
 def follow_noise(
     problems: list[Problem], rest: float, noises: list[float], members: int, perturbation: float,
-    tolerances: list[float], seed: int, run: Run,
-) -> xr.Dataset:  # fmt: skip
-    """Return speeds of the second front and its distance from the first, (noise, omega).
+    tolerances: list[float], seed: int,
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give speeds of the second front and its distance from the first.
 
-    The last noise is ROUNDING. They are of the first of `tolerances`; others are variations.
+    Both are (noise, omega), and the last noise is ROUNDING. They are of the first of
+    `tolerances`; others are variations.
     """
     runs = []
     for tolerance in tolerances:
@@ -48,9 +49,20 @@ def follow_noise(
         again = [problem.changed(solver=solver) for problem in problems]
         runs += members_of(again, members, perturbation, seed)
     sizes = [*noises, ROUNDING]
-    made = run(runs, partial(follow_front, noises=sizes, rest=rest, seed=seed))["numbers"]
     shape = (len(tolerances), len(problems), members, len(sizes), len(MEANINGS))
-    made = made.reshape(*shape, *map(len, CHOICES.values()))
+
+    def conclude(retained: dict[str, np.ndarray]) -> xr.Dataset:
+        numbers = retained["numbers"].reshape(*shape, *map(len, CHOICES.values()))
+        return _numbers_by_noise(problems, noises, tolerances, numbers)
+
+    retain = partial(follow_front, noises=sizes, rest=rest, seed=seed)
+    return ManyRuns(runs, retain, conclude)
+
+
+def _numbers_by_noise(
+    problems: list[Problem], noises: list[float], tolerances: list[float], made: np.ndarray
+) -> xr.Dataset:
+    """Return the dataset of the numbers (tolerance, problem, member, noise, number, ...)."""
 
     def measure(tolerance, **choices) -> dict[str, Estimate]:
         place = tuple(CHOICES[name].index(value) for name, value in choices.items())

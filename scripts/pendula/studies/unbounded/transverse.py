@@ -21,7 +21,7 @@ import xarray as xr
 from latticode.measures.confidence import mean_limits
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
-from latticode.simulation.runs import Run
+from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
 from pendula.varied import Estimate, Printed, as_dataset, vary_several
@@ -45,9 +45,9 @@ of each is a variation."""
 
 def solve_transverse(
     problems: list[Problem], rest: float, members: int, perturbations: list[float],
-    tolerances: list[float], seed: int, run: Run,
-) -> xr.Dataset:  # fmt: skip
-    """Return predicted speeds of the second front, exponents at rest, and kappa, over Omega.
+    tolerances: list[float], seed: int,
+) -> ManyRuns:  # fmt: skip
+    """Return the runs that give predicted speeds of the second front, exponents, and kappa.
 
     They are of the first of `perturbations` and of `tolerances`; the others are variations.
     """
@@ -58,10 +58,13 @@ def solve_transverse(
         solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
         again = [problem.changed(solver=solver) for problem in problems]
         runs += members_of(again, members, perturbation, seed)
-    exponents = run(runs, partial(exponents_of, rest=rest))["exponents"]
-    by_setting = exponents.reshape(len(settings), len(problems), members, -1)
-    by_setting = dict(zip(settings, by_setting, strict=True))
-    return as_numbers(problems, by_setting, tolerances, perturbations)
+
+    def conclude(retained: dict[str, np.ndarray]) -> xr.Dataset:
+        exponents = retained["exponents"].reshape(len(settings), len(problems), members, -1)
+        by_setting = dict(zip(settings, exponents, strict=True))
+        return as_numbers(problems, by_setting, tolerances, perturbations)
+
+    return ManyRuns(runs, partial(exponents_of, rest=rest), conclude)
 
 
 def as_numbers(problems, by_setting, tolerances, perturbations) -> xr.Dataset:
