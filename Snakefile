@@ -35,7 +35,7 @@ include: "workflow/rules/paper.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/chaos.smk"
 include: "workflow/rules/breathers.smk"
-include: "workflow/rules/pendula.smk"
+include: "workflow/rules/newton.smk"
 include: "workflow/rules/unbounded.smk"
 include: "workflow/rules/exact.smk"
 include: "workflow/rules/own.smk"
@@ -46,7 +46,7 @@ DATASETS = [
     *(*SWEEPS, *SECOND_SWEEPS),
     *checks("identities", "cases", *THEORY_CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
-    *rules.pendula.input.datasets,
+    *rules.newton.input.datasets,
     *datasets("unbounded", *SETTINGS.unbounded.names, "thermal", "fronts"),
     *datasets("certified", "breathers"),
 ]

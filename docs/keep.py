@@ -59,7 +59,7 @@ def _about(data: xr.Dataset, study: xr.Dataset, *names: str) -> xr.Dataset:
 
 
 SECTIONS = ("cases", "sweeps", "solvers")
-SECTIONS += ("chaos", "breathers", "pendula", "unbounded", "certified")
+SECTIONS += ("chaos", "breathers", "newton", "unbounded", "certified")
 """The sections of the configuration that claims rest on."""
 
 
@@ -70,7 +70,7 @@ def configuration() -> dict:
     whole = json.loads(load(raw).model_dump_json())
     kept = {name: whole[name] for name in SECTIONS}
     breathers = (kept["breathers"][name] for name in ("sensitivity", "fates"))
-    others = (kept["pendula"]["over_the_top"], kept["chaos"]["lifetimes"])
+    others = (kept["newton"]["over_the_top"], kept["chaos"]["lifetimes"])
     for long in (kept["unbounded"], *breathers, *others):
         del long["long"]
     return kept

@@ -5,7 +5,7 @@ from pendula.studies.breathers import figures as breathers
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
-from pendula.studies.pendula import figures as pendula
+from pendula.studies.newton import figures as pendula
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
 

@@ -11,7 +11,7 @@ from latticode.simulation.ensembles import draw_members
 from pendula.problem import PENDULA
 from pendula.studies.breathers.fates import map_fates
 from pendula.studies.breathers.sensitivity import sensitivity_contents
-from pendula.studies.pendula.over_the_top import passage
+from pendula.studies.newton.over_the_top import passage
 from problems import problem_of
 from scipy.stats import fisher_exact, mannwhitneyu
 

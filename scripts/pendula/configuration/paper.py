@@ -167,6 +167,8 @@ def _sections(folder: str, stem: str) -> list[str]:
         return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # those of the theory rest on none
     if folder == "breathers":
         return [f"breathers.{part}" for part in ("epsilon", "gamma", stem)]
+    if folder == "pendula":
+        return [f"newton.{stem}"]
     return [f"{folder}.{stem}"]
 
 

@@ -1,7 +1,7 @@
 """The configuration of cases and sweeps, as the studies of the paper ask for them."""
 
 from collections.abc import Callable, Mapping
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from latticode.configuration import cost, schema
 from latticode.configuration.cost import Cost
@@ -24,6 +24,7 @@ class Configuration(schema.Configuration):
     """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
     cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
+    FORMER_KEYS: ClassVar[Mapping[str, str]] = {"pendula": "newton"}
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
         """Yield each of `names`, which stand at `key`, that is no case or sweep of (4)."""

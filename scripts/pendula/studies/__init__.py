@@ -7,7 +7,7 @@ from pathlib import Path
 from types import ModuleType
 
 STUDIES = (
-    *("paper", "theory", "chaos", "breathers", "pendula", "unbounded", "certified"),
+    *("paper", "theory", "chaos", "breathers", "newton", "unbounded", "certified"),
     *("hard_cases", "reference"),
 )
 """The studies whose claims and settings are collected, in the order in which they are

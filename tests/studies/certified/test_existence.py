@@ -5,11 +5,11 @@ import pytest
 from flint import arb, arb_mat, ctx
 from pendula.models.pairs import FAMILIES
 from pendula.studies.certified import existence
-from pendula.studies.certified.existence import Chain, RefusedError, prove
+from pendula.studies.certified.existence import ProofChain, ProofFailedError, prove
 from pendula.studies.certified.proved_breathers import find
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
-HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
+HERE = ProofChain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
 FAR = HERE._replace(half_width=22)
 
 
@@ -100,7 +100,7 @@ def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale, epsilon, hal
 )
 def test_inside_a_band_the_outside_does_not_contract(family, omega):
     """[0, 4 epsilon] for sums, shifted by 2 s for differences."""
-    with pytest.raises(RefusedError, match="band"):
+    with pytest.raises(ProofFailedError, match="band"):
         proved(family, HERE._replace(omega=omega), find_state(HERE, family))
 
 
@@ -110,9 +110,9 @@ def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
     radii = [proved(EQUAL, HERE, state * (1.0 + one)) for one in off]
     sizes = np.abs(state).max() * off
     assert np.all(radii >= sizes) and np.all(radii < 3.0 * sizes)
-    with pytest.raises(RefusedError, match="residual"):
+    with pytest.raises(ProofFailedError, match="residual"):
         proved(EQUAL, HERE, 1.3 * state)
-    with pytest.raises(RefusedError, match="zero"):
+    with pytest.raises(ProofFailedError, match="zero"):
         proved(EQUAL, HERE, 0.0 * state)
 
 
@@ -121,14 +121,14 @@ def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
     with ctx.workprec(existence.BITS):
         eta = arb(0.4975) * arb(0.5025) / 2
         there = existence.Estimates(eta, arb(0.5), arb(1), arb(1e-12))
-        with pytest.raises(RefusedError, match="residual"):
+        with pytest.raises(ProofFailedError, match="residual"):
             existence.radius_of(there)
         assert 0.342 < existence.radius_of(there._replace(eta=0.9 * eta)) < 0.36
-        with pytest.raises(RefusedError, match="residual"):  # p(0.202) = 0.002, q < 1
+        with pytest.raises(ProofFailedError, match="residual"):  # p(0.202) = 0.002, q < 1
             existence.radius_of(there._replace(eta=arb(0.08), cubic=arb(1)))
 
 
 def test_the_sign_of_epsilon_does_not_open_a_band():
     """For epsilon = -1 it is [-4, 0]."""
-    with pytest.raises(RefusedError, match="band"):
+    with pytest.raises(ProofFailedError, match="band"):
         proved(EQUAL, HERE._replace(epsilon=-1.0, omega=-3.0), find_state(HERE, EQUAL))

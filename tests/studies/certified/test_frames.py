@@ -159,7 +159,9 @@ def test_the_first_outputs_are_those_that_are_committed(path):
 
 def test_what_frames_miss_is_the_linear_and_the_cubic_part_of_the_last_order():
     """A half chain: the bond at its centre counts twice, so that epsilon has the factor 5."""
-    chain = fixed_point.Chain(Fraction(-1, 2), Fraction(1, 4), Fraction(3), 3, Fraction(1), 64)
+    chain = fixed_point.FixedPointChain(
+        Fraction(-1, 2), Fraction(1, 4), Fraction(3), 3, Fraction(1), 64
+    )
     strength, h, sizes = 5 * 0.5 + 3.0 + 2 * 0.25, 0.125, np.array([0.3])
     found = frames.missed(np.array([2.0]), sizes, h, chain)
     assert found == pytest.approx(h * 2.0 * (strength + 1.5 * 0.3**2), rel=1e-6)

@@ -34,7 +34,7 @@ def test_norms_are_those_of_the_whole_chain(half_width):
 def test_runs_that_part_are_refused_with_the_time(shift):
     times, series = np.array([0.0, 0.5, 1.0]), np.ones((2, 3))
     given = (series, times[:1], np.ones((1, 4, 5)))
-    run = verified_run.Run(times, series, *given, {"bits": 192})
+    run = verified_run.MultiprecisionRun(times, series, *given, {"bits": 192})
     check = run._replace(l2=series + np.array([0.0, 0.0, shift]), controls={"bits": 176})
     with pytest.raises(UnverifiedError, match=r"fig9: runs of 192 and 176 bits.* tau = 1 on"):
         verified_run.compare("fig9", run, check)

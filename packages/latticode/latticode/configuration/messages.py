@@ -112,6 +112,8 @@ def _printed(part: str) -> str:
 
 def _nearest(place: tuple, root: type[BaseModel]) -> str:
     key = str(place[-1])
+    if present := getattr(root, "FORMER_KEYS", {}).get(_dotted(place)):
+        return f"it is now called {present!r}"
     if len(place) == 1 and key in _keys_at(("cases", "mine", key), root):
         return f"it belongs to a case: cases: {{mine: {{{key}: ...}}}}"
     return HINTS.get(key) or _closest(key, _keys_at(place, root))

@@ -7,7 +7,7 @@ parameters of its jobs from run to run.
 import difflib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import prod
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, SerializeAsAny, model_validator
 
@@ -83,6 +83,8 @@ class Configuration(Model):
     surveys: dict[Name, Survey] = {}
     solvers: Solvers = Solvers()
     limits: Limits = Limits()
+    FORMER_KEYS: ClassVar[Mapping[str, str]] = {}
+    """Present names of renamed keys by their dotted paths, for messages to users of old files."""
 
     @model_validator(mode="before")
     @classmethod

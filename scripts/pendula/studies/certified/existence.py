@@ -62,7 +62,7 @@ BITS = 128
 """Precision of the midpoints of balls."""
 
 
-class Chain(NamedTuple):
+class ProofChain(NamedTuple):
     """The constants of the equations, as doubles, and the half-width M of a chain."""
 
     epsilon: float
@@ -86,11 +86,11 @@ class Estimates(NamedTuple):
     cubic: arb  # mu
 
 
-class RefusedError(ArithmeticError):
+class ProofFailedError(ArithmeticError):
     """There is no proof; the message says which inequality fails."""
 
 
-def refined(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
+def refined(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
     """Return a state of ten digits after a step of Newton's method, which doubles them.
 
     The step is solved in balls: far from the centre, where the ten digits are zeros, the result is
@@ -103,17 +103,17 @@ def refined(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
     return state - numbers.reshape(2, -1)[:, chain.half_width :]
 
 
-def prove(chain: Chain, s: float, state: np.ndarray) -> float:
+def prove(chain: ProofChain, s: float, state: np.ndarray) -> float:
     """Return r such that one true steady state of the infinite chain lies within r of `state`.
 
     This is even, (component, site 0..M), of doubles, and `s` is the drive on a and b. Raises
-    RefusedError where an inequality of the theorem cannot be shown.
+    ProofFailedError where an inequality of the theorem cannot be shown.
     """
     with ctx.workprec(BITS):
         u = on_the_whole(state)
         radius = radius_of(estimate(chain, s, u))
         if not arb(radius) < _largest(map(abs, u)):
-            raise RefusedError("the enclosure of the state contains zero")
+            raise ProofFailedError("the enclosure of the state contains zero")
         return radius
 
 
@@ -123,16 +123,16 @@ def on_the_whole(state: np.ndarray) -> list[arb]:
     return [arb(float(value)) for value in whole.ravel()]
 
 
-def estimate(chain: Chain, s: float, u: list[arb]) -> Estimates:
+def estimate(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
     """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
     k, size = slope(chain, s, u), len(u)
     epsilon, away = abs(as_ball(chain.epsilon)), distance(chain, s)
     if not 2 * epsilon < away:
-        raise RefusedError("the outside does not contract: Omega lies in a band of waves")
+        raise ProofFailedError("the outside does not contract: Omega lies in a band of waves")
     try:
         n = k.inv().mid()  # N
     except ZeroDivisionError:
-        raise RefusedError("the slope of the equations has no inverse there") from None
+        raise ProofFailedError("the slope of the equations has no inverse there") from None
     # indices of both components on the sites -M and M
     ends = (0, size // 2 - 1, size // 2, size - 1)
     unit = arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
@@ -148,7 +148,7 @@ def estimate(chain: Chain, s: float, u: list[arb]) -> Estimates:
     return Estimates(eta, z, 3 * bent, 1.5 * plain)
 
 
-def slope(chain: Chain, s: float, u: list[arb]) -> arb_mat:
+def slope(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
     """Return K, the matrix of DF(u) on the sites -M..M, components one after the other."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites = len(u) // 2
@@ -162,7 +162,7 @@ def slope(chain: Chain, s: float, u: list[arb]) -> arb_mat:
     return arb_mat(rows)
 
 
-def residual(chain: Chain, s: float, u: list[arb]) -> arb_mat:
+def residual(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
     """Return F(u) on the sites -M..M, a column."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites, zero = len(u) // 2, [arb(0)]
@@ -174,7 +174,7 @@ def residual(chain: Chain, s: float, u: list[arb]) -> arb_mat:
     return arb_mat(values)
 
 
-def distance(chain: Chain, s: float) -> arb:
+def distance(chain: ProofChain, s: float) -> arb:
     """Return d, below the moduli of the eigenvalues of C."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     moduli = abs(omega - 2 * epsilon), abs(omega - 2 * drive - 2 * epsilon)
@@ -190,13 +190,13 @@ def radius_of(estimates: Estimates) -> float:
     eta, z, bent, cubic = estimates
     room = 1 - z
     if not room > 0:
-        raise RefusedError("the inverse is not near enough: the slope may be singular")
+        raise ProofFailedError("the inverse is not near enough: the slope may be singular")
     under = room * room - 2 * bent * eta
     radius = float((1.01 * 2 * eta / (room + under.sqrt())).upper()) if under > 0 else np.inf
     r = arb(radius)
     p = eta - room * r + bent * r * r / 2 + cubic * r * r * r / 3
     if not (p <= 0 and z + bent * r + cubic * r * r < 1):
-        raise RefusedError("the residual is too large for the slope and the curvature")
+        raise ProofFailedError("the residual is too large for the slope and the curvature")
     return radius
 
 

@@ -53,7 +53,7 @@ class StepError(ArithmeticError):
     """The steps do not lead from one output to the next."""
 
 
-class Chain(NamedTuple):
+class FixedPointChain(NamedTuple):
     """Half of a chain: its constants, exactly, and the units of its numbers."""
 
     epsilon: Fraction
@@ -76,7 +76,7 @@ def decimal(x: float) -> Fraction:
     return Fraction(repr(float(x)))
 
 
-def half_chain(problem: Problem, bits: int) -> Chain:
+def half_chain(problem: Problem, bits: int) -> FixedPointChain:
     """Return the half of a chain with even data; raises NotEvenError for any other problem."""
     amplitudes = problem.amplitudes
     if problem.boundary != "dirichlet" or (amplitudes != amplitudes[:, ::-1]).any():
@@ -86,10 +86,10 @@ def half_chain(problem: Problem, bits: int) -> Chain:
     given = problem.constants
     epsilon, gamma, omega = map(decimal, (given.epsilon, given.gamma, given.omega))
     interval = decimal(problem.output_step)
-    return Chain(epsilon, gamma, omega, problem.half_width + 1, interval, bits)
+    return FixedPointChain(epsilon, gamma, omega, problem.half_width + 1, interval, bits)
 
 
-def start(problem: Problem, chain: Chain) -> tuple[list[list[int]], float]:
+def start(problem: Problem, chain: FixedPointChain) -> tuple[list[list[int]], float]:
     """Return the data in units, (part, site of A, then of B), and how far they are off in l2."""
     half = problem.amplitudes[:, problem.half_width :]
     state, off = [], Fraction(0)
@@ -105,7 +105,7 @@ def as_double(count: Fraction | int, unit: Fraction) -> float:
     return UP * float(count * unit)
 
 
-def follow(state: list[list[int]], chain: Chain, order: int) -> Iterator[list[Step]]:
+def follow(state: list[list[int]], chain: FixedPointChain, order: int) -> Iterator[list[Step]]:
     """Yield the steps from each output to the next; raises StepError."""
     pieces = 1
     while True:
@@ -133,7 +133,7 @@ def end(terms: Series) -> list[list[int]]:
     return [[sum(own) for own in part] for part in terms]
 
 
-def taylor(state: list[list[int]], chain: Chain, step: Fraction, order: int) -> Series:
+def taylor(state: list[list[int]], chain: FixedPointChain, step: Fraction, order: int) -> Series:
     """Return the terms of one step."""
     bits, count = chain.bits, 2 * chain.sites
     x, y = ([[value] for value in part] for part in state)
@@ -154,7 +154,7 @@ def taylor(state: list[list[int]], chain: Chain, step: Fraction, order: int) -> 
     return [x, y]
 
 
-def scaled_linear(values, chain: Chain) -> tuple[int, list[list]]:
+def scaled_linear(values, chain: FixedPointChain) -> tuple[int, list[list]]:
     """Return q and q times the linear terms of (4), for integers or polynomials of integers."""
     q = lcm(chain.epsilon.denominator, chain.gamma.denominator, chain.omega.denominator)
     epsilon, gamma, omega = (int(q * c) for c in (chain.epsilon, chain.gamma, chain.omega))
@@ -172,7 +172,7 @@ def scaled_linear(values, chain: Chain) -> tuple[int, list[list]]:
     return q, found
 
 
-def defect(step: Step, chain: Chain) -> float:
+def defect(step: Step, chain: FixedPointChain) -> float:
     """Return a bound of the integral of the defect's l2 norm over a step."""
     h = chain.interval / step.pieces
     x, y = ([fmpz_poly(own) for own in part] for part in step.terms)
@@ -196,13 +196,13 @@ def whole(steps: list[Step]) -> list[Step]:
     return steps
 
 
-def jump(state: list[list[int]], after: Step, chain: Chain) -> float:
+def jump(state: list[list[int]], after: Step, chain: FixedPointChain) -> float:
     """Return a bound of the l2 distance from a state to the start of a step."""
     ends = zip(joined(*state), joined(*after.terms), strict=True)
     return as_double(sum(abs(last - own[0]) for last, own in ends), Fraction(1, 2**chain.bits))
 
 
-def doubles(step: Step, chain: Chain) -> np.ndarray:
+def doubles(step: Step, chain: FixedPointChain) -> np.ndarray:
     """Return the terms as nearest doubles, (order, part, component, site)."""
     found = [[[value / 2**chain.bits for value in own] for own in part] for part in step.terms]
     return np.moveaxis(np.array(found), 2, 0).reshape(-1, 2, 2, chain.sites)

@@ -75,7 +75,7 @@ from pendula.problem import Problem
 
 from .fixed_point import (
     UP,
-    Chain,
+    FixedPointChain,
     Step,
     defect,
     doubles,
@@ -122,7 +122,7 @@ class Tube(NamedTuple):
     w: np.ndarray  # (part,)
 
 
-def begin(chain: Chain, off: float) -> Tube:
+def begin(chain: FixedPointChain, off: float) -> Tube:
     """Return the tube around the start, which is `off` by the rounding of the data."""
     size = 4 * chain.sites
     z = np.zeros((size, UNIT_ERROR + 1))
@@ -141,7 +141,9 @@ def distances(tube: Tube) -> np.ndarray:
 # --- A step ---------------------------------------------------------------------------------------
 
 
-def advance(tube: Tube, step: Step, chain: Chain, jumped: float, order: int = ORDER) -> Tube:
+def advance(
+    tube: Tube, step: Step, chain: FixedPointChain, jumped: float, order: int = ORDER
+) -> Tube:
     """Return the tube at the end of a step that starts `jumped` from where the tube is."""
     coefficients = doubles(step, chain)
     sizes = UP * np.sqrt(np.max(np.sum(coefficients**2, axis=1), axis=(1, 2))) + TINY
@@ -180,7 +182,9 @@ def _quadratic(w: float, moved: float, largest: float, time: float) -> float:
     return added if UP * (w + added) <= trial else np.inf
 
 
-def tangents(matrix: np.ndarray, p: np.ndarray, h: float, chain: Chain, order: int) -> list:
+def tangents(
+    matrix: np.ndarray, p: np.ndarray, h: float, chain: FixedPointChain, order: int
+) -> list:
     """Return the tangent polynomials' coefficients, each of the shape of the matrix."""
     square, real, imaginary = products(p, order)
     plus, minus, across = square + 0.5 * real, square - 0.5 * real, 0.5 * imaginary
@@ -213,7 +217,7 @@ def products(p: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndar
     return square, real, imaginary
 
 
-def linear(values: np.ndarray, chain: Chain) -> np.ndarray:
+def linear(values: np.ndarray, chain: FixedPointChain) -> np.ndarray:
     """Return the linear terms of (4) on half of a chain, (part, component, site, column)."""
     epsilon, gamma, omega = map(float, (chain.epsilon, chain.gamma, chain.omega))
     both = np.zeros_like(values)
@@ -226,7 +230,7 @@ def linear(values: np.ndarray, chain: Chain) -> np.ndarray:
     return found + drive * (values[:, ::-1] - values)
 
 
-def missed(norms: np.ndarray, sizes: np.ndarray, h: float, chain: Chain) -> float:
+def missed(norms: np.ndarray, sizes: np.ndarray, h: float, chain: FixedPointChain) -> float:
     """Return a bound of the integral of |J M - M'| over a step."""
     order = len(norms) - 1
     squares = np.zeros(2 * len(sizes) - 1)
@@ -323,7 +327,7 @@ def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> 
     return Certified(problem.times, *norms_of(np.array(states)), np.array(parts).T)
 
 
-def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) -> float:
+def evaluation(state: np.ndarray, parts: np.ndarray, chain: FixedPointChain, late: float) -> float:
     """Return how far outputs are off by rounding: of states and norms, and of their times.
 
     States to doubles, squares, the at most 16 levels of the sum, and the root are 12 roundings of

@@ -13,7 +13,7 @@ from pendula.models.steady import localised
 from pendula.problem import Constants
 
 from . import existence
-from .existence import Chain
+from .existence import ProofChain
 
 DIGITS = 10
 """Decimals of a state as LAPACK finds it, which are the same on every machine."""
@@ -54,10 +54,10 @@ def breathers_contents(
     return variables, {"title": title, **about}
 
 
-def find(gamma: float, half_width: int, given: Mapping) -> tuple[Family, Chain, np.ndarray]:
+def find(gamma: float, half_width: int, given: Mapping) -> tuple[Family, ProofChain, np.ndarray]:
     """Return a family, a chain, and its even state there, (component, site 0..M)."""
     (family,) = (one for one in FAMILIES if one.name == given["family"])
-    chain = Chain(float(given["epsilon"]), gamma, float(given["omega"]), half_width)
+    chain = ProofChain(float(given["epsilon"]), gamma, float(given["omega"]), half_width)
     constants = Constants(epsilon=chain.epsilon, gamma=gamma, omega=chain.omega)
     problem, found = localised(family, constants, half_width)
     parts = found.parts(problem)[:, int(family.imaginary), half_width:]
@@ -65,9 +65,9 @@ def find(gamma: float, half_width: int, given: Mapping) -> tuple[Family, Chain, 
     return family, chain, existence.refined(chain, family.drive(gamma), state)
 
 
-def prove(family: Family, chain: Chain, state: np.ndarray) -> tuple[float, str]:
+def prove(family: Family, chain: ProofChain, state: np.ndarray) -> tuple[float, str]:
     """Return within which radius one true state is proved, or infinity and why nothing is."""
     try:
         return existence.prove(chain, family.drive(chain.gamma), state), ""
-    except existence.RefusedError as error:
+    except existence.ProofFailedError as error:
         return np.inf, str(error)

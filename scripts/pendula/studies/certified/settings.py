@@ -24,7 +24,7 @@ Frames = model(
 )
 
 
-class State(Model):
+class ProofSection(Model):
     """A steady breather by its family, its Omega and its coupling."""
 
     family: str
@@ -37,7 +37,7 @@ class Breathers(Model):
 
     gamma: Positive
     half_width: Annotated[Whole, Field(ge=2, le=200)]  # at the largest a proof takes minutes
-    proofs: Annotated[list[State], Field(min_length=1)]
+    proofs: Annotated[list[ProofSection], Field(min_length=1)]
     wrong: Annotated[list[Number], Field(min_length=2, max_length=2)]  # tests of the first state
 
     def faults(self) -> Faults:

@@ -87,7 +87,7 @@ def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 # --- Two runs -------------------------------------------------------------------------------------
 
 
-class Run(NamedTuple):
+class MultiprecisionRun(NamedTuple):
     """What is kept of a run, in multiprecision; components are A, B and sites 0..M."""
 
     tau: np.ndarray  # (time,), doubles
@@ -125,7 +125,7 @@ def printed(x: float, bits: int):
     return load_heyoka().real(repr(float(x)), bits)
 
 
-def integrate(problem: Problem, snapshots: list[float], bits: int) -> Run:
+def integrate(problem: Problem, snapshots: list[float], bits: int) -> MultiprecisionRun:
     """Integrate a case with `bits` bits, and a tolerance of 2^-bits.
 
     The problem's own solver is not used. Outputs are at the doubles `problem.times`; those
@@ -150,10 +150,12 @@ def integrate(problem: Problem, snapshots: list[float], bits: int) -> Run:
     states, kept = states.reshape(len(times), 4, -1), np.isin(times, snapshots)
     controls = {"bits": bits, "order": stepper.order, "tolerance": float(stepper.tol)}
     observed = (times, *norms(states), times[kept], states[kept])
-    return Run(*observed, controls | {"steps": steps})
+    return MultiprecisionRun(*observed, controls | {"steps": steps})
 
 
-def compare(name: str, run: Run, check: Run) -> tuple[np.ndarray, np.ndarray]:
+def compare(
+    name: str, run: MultiprecisionRun, check: MultiprecisionRun
+) -> tuple[np.ndarray, np.ndarray]:
     """Return how far two runs are apart, in doubles: norms (time,) and amplitudes (snapshot,).
 
     It is the largest difference, taken before any rounding. Raises UnverifiedError where a norm

@@ -27,7 +27,7 @@ HALVINGS, SECANTS = 7, 12
 """Steps to a rough beta on a coarse grid, and the most steps from there on a finer one."""
 
 
-class NoStateError(ValueError):
+class NoThermalStateError(ValueError):
     """No thermal state between HOT and COLD has the energy."""
 
 
@@ -49,7 +49,7 @@ def state_of_energy(
 
     Three grids follow each other: one with half of the nodes finds beta roughly and how far the
     distribution reaches, one with three quarters gives the error, the last gives the state.
-    Raises NoStateError where no state between HOT and COLD has this energy.
+    Raises NoThermalStateError where no state between HOT and COLD has this energy.
     """
     few, some = nodes // 2, 3 * nodes // 4
 
@@ -59,7 +59,9 @@ def state_of_energy(
 
     if not is_too_hot(HOT) or is_too_hot(COLD):
         told = f"{energy:g} at Omega = {constants.omega:g}"
-        raise NoStateError(f"no thermal state between the temperatures tried has the energy {told}")
+        raise NoThermalStateError(
+            f"no thermal state between the temperatures tried has the energy {told}"
+        )
     hot, cold = HOT, COLD
     for _ in range(HALVINGS):
         beta = float(np.sqrt(hot * cold))
@@ -106,7 +108,7 @@ def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int)
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         try:
             found.append([state_of_energy(constants, 0.0, nodes, alike) for alike in (False, True)])
-        except NoStateError as error:
+        except NoThermalStateError as error:
             print(f"left out: {error}")
     known = [both.operator.constants.omega for both, _ in found]
     variables, along = {"omega": Variable(("omega",), known)}, ("omega",)

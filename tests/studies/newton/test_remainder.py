@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
-from pendula.studies.pendula import remainder
+from pendula.studies.newton import remainder
 from problems import problem_of
 
 TIGHT = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}

@@ -1,6 +1,6 @@
-# The pendula themselves, Newton's equations (1), beside the amplitude equations (4).
+# Newton's equations (1) of the pendula, compared with the amplitude equations (4).
 THRESHOLD, REMAINDER, OVER_THE_TOP = (
-    getattr(SETTINGS.pendula, name) for name in ("threshold", "remainder", "over_the_top")
+    getattr(SETTINGS.newton, name) for name in ("threshold", "remainder", "over_the_top")
 )
 
 
@@ -10,7 +10,7 @@ use rule dataset as find_threshold with:
         made="pendula/threshold",
     params:
         **values_of(THRESHOLD, "epsilon", "omegas", "mus"),
-        call=function("pendula.studies.pendula.threshold.threshold_contents"),
+        call=function("pendula.studies.newton.threshold.threshold_contents"),
 
 
 use rule dataset as measure_remainder with:
@@ -18,7 +18,7 @@ use rule dataset as measure_remainder with:
     pathvars:
         made="pendula/remainder",
     params:
-        call=function("pendula.studies.pendula.remainder.remainder_contents"),
+        call=function("pendula.studies.newton.remainder.remainder_contents"),
         mus=REMAINDER.mus,
         problems=followed(
             PAPER_CASES, **values_of(REMAINDER, "tolerance", "end_time", "output_step")
@@ -36,7 +36,7 @@ use rule dataset as measure_over_the_top with:
         **asked(cost_of_study),
     params:
         **values_of(OVER_THE_TOP, "size", "seed", "settled"),
-        call=function("pendula.studies.pendula.over_the_top.measure_over_the_top"),
+        call=function("pendula.studies.newton.over_the_top.measure_over_the_top"),
         problem=lambda wildcards: run_of(
             **values_of(OVER_THE_TOP, "case", "tolerance"),
             **values_of(of_size(OVER_THE_TOP, wildcards), "end_time"),
@@ -54,7 +54,7 @@ use rule dataset as vary_over_the_top with:
         **asked(lambda _: LONG),
     params:
         **values_of(OVER_THE_TOP.long),
-        call=function("pendula.studies.pendula.over_the_top.vary_over_the_top"),
+        call=function("pendula.studies.newton.over_the_top.vary_over_the_top"),
         problem=run_of(**values_of(OVER_THE_TOP, "case", "tolerance")),
         chosen=values_of(OVER_THE_TOP, "tolerance", "size", "seed", "settled"),
 
@@ -66,10 +66,10 @@ use rule figure as draw_over_the_top with:
     pathvars:
         made="<size>figures/pendula_over_the_top",
     params:
-        call=function("pendula.studies.pendula.figures.draw_over_the_top"),
+        call=function("pendula.studies.newton.figures.draw_over_the_top"),
 
 
-rule pendula:
+rule newton:
     "Newton's equations beside the amplitude equations: datasets and figure"
     input:
         datasets=datasets("pendula", "threshold", "remainder", "over_the_top"),

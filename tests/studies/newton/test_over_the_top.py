@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from latticode.datasets.netcdf import as_xarray
 from on_pendula import pendula
-from pendula.studies.pendula.over_the_top import (
+from pendula.studies.newton.over_the_top import (
     amplitude_power,
     measure_over_the_top,
     passage,

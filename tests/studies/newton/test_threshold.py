@@ -5,7 +5,7 @@ import pytest
 from latticode.simulation.simulate import simulate
 from pendula.configuration.paper import paper
 from pendula.problem import Constants, Problem
-from pendula.studies.pendula import mathieu, threshold
+from pendula.studies.newton import mathieu, threshold
 from scipy.integrate import solve_ivp
 from scipy.special import mathieu_a, mathieu_b
 
