@@ -22,7 +22,7 @@ def final(case, **solver):
     """Return the final state (field, site) of a case, and the attributes of its run."""
     run = simulate(case.changed(solver=solver))
     parts = run["final"].values
-    return parts[0] + 1j * parts[1], run.attrs
+    return parts[0] + 1j * parts[1] if len(parts) > 1 else parts[0] + 0j, run.attrs
 
 
 def growth(model, end):

@@ -79,13 +79,13 @@ def traced(text):
     return run(text, {name: getattr(latticode, name) for name in NAMES})
 
 
-def slope_of(text, parameters, boundary, fields, second_order):
-    """Return dy/dt(t, y) of a model on flat states.
+def slope_of(text, parameters, boundary, fields, form):
+    """Return dy/dt(t, y) of a model on flat states; `form` names its function.
 
-    They have the complex fields one after the other, or all real fields and then their velocities.
+    They have the fields one after the other, and behind those of `d2_dt2` all velocities.
     """
-    made = run(text)
-    equations = made["d2_dt2" if second_order else "i_dt"]
+    made, second_order = run(text), form == "d2_dt2"
+    equations = made[form]
     takes_velocities = equations.__code__.co_argcount > 1 + fields
 
     def everywhere(value, like):
@@ -106,7 +106,7 @@ def slope_of(text, parameters, boundary, fields, second_order):
         ]
         if second_order:
             return np.concatenate([y[y.size // 2 :], *inside])
-        return -1j * np.concatenate(inside)
+        return np.concatenate(inside) * {"i_dt": -1j, "dt": 1.0}[form]
 
     return slope
 

@@ -23,11 +23,11 @@ class Drawn:
 
     text: str
     fields: tuple[str, ...]
-    second_order: bool
+    form: str  # the name of the function that gives its equations
     parameters: dict
     boundary: str
     half_width: int
-    start: np.ndarray  # complex, (field, site): of second order the velocities are imaginary
+    start: np.ndarray  # complex, (field, site): real of dt, with imaginary velocities of d2_dt2
     end_time: float = 1.0
 
     def __str__(self):
@@ -37,8 +37,8 @@ class Drawn:
     def case(self):
         """The case of the library."""
         made = traced(self.text)
-        name = "d2_dt2" if self.second_order else "i_dt"
-        model = Model(fields=self.fields, parameters=self.parameters, **{name: made[name]})
+        functions = {self.form: made[self.form]}
+        model = Model(fields=self.fields, parameters=self.parameters, **functions)
         sites = range(-self.half_width, self.half_width + 1)
         return Case(
             model=model, half_width=self.half_width, boundary=self.boundary,
@@ -47,11 +47,11 @@ class Drawn:
 
     def follow(self, perturbation=0.0):
         """Return the state at the end, laid out as `start`, by NumPy and SciPy alone."""
-        given = self.text, self.parameters, self.boundary, len(self.fields), self.second_order
+        given = self.text, self.parameters, self.boundary, len(self.fields), self.form
         start = self.start + perturbation
-        flat = np.concatenate([start.real, start.imag]) if self.second_order else start
-        end = solution(slope_of(*given), flat.ravel(), self.end_time)
-        if end is None or not self.second_order:
+        flat = {"i_dt": start, "dt": start.real, "d2_dt2": np.array([start.real, start.imag])}
+        end = solution(slope_of(*given), flat[self.form].ravel(), self.end_time)
+        if end is None or self.form != "d2_dt2":
             return end if end is None else end.reshape(start.shape)
         values, velocities = end.reshape(2, *start.shape)
         return values + 1j * velocities
@@ -159,10 +159,10 @@ def reflected(text):
 def drawn(seed, attempt=0):
     """Return the model of a seed, whose solution stays of order one between its ends."""
     rng = np.random.default_rng([seed, attempt])
-    kind = rng.choice(["complex", "complex", "phases", "forces", "damped"])
+    kind = rng.choice(["complex", "complex", "phases", "real", "forces", "damped"])
     symmetric, driven, disordered = map(bool, rng.random(3) < (0.3, 0.4, 0.5))
     names = tuple("abc"[: rng.choice([1, 2, 2, 3])])
-    second_order = kind in ("forces", "damped")
+    form = {"real": "dt", "forces": "d2_dt2", "damped": "d2_dt2"}.get(kind, "i_dt")
     velocities = tuple(f"v{name}" for name in names) if kind == "damped" else ()
     seen = tuple(f"{name}.real" for name in names) if kind == "phases" else names + velocities
     grammar = Grammar(rng, seen, kind == "complex", driven, disordered and not symmetric)
@@ -180,16 +180,15 @@ def drawn(seed, attempt=0):
 
     arguments = ", ".join(("p", *names, *velocities))
     rates = ",\n        ".join(map(rate, names))
-    function = "d2_dt2" if second_order else "i_dt"
-    text = f"def {function}({arguments}):\n    return (\n        {rates},\n    )\n"
+    text = f"def {form}({arguments}):\n    return (\n        {rates},\n    )\n"
     half_width = int(max(reach, 2 * reach * symmetric) + rng.integers(0, 6))
     sites = 2 * half_width + 1
     start = rng.normal(size=(len(names), sites, 2)) @ (0.3, 0.3j)
-    if kind == "phases":
+    if kind in ("phases", "real"):
         start = start.real + 0j
     if symmetric:
         start = start + start[:, ::-1]
     parameters = {**PARAMETERS, "V": rng.uniform(-1.0, 1.0, sites)}
     boundary = str(rng.choice(ENDS))
-    model = Drawn(text, names, second_order, parameters, boundary, half_width, start)
+    model = Drawn(text, names, form, parameters, boundary, half_width, start)
     return model if model.follow() is not None else drawn(seed, attempt + 1)

@@ -90,7 +90,7 @@ def demand(problem: Mapping) -> Demand:
     model, initial = problem["model"], problem["initial"]
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
     peak = max(max(map(abs, values)) for values in initial.values())
-    if not model.second_order:
+    if not model.real:
         peak *= 0.5**0.5  # of both parts of a complex field, whose squares add up to its own
     alike = model.even and not any(isinstance(one, list) for one in problem["parameters"].values())
     even = alike and all(initial.get(-site) == values for site, values in initial.items())

@@ -7,10 +7,10 @@ A model is a file such as this one (see docs/own_models.md):
     def i_dt(p, u):
         return p.epsilon * lap(u) + abs2(u) * u - 1j * p.gamma * u
 
-`i_dt` returns i du_n/dt of each field. `d2_dt2` in its place returns the second derivatives of real
-fields, and may take their velocities behind them: d2_dt2(p, x, v) or d2_dt2(p, x, y, vx, vy). `p`
-has the parameters, and the time `p.t`. The function is called once, with symbols in place of
-numbers, which record each operation in a graph (`symbols`, `graph`).
+`i_dt` returns i du_n/dt of each complex field. In its place, `dt` returns dx_n/dt of real fields,
+and `d2_dt2` their second derivatives; it may take velocities behind them: d2_dt2(p, x, v) or
+d2_dt2(p, x, y, vx, vy). `p` has the parameters, and the time `p.t`. The function is called once,
+with symbols in place of numbers, which record each operation in a graph (`symbols`, `graph`).
 """
 
 import inspect
@@ -76,15 +76,18 @@ RESERVED = {
 }
 """Names that no parameter has: they are changed or varied beside parameters, or label results."""
 ALL_FIELDS = "pair"
+FORMS = ("i_dt", "dt", "d2_dt2")
+"""The functions that give a model its equations, of which it has one."""
 
 
 class Model:
     """A traced model: the rates of the real rows of its state, two of each field.
 
     The rows of a complex field are its real and its imaginary part, those of a field with `d2_dt2`
-    its value and its rate. `parameters` holds a number for each name, or a function of an array of
-    sites n that returns a number for each (as for disorder). conserved(p, *fields) returns
-    densities by name, whose sums over the chain are kept. `text` is the source, for datasets.
+    its value and its rate, and those of a field with `dt` its value and zero. `parameters` holds a
+    number for each name, or a function of an array of sites n that returns a number for each (as
+    for disorder). conserved(p, *fields) returns densities by name, whose sums over the chain are
+    kept. `text` is the source, for datasets.
 
     `integration` says how runs of the model differ from what follows from its trace (see
     `latticode.simulation.integration`); nearly no model has one.
@@ -100,22 +103,26 @@ class Model:
         fields: Iterable[str],
         parameters: Mapping[str, Any],
         i_dt: Callable | None = None,
+        dt: Callable | None = None,
         d2_dt2: Callable | None = None,
         conserved: Callable | None = None,
         name: str = "model",
         text: str = "",
     ):
-        if (i_dt is None) == (d2_dt2 is None):
-            raise ModelError(f"{name} needs one function, i_dt or d2_dt2")
+        equations = dict(zip(FORMS, (i_dt, dt, d2_dt2), strict=True))
+        forms = [form for form, function in equations.items() if function is not None]
+        if len(forms) != 1:
+            raise ModelError(f"{name} needs one function, i_dt, dt or d2_dt2")
         self.fields = _names("fields", (fields,) if isinstance(fields, str) else fields, name)
         if not isinstance(parameters, Mapping):
             raise ModelError(f"{name}: parameters is not a dictionary of names with their values")
         _names("parameters", parameters, name)
         self.parameters, self.name = dict(parameters), name
-        self.second_order = d2_dt2 is not None
-        functions = [one for one in (i_dt, d2_dt2, conserved) if one is not None]
+        self.form = forms[0]
+        functions = [equations[self.form], *([conserved] if conserved else [])]
         self.text = text or "\n".join(_source_of(function) for function in functions)
-        self.rates = self._twice(i_dt or d2_dt2, self._rates_of)
+        self.rates = self._twice(equations[self.form], self._rates_of)
+        self._require_real_fields_to_move()
         self.conserved = self._twice(conserved, self._densities) if conserved else {}
 
     @classmethod
@@ -144,7 +151,7 @@ class Model:
         absent = [key for key in ("fields", "parameters") if key not in given]
         if absent:
             raise ModelError(f"{name} has no {' and no '.join(absent)}")
-        known = ("fields", "parameters", "i_dt", "d2_dt2", "conserved")
+        known = ("fields", "parameters", *FORMS, "conserved")
         return cls(**{key: given[key] for key in known if key in given}, name=name, text=text)
 
     @cached_property
@@ -159,7 +166,7 @@ class Model:
             "name": self.name,
             "text": self.text,
             "fields": list(self.fields),
-            "second_order": self.second_order,
+            "form": self.form,
             "nodes": [
                 [one.operation, *(place[a] for a in one.inputs)]
                 if one.inputs
@@ -181,8 +188,7 @@ class Model:
         """Return what a function of the model returns for symbols; with velocities if it takes
         them."""
         values = [
-            Value(leaf(c, 0), ZERO if self.second_order else leaf(c, 1))
-            for c in range(len(self.fields))
+            Value(leaf(c, 0), ZERO if self.real else leaf(c, 1)) for c in range(len(self.fields))
         ]
         velocities = [Value(leaf(c, 1)) for c in range(len(self.fields))]
         known = [values, values + velocities] if self.second_order else [values]
@@ -210,7 +216,7 @@ class Model:
         return nodes
 
     def _rates_of(self, returned: Any) -> tuple[Node, ...]:
-        """Return the rates of all rows from what `i_dt` or `d2_dt2` returned."""
+        """Return the rates of all rows from what the function of the equations returned."""
         if returned is None:
             raise ModelError(f"{self.name} returns nothing: its function needs a return")
         found = returned if isinstance(returned, tuple | list) else (returned,)
@@ -218,12 +224,29 @@ class Model:
         if len(found) != len(self.fields):
             wrong = f"{len(found)} values for {len(self.fields)} fields"
             raise ModelError(f"{self.name} returns {wrong}")
-        if not self.second_order:  # i u' = F: Re u' = Im F and Im u' = -Re F
+        if not self.real:  # i u' = F: Re u' = Im F and Im u' = -Re F
             return tuple(row for one in found for row in (one.im, neg(one.re)))
         if any(one.im is not ZERO for one in found):
-            text = "d2_dt2 returns complex numbers, and its fields are real"
+            text = f"{self.form} returns complex numbers, and its fields are real"
             raise ModelError(f"{self.name}: {text}")
+        if self.form == "dt":
+            return tuple(row for one in found for row in (one.re, ZERO))
         return tuple(row for c, one in enumerate(found) for row in (leaf(c, 1), one.re))
+
+    def _require_real_fields_to_move(self) -> None:
+        """Raise ModelError where `i_dt` is that of a real field without its factor 1j.
+
+        Then the field's real part, which alone is read, never moves.
+        """
+        for c, field in enumerate(self.fields):
+            read = any(one.operands[:2] == (c, 1) for one in leaves_in(self.rates, "field"))
+            real, imaginary = self.rates[2 * c : 2 * c + 2]
+            if self.form == "i_dt" and not read and _vanishes(real) and not _vanishes(imaginary):
+                raise ModelError(
+                    f"{self.name}: i_dt moves only the imaginary part of {field}, which no equation"
+                    f" reads; for real fields give dt, which returns d{field}/dt, or multiply this"
+                    " rate by 1j in i_dt"
+                )
 
     def _densities(self, returned: Any) -> dict[str, Node]:
         """Return the real densities by name from what `conserved` returned."""
@@ -243,6 +266,16 @@ class Model:
         return found
 
     # --- What follows from it
+
+    @property
+    def real(self) -> bool:
+        """Whether the fields are real numbers."""
+        return self.form != "i_dt"
+
+    @property
+    def second_order(self) -> bool:
+        """Whether the equations are of second order in time."""
+        return self.form == "d2_dt2"
 
     @cached_property
     def farthest(self) -> int:
@@ -285,7 +318,7 @@ class Model:
         read = {one.operands[:2] for one in leaves_in(self.rates, "field")}
         return tuple(
             field for c, field in enumerate(self.fields)
-            if not self.second_order and (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
+            if self.form != "d2_dt2" and (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
         )  # fmt: skip
 
     @cached_property
@@ -295,7 +328,7 @@ class Model:
         Then they keep real data real and are not linear, and no rate reads a conjugate: it changes
         i times as much with an imaginary part as with the real one (Cauchy and Riemann).
         """
-        if self.second_order:
+        if self.real:
             return False
         draw = np.random.default_rng(1).uniform(0.5, 1.5, 1000)
         leaves = leaves_in(self.rates, "field")
@@ -367,7 +400,7 @@ class Model:
             fields=(*self.fields, *(f"d{field}" for field in self.fields)),
             parameters=self.parameters,
             name=self.name,
-            second_order=self.second_order,
+            form=self.form,
             text=self.text,
             rates=(*self.rates, *derivative(self.rates, change)),
             conserved={},
@@ -421,7 +454,7 @@ def _of_json(text: str) -> Model:
         fields=tuple(values["fields"]),
         parameters={},
         name=values["name"],
-        second_order=values["second_order"],
+        form=values["form"],
         text=values["text"],
         rates=tuple(nodes[i] for i in values["rates"]),
         conserved={name: nodes[i] for name, i in values["conserved"].items()},

@@ -100,7 +100,7 @@ def can_turn(problem: Problem) -> bool:
 
     Random fields decide: a polynomial that vanishes there vanishes everywhere.
     """
-    if problem.model.second_order:
+    if problem.model.real:
         return False
     turn = turning(problem, 2 * problem.amplitudes.size)
     x = np.random.default_rng(1).normal(size=len(turn))
@@ -217,10 +217,20 @@ def exponents(problem: Problem, state: State) -> np.ndarray:
     for parity in (EVEN, ODD) if state.even else (None,):
         matrix = linearise(problem, state.x, parity=parity)[1]
         matrix += state.frequency * turning(problem, len(matrix))
-        found.append(_eigenvalues(matrix, len(problem.model.fields)))
+        if problem.model.form == "dt":  # the second row of a field is zero and no perturbation
+            found.append(np.linalg.eigvals(_values_alone(matrix, len(problem.model.fields))))
+        else:
+            found.append(_eigenvalues(matrix, len(problem.model.fields)))
     values = np.concatenate(found)
     clean = [np.where(np.abs(part) < NOISE, 0.0, part) for part in (values.real, values.imag)]
     return np.sort_complex(np.round(clean[0], 9) + 1j * np.round(clean[1], 9))
+
+
+def _values_alone(matrix: np.ndarray, fields: int) -> np.ndarray:
+    """Return the rows and columns of a matrix that are those of the fields' first parts."""
+    half = len(matrix) // 2
+    parts = matrix.reshape(fields, 2, half // fields, fields, 2, half // fields)
+    return parts[:, 0, :, :, 0].reshape(half, half)
 
 
 def _eigenvalues(matrix: np.ndarray, fields: int) -> np.ndarray:

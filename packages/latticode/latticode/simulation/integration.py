@@ -67,7 +67,7 @@ class Integration(NamedTuple):
     """
 
     components: tuple[str, ...]
-    parts: tuple[str, str]  # of a component: the two rows of a state
+    parts: tuple[str, ...]  # of a component: the rows of a state, but for one that is zero
     solvers: Mapping[str, Solver]
     system: Callable[[Problem, Reduction], Any]  # the parameters of the kernels
     collect: Callable[[Problem, Any, np.ndarray, Reduction], dict[str, np.ndarray]]

@@ -54,7 +54,7 @@ def kernels_of(model: Model, site_dependent: frozenset[str]):
 
     No chain goes in tiles: their margins are made for equations that look one site far.
     """
-    observe = "observe_angles" if model.second_order else "observe_fields"
+    observe = "observe_angles" if model.real else "observe_fields"
     head = "".join(f"\nfrom {module} import {names}\n" for module, names in USED.items())
     text = module_text(model.rates, model.reach, site_dependent) + head
     if model.conserved:
@@ -158,9 +158,16 @@ def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
     return values[np.clip(places, 0, values.size - 1)]
 
 
-WORDS_OF_REAL = Words(
-    part="value of a field, and its rate", final="value of a field, and its rate, at the end time"
-)
+PARTS = {"i_dt": ("re", "im"), "dt": ("value",), "d2_dt2": ("value", "rate")}
+"""The parts of the state of a field, by the function that gives the equations."""
+WORDS = {
+    "i_dt": Words(),
+    "dt": Words(part="value of a field", final="value of a field at the end time"),
+    "d2_dt2": Words(
+        part="value of a field, and its rate",
+        final="value of a field, and its rate, at the end time",
+    ),
+}
 
 
 def integration_of(problem: Problem) -> Integration:
@@ -171,7 +178,7 @@ def integration_of(problem: Problem) -> Integration:
     model = problem.model
     return model.integration or Integration(
         components=model.fields,
-        parts=("value", "rate") if model.second_order else ("re", "im"),
+        parts=PARTS[model.form],
         solvers=solvers_of(problem),
         system=make_system,
         collect=_collect,
@@ -179,14 +186,14 @@ def integration_of(problem: Problem) -> Integration:
         describe=_describe,
         record=partial(blank_state_record, quantities=len(model.conserved)),
         find_reduction=find_reduction_of,
-        words=WORDS_OF_REAL if model.second_order else Words(),
+        words=WORDS[model.form],
     )
 
 
 def _collect(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-    parts = np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)])
-    snapshots = np.array([unfold(part, cut) for part in record.kept])
-    real = problem.model.second_order
+    real, count = problem.model.real, len(PARTS[problem.model.form])
+    parts = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
+    snapshots = np.array([unfold(part, cut) for part in record.kept[:count]])
     return {
         "energy": record.energy,
         "modulus": np.abs(snapshots[0]) if real else modulus(complex_of(*snapshots)),

@@ -30,7 +30,7 @@ def largest_error(rates, boundary, solver, half_width=5):
         model=model, half_width=half_width, boundary=boundary, initial=start, end_time=1.0,
         output_step=1.0, solver={"name": solver, "rtol": 1e-12, "atol": 1e-12},
     )  # fmt: skip
-    expected = solution(slope_of(text, {}, boundary, 2, False), start.ravel(), 1.0)
+    expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 1.0)
     return np.abs(simulate(given).final.ravel() - expected).max()
 
 

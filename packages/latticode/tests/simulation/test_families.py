@@ -104,7 +104,7 @@ def test_the_stated_error_bounds_that_of_functions_of_neighbours_next_to_ends(ra
     given = problem(model, half_width=5, boundary=boundary, initial=start, end_time=5.0,
                     solver=solver)  # fmt: skip
     run = simulation.simulate(given)
-    expected = solution(slope_of(text, {}, boundary, 2, False), start.ravel(), 5.0)
+    expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 5.0)
     error = np.abs(run.final.ravel() - expected).max() / run.linf.max()
     assert error < run.solver["estimated_error"] <= 1e-8
 
