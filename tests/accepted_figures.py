@@ -3,9 +3,9 @@
 from accepted import dataset
 from pendula.studies.breathers import figures as breathers
 from pendula.studies.chaos import figures as chaos
+from pendula.studies.newton import figures as pendula
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
-from pendula.studies.newton import figures as pendula
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
 

@@ -1,13 +1,13 @@
-# What the solvers are held against: curves with a proof, the paper's six cases in multiprecision, and cases
-# where solvers are most likely to fail.
-# The references are not part of the full run. They take about 25 minutes of one core, half of them for
-# fig3_large alone, and `pip install heyoka==7.13.2`, which no other rule needs. To accept what they made:
+# Tests of the solvers: curves with a proof, the paper's six cases in multiprecision, and cases where
+# solvers are most likely to fail.
+# The references are not part of the full run. They take about 25 minutes on one core, half of them for
+# fig3_large, and need `pip install heyoka==7.13.2`, which no other rule needs. To accept new ones:
 # `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
 CERTIFIED = SETTINGS.certified
 
 
 rule certified:
-    "Curves of the paper's cases, proved, which a full run takes as they are committed (long)"
+    "Proven curves of the paper's cases; a full run uses the committed ones (long)"
     input:
         datasets("certified", *PAPER_CASES),
 
@@ -40,7 +40,7 @@ use rule dataset as hard_cases with:
         made="checks/hard_cases",
     params:
         call=function("pendula.studies.hard_cases.outcomes.hard_cases_contents"),
-        cases=SETTINGS.hard_cases.plain(),
+        cases=SETTINGS.hard_cases.plain_cases(),
 
 
 rule reference:

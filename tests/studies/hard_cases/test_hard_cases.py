@@ -7,30 +7,32 @@ import pytest
 from helpers import chosen
 from pendula.models.solvers import SOLVERS
 from pendula.studies.hard_cases import errors
-from pendula.studies.hard_cases.outcomes import evaluate
-from pendula.studies.hard_cases.settings import CONTROLS, TAKES
+from pendula.studies.hard_cases.outcomes import run_hard_case
+from pendula.studies.hard_cases.settings import ARGUMENTS, CONTROLS
 
-CASES = chosen("hard_cases").plain()
+CASES = chosen("hard_cases").plain_cases()
 SHORTER = {"drift_of_energy": {"tau": 200.0}, "miss_of_short_chain": {"half_width": 500}}
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case['case']}, {case['measure']}")
 def test_a_hard_case_ends_as_declared(case):
     case = case | {"arguments": case["arguments"] | SHORTER.get(case["measure"], {})}
-    results = [evaluate(case, solver) for solver in case["solvers"]]
+    results = [run_hard_case(case, solver) for solver in case["solvers"]]
     assert all(result["sound"] for result in results), results
 
 
 def test_every_measure_is_used_and_says_against_what():
-    assert {case["measure"] for case in CASES} == set(TAKES) == set(errors.AGAINST)
+    assert {case["measure"] for case in CASES} == set(ARGUMENTS) == set(errors.REFERENCES)
 
 
-@pytest.mark.parametrize("measure", TAKES)
+@pytest.mark.parametrize("measure", ARGUMENTS)
 def test_the_configuration_asks_for_the_arguments_of_each_measure(measure):
     solver, *arguments = signature(getattr(errors, measure)).parameters.values()
-    needed = tuple(one.name for one in arguments if one.default is one.empty)
-    others = tuple(one.name for one in arguments if one.default is not one.empty)
-    assert solver.name == "solver" and (needed, others) == TAKES[measure]
+    needed = tuple(argument.name for argument in arguments if argument.default is argument.empty)
+    optional = tuple(
+        argument.name for argument in arguments if argument.default is not argument.empty
+    )
+    assert solver.name == "solver" and (needed, optional) == ARGUMENTS[measure]
 
 
 @pytest.mark.parametrize("name", CONTROLS)
@@ -45,4 +47,4 @@ def test_the_configuration_asks_for_the_controls_of_each_solver(name):
 def test_an_error_is_sound_up_to_what_is_expected(error, expected, sound, monkeypatch):
     monkeypatch.setattr(errors, "run_anyway", lambda solver: error)
     case = {"case": "made up", "measure": "run_anyway", "arguments": {}, "expected": expected}
-    assert evaluate(case, {"name": "taylor"})["sound"] == sound
+    assert run_hard_case(case, {"name": "taylor"})["sound"] == sound

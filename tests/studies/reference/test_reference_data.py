@@ -10,7 +10,7 @@ from latticode.datasets.netcdf import read
 from latticode.simulation.simulate import simulate
 from oracle import CASES, hamiltonian
 from pendula.studies.certified import fixed_point
-from pendula.studies.reference.verified_run import LIMIT
+from pendula.studies.reference.verified_run import LARGEST_DISCREPANCY
 from problems import problem_of
 
 FOLDER = Path(__file__).resolve().parents[2] / "baseline/reference"
@@ -31,15 +31,17 @@ def amplitudes(name, tau):
 @pytest.mark.parametrize("case", CASES)
 def test_both_runs_agree_from_the_papers_data_and_the_energy_is_constant(case):
     data, (omega, pair) = reference(case), CASES[case]
-    assert np.all(data["discrepancy"] < LIMIT) and np.all(data["amplitude_discrepancy"] < LIMIT)
+    assert np.all(data["discrepancy"] < LARGEST_DISCREPANCY) and np.all(
+        data["amplitude_discrepancy"] < LARGEST_DISCREPANCY
+    )
     exact = hamiltonian(np.array(pair, complex)[:, None], (1, 1, omega), "dirichlet")
     for tau in data["snapshot_tau"].values:
-        found = hamiltonian(amplitudes(case, tau), (1, 1, omega), "dirichlet")
-        assert found == pytest.approx(exact, rel=1e-12)
+        computed = hamiltonian(amplitudes(case, tau), (1, 1, omega), "dirichlet")
+        assert computed == pytest.approx(exact, rel=1e-12)
     for norm in ("linf", "l2"):
         np.testing.assert_array_equal(data[norm][:, 0], pair)
-    found = [data.attrs[key] for key in ("epsilon", "gamma", "omega", "half_width", "boundary")]
-    assert found == [1, 1, omega, 30, "dirichlet"]
+    computed = [data.attrs[key] for key in ("epsilon", "gamma", "omega", "half_width", "boundary")]
+    assert computed == [1, 1, omega, 30, "dirichlet"]
     runs = (data.attrs["solver_bits"], data.attrs["second_run_bits"])
     assert runs == chosen("reference").bits[case]
     assert data["tau"][-1] == (70 if case in ("fig2_large", "fig3_large") else 50)
@@ -59,10 +61,10 @@ def test_our_solvers_agree_while_doubles_suffice(case, solver):
 @pytest.mark.parametrize("case", CASES)
 def test_integer_arithmetic_gives_the_same_doubles(case):
     """To tau = 1 the sites 0..4 are those of a longer chain to 1e-22."""
-    given = problem_of(case, half_width=14)
-    chain = fixed_point.half_chain(given, 128)
-    steps = fixed_point.follow(fixed_point.start(given, chain)[0], chain, 32)
-    last = [next(steps)[-1] for _ in given.times[1:]][-1]
+    problem = problem_of(case, half_width=14)
+    chain = fixed_point.half_chain(problem, 128)
+    steps = fixed_point.follow(fixed_point.start(problem, chain)[0], chain, 32)
+    last = [next(steps)[-1] for _ in problem.times[1:]][-1]
     exact = np.array(fixed_point.end(last.terms), object) / 2**chain.bits
     re, im = exact.astype(float).reshape(2, 2, -1)
     np.testing.assert_array_equal((re + 1j * im)[:, :5], amplitudes(case, 1)[:, 30:35])

@@ -10,7 +10,7 @@ from latticode.datasets.netcdf import as_xarray, read
 from latticode.simulation.lattice import Reduction, pack
 from oracle import random_chain, slope
 from pendula.studies.reference import verified_run
-from pendula.studies.reference.verified_run import HEYOKA, LIMIT, UnverifiedError
+from pendula.studies.reference.verified_run import HEYOKA, LARGEST_DISCREPANCY, UnverifiedError
 from problems import problem_of
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -25,20 +25,20 @@ def rows_of(z):
 @pytest.mark.parametrize("half_width", [0, 1, 7])
 def test_norms_are_those_of_the_whole_chain(half_width):
     z = random_chain(half_width, even=True)
-    linf, l2 = verified_run.norms(rows_of(z)[None])
+    linf, l2 = verified_run.compute_norms(rows_of(z)[None])
     np.testing.assert_allclose(linf[:, 0], np.abs(z).max(axis=1), rtol=1e-14)
     np.testing.assert_allclose(l2[:, 0], np.linalg.norm(z, axis=1), rtol=1e-14)
 
 
-@pytest.mark.parametrize("shift", [2 * LIMIT, np.nan])
+@pytest.mark.parametrize("shift", [2 * LARGEST_DISCREPANCY, np.nan])
 def test_runs_that_part_are_refused_with_the_time(shift):
     times, series = np.array([0.0, 0.5, 1.0]), np.ones((2, 3))
-    given = (series, times[:1], np.ones((1, 4, 5)))
-    run = verified_run.MultiprecisionRun(times, series, *given, {"bits": 192})
+    snapshots = (series, times[:1], np.ones((1, 4, 5)))
+    run = verified_run.MultiprecisionRun(times, series, *snapshots, {"bits": 192})
     check = run._replace(l2=series + np.array([0.0, 0.0, shift]), controls={"bits": 176})
     with pytest.raises(UnverifiedError, match=r"fig9: runs of 192 and 176 bits.* tau = 1 on"):
-        verified_run.compare("fig9", run, check)
-    assert not np.any(verified_run.compare("fig9", run, run)[0])
+        verified_run.measure_discrepancy("fig9", run, check)
+    assert not np.any(verified_run.measure_discrepancy("fig9", run, run)[0])
 
 
 def test_without_heyoka_the_message_says_what_to_install(monkeypatch):
@@ -61,15 +61,17 @@ def test_the_equations_are_those_of_the_oracle(half_width):
 @pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
 def test_a_short_run_made_again_gives_the_same_doubles(case):
     heyoka = package("heyoka", HEYOKA)
-    assert verified_run.printed(0.1, 200) == heyoka.real("0.1", 200) != heyoka.real(0.1, 200)
-    again = as_xarray(
+    assert (
+        verified_run.decimal_as_real(0.1, 200) == heyoka.real("0.1", 200) != heyoka.real(0.1, 200)
+    )
+    recomputed = as_xarray(
         *verified_run.reference_contents(
             case, problem_of(case), [0.31, 1, 2], chosen("reference").bits[case]
         )
     )
-    kept = read(ROOT / f"tests/baseline/reference/{case}.nc")
-    np.testing.assert_array_equal(again["snapshot_tau"], [1])
-    np.testing.assert_array_equal(again["amplitude"], kept["amplitude"][..., :1])
+    committed = read(ROOT / f"tests/baseline/reference/{case}.nc")
+    np.testing.assert_array_equal(recomputed["snapshot_tau"], [1])
+    np.testing.assert_array_equal(recomputed["amplitude"], committed["amplitude"][..., :1])
     for name in ("linf", "l2"):
-        np.testing.assert_array_equal(again[name], kept[name].sel(tau=slice(0, 1)))
-    assert again["discrepancy"].max() < 1e-30
+        np.testing.assert_array_equal(recomputed[name], committed[name].sel(tau=slice(0, 1)))
+    assert recomputed["discrepancy"].max() < 1e-30

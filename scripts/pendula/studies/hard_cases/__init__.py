@@ -1,5 +1,4 @@
-"""Hard cases: where a solver is most likely to fail, what it does there, and how one knows.
+"""Hard cases: runs in which solvers are most likely to fail, and their measured errors.
 
-Nothing may hang and nothing may return noise as a result: an outcome is a result with its error, or
-a rejection with a message.
+No run may hang or return noise: it ends with a result of known error or with a message.
 """

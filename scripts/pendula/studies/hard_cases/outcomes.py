@@ -1,4 +1,4 @@
-"""The outcomes of the solvers on the hard cases, as a dataset."""
+"""The dataset of the hard cases: the error or the rejection of each run."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,19 +13,19 @@ from . import errors
 LONG_NAMES = {
     "case": "",  # as in the registry
     "solver": "solver, and its controls",
-    "error": "error, not a number where the run was refused",
-    "limit": "largest sound error",
-    "refusal": "why the run was refused, empty where it was not",
+    "error": "error, NaN if the run was rejected",
+    "limit": "largest allowed error, NaN if the run must be rejected",
+    "refusal": "why the run was rejected, empty if it was not",
     "reference": "what the error is measured against",
     "sound": "whether the outcome is the expected one",
 }
-"""What is kept of each run."""
+"""The variables of the dataset, one row a run."""
 
 
-def evaluate(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, Any]:
-    """Run one solver on a case, plain values of `settings.HardCase`; return what LONG_NAMES says.
+def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the row of LONG_NAMES for one solver on a case, plain values of a `HardCase`.
 
-    A case expects an error of at most so much, or a refusal with these words.
+    `expected` is the largest allowed error, or a text that the message of a rejection contains.
     """
     error, refusal, expected = np.nan, "", case["expected"]
     try:
@@ -41,14 +41,14 @@ def evaluate(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, An
         "error": error,
         "limit": np.nan if must_refuse else expected,
         "refusal": refusal,
-        "reference": errors.AGAINST[case["measure"]],
+        "reference": errors.REFERENCES[case["measure"]],
         "sound": np.int8(sound and must_refuse == bool(refusal)),
     }
 
 
 def hard_cases_contents(cases: list[dict]) -> Contents:
-    """Return the outcome of each solver on `cases`, plain values; an unexpected one is printed."""
-    results = [evaluate(case, solver) for case in cases for solver in case["solvers"]]
+    """Return the dataset of all solvers on `cases`, plain values; print unexpected outcomes."""
+    results = [run_hard_case(case, solver) for case in cases for solver in case["solvers"]]
     for row in results:
         if not row["sound"]:
             print(f"NOT AS EXPECTED: {row['case']}, {row['solver']}: {row['error']:.3g} ")
@@ -56,6 +56,6 @@ def hard_cases_contents(cases: list[dict]) -> Contents:
         name: Variable(("row",), np.array([row[name] for row in results]), words)
         for name, words in LONG_NAMES.items()
     }
-    title = "Hard cases for the solvers: errors against what is known, or refusals in words"
-    seeds = "the number of sites, for random data; cases say their constants"
+    title = "Hard cases for the solvers: errors against known results, or messages of rejected runs"
+    seeds = "for random data the number of sites; the constants are in the name of a case"
     return variables, {"title": title, "seed": seeds}

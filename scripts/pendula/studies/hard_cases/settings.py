@@ -1,6 +1,6 @@
-"""What the configuration says of the hard cases: each with its solvers and what is expected.
+"""The keys of config/hard_cases.yaml: cases, each with its solvers and the expected outcome.
 
-Numbers may be anything, not finite ones too, since solvers must refuse what makes no sense.
+NaN and infinite numbers are allowed, because solvers must reject them.
 """
 
 from typing import Annotated, Any, Literal
@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from latticode.configuration.values import AnyNumber, Model, Whole, faults
 from pydantic import Field, create_model, model_validator
 
-TAKES = {
+ARGUMENTS = {
     "miss_of_linear_flow": (("omega", "gamma", "size"), ("tau",)),
     "drift_of_energy": (("tau",), ()),
     "miss_of_other": (("sites",), ()),
@@ -16,19 +16,19 @@ TAKES = {
     "miss_of_short_chain": (("half_width",), ()),
     "run_anyway": ((), ("amplitude", "tau", "omega")),
 }
-"""The functions of `errors` by name: the arguments that each needs, and those that it may take."""
+"""By the name of each function of `errors`: its required and its optional arguments."""
 BY_TOLERANCE, BY_ITERATION = ("rtol", "atol"), ("step", "tolerance", "iterations")
 CONTROLS = {
     **dict.fromkeys(("ode45", "dop853", "taylor"), BY_TOLERANCE),
     **dict.fromkeys(("crank_nicolson", "delfour_fortin_payre"), BY_ITERATION),
 }
-"""The controls that each solver needs."""
+"""The controls that each solver requires."""
 FARTHEST_POWER, SHORT_CHAIN = 500, 30
-"""The square of 2 to a larger power overflows; the half-width of the chain to compare with."""
+"""(2^power)^2 overflows beyond the first; the second is the half-width of the short chain."""
 
 
 class AnySolver(Model):
-    """A solver and its controls, sound or not."""
+    """A solver and its controls, which may be invalid on purpose."""
 
     name: Literal[tuple(CONTROLS)]
     rtol: AnyNumber | None = None
@@ -39,65 +39,68 @@ class AnySolver(Model):
 
     @model_validator(mode="after")
     def _complete(self) -> "AnySolver":
-        _refuse(_misfits(self, CONTROLS[self.name], ("name",), self.name))
+        _reject(_wrong_keys(self, CONTROLS[self.name], ("name",), self.name))
         return self
 
 
 NUMBERS = ("omega", "gamma", "size", "tau", "amplitude")
-WHOLE = ("power", "sites", "half_width")
+INTEGERS = ("power", "sites", "half_width")
 Arguments = create_model(
     "Arguments",
     __base__=Model,
-    __doc__="What the functions of `errors` take; each takes some of them.",
+    __doc__="All arguments of the functions of `errors`; each function uses some of them.",
     **dict.fromkeys(NUMBERS, (AnyNumber | None, None)),
-    **dict.fromkeys(WHOLE, (Whole | None, None)),
+    **dict.fromkeys(INTEGERS, (Whole | None, None)),
 )
 
 
 class HardCase(Model):
-    """A case that each of `solvers` must solve to an error of `expected`, or refuse in words."""
+    """A case that each of `solvers` must solve with an error up to `expected`, or must reject.
+
+    A number is the largest allowed error, a text a part of the message of the rejection.
+    """
 
     case: str
-    measure: Literal[tuple(TAKES)]
+    measure: Literal[tuple(ARGUMENTS)]
     arguments: Arguments = Arguments()
     solvers: Annotated[list[AnySolver], Field(min_length=1)]
     expected: AnyNumber | str
 
     @model_validator(mode="after")
     def _fitting(self) -> "HardCase":
-        needed, others = TAKES[self.measure]
-        given = self.arguments
-        found = _misfits(given, needed, others, self.measure)
-        if given.sites is not None and not (given.sites > 0 and given.sites % 2):
-            found.append(("sites", f"is {given.sites}; it must be odd and at least 1"))
-        if given.power is not None and abs(given.power) > FARTHEST_POWER:
+        needed, optional = ARGUMENTS[self.measure]
+        arguments = self.arguments
+        errors = _wrong_keys(arguments, needed, optional, self.measure)
+        if arguments.sites is not None and not (arguments.sites > 0 and arguments.sites % 2):
+            errors.append(("sites", f"is {arguments.sites}; it must be odd and at least 1"))
+        if arguments.power is not None and abs(arguments.power) > FARTHEST_POWER:
             ends = f"from -{FARTHEST_POWER} to {FARTHEST_POWER}"
-            found.append(("power", f"is {given.power}; it must be {ends}"))
-        if given.half_width is not None and given.half_width < SHORT_CHAIN:
-            text = f"is {given.half_width}; it must be at least {SHORT_CHAIN}"
-            found.append(("half_width", f"{text}, that of the chain to compare with"))
-        if given.tau is not None and given.tau <= 0.0:
-            found.append(("tau", f"is {given.tau:g}; it must be greater than 0"))
-        _refuse([(f"arguments.{key}", text) for key, text in found])
+            errors.append(("power", f"is {arguments.power}; it must be {ends}"))
+        if arguments.half_width is not None and arguments.half_width < SHORT_CHAIN:
+            text = f"is {arguments.half_width}; it must be at least {SHORT_CHAIN}"
+            errors.append(("half_width", f"{text}, the half-width of the chain to compare with"))
+        if arguments.tau is not None and arguments.tau <= 0.0:
+            errors.append(("tau", f"is {arguments.tau:g}; it must be greater than 0"))
+        _reject([(f"arguments.{key}", text) for key, text in errors])
         return self
 
 
-def _misfits(given: Model, needed: tuple, others: tuple, what: str) -> list[tuple[str, str]]:
-    """Return the keys that are missing or that `what` does not take."""
-    known, found = given.model_dump(exclude_none=True), []
-    found += [(key, f"is missing: {what} needs it") for key in needed if key not in known]
-    takes = ", ".join(key for key in (*needed, *others) if key != "name")
-    found += [
-        (key, f"is not taken by {what}, which takes {takes}")
-        for key in known
-        if key not in (*needed, *others)
+def _wrong_keys(section: Model, needed: tuple, optional: tuple, user: str) -> list[tuple[str, str]]:
+    """Return (key, message) for each key that `section` lacks, or that `user` does not use."""
+    present, errors = section.model_dump(exclude_none=True), []
+    errors += [(key, f"is missing: {user} needs it") for key in needed if key not in present]
+    accepted = ", ".join(key for key in (*needed, *optional) if key != "name")
+    errors += [
+        (key, f"is not used by {user}, which uses {accepted}")
+        for key in present
+        if key not in (*needed, *optional)
     ]
-    return found
+    return errors
 
 
-def _refuse(found: list[tuple[str, str]]) -> None:
-    if found:
-        raise faults(found)
+def _reject(errors: list[tuple[str, str]]) -> None:
+    if errors:
+        raise faults(errors)
 
 
 class Settings(Model):
@@ -105,6 +108,6 @@ class Settings(Model):
 
     cases: Annotated[list[HardCase], Field(min_length=1)]
 
-    def plain(self) -> list[dict[str, Any]]:
-        """Return the cases as plain values."""
+    def plain_cases(self) -> list[dict[str, Any]]:
+        """Return the cases as plain values, without keys that are left out."""
         return self.model_dump(exclude_none=True)["cases"]

@@ -1,4 +1,4 @@
-"""What the configuration says of the references."""
+"""The keys of config/reference.yaml."""
 
 from typing import Annotated
 
@@ -17,5 +17,5 @@ class Settings(Model):
     bits: dict[Name, tuple[Bits, Bits]]
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield the cases that the configuration has not."""
+        """Yield (key, message) for each of `bits` that is no case of the configuration."""
         yield from settings.absent("cases", "bits", list(self.bits))

@@ -1,10 +1,10 @@
-"""A case integrated twice in multiprecision: what both runs agree on is the solution's.
+"""References: each case integrated twice in multiprecision, which must agree to 1e-12.
 
-heyoka (Biscani and Izzo, MNRAS 504 (2021) 2614) integrates the equations (4) on half a chain of
-even data. It takes expressions, which follow from the traced equations; the numbers come from the
-decimals that the configuration prints. A state has the rows Re A, Im A, Re B, Im B on the sites
-0..M, and A = B = 0 beyond site M. Two runs of different precision and order share no rounding.
-Their common digits, each number rounded once to double, make the dataset of a reference.
+heyoka (Biscani and Izzo, MNRAS 504 (2021) 2614) integrates equations (4) on half a chain, which
+needs even initial data. Its expressions are built from the traced equations, and its constants from
+the decimals that the configuration prints. A state has the rows Re A, Im A, Re B, Im B on the sites
+0..M, and A = B = 0 beyond site M. The two runs differ in precision and order, so they share no
+rounding errors. The dataset of a reference holds the first run, each number rounded once to double.
 """
 
 from types import ModuleType
@@ -23,22 +23,22 @@ from pendula.models.amplitudes import field
 from pendula.problem import Problem
 
 HEYOKA = "heyoka==7.13.2"
-LIMIT = 1e-12
-"""The largest difference of any norm that two runs may have, at any output time."""
-NUMBERS = "the printed decimals"
-"""What the parameters mean: 0.1 is one tenth, and not the double beside it."""
+LARGEST_DISCREPANCY = 1e-12
+"""The norms of the two runs must differ by less than this at every output time."""
+MEANING_OF_PARAMETERS = "the printed decimals"
+"""The parameter 0.1 means one tenth, not the nearest double."""
 
 
 class UnverifiedError(RuntimeError):
-    """heyoka, which only the reference needs, is missing, or two runs have too few digits."""
+    """The reference cannot be made: heyoka is missing, or the two runs disagree."""
 
 
 def load_heyoka() -> ModuleType:
-    """Return the module heyoka; the error names the command that installs it."""
+    """Return the module heyoka. Raises UnverifiedError with the command that installs it."""
     try:
         import heyoka
     except ImportError:
-        text = f"the reference, and nothing else, needs heyoka: pip install {HEYOKA}"
+        text = f"references need heyoka, which no other target needs: pip install {HEYOKA}"
         raise UnverifiedError(text) from None
     return heyoka
 
@@ -47,7 +47,7 @@ def load_heyoka() -> ModuleType:
 
 
 class RealConstants(NamedTuple):
-    """Coupling, drive and detuning, as multiprecision reals."""
+    """Coupling, drive and detuning as multiprecision reals."""
 
     epsilon: Any
     gamma: Any
@@ -55,16 +55,16 @@ class RealConstants(NamedTuple):
 
 
 def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[tuple]:
-    """Return the pairs (variable, its rate of change), in the order of a flattened state."""
+    """Return the pairs (variable, its rate of change) of heyoka, in the order of a flat state."""
     names = [[f"{row}{n}" for n in range(half_width + 1)] for row in ("ra", "ia", "rb", "ib")]
     rows = [[heyoka.make_vars(name) for name in row] for row in names]
 
     def field_at(component: int, n: int) -> tuple:
-        def seen(partner: int, part: int, by: int):
-            row, site = rows[2 * (component ^ partner) + part], abs(n + by)  # -1 moves as 1
+        def unknown_at(partner: int, re_or_im: int, shift: int):
+            row, site = rows[2 * (component ^ partner) + re_or_im], abs(n + shift)  # -1 moves as 1
             return row[site] if site < len(row) else 0.0  # site M + 1 is at rest
 
-        return field(constants, seen)
+        return field(constants, unknown_at)
 
     pairs = []
     for component in (0, 1):
@@ -75,20 +75,20 @@ def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[t
     return pairs
 
 
-def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def compute_norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the l-infinity and l2 norms, each (component, time), of states (time, row, site)."""
     squares = np.square(states)
     modulus2 = np.stack([squares[:, 0] + squares[:, 1], squares[:, 2] + squares[:, 3]])
     right = np.add.reduce(modulus2[..., 1:], axis=-1)
-    whole = modulus2[..., 0] + right + right
-    return np.sqrt(np.maximum.reduce(modulus2, axis=2)), np.sqrt(whole)
+    square_sum = modulus2[..., 0] + right + right
+    return np.sqrt(np.maximum.reduce(modulus2, axis=2)), np.sqrt(square_sum)
 
 
 # --- Two runs -------------------------------------------------------------------------------------
 
 
 class MultiprecisionRun(NamedTuple):
-    """What is kept of a run, in multiprecision; components are A, B and sites 0..M."""
+    """Norms, snapshots and controls of a run in multiprecision; components A, B, sites 0..M."""
 
     tau: np.ndarray  # (time,), doubles
     linf: np.ndarray  # (component, time)
@@ -98,93 +98,94 @@ class MultiprecisionRun(NamedTuple):
     controls: dict[str, float]
 
 
-def start(problem: Problem, bits: int) -> np.ndarray:
-    """Return the initial state (row, site) of the half chain 0..M, in multiprecision.
+def make_initial_state(problem: Problem, bits: int) -> np.ndarray:
+    """Return the initial state (row, site) of the half chain 0..M in multiprecision.
 
-    Raises ValueError where the data are not even, or the ends are not at rest.
+    Raises ValueError if the initial data are not even, or the boundary is not Dirichlet.
     """
     if problem.boundary != "dirichlet":
-        raise ValueError(f"the reference has Dirichlet ends only, not {problem.boundary}")
+        raise ValueError(f"references require boundary: dirichlet, not {problem.boundary}")
     if not np.array_equal(problem.initial, problem.initial[:, ::-1]):
-        raise ValueError("the reference integrates half a chain: its data must be even")
-    state = exactly(np.zeros((4, problem.half_width + 1)), bits)
+        raise ValueError("references integrate half a chain: the initial data must be even in n")
+    state = as_reals(np.zeros((4, problem.half_width + 1)), bits)
     for site, (a, b) in by_site(problem.initial).items():
-        parts = [part for z in (complex(a), complex(b)) for part in (z.real, z.imag)]
-        state[:, abs(site)] = [printed(part, bits) for part in parts]
+        numbers = [number for z in (complex(a), complex(b)) for number in (z.real, z.imag)]
+        state[:, abs(site)] = [decimal_as_real(number, bits) for number in numbers]
     return state
 
 
-def exactly(values, bits: int) -> np.ndarray:
-    """Return an array of doubles as reals."""
+def as_reals(values, bits: int) -> np.ndarray:
+    """Return an array of multiprecision reals that equal the doubles `values`."""
     real = load_heyoka().real
     return np.array([real(float(x), bits) for x in np.ravel(values)]).reshape(np.shape(values))
 
 
-def printed(x: float, bits: int):
-    """Return the shortest decimal that names a double, which the configuration prints."""
+def decimal_as_real(x: float, bits: int):
+    """Return the multiprecision real of the shortest decimal that prints as the double `x`."""
     return load_heyoka().real(repr(float(x)), bits)
 
 
 def integrate(problem: Problem, snapshots: list[float], bits: int) -> MultiprecisionRun:
-    """Integrate a case with `bits` bits, and a tolerance of 2^-bits.
+    """Return a run of a case by heyoka with `bits` bits and the tolerance 2^-bits.
 
-    The problem's own solver is not used. Outputs are at the doubles `problem.times`; those
-    among `snapshots` keep the state. Raises IntegrationError where heyoka does not reach the end,
-    ValueError as `start` does.
+    The solver of the problem is not used. Norms are stored at the doubles `problem.times`, and
+    states at those of them that are in `snapshots`. Raises IntegrationError if heyoka stops before
+    the end, and ValueError as `make_initial_state` does.
     """
     heyoka = load_heyoka()
-    constants = RealConstants(*(printed(one, bits) for one in problem.constants))
+    constants = RealConstants(*(decimal_as_real(constant, bits) for constant in problem.constants))
     times = problem.times
     stepper = heyoka.taylor_adaptive(  # it chooses its order from the tolerance
         right_hand_side(heyoka, constants, problem.half_width),
-        start(problem, bits).ravel(),
+        make_initial_state(problem, bits).ravel(),
         time=heyoka.real(0.0, bits),
         fp_type=heyoka.real,
         prec=bits,
         tol=heyoka.real(2.0**-bits, bits),
-        compact_mode=True,  # else it compiles every site by itself, for minutes
+        compact_mode=True,  # otherwise it compiles each site separately, which takes minutes
     )
-    outcome, _, _, steps, _, states = stepper.propagate_grid(exactly(times, bits))
+    outcome, _, _, steps, _, states = stepper.propagate_grid(as_reals(times, bits))
     if outcome != heyoka.taylor_outcome.time_limit:
         raise IntegrationError(f"heyoka stopped at tau = {float(stepper.time):.6g}: {outcome}")
-    states, kept = states.reshape(len(times), 4, -1), np.isin(times, snapshots)
+    states, is_snapshot = states.reshape(len(times), 4, -1), np.isin(times, snapshots)
     controls = {"bits": bits, "order": stepper.order, "tolerance": float(stepper.tol)}
-    observed = (times, *norms(states), times[kept], states[kept])
+    observed = (times, *compute_norms(states), times[is_snapshot], states[is_snapshot])
     return MultiprecisionRun(*observed, controls | {"steps": steps})
 
 
-def compare(
+def measure_discrepancy(
     name: str, run: MultiprecisionRun, check: MultiprecisionRun
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return how far two runs are apart, in doubles: norms (time,) and amplitudes (snapshot,).
+    """Return the largest differences of two runs: of norms (time,) and amplitudes (snapshot,).
 
-    It is the largest difference, taken before any rounding. Raises UnverifiedError where a norm
-    differs by LIMIT or more.
+    Differences are taken before numbers are rounded to doubles. Raises UnverifiedError if a norm
+    differs by LARGEST_DISCREPANCY or more.
     """
     linf, l2 = np.abs(run.linf - check.linf), np.abs(run.l2 - check.l2)
-    apart = np.maximum(np.maximum.reduce(linf), np.maximum.reduce(l2)).astype(float)
-    if (beyond := np.flatnonzero(~(apart < LIMIT))).size:
+    discrepancy = np.maximum(np.maximum.reduce(linf), np.maximum.reduce(l2)).astype(float)
+    if (beyond := np.flatnonzero(~(discrepancy < LARGEST_DISCREPANCY))).size:
         raise UnverifiedError(
             f"{name}: runs of {run.controls['bits']} and {check.controls['bits']} bits differ by "
-            f"{LIMIT:g} or more from tau = {run.tau[beyond[0]]:g} on; give the case more bits"
+            f"{LARGEST_DISCREPANCY:g} or more from tau = {run.tau[beyond[0]]:g} on; "
+            "give the case more bits"
         )
     amplitude = np.maximum.reduce(np.abs(run.amplitude - check.amplitude), axis=(1, 2))
-    return apart, amplitude.astype(float)
+    return discrepancy, amplitude.astype(float)
 
 
 def reference_contents(
     name: str, problem: Problem, snapshots: list[float], bits: tuple[int, int]
 ) -> Contents:
-    """Return the reference of a case; `bits` are those of the stored run and of the second one.
+    """Return the dataset of a reference; `bits` are those of the stored and of the second run.
 
-    States are kept at those of the times `snapshots` that are output times. Times are exact, and
-    `amplitude` may start any run as an exact state.
+    States are stored at the output times that are in `snapshots`. Times are exact, so that
+    `amplitude` can be the initial state of another run.
     """
-    run, check = (integrate(problem, snapshots, some) for some in bits)
-    apart, amplitudes_apart = compare(name, run, check)
+    run, check = (integrate(problem, snapshots, precision) for precision in bits)
+    discrepancy, amplitude_discrepancy = measure_discrepancy(name, run, check)
     rows = run.amplitude.astype(float).transpose(1, 2, 0)
     mirrored = Reduction(even=True, synchronised=False)
-    amplitude = np.stack([unfold(rows[part::2], mirrored) for part in (0, 1)])
+    amplitude = np.stack([unfold(rows[re_or_im::2], mirrored) for re_or_im in (0, 1)])
     series, reach = ("component", "tau"), problem.half_width
     variables = {
         "tau": Variable(("tau",), run.tau),
@@ -192,20 +193,20 @@ def reference_contents(
         "linf": Variable(series, run.linf.astype(float)),
         "l2": Variable(series, run.l2.astype(float)),
         "discrepancy": Variable(
-            ("tau",), apart, "largest difference of a norm from that of the second run"),
+            ("tau",), discrepancy, "largest difference of a norm from that of the second run"),
         "part": Variable(("part",), ["re", "im"]),
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
         "snapshot_tau": Variable(("snapshot",), run.snapshot_tau),
         "amplitude": Variable(
             ("part", "component", "site", "snapshot"), amplitude, "amplitude on a site"),
         "amplitude_discrepancy": Variable(
-            ("snapshot",), amplitudes_apart, "largest difference from the second run's amplitudes"),
-    }  # fmt: skip
-    about = describe_run(name, problem, {"name": "heyoka", **run.controls})
+            ("snapshot",), amplitude_discrepancy, "largest difference from the second run's amplitudes"),
+    }
+    attributes = describe_run(name, problem, {"name": "heyoka", **run.controls})
     return variables, {
-        "title": f"Norms and snapshots of {name} in multiprecision, from {NUMBERS}",
-        **shared_by([about], "snapshot_every"),
+        "title": f"Norms and snapshots of {name} in multiprecision, from {MEANING_OF_PARAMETERS}",
+        **shared_by([attributes], "snapshot_every"),
         **{f"second_run_{key}": value for key, value in check.controls.items()},
-        "parameters_mean": NUMBERS,
-        "largest_discrepancy": float(apart.max()),
+        "parameters_mean": MEANING_OF_PARAMETERS,
+        "largest_discrepancy": float(discrepancy.max()),
     }
