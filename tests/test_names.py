@@ -17,7 +17,10 @@ VAGUE = frozenset(WORDS.split())
 PERCENT = 1.0
 """In five codebases of this field these words are 0.0 to 0.3 % of the names."""
 
-ROOMS = ("scripts/pendula/studies",)
+ROOMS = (
+    "scripts/pendula/studies/hard_cases",
+    "scripts/pendula/studies/reference",
+)
 """Folders and modules that are held to it."""
 
 EXCEPTIONS: dict[tuple[str, str], str] = {}

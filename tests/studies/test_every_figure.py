@@ -35,12 +35,19 @@ def gather_own_norms(run, other):
 
 
 OWN = {
-    "own_norms": (own.draw_norms, gather_own_norms,
-                  "trajectories/fig2_small", "trajectories/fig3_small"),
+    "own_norms": (
+        own.draw_norms,
+        gather_own_norms,
+        "trajectories/fig2_small",
+        "trajectories/fig3_small",
+    ),
     "own_spacetime": (own.draw_spacetime, own.gather_spacetime, "trajectories/fig2_small"),
-    "own_sweep": (own.draw_sweep, lambda one: runs.gather_sweep(one, mean_window="[10, 50]"),
-                  "sweeps/fig5_left"),
-}  # fmt: skip
+    "own_sweep": (
+        own.draw_sweep,
+        lambda one: runs.gather_sweep(one, mean_window="[10, 50]"),
+        "sweeps/fig5_left",
+    ),
+}
 
 
 @style.styled
@@ -204,16 +211,20 @@ def drawn(name: str) -> Figure:
     return draw(gather(*map(dataset, names)))
 
 
-@pytest.mark.parametrize(("name", "label"), [("fig2", "wide, pale: multiprecision reference"),
-                                             ("growth_law", "range of the ensemble")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [("fig2", "wide, pale: multiprecision reference"), ("growth_law", "range of the ensemble")],
+)
 def test_a_key_of_what_is_red_and_blue_has_both_colours(name, label):
     (legend,) = drawn(name).legends
     place = [text.get_text() for text in legend.texts].index(label)
-    key = [one for column in legend._legend_handle_box.get_children()
-           for one in column.get_children()][place]  # fmt: skip
+    key = [
+        one for column in legend._legend_handle_box.get_children() for one in column.get_children()
+    ][place]
     artists = key.get_children()[0].get_children()
-    colours = [one.get_facecolor() if hasattr(one, "get_facecolor") else one.get_color()
-               for one in artists]  # fmt: skip
+    colours = [
+        one.get_facecolor() if hasattr(one, "get_facecolor") else one.get_color() for one in artists
+    ]
     red, blue = map(to_rgb, colours)
     assert red[0] > red[2] and blue[2] > blue[0]
 

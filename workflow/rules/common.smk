@@ -80,7 +80,7 @@ from pendula.problem import MODELS
 from latticode.kernels import DISABLED
 from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
 from pendula.sources import SCRIPTS
-from pendula.studies import files_of_part
+from pendula.studies import files_with_prefix
 
 if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
     stop(DISABLED)

@@ -18,7 +18,7 @@ def function(*names, parts=()):
     `parts` names modules that they find by the list of studies, such as "paper/claims".
     """
     files = [file for name in names for file in files_of_module(name.rpartition(".")[0])]
-    found = [file for part in parts for file in files_of_part(part)]
+    found = [file for part in parts for file in files_with_prefix(part)]
     files += [path for file in found for path in (file.with_name("__init__.py"), file)]
     CALLED[(*names, *parts)] = files
     return [*names, digest_of_code(*files)]

@@ -10,12 +10,12 @@ from latticode.configuration.schema import Sweep
 from pydantic import ValidationError, create_model
 
 from pendula.problem import AMPLITUDES
-from pendula.studies import modules
+from pendula.studies import modules_named
 
 from .cost import demand
 from .schema import Configuration
 
-STUDIES = {name: module.Settings for name, module in modules("settings").items()}
+STUDIES = {name: module.Settings for name, module in modules_named("settings").items()}
 Sections = create_model(
     "Sections", __base__=Configuration, **{name: (of | None, None) for name, of in STUDIES.items()}
 )

@@ -1,4 +1,4 @@
-"""The studies: each has a folder here, rules in workflow/rules, and a configuration of its own."""
+"""The studies: one folder each, with rules in workflow/rules and keys in config/."""
 
 from collections.abc import Iterator
 from importlib import import_module
@@ -7,30 +7,37 @@ from pathlib import Path
 from types import ModuleType
 
 STUDIES = (
-    *("paper", "theory", "chaos", "breathers", "newton", "unbounded", "certified"),
-    *("hard_cases", "reference"),
+    "paper",
+    "theory",
+    "chaos",
+    "breathers",
+    "newton",
+    "unbounded",
+    "certified",
+    "hard_cases",
+    "reference",
 )
-"""The studies whose claims and settings are collected, in the order in which they are
-told. A study with a module `settings` has its choices in config/<name>.yaml."""
+"""All studies, in the order of their claims in the ledger. Keys of a study with a module `settings`
+are in config/<name>.yaml."""
 
 
-def modules(part: str) -> dict[str, ModuleType]:
-    """Return the module of this name, such as "settings", of each of STUDIES that has one."""
-    names = {study: f"pendula.studies.{study}.{part}" for study in STUDIES}
+def modules_named(stem: str) -> dict[str, ModuleType]:
+    """Return by study its module called `stem`, such as "settings", if it has one."""
+    names = {study: f"pendula.studies.{study}.{stem}" for study in STUDIES}
     return {study: import_module(name) for study, name in names.items() if find_spec(name)}
 
 
-def all_modules(part: str) -> Iterator[ModuleType]:
-    """Yield the modules of STUDIES whose names start with this, such as "claims".
+def modules_with_prefix(prefix: str) -> Iterator[ModuleType]:
+    """Yield the modules of all studies whose names start with `prefix`, such as "claims".
 
-    Those of one study alone have its name before, as in "paper/claims".
+    With the name of a study before it, as in "paper/claims", only those of this study.
     """
-    for path in files_of_part(part):
+    for path in files_with_prefix(prefix):
         yield import_module(f"{__name__}.{path.parent.name}.{path.stem}")
 
 
-def files_of_part(part: str) -> list[Path]:
-    """Return the files of the modules that `all_modules` yields."""
-    here, (alone, _, start) = Path(__file__).parent, part.rpartition("/")
-    studies = [alone] if alone else STUDIES
-    return [path for study in studies for path in sorted((here / study).glob(f"{start}*.py"))]
+def files_with_prefix(prefix: str) -> list[Path]:
+    """Return the files of the modules that `modules_with_prefix` yields."""
+    folder, (only_study, _, start) = Path(__file__).parent, prefix.rpartition("/")
+    studies = [only_study] if only_study else STUDIES
+    return [path for study in studies for path in sorted((folder / study).glob(f"{start}*.py"))]

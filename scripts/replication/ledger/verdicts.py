@@ -22,7 +22,7 @@ def all_claims(*modules: str) -> tuple[Claim, ...]:
     found = [
         function.claim
         for start in modules or ("claims",)
-        for module in studies.all_modules(start)
+        for module in studies.modules_with_prefix(start)
         for function in vars(module).values()
         if hasattr(function, "claim")
     ]

@@ -22,8 +22,14 @@ def unfolded(data: np.ndarray) -> np.ndarray:
 
 def run_from(constants: Constants, initial: np.ndarray, end_time: float, output_step: float):
     """Run data (component, site -M..M) on their own chain by the Taylor method."""
-    return simulate(Problem(
-        parameters=vars(constants), half_width=initial.shape[1] // 2, boundary="dirichlet",
-        initial=initial.astype(complex), end_time=end_time, output_step=output_step,
-        solver={"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
-    ))  # fmt: skip
+    return simulate(
+        Problem(
+            parameters=vars(constants),
+            half_width=initial.shape[1] // 2,
+            boundary="dirichlet",
+            initial=initial.astype(complex),
+            end_time=end_time,
+            output_step=output_step,
+            solver={"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
+        )
+    )

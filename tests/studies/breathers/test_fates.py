@@ -11,10 +11,14 @@ from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS, ma
 
 def pair_problem(omega, a, b, end_time=30.0, **changes):
     return Problem(
-        parameters={"epsilon": 1.0, "gamma": 1.0, "omega": omega}, half_width=30,
-        boundary="dirichlet", initial=np.array([[a], [b]], complex), end_time=end_time,
-        output_step=end_time, solver={"name": "taylor", "rtol": 1e-8, "atol": 1e-8},
-    ).changed(**changes)  # fmt: skip
+        parameters={"epsilon": 1.0, "gamma": 1.0, "omega": omega},
+        half_width=30,
+        boundary="dirichlet",
+        initial=np.array([[a], [b]], complex),
+        end_time=end_time,
+        output_step=end_time,
+        solver={"name": "taylor", "rtol": 1e-8, "atol": 1e-8},
+    ).changed(**changes)
 
 
 def state_of(power: dict[int, float], half_width: int = 8) -> np.ndarray:
@@ -50,7 +54,7 @@ def test_what_the_end_of_a_run_shows(power, expected):
         ({0: 1, 1: 9}, 1, 0),  # on a short chain nothing is away from the centre
         ({}, 2, None),  # at rest
     ],
-)  # fmt: skip
+)
 def test_the_place_is_that_of_the_middle_of_three_pairs(power, half_width, place):
     with np.errstate(invalid="ignore"):
         found = fates.place_of(fates.power_by_distance(state_of(power, half_width)))
@@ -64,8 +68,16 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
         assert fates.largest_linear_gain(constants) == gain
     grown = []
     for start in (1e-6, 1e-6j):
-        one = pair_problem(-4.0, start, -start, 4.0, epsilon=0.0, half_width=1, output_step=0.01,
-                           solver={"name": "taylor", "rtol": 1e-12, "atol": 1e-24})  # fmt: skip
+        one = pair_problem(
+            -4.0,
+            start,
+            -start,
+            4.0,
+            epsilon=0.0,
+            half_width=1,
+            output_step=0.01,
+            solver={"name": "taylor", "rtol": 1e-12, "atol": 1e-24},
+        )
         power = (simulate(one).l2 ** 2).sum(axis=0)
         grown.append(float((power / power[0]).max()))
     assert max(grown) == pytest.approx(3.0, rel=1e-4)
@@ -73,9 +85,14 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 
 @pytest.mark.parametrize(
     ("omega", "a", "b", "expected"),
-    [(8.0, 5.0, 1.0, STAYS), (8.0, 1.0, 0.1, DISPERSES), (-4.0, 1.0, 0.1, DISPERSES),
-     (0.0, 5.0, 1.0, SPREADS), (0.0, 1.0, 1.0, DISPERSES)],
-)  # fmt: skip
+    [
+        (8.0, 5.0, 1.0, STAYS),
+        (8.0, 1.0, 0.1, DISPERSES),
+        (-4.0, 1.0, 0.1, DISPERSES),
+        (0.0, 5.0, 1.0, SPREADS),
+        (0.0, 1.0, 1.0, DISPERSES),
+    ],
+)
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
     assert fates.keep_fate(problem) == {"fate": expected}

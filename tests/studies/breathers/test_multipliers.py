@@ -21,8 +21,10 @@ def test_multipliers_are_those_of_the_nonlinear_flow(family, parity):
         change = np.zeros((2, 2 * m + 1), complex)
         change[row, m + first + site] = 1e-6 * (1.0, 1j)[part]
         change[row, m - first - site] = sign * change[row, m + first + site]
-        ends = [run_from(constants, unfolded(breather.data) + one * change, period, period).final
-                for one in (1.0, -1.0)]  # fmt: skip
+        ends = [
+            run_from(constants, unfolded(breather.data) + one * change, period, period).final
+            for one in (1.0, -1.0)
+        ]
         moved = (ends[0] - ends[1])[:, m + first :] / 2e-6
         columns.append([moved.real, moved.imag])
     values = np.linalg.eigvals(np.reshape(columns, (len(columns), -1)).T)
@@ -34,11 +36,14 @@ def test_multipliers_are_those_of_the_nonlinear_flow(family, parity):
     assert bool(shift < 1e-3) is (parity == "even")
 
 
-@pytest.mark.parametrize(("nu", "rate"), [
-    ([0.3, -1.0, 1.0, 1.0 + 1e-13, 0.5 + 1e-9j], 0.0),  # on the circle, but for rounding
-    ([-np.cosh(0.2)], 0.4 / np.pi),  # mu = -e^x over half a period pi / 2
-    ([np.cosh(0.2 + 0.7j)], 0.4 / np.pi),  # a quartet e^(x + i y)
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("nu", "rate"),
+    [
+        ([0.3, -1.0, 1.0, 1.0 + 1e-13, 0.5 + 1e-9j], 0.0),  # on the circle, but for rounding
+        ([-np.cosh(0.2)], 0.4 / np.pi),  # mu = -e^x over half a period pi / 2
+        ([np.cosh(0.2 + 0.7j)], 0.4 / np.pi),  # a quartet e^(x + i y)
+    ],
+)
 def test_growth_of_traces(nu, rate):
     assert multipliers.growth_of_traces(2.0, np.array(nu)) == pytest.approx(rate)
 

@@ -99,8 +99,13 @@ def test_a_difference_of_a_and_b_grows_on_a_soliton_at_the_rate_of_its_multiplie
     times = np.array([0.0, period, 2.0 * period])
     run = solve_ivp(
         lambda _, y: slope(y.reshape(2, -1), (1.0, 1.0, -4.0), "dirichlet").ravel(),
-        (0.0, times[-1]), start.ravel(), "DOP853", times, rtol=1e-13, atol=1e-14,
-    )  # fmt: skip
+        (0.0, times[-1]),
+        start.ravel(),
+        "DOP853",
+        times,
+        rtol=1e-13,
+        atol=1e-14,
+    )
     a, b = run.y.reshape(2, -1, 3)
     apart = np.sqrt((np.abs(a - b) ** 2).sum(axis=0))
     rate = np.log(apart[2] / apart[1]) / period

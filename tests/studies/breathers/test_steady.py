@@ -22,14 +22,21 @@ def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
             localised(family, numbers(omega=end + 0.5), 30)
 
 
-@pytest.mark.parametrize(("family", "epsilon", "omega", "stable"), [
-    (EQUAL, 1.0, -4.0, False), (EQUAL, 1.0, -8.0, True), (REAL, 1.0, -12.0, False),
-    (REAL, 1.0, -13.0, True), (ASYMMETRIC, 1.0, -13.0, True), (IMAGINARY, 1.0, -13.0, False),
-    (EQUAL, 0.05, -5.0, True),
-    # A = B on one pair swings at the square 4 gamma (-Omega - gamma), and the lower edge of the
-    # band of A - B has Omega^2 - 4 gamma^2: the two are equal at Omega = -4 gamma
-    (EQUAL, 0.01, -4.0, False),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("family", "epsilon", "omega", "stable"),
+    [
+        (EQUAL, 1.0, -4.0, False),
+        (EQUAL, 1.0, -8.0, True),
+        (REAL, 1.0, -12.0, False),
+        (REAL, 1.0, -13.0, True),
+        (ASYMMETRIC, 1.0, -13.0, True),
+        (IMAGINARY, 1.0, -13.0, False),
+        (EQUAL, 0.05, -5.0, True),
+        # A = B on one pair swings at the square 4 gamma (-Omega - gamma), and the lower edge of the
+        # band of A - B has Omega^2 - 4 gamma^2: the two are equal at Omega = -4 gamma
+        (EQUAL, 0.01, -4.0, False),
+    ],
+)
 def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, epsilon, omega, stable):
     for half_width in (20, 40):
         found = localised(family, numbers(epsilon, 1.0, omega), half_width)

@@ -31,10 +31,10 @@ def test_runs_of_the_second_solver_have_its_steps_and_draws_of_their_own():
     steps = [0.05, 0.125]
     first = PROBLEM.plain()
     second = [
-        first | {"solver": {"name": "crank_nicolson", "step": step, "tolerance": 1e-13,
-                            "iterations": 50}}
+        first
+        | {"solver": {"name": "crank_nicolson", "step": step, "tolerance": 1e-13, "iterations": 50}}
         for step in steps
-    ]  # fmt: skip
+    ]
     windows = [(0.5, 1.0), (0.25, 0.5)]
     data = measure_second_solver(first, second, [3, 4], windows, 1e-3, 2, 5, seed=1).make()
     assert data["solver_step"].values.tolist() == steps and data.attrs["window"] == "[0.5, 1]"
@@ -46,8 +46,9 @@ def test_runs_of_the_second_solver_have_its_steps_and_draws_of_their_own():
     assert len(np.unique(drawn)) == drawn.size == 18
 
 
-@pytest.mark.parametrize(("step", "steps"), [(0.0025, [0.0025, 0.0125]), (0.0125, [0.0125]),
-                                             (0.02, [0.0125, 0.02])])  # fmt: skip
+@pytest.mark.parametrize(
+    ("step", "steps"), [(0.0025, [0.0025, 0.0125]), (0.0125, [0.0125]), (0.02, [0.0125, 0.02])]
+)
 def test_steps_of_the_second_solver_rise_and_none_comes_twice(step, steps):
     """A coordinate of a dataset that did not rise would tell its readers nothing."""
     assert steps_beside(step, 0.025) == steps

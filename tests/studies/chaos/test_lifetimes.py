@@ -29,8 +29,13 @@ def test_scipy_sees_the_transition_at_the_same_time(a0):
     tau = np.linspace(0.0, 20.0, 201)
     run = solve_ivp(
         lambda _, y: slope(y.reshape(2, 61), (1.0, 1.0, 0.0), "dirichlet").ravel(),
-        (0.0, 20.0), start.ravel(), "DOP853", tau, rtol=1e-9, atol=1e-9,
-    )  # fmt: skip
+        (0.0, 20.0),
+        start.ravel(),
+        "DOP853",
+        tau,
+        rtol=1e-9,
+        atol=1e-9,
+    )
     power = (np.abs(run.y) ** 2).sum(axis=0)
     first = tau[np.argmax(power >= 0.25 * power[tau >= WINDOW[0]].mean())]
     found = lifetimes.follow(problem(a0=a0), WINDOW, 0.25)

@@ -65,12 +65,23 @@ def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, gr
     square, curvature = 1.0 / (mu * mu) + omega, 4.0 * np.sin(angle / 2) ** 2
     gamma = factor * 0.5 * square * float(mathieu.first_tongue((curvature - omega) / square))
     wave = {n - 2: 1e-12 * np.sin(angle * (n + 1)) for n in range(sites)}
-    run = simulate(Problem.of({
-        "epsilon": 1.0, "gamma": gamma, "omega": omega, "half_width": 2, "boundary": "dirichlet",
-        "initial": {n: (a, -a) for n, a in wave.items()}, "end_time": 30.0, "output_step": 0.01,
-        "model": "pendula", "mu": mu,
-        "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-25},
-    }))  # fmt: skip
+    run = simulate(
+        Problem.of(
+            {
+                "epsilon": 1.0,
+                "gamma": gamma,
+                "omega": omega,
+                "half_width": 2,
+                "boundary": "dirichlet",
+                "initial": {n: (a, -a) for n, a in wave.items()},
+                "end_time": 30.0,
+                "output_step": 0.01,
+                "model": "pendula",
+                "mu": mu,
+                "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-25},
+            }
+        )
+    )
     late, later = (run.l2[0][1000 * i : 1000 * (i + 1)].max() for i in (1, 2))
     period = 0.5 * mu * mu * np.pi / np.sqrt(1.0 + mu * mu * omega)  # of the drive, in tau
     per_tau = np.log(multiplier(omega, mu, gamma, curvature)) / period

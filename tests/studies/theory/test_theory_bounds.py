@@ -115,8 +115,9 @@ def test_the_power_of_the_wave_grows_in_time_by_the_least_constant(monkeypatch, 
     def rates(_, z):
         return slope(z.reshape(2, -1), (1.0, 1.0, omega), "dirichlet").ravel()
 
-    run = solve_ivp(rates, (0.0, 2.0), start.ravel(), method="DOP853", rtol=1e-11, atol=1e-16,
-                    max_step=0.01)  # fmt: skip
+    run = solve_ivp(
+        rates, (0.0, 2.0), start.ravel(), method="DOP853", rtol=1e-11, atol=1e-16, max_step=0.01
+    )
     powers = (np.abs(run.y) ** 2).sum(axis=0)
     assert powers[0] == pytest.approx(powers.min())
     assert powers.max() / powers[0] == pytest.approx(constant, rel=1e-4)

@@ -61,8 +61,11 @@ def test_rows_on_lemma_2_are_decided_by_every_cell(check):
         {"identity": ["distance of two solutions", "(19)"], "boundary": ["free"]},
     )
     identities = xr.Dataset({"terms": terms})
-    wrong = {"global_existence": ("steepest", 1.01), "uniqueness": ("between_solvers", 1e-8),
-             "continuous_dependence": ("distance_ratio", 1e4)}  # fmt: skip
+    wrong = {
+        "global_existence": ("steepest", 1.01),
+        "uniqueness": ("between_solvers", 1e-8),
+        "continuous_dependence": ("distance_ratio", 1e4),
+    }
     for name, (variable, value) in wrong.items():
         sources = {"checks/identities": identities, "checks/well_posed": check}
         finding = decide(claims[name], sources)

@@ -58,9 +58,11 @@ def test_a_chain_is_widened_where_its_last_sites_are_above_rest():
     state = np.zeros((4, 2 * GUARD + 2))
     state[0, 1], state[2, [0, -1]] = 2.0, 7.0
     for site, amplitude, grows in (
-        (GUARD, 2.01e-6, True), (GUARD, 2e-6, False), (GUARD - 1, 1.0, False),
+        (GUARD, 2.01e-6, True),
+        (GUARD, 2e-6, False),
+        (GUARD - 1, 1.0, False),
         (2 * GUARD - 1, 2.01e-6, True),
-    ):  # fmt: skip
+    ):
         moved = state.copy()
         moved[1, 1 + site] = amplitude
         wider = widen(moved, 1e-6)

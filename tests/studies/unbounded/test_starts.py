@@ -19,13 +19,22 @@ def test_scipy_sees_the_same_norm_until_chaos_and_growth_afterwards(pair):
     start[:, 100] = pair
     run = solve_ivp(
         lambda _, y: slope(y.reshape(2, 201), (1.0, 1.0, -4.0), "dirichlet").ravel(),
-        (0.0, 40.0), start.ravel(), "DOP853", times, rtol=1e-8, atol=1e-8,
-    )  # fmt: skip
+        (0.0, 40.0),
+        start.ravel(),
+        "DOP853",
+        times,
+        rtol=1e-8,
+        atol=1e-8,
+    )
     by_scipy = np.sqrt((np.abs(run.y) ** 2).sum(axis=0))
     case = problem_of(
-        "fig3_large", half_width=None, initial={0: pair}, end_time=40.0, output_step=1.0,
+        "fig3_large",
+        half_width=None,
+        initial={0: pair},
+        end_time=40.0,
+        output_step=1.0,
         solver={"name": "dop853", "rtol": 1e-8, "atol": 1e-8},
-    )  # fmt: skip
+    )
     ours = run_long(case, 1e-20)["l2"]
     assert ours[5] == pytest.approx(by_scipy[1], rel=1e-4)
     for norms in (by_scipy, ours):

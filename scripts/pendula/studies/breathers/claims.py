@@ -12,7 +12,7 @@ from replication.ledger.criterion import (
     Finding,
     UndecidableError,
     judge,
-)  # fmt: skip
+)
 from replication.ledger.cutoff import Cutoff
 
 SECTION = 7

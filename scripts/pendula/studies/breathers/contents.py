@@ -59,9 +59,13 @@ def steady_contents(
 
 
 def periodic_contents(
-    epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
-    half_width: int, solitons: Mapping[str, Any],
-) -> Contents:  # fmt: skip
+    epsilon: float,
+    gamma: float,
+    omegas: Sequence[float],
+    frequencies: Sequence[float],
+    half_width: int,
+    solitons: Mapping[str, Any],
+) -> Contents:
     """Return the three families at each Omega and frequency; NaN where a family does not exist.
 
     `solitons` gives Omega, the frequencies and the two half-widths of chains of the solitons.
@@ -104,9 +108,12 @@ def periodic_contents(
 
 
 def soliton_variables(
-    epsilon: float, gamma: float, omega: float, frequencies: Sequence[float],
+    epsilon: float,
+    gamma: float,
+    omega: float,
+    frequencies: Sequence[float],
     half_widths: Sequence[int],
-) -> dict[str, Variable]:  # fmt: skip
+) -> dict[str, Variable]:
     """Return P of the solitons A = B, and the growth of their perturbations on each chain.
 
     A growth that depends on the length is one of the waves between the ends.

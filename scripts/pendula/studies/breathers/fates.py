@@ -115,9 +115,10 @@ def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
 
 
 def map_fates(
-    problems: Mapping[float, Problem], amplitudes: Sequence[float],
+    problems: Mapping[float, Problem],
+    amplitudes: Sequence[float],
     majority: float = MAJORITY,
-) -> ManyRuns:  # fmt: skip
+) -> ManyRuns:
     """Return the runs that map the fate of data on one pair, at the detuning of each problem.
 
     A_0 and B_0 go over `amplitudes`. Exchanging A and B changes no fate, so that one half of the

@@ -53,11 +53,12 @@ def draw_fates(data: xr.Dataset) -> Figure:
         _draw_map(axes, data["fate"].sel(omega=omega))
         axes.set_title(rf"({letter}) $\Omega = {omega:g}$", loc="left")
     row[0].set_ylabel("$B_0$")
-    shown = [Patch(facecolor=COLOURS(kind), edgecolor="0.5", label=KINDS[kind])
-             for kind in np.unique(data["fate"])]  # fmt: skip
+    shown = [
+        Patch(facecolor=COLOURS(kind), edgecolor="0.5", label=KINDS[kind])
+        for kind in np.unique(data["fate"])
+    ]
     paper = Line2D([], [], ls="none", label="initial conditions of Figs 2 to 4", **MARK)
-    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5,
-                  columnspacing=1.2)  # fmt: skip
+    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5, columnspacing=1.2)
     return figure
 
 
@@ -69,9 +70,15 @@ def _draw_map(axes: Axes, fates: xr.DataArray) -> None:
         half = 0.5 * (centres[1] - centres[0])
         ends += [float(centres[0] - half), float(centres[-1] + half)]
     axes.imshow(
-        fates.transpose("b0", "a0").values, cmap=COLOURS, vmin=-0.5, vmax=COLOURS.N - 0.5,
-        extent=ends, origin="lower", aspect="auto", interpolation="none",
-    )  # fmt: skip
+        fates.transpose("b0", "a0").values,
+        cmap=COLOURS,
+        vmin=-0.5,
+        vmax=COLOURS.N - 0.5,
+        extent=ends,
+        origin="lower",
+        aspect="auto",
+        interpolation="none",
+    )
     for one in OF_PAPER:
         axes.plot(*one, clip_on=False, **MARK)
     axes.set(xlabel="$A_0$", xlim=ends[:2], ylim=ends[2:])

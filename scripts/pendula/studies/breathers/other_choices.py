@@ -28,9 +28,11 @@ def choices_of(chosen: Mapping[str, float], variations: Mapping[str, Sequence]) 
 
 
 def vary_areas(
-    problem: Problem, amplitudes: Sequence[float], chosen: Mapping[str, float],
+    problem: Problem,
+    amplitudes: Sequence[float],
+    chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
-) -> xr.Dataset:  # fmt: skip
+) -> xr.Dataset:
     """Return which part of the map of fates each fate has, but for its diagonal, (kind,).
 
     The limits are those of as many independent initial conditions as one half of the map has.
@@ -52,9 +54,13 @@ def vary_areas(
 
 
 def vary_shares(
-    name: str, problem: Problem, sizes: Sequence[float], members: int,
-    chosen: Mapping[str, float], variations: Mapping[str, Sequence],
-) -> xr.Dataset:  # fmt: skip
+    name: str,
+    problem: Problem,
+    sizes: Sequence[float],
+    members: int,
+    chosen: Mapping[str, float],
+    variations: Mapping[str, Sequence],
+) -> xr.Dataset:
     """Return the share of runs that spread, by the size of the perturbation."""
 
     def measure(majority, seed, **settings):
@@ -78,9 +84,11 @@ def vary_shares(
 
 
 def vary_least_power(
-    constants: Mapping[str, float], frequencies: Sequence[float], chosen: Mapping[str, float],
+    constants: Mapping[str, float],
+    frequencies: Sequence[float],
+    chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
-) -> xr.Dataset:  # fmt: skip
+) -> xr.Dataset:
     """Return the least P of the breathers "A only" within a period, and its frequency.
 
     `frequencies` are the lowest and the highest of a scan in equal steps.

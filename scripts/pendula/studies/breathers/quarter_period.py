@@ -57,9 +57,13 @@ def carry(chain, bundle, even, duration, steps, work):
 
 
 def flow(
-    constants: Constants, state: np.ndarray, evens: np.ndarray, odds: np.ndarray, duration: float,
+    constants: Constants,
+    state: np.ndarray,
+    evens: np.ndarray,
+    odds: np.ndarray,
+    duration: float,
     steps: int,
-) -> np.ndarray:  # fmt: skip
+) -> np.ndarray:
     """Return where data and their perturbations are after `duration`.
 
     `state` is (4, M + 1): Re A, Im A, Re B, Im B on the sites 0..M of an even chain at rest beyond

@@ -22,9 +22,13 @@ from .fates import MAJORITY, SPREADS, keep_fate
 
 
 def sensitivity_contents(
-    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
+    name: str,
+    problem: Problem,
+    sizes: Sequence[float],
+    members: int,
+    seed: int,
     majority: float = MAJORITY,
-) -> ManyRuns:  # fmt: skip
+) -> ManyRuns:
     """Return the runs that give the share that spreads for each relative size of the change."""
     # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)

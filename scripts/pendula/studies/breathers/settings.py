@@ -40,10 +40,12 @@ Periodic = model(
     half_width=Annotated[Whole, Field(ge=2)],
     solitons=Solitons,
     long=model(
-        omega=Number, frequencies=Window, frequency_step=Positive,
+        omega=Number,
+        frequencies=Window,
+        frequency_step=Positive,
         variations=dict[Literal["frequency_step", "half_width", "steps"], Positives],
     ),
-)  # fmt: skip
+)
 
 # Share of runs that spread, by the size of a random change of the data.
 Sensitivity = model(

@@ -39,16 +39,21 @@ def breathers_contents(
         "family": Variable(of, [one["family"] for one in proofs], "family of states"),
         "omega": Variable(of, [float(one["omega"]) for one in proofs]),
         "epsilon": Variable(of, [float(one["epsilon"]) for one in proofs]),
-        "amplitude": Variable((*of, "component", "site"),
-                              np.array([state for _, _, state in found]), amplitude),
+        "amplitude": Variable(
+            (*of, "component", "site"), np.array([state for _, _, state in found]), amplitude
+        ),
         "radius": Variable(
-            of, radii,
-            "one true state lies within this l-infinity distance, infinite where none is proved"),
+            of,
+            radii,
+            "one true state lies within this l-infinity distance, infinite where none is proved",
+        ),
         "proof_refusal": Variable(of, refusals, "why nothing is proved"),
         "wrong_radius": Variable(
-            ("wrong_proof",), refused,
-            "radius that is proved of the wrong state, infinite if it is refused"),
-    }  # fmt: skip
+            ("wrong_proof",),
+            refused,
+            "radius that is proved of the wrong state, infinite if it is refused",
+        ),
+    }
     title = "Steady breathers whose existence is proved"
     about = {"gamma": gamma, "half_width": half_width, "bits": existence.BITS}
     return variables, {"title": title, **about}

@@ -280,10 +280,11 @@ def ensemble_equilibrium(members) -> Finding:
         "change": largest(limits(members, "fig4_small", power_change)),
     }
     everywhere = Above(
-        FACTOR, "least_low",
+        FACTOR,
+        "least_low",
         says=f"lower confidence limit of the least amplitude of all pendula on {LATER}, over that"
         " of the initial power spread evenly",
-    )  # fmt: skip
+    )
     settled = Below(CHANGE, "change", says=f"confidence limit of the change of P to {LATER}")
     caveat = "only a finite chain reaches equilibrium everywhere; a longer chain takes longer"
     return judge(measured, AllOf(everywhere, settled), caveat)

@@ -32,7 +32,7 @@ from replication.ledger.claim import (
     runs,
     sweeps,
     swept,
-)  # fmt: skip
+)
 from replication.ledger.criterion import (
     Above,
     AllOf,

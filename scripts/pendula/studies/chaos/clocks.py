@@ -22,9 +22,13 @@ TIMES = ("transition", "life")
 def limits_of(lifetimes: xr.Dataset, confidence: float = CONFIDENCE) -> dict[str, Limits]:
     """Return the median times and the means over members with their limits, (start_amplitude,)."""
     return {
-        name: Limits(*np.transpose([
-            (median_limits if name in TIMES else mean_limits)(values, confidence)
-            for values in lifetimes[name].transpose("start_amplitude", "member").values
-        ]))
+        name: Limits(
+            *np.transpose(
+                [
+                    (median_limits if name in TIMES else mean_limits)(values, confidence)
+                    for values in lifetimes[name].transpose("start_amplitude", "member").values
+                ]
+            )
+        )
         for name in NUMBERS
-    }  # fmt: skip
+    }

@@ -87,10 +87,15 @@ def _ensembles_of(
 
 
 def measure_second_solver(
-    first: Mapping, second: Sequence[Mapping], half_widths: Sequence[int],
-    windows: Sequence[tuple[float, float]], size: float, members: int, first_members: int,
+    first: Mapping,
+    second: Sequence[Mapping],
+    half_widths: Sequence[int],
+    windows: Sequence[tuple[float, float]],
+    size: float,
+    members: int,
+    first_members: int,
     seed: int,
-) -> ManyRuns:  # fmt: skip
+) -> ManyRuns:
     """Return the runs by the paper's second solver that give the maxima of l2 over a window.
 
     `second` are its problems, which differ in the step, and `first` is that by the solver of the

@@ -94,9 +94,14 @@ def _draw_open_limits(axes: Axes, data: xr.Dataset, name: str) -> None:
 
 
 def _draw_runs(
-    axes: Axes, data: xr.Dataset, name: str, colour: str, mark: str, aside: float,
+    axes: Axes,
+    data: xr.Dataset,
+    name: str,
+    colour: str,
+    mark: str,
+    aside: float,
     label: str | None = None,
-) -> None:  # fmt: skip
+) -> None:
     """Draw the runs of one number as small marks, and their middle with its limits."""
     a0 = data["start_amplitude"].values + aside
     runs = data[name].transpose("start_amplitude", "member").values
@@ -104,6 +109,14 @@ def _draw_runs(
     axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label=said)
     middle, low, high = (data[f"{name}_{word}"].values for word in WORDS)
     axes.errorbar(
-        a0, middle, np.array([middle - low, high - middle]), marker=mark, color=colour, ls="none",
-        elinewidth=0.8, capsize=2, markersize=3.5, label=label,
-    )  # fmt: skip
+        a0,
+        middle,
+        np.array([middle - low, high - middle]),
+        marker=mark,
+        color=colour,
+        ls="none",
+        elinewidth=0.8,
+        capsize=2,
+        markersize=3.5,
+        label=label,
+    )

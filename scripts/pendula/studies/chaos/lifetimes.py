@@ -83,9 +83,16 @@ def shares_alike(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
 
 
 def measure_lifetimes(
-    problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int, seed: int,
-    window: Sequence[float], level: float, multiple: float,
-) -> ManyRuns:  # fmt: skip
+    problem: Problem,
+    amplitudes: list[float],
+    ratio: float,
+    size: float,
+    members: int,
+    seed: int,
+    window: Sequence[float],
+    level: float,
+    multiple: float,
+) -> ManyRuns:
     """Return the runs that give NUMBERS of members from each A_0, with B_0 = `ratio` A_0."""
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
@@ -119,9 +126,13 @@ def _lifetimes_of(
 
 
 def vary_lifetimes(
-    problem: Problem, amplitudes: list[float], ratio: float, members: int,
-    chosen: Mapping[str, float], variations: Mapping[str, Sequence],
-) -> xr.Dataset:  # fmt: skip
+    problem: Problem,
+    amplitudes: list[float],
+    ratio: float,
+    members: int,
+    chosen: Mapping[str, float],
+    variations: Mapping[str, Sequence],
+) -> xr.Dataset:
     """Return the medians and means of `limits_of`, measured again with each choice changed."""
 
     def measure(tolerance, output_step, size, seed, **clocks):

@@ -81,9 +81,14 @@ def spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.ndarray, 
 
 
 def measure_lyapunov(
-    problems: dict[str, Problem], span: tuple[float, float], members: int, size: float, seed: int,
-    short_problems: dict[str, Problem], undriven_end: float,
-) -> Contents:  # fmt: skip
+    problems: dict[str, Problem],
+    span: tuple[float, float],
+    members: int,
+    size: float,
+    seed: int,
+    short_problems: dict[str, Problem],
+    undriven_end: float,
+) -> Contents:
     """Return the largest exponents of `problems`, and all exponents of `short_problems`.
 
     These are also followed without a drive, to `undriven_end`, where the l2 norm is a second

@@ -66,8 +66,12 @@ def relative_width(late: np.ndarray) -> float:
 
 
 def member_numbers(
-    problems: dict[str, Problem], windows: list[Window], size: float, members: int, seed: int,
-) -> ManyRuns:  # fmt: skip
+    problems: dict[str, Problem],
+    windows: list[Window],
+    size: float,
+    members: int,
+    seed: int,
+) -> ManyRuns:
     """Return the runs that give bands of norms of each case, and what REDUCED names of each member.
 
     `problems` are given by case, and keep all moduli; the sites are those of the longest chain.

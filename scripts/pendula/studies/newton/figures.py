@@ -35,10 +35,16 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
         axes.step(tau, one["passed"], where="post", lw=width, color=colour)
         last, low, high = (float(one[name][-1]) for name in ("passed", "passed_low", "passed_high"))
         axes.errorbar(
-            tau[-1] * (1.03 + BESIDE * i), last, [[last - low], [high - last]], capsize=1.5,
-            elinewidth=0.9, color=colour, marker=MARKS[i % len(MARKS)], markersize=3,
+            tau[-1] * (1.03 + BESIDE * i),
+            last,
+            [[last - low], [high - last]],
+            capsize=1.5,
+            elinewidth=0.9,
+            color=colour,
+            marker=MARKS[i % len(MARKS)],
+            markersize=3,
             label=rf"$\mu = {mu:g}$",
-        )  # fmt: skip
+        )
     axes.set(xlabel=r"$\tau$", ylabel="share of runs over the top")
     axes.set_xlim(0, tau[-1] * (1.03 + BESIDE * count))
     axes.axvline(tau[-1], color="0.5", lw=0.6, ls=":")

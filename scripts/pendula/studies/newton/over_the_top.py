@@ -61,8 +61,13 @@ def late_square(run: Trajectory, problem: Problem) -> float:
 
 
 def measure_over_the_top(
-    problem: Problem, mus: Sequence[float], size: float, members: int, seed: int, settled: float,
-) -> ManyRuns:  # fmt: skip
+    problem: Problem,
+    mus: Sequence[float],
+    size: float,
+    members: int,
+    seed: int,
+    settled: float,
+) -> ManyRuns:
     """Return the runs that give first passages of members at each mu, shares by tau, and rates."""
     drawn = draw_members(problem, size, members, seed)
     each = [one.changed(model=PENDULA, mu=float(mu)) for mu in mus for one in drawn]
@@ -92,17 +97,24 @@ def _passages_of(
         "mu": Variable(("mu",), list(mus)),
         "tau": Variable(("tau",), tau),
         "passage_time": Variable(
-            over, times, "time of the first passage over the top, infinite if later"),
+            over, times, "time of the first passage over the top, infinite if later"
+        ),
         "site_power": Variable(
-            over, powers, "mean of (x^2 + y^2) / (2 mu^2) over sites and the late half of the run"),
+            over, powers, "mean of (x^2 + y^2) / (2 mu^2) over sites and the late half of the run"
+        ),
         "amplitude_power": Variable(
-            ("member",), of_amplitudes, "mean of |A|^2 + |B|^2 over the same, by equations (4)"),
-    }  # fmt: skip
+            ("member",), of_amplitudes, "mean of |A|^2 + |B|^2 over the same, by equations (4)"
+        ),
+    }
     for name, dims, found, words in (
         ("passed", ("mu", "tau"), passed, "share of members that have gone over the top"),
-        ("passage_rate", ("mu",), rates,
-         "rate of first passages after the settled time, per unit of tau; NaN: none was left"),
-    ):  # fmt: skip
+        (
+            "passage_rate",
+            ("mu",),
+            rates,
+            "rate of first passages after the settled time, per unit of tau; NaN: none was left",
+        ),
+    ):
         value, low, high = np.moveaxis(np.array(found), -1, 0)
         variables[name] = Variable(dims, value, words)
         variables[f"{name}_low"] = Variable(dims, low, f"{words}, lower confidence limit")
@@ -121,9 +133,13 @@ MEANINGS = {
 
 
 def vary_over_the_top(
-    problem: Problem, mus: Sequence[float], members: int, end_time: float,
-    chosen: Mapping[str, float], variations: Mapping[str, Sequence[float]],
-) -> xr.Dataset:  # fmt: skip
+    problem: Problem,
+    mus: Sequence[float],
+    members: int,
+    end_time: float,
+    chosen: Mapping[str, float],
+    variations: Mapping[str, Sequence[float]],
+) -> xr.Dataset:
     """Return the numbers of MEANINGS at each mu, measured again with each choice changed.
 
     `chosen` are the tolerance, the size of the perturbation, the seed and the settled time, and

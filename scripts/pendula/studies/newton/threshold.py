@@ -35,10 +35,14 @@ def threshold_contents(epsilon: float, omegas: Sequence[float], mus: Sequence[fl
     variables = {
         "omega": Variable(("omega",), omega),
         "mu": Variable(("mu",), mu),
-        "gamma_0": Variable(("omega", "mu"), found,
-                            "gamma_0 of the infinite chain of pendula",
-                            attributes={"significant_digits": np.finfo(float).precision}),
-        "gamma_0_lemma": Variable(("omega",), gamma_0(omega, epsilon),
-                                  "threshold gamma_0 of Lemma 1"),
-    }  # fmt: skip
+        "gamma_0": Variable(
+            ("omega", "mu"),
+            found,
+            "gamma_0 of the infinite chain of pendula",
+            attributes={"significant_digits": np.finfo(float).precision},
+        ),
+        "gamma_0_lemma": Variable(
+            ("omega",), gamma_0(omega, epsilon), "threshold gamma_0 of Lemma 1"
+        ),
+    }
     return variables, {"title": "Lemma 1 for the pendula", "epsilon": epsilon}

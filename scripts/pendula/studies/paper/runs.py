@@ -24,9 +24,11 @@ def run_case(name: str, problem: Problem) -> Contents:
 
 
 def run_sweep(
-    name: str, problem: Problem, half_widths: Sequence[int],
+    name: str,
+    problem: Problem,
+    half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
-) -> ManyRuns:  # fmt: skip
+) -> ManyRuns:
     """Return the runs that give maxima and means of norms over `windows`, on all `half_widths`."""
     runs = runs_of_sweep(problem, half_widths, windows)
 

@@ -193,14 +193,19 @@ def reference_contents(
         "linf": Variable(series, run.linf.astype(float)),
         "l2": Variable(series, run.l2.astype(float)),
         "discrepancy": Variable(
-            ("tau",), discrepancy, "largest difference of a norm from that of the second run"),
+            ("tau",), discrepancy, "largest difference of a norm from that of the second run"
+        ),
         "part": Variable(("part",), ["re", "im"]),
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
         "snapshot_tau": Variable(("snapshot",), run.snapshot_tau),
         "amplitude": Variable(
-            ("part", "component", "site", "snapshot"), amplitude, "amplitude on a site"),
+            ("part", "component", "site", "snapshot"), amplitude, "amplitude on a site"
+        ),
         "amplitude_discrepancy": Variable(
-            ("snapshot",), amplitude_discrepancy, "largest difference from the second run's amplitudes"),
+            ("snapshot",),
+            amplitude_discrepancy,
+            "largest difference from the second run's amplitudes",
+        ),
     }
     attributes = describe_run(name, problem, {"name": "heyoka", **run.controls})
     return variables, {

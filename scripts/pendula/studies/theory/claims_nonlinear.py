@@ -362,8 +362,9 @@ def sharp_theorems(check) -> Finding:
         proof, least = (number(check, f"{name}_constant", theorem=theorem) for name in FORMS)
         measured |= {f"proof_constant_{theorem}": proof, f"least_constant_{theorem}": least}
         measured[f"share_{theorem}"] = least / proof
-    measured |= {f"by_energy_{form}": number(check, "reached", form=form)
-                 for form in check["form"].values}  # fmt: skip
+    measured |= {
+        f"by_energy_{form}": number(check, "reached", form=form) for form in check["form"].values
+    }
     shares = [f"share_{theorem}" for theorem in SIZES]
     growths = Above(1.0, *(f"least_constant_{one}" for one in SIZES), says="growth of P")
     by_energy = Above(
@@ -382,8 +383,9 @@ FORMS = ("proof", "least")
 
 
 def _by_energy_alone(measured: dict[str, float]) -> str:
-    one, two = ({form: measured[f"{form}_constant_{theorem}"] for form in FORMS}
-                for theorem in SIZES)  # fmt: skip
+    one, two = (
+        {form: measured[f"{form}_constant_{theorem}"] for form in FORMS} for theorem in SIZES
+    )
     reached = min(value for name, value in measured.items() if name.startswith("by_energy"))
     return (
         "the paper prints no constants: for small initial conditions with P(0) = delta the"

@@ -52,11 +52,17 @@ def pt_form(p, u: Value, v: Value) -> list[Value]:
     """Return i du/dtau and i dv/dtau of (10)."""
     uu, vv = abs2(u), abs2(v)
     return [
-        p.epsilon * lap(v) + p.omega * v + 1j * p.gamma * u - p.gamma * conj(u)
+        p.epsilon * lap(v)
+        + p.omega * v
+        + 1j * p.gamma * u
+        - p.gamma * conj(u)
         + 2.0 * ((2.0 * uu + vv) * v + u * u * conj(v)),
-        p.epsilon * lap(u) + p.omega * u - 1j * p.gamma * v - p.gamma * conj(v)
+        p.epsilon * lap(u)
+        + p.omega * u
+        - 1j * p.gamma * v
+        - p.gamma * conj(v)
         + 2.0 * ((uu + 2.0 * vv) * u + conj(u) * v * v),
-    ]  # fmt: skip
+    ]
 
 
 def scalar_form(p, a: Value) -> Value:

@@ -89,13 +89,17 @@ def between_solvers(constants: Constants, start: np.ndarray) -> float:
 
 def check_well_posed() -> dict:
     """Run random data of several sizes, in both directions of time, and others close to them."""
-    cells = [(constants_at(omega), start_of(power, course))
-             for omega, power, course in product(OMEGAS, POWERS, COURSES)]  # fmt: skip
+    cells = [
+        (constants_at(omega), start_of(power, course))
+        for omega, power, course in product(OMEGAS, POWERS, COURSES)
+    ]
     over = {"omega": OMEGAS, "initial_power": POWERS, "course": COURSES}
     shape = tuple(map(len, over.values()))
     right = [margins(constants, start, constants.gamma) for constants, start in cells]
-    wrong = [margins(constants_at(constants.omega, 2.0), start, constants.gamma)
-             for constants, start in cells]  # fmt: skip
+    wrong = [
+        margins(constants_at(constants.omega, 2.0), start, constants.gamma)
+        for constants, start in cells
+    ]
     numbers = {
         "from_start": [one["from_start"] for one in right],
         "steepest": [one["steepest"] for one in right],

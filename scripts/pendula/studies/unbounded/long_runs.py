@@ -46,9 +46,15 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
 
 
 def spread_case(
-    name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
-    levels: Sequence[float] = (LEVEL,), edges: Sequence[int] = (EDGE,),
-) -> ManyRuns:  # fmt: skip
+    name: str,
+    problems: list[Problem],
+    rest: float,
+    members: int,
+    perturbation: float,
+    seed: int,
+    levels: Sequence[float] = (LEVEL,),
+    edges: Sequence[int] = (EDGE,),
+) -> ManyRuns:
     """Return the runs that give what `run_long` returns of each problem and member."""
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
     make = partial(run_long, rest=rest, levels=levels, edges=edges)
@@ -63,9 +69,11 @@ def spread_case(
 
 
 def run_variables(
-    problems: list[Problem], series: Mapping[str, np.ndarray],
-    levels: Sequence[float] = (LEVEL,), edges: Sequence[int] = (EDGE,),
-) -> dict[str, Variable]:  # fmt: skip
+    problems: list[Problem],
+    series: Mapping[str, np.ndarray],
+    levels: Sequence[float] = (LEVEL,),
+    edges: Sequence[int] = (EDGE,),
+) -> dict[str, Variable]:
     """Return the variables of series (variant, member, ...) of as many problems."""
     predicted = [linear_front(problem.constants) for problem in problems]
 

@@ -124,9 +124,12 @@ def law_of(run, thermal, second: np.ndarray | None = None) -> np.ndarray:
 
 
 def slope_ratios(
-    run, thermal, confidence: float = CONFIDENCE, second: np.ndarray | None = None,
+    run,
+    thermal,
+    confidence: float = CONFIDENCE,
+    second: np.ndarray | None = None,
     first: float = FIRST_OF_LINE,
-) -> list[Limits]:  # fmt: skip
+) -> list[Limits]:
     """Return the slope of l2^2 over its law of each variant, with limits over the members.
 
     Where the law begins is not known: an offset is fitted. `second` are speeds as of `law_of`.

@@ -35,9 +35,14 @@ MEANINGS = {
 
 
 def follow_noise(
-    problems: list[Problem], rest: float, noises: list[float], members: int, perturbation: float,
-    tolerances: list[float], seed: int,
-) -> ManyRuns:  # fmt: skip
+    problems: list[Problem],
+    rest: float,
+    noises: list[float],
+    members: int,
+    perturbation: float,
+    tolerances: list[float],
+    seed: int,
+) -> ManyRuns:
     """Return the runs that give speeds of the second front and its distance from the first.
 
     Both are (noise, omega), and the last noise is ROUNDING. They are of the first of

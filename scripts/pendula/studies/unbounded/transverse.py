@@ -44,9 +44,13 @@ of each is a variation."""
 
 
 def solve_transverse(
-    problems: list[Problem], rest: float, members: int, perturbations: list[float],
-    tolerances: list[float], seed: int,
-) -> ManyRuns:  # fmt: skip
+    problems: list[Problem],
+    rest: float,
+    members: int,
+    perturbations: list[float],
+    tolerances: list[float],
+    seed: int,
+) -> ManyRuns:
     """Return the runs that give predicted speeds of the second front, exponents, and kappa.
 
     They are of the first of `perturbations` and of `tolerances`; the others are variations.
@@ -128,8 +132,9 @@ def _log_near(sizes: np.ndarray, places: np.ndarray, near: int) -> np.ndarray:
 
 def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
     """Return the slopes of logs (time, near, velocity), (part, fitted, near, velocity)."""
-    return np.array([[_slopes_within(tau, logs, part * tau[-1], late) for late in LATE]
-                     for part in SHORTER])  # fmt: skip
+    return np.array(
+        [[_slopes_within(tau, logs, part * tau[-1], late) for late in LATE] for part in SHORTER]
+    )
 
 
 def _slopes_within(tau: np.ndarray, logs: np.ndarray, end: float, late: float) -> np.ndarray:

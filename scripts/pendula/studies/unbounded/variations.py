@@ -37,9 +37,14 @@ ROUNDING_ERROR = 2.0**-53
 
 
 def vary_numbers(
-    omegas: xr.Dataset, omegas_coarse: xr.Dataset, large: xr.Dataset, large_coarse: xr.Dataset,
-    thermal: xr.Dataset, transverse: xr.Dataset, noise: xr.Dataset,
-) -> xr.Dataset:  # fmt: skip
+    omegas: xr.Dataset,
+    omegas_coarse: xr.Dataset,
+    large: xr.Dataset,
+    large_coarse: xr.Dataset,
+    thermal: xr.Dataset,
+    transverse: xr.Dataset,
+    noise: xr.Dataset,
+) -> xr.Dataset:
     """Return the numbers of long runs over Omega and of fig3_large with their variations.
 
     Beside them are those that were predicted, and had their variations before.
