@@ -40,6 +40,7 @@ NAMES.update(
         "region": "region",
         "gamma_0": "gamma_0 of",
         "final": "amplitude at the end time",
+        "state": "amplitude at the snapshots",
     }
 )
 WAYS["make"] = "run snakemake"

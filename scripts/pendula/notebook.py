@@ -43,6 +43,9 @@ class Case(cases.Case):
     initial: {site: (A, B)} in complex numbers, at rest elsewhere. {0: (1, 0.1)}.
     end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
     snapshot_step: in tau; how often moduli on all sites are kept. Left out, 200 times or more.
+    times: in place of it, a list of the times at which they are kept.
+    keep: "moduli", "state" (beside them both parts of each amplitude, in double precision) or
+        "norms" (no snapshots).
     solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre" or "auto",
         or a dict with the controls. The pendula have "kahan_li", and no energy-conserving schemes.
     model: "amplitudes", or "pendula", which need the small parameter mu; or a `latticode.Model` or

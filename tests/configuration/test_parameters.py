@@ -17,6 +17,8 @@ def test_what_is_left_out_takes_the_papers_value_and_the_default_solver():
         "output_step": 0.025,
         "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
         "snapshot_every": 0,
+        "snapshots_at": [],
+        "keep": "moduli",
     }
 
 

@@ -78,8 +78,8 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
             second = simulate(problem.changed(solver=solver))
         first = simulate(problem.changed(solver=solver_of(run.attrs)))
         first = first._replace(final=_final_of(run, first.final))
-        agreement = compare(first, second, problem.snapshot_every)
-        plain = problem.changed(snapshot_every=0)
+        agreement = compare(first, second)
+        plain = problem.changed(snapshot_every=0, snapshots_at=())
         again = as_xarray(*trajectory_contents("second run", plain, second))
         apart = difference(run, again).reindex(tau=run["tau"])
     except IntegrationError as error:

@@ -64,6 +64,9 @@ class Case(cases.Case):
     end_time, output_step: observables are kept at every step. 50 and 0.025.
     snapshot_step: how often the fields on all sites are kept, whole output steps. They divide the
         run. Left out, 200 snapshots or more are spread over it.
+    times: in place of it, a list of the times at which they are kept.
+    keep: "state" (moduli and both parts of each field in double precision), "moduli" (in single
+        precision, a sixth of the memory) or "norms" (no snapshots).
     solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "kahan_li" or "auto", or a dict
         with the controls, such as {"name": "auto", "error": 1e-9}.
 
@@ -197,7 +200,9 @@ def simulate(
 
     linf, l2 (component, tau): the largest modulus of a field on the chain, and the root of the sum
         of its squares.
-    modulus (component, site, snapshot): moduli at the times `snapshot`, as snapshot_tau has them.
+    state (part, component, site, snapshot): the fields at the times `snapshot`, as snapshot_tau has
+        them; x_n(t) of a real field x is run["state"].sel(part="value", component="x").
+    modulus (component, site, snapshot): their moduli, in single precision.
     conserved (conserved_quantity, tau): what the model conserves, if it says so.
     final (part, component, site): the fields at end_time.
 
@@ -304,7 +309,9 @@ def survey(
     keep: "max_l2", "max_linf", "mean_l2", "mean_linf" over the `window` of time, "final_l2",
         "final_linf" of each field; "exponent" of time with which the power grows in the window;
         "divergence", the time at which a run by another method differs; or a function of the
-        problem of a run and its trajectory, kept under its own name: a number or an array.
+        problem of a run and its trajectory, kept under its own name: a number or an array. The
+        trajectory has tau, l2, linf, final, and where the case has a snapshot_step or times also
+        snapshot_tau and state (part, component, site, snapshot).
     cores: how many runs are made side by side; it changes no bit.
     together: what varies along one more axis, all names from one value to the next.
 
@@ -342,7 +349,10 @@ def survey(
     plan = settings.surveys[name].plan._replace(
         keep=tuple(kept), by_half_width=settings.values_by_half_width(name)
     )
-    problem = case.kind.of(settings.surveyed_problem(name))
+    plain = settings.surveyed_problem(name)
+    if any(map(callable, kept)):  # which may read the snapshots that the case asks for
+        plain = case.problem()
+    problem = case.kind.of(plain)
     found = survey_runs.run_survey(problem, plan, partial(run_all, cores=cores))
     return as_xarray(*survey_contents(name, problem, plan, found))
 
@@ -401,14 +411,17 @@ def require_norms(run: xr.Dataset, checks: xr.Dataset | None) -> None:
 
 
 def draw_spacetime(run: xr.Dataset):
-    """Draw the moduli of all fields over time and sites, from a run that keeps `modulus`."""
+    """Draw all fields over time and sites: moduli, or the values of real fields with their signs.
+
+    The run must keep snapshots, and for signs the `state`.
+    """
     from .drawing import runs  # here, so that who draws nothing does without it
 
     require(run, xr.Dataset, SNAPSHOTS, "modulus")
     return runs.draw_spacetime(runs.gather_spacetime(run))
 
 
-SNAPSHOTS = f"{RUN}, with snapshots (its case has a snapshot_step)"
+SNAPSHOTS = f"{RUN}, with snapshots (its case keeps moduli or the state)"
 
 
 def draw_breather(checks: xr.Dataset):

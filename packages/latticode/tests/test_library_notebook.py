@@ -78,7 +78,10 @@ def test_the_examples_in_the_docstrings_run():
         (lambda r: sweep(CASE, 3), "half_widths: is 3, not a list"),
         (lambda r: check(CASE, r[["l2"]]), "the dataset has no linf"),
         (lambda r: check(CASE.changed(parameters={"c": 1}), r), "differ in parameters"),
-        (lambda r: notebook.draw_spacetime(r.drop_vars("modulus")), "snapshot_step.; the data"),
+        (
+            lambda r: notebook.draw_spacetime(r.drop_vars("modulus")),
+            "or the state.; the data",
+        ),
         (lambda r: notebook.draw_survey(r["l2"]), "a survey, as `survey` returns it, and not"),
         (lambda r: notebook.draw_sweep(r), "a sweep, as `sweep` returns it; the dataset"),
     ],

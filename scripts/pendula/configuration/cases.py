@@ -16,6 +16,7 @@ from latticode.configuration.solvers import FLAG, Solver, Taylor
 from latticode.configuration.values import Number, Positive, faults
 from latticode.equations.model import Model
 from latticode.simulation.feasibility import Obstacle
+from latticode.simulation.problem import KEPT
 from pydantic import (
     Field,
     SerializeAsAny,
@@ -56,6 +57,7 @@ class Case(cases.Case):
     initial: Initial = {0: (1, 0.1)}
     model: Literal["amplitudes", "pendula"] = AMPLITUDES
     mu: Positive | None = None
+    keep: Literal[KEPT] = "moduli"
     parameters: Annotated[dict, Field(exclude=True, max_length=0)] = {}
 
     @model_validator(mode="before")

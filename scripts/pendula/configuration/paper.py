@@ -16,7 +16,7 @@ from replication.differences import Differences, in_short
 
 FILE = Path(__file__).with_suffix(".json")
 
-FREE = {"seed", "draw", "snapshot_step", "long", "points"}
+FREE = {"seed", "draw", "snapshot_step", "times", "keep", "long", "points"}
 """Keys that change no statement: other draws of a case, another look at it, and longer studies."""
 AT_LEAST = {"members", "nodes"}
 """Sizes of ensembles and grids: larger ones are still about the same case."""

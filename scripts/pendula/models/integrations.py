@@ -6,7 +6,7 @@ amplitudes, count the time t, and are shown as the angle to which they swing.
 
 import numpy as np
 from latticode.datasets.registry import NAMES
-from latticode.numerics.elementary import complex_of
+from latticode.numerics.elementary import complex_of, modulus
 from latticode.simulation.integration import Integration, Words
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unfold, unpack
 from latticode.simulation.observables import blank_record
@@ -31,8 +31,11 @@ def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Cha
 def _collect_amplitudes(
     problem: Problem, record, y: np.ndarray, reduction: Reduction
 ) -> dict[str, np.ndarray]:
-    modulus = unfold(record.kept, reduction)
-    return {"energy": record.energy, "modulus": modulus, "final": unpack(y, reduction)}
+    found = {"energy": record.energy, "final": unpack(y, reduction)}
+    if record.kept.ndim == 3:
+        return {**found, "modulus": unfold(record.kept, reduction)}
+    state = np.array([unfold(part, reduction) for part in record.kept])
+    return {**found, "modulus": modulus(complex_of(*state)), "state": state}
 
 
 # --- The pendula --------------------------------------------------------------------------------
@@ -53,7 +56,7 @@ def _collect_pendula(
         # a snapshot finds all pendula at one phase of their swing: their angles alone would show it
         "modulus": swings_of(*snapshots, problem.constants.omega, problem.mu),
         "final": np.array(final),
-        "snapshots": snapshots,
+        "state": snapshots,
     }
 
 
@@ -94,6 +97,7 @@ pendula.NEWTON.integration = Integration(
         modulus=f"{NAMES['modulus']}: the angle to which a pendulum swings",
         part=f"{NAMES['part']}, x + i x'",
         final=f"{NAMES['final']}, as angle and velocity of a pendulum",
+        state=f"{NAMES['state']}, as angle and velocity of a pendulum",
     ),
 )
 NAMED = {AMPLITUDES: amplitudes.AMPLITUDES, PENDULA: pendula.NEWTON}

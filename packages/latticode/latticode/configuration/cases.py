@@ -2,7 +2,7 @@
 
 import difflib
 from collections.abc import Iterator, Mapping
-from math import inf
+from math import gcd, inf
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -28,12 +28,24 @@ from latticode.simulation.feasibility import (
     rates_of,
     solver_names,
 )
-from latticode.simulation.problem import Problem
+from latticode.simulation.problem import KEPT, Problem
 
 from . import cost
 from .cost import Cost
 from .solvers import DEFAULT, FLAG, Solver, Solvers, Taylor
-from .values import Complex, Model, Natural, Positive, Whole, as_whole, fault, faults, shown
+from .values import (
+    Complex,
+    Distinct,
+    Model,
+    Natural,
+    Number,
+    Positive,
+    Whole,
+    as_whole,
+    fault,
+    faults,
+    shown,
+)
 
 FEWEST = 200
 """A smooth picture needs so many snapshots."""
@@ -111,6 +123,16 @@ Initial = Annotated[
 ]
 
 
+def _listed_times(given: Any) -> Any:
+    return given.tolist() if isinstance(given, np.ndarray) else given
+
+
+Time = Annotated[Number, Field(ge=0)]
+Times = Annotated[
+    list[Time], BeforeValidator(_listed_times), Field(min_length=1, max_length=100_000), Distinct
+]
+
+
 def _as_model(value: Any) -> Traced:
     try:
         if isinstance(value, Mapping):
@@ -144,6 +166,8 @@ class Case(Model):
     end_time: Positive = 50.0
     output_step: Positive = 0.025
     snapshot_step: Positive | None = None
+    times: Times | None = None
+    keep: Literal[KEPT] = "state"
     solver: Solver = Taylor(**DEFAULT)
 
     @field_validator("solver", mode="before")
@@ -278,7 +302,7 @@ class Case(Model):
 
     def at(self, values: Mapping[str, Any]) -> "Case":
         """Return the case at a point of the axes of a survey, checked."""
-        changes: dict[str, Any] = {"snapshot_step": None}
+        changes: dict[str, Any] = {"snapshot_step": None, "times": None}
         initial = {site: list(data) for site, data in self.initial.items()}
         for name, value in values.items():
             if name.startswith("initial."):
@@ -348,6 +372,7 @@ class Case(Model):
                 off_grid.append(key)
                 near = _nearest_multiples(time, step)
                 yield key, f"{time:g} is not a whole number of output steps of {step:g}; {near}"
+        yield from self._faults_of_chosen_times()
         if self.snapshot_step is None or off_grid:
             return
         if self.snapshot_step > self.end_time:
@@ -357,6 +382,17 @@ class Case(Model):
             text = f"{self.snapshot_step:g} does not divide the run of {self.end_time:g}"
             near = _nearest_snapshots(outputs, every, step) if outputs < 1e7 else ""
             yield "snapshot_step", f"{text}, whose last picture would be lost; {near}".strip("; ")
+
+    def _faults_of_chosen_times(self) -> Iterator[tuple[str, str]]:
+        times, step = self.times or [], self.output_step
+        if times and self.snapshot_step is not None:
+            yield "times", "and snapshot_step both say when fields are kept; leave one of them out"
+        if late := [time for time in times if time > self.end_time]:
+            yield "times", f"{late[0]:g} lies after the end of the run at {self.end_time:g}"
+        if off_grid := [time for time in times if time and not is_multiple(time, step)]:
+            near = _nearest_multiples(off_grid[0], step)
+            text = f"{off_grid[0]:g} is not a whole number of output steps of {step:g}"
+            yield "times", f"{text}; {near}"
 
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a step that does not divide the time between two outputs."""
@@ -396,10 +432,14 @@ class Case(Model):
 
     def _plain(self, **changes) -> dict:
         values = {**self.model_dump(), **changes}
-        snapshots = values.pop("snapshot_step")
+        snapshots, times = values.pop("snapshot_step"), values.pop("times")
         every = round(snapshots / values["output_step"]) if snapshots else 0
+        chosen = sorted(round(time / values["output_step"]) for time in times or [])
+        if chosen:
+            every = gcd(*chosen) or 1
         solver = self._solver_of_run(values["solver"])
-        return {**values, "solver": solver, "snapshot_every": every}
+        snapshots = {"snapshot_every": every, "snapshots_at": chosen}
+        return {**values, "solver": solver, **snapshots}
 
     def _solver_of_run(self, solver: dict) -> dict:
         """Return the controls of the solver that runs the case.
@@ -413,8 +453,10 @@ class Case(Model):
         return {**instead_of_taylor(solver), "instead_of_taylor": why}
 
     def shown_problem(self, **changes) -> dict:
-        """Return the problem, with snapshots enough for a picture if the case names no number."""
+        """Return the problem, with snapshots enough for a picture if the case names no times."""
         problem = self.problem(**changes)
+        if self.keep == "norms":
+            return {**problem, "snapshot_every": 0, "snapshots_at": []}
         every = problem["snapshot_every"] or choose_every(
             round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
         )

@@ -44,8 +44,9 @@ STEPPED = {"kahan_li": (2e-6, 3e-7)}
 whatever the chain, and those of a step and a pair of fields."""
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
 """Of an output: the state between two steps, its norms and its energy."""
-OUTPUT_BYTES, MODULUS_BYTES, SITE_BYTES = 200.0, 40.0, 200.0
-"""Of an output, of a modulus that is kept, and of a site of the whole chain in complex numbers."""
+OUTPUT_BYTES, MODULUS_BYTES, STATE_BYTES, SITE_BYTES = 200.0, 40.0, 60.0, 200.0
+"""Of an output, of a modulus that is kept alone or with the parts of its field, and of a site of
+the whole chain in complex numbers."""
 
 
 class Demand(NamedTuple):
@@ -113,12 +114,14 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
             solvers = [{"name": name, "rtol": tolerance} for name in pair_of(solvers_of(problem))]
         method = EXPLICIT.get(solvers[0]["name"])
         outputs = problem["end_time"] / problem["output_step"] + 1
-        moduli = 2 * sites * (outputs / every) if every else 0.0
+        fields = len(next(iter(problem["initial"].values())))
+        kept = STATE_BYTES if problem.get("keep") == "state" else MODULUS_BYTES
+        snapshots = kept * fields * sites * (outputs / every) if every else 0.0
         seconds = sum(_solver_seconds(one, problem, needs, outputs) for one in solvers)
         memory = (
             method.site_bytes if method else ITERATED_BYTES
         ) * needs.pairs + SITE_BYTES * sites
-        return Cost(seconds, memory + OUTPUT_BYTES * outputs + MODULUS_BYTES * moduli)
+        return Cost(seconds, memory + OUTPUT_BYTES * outputs + snapshots)
     except (OverflowError, ZeroDivisionError):
         return Cost(inf, inf)
 

@@ -213,7 +213,7 @@ class Configuration(Model):
 
     def surveyed_problem(self, name: str) -> dict:
         """Return the problem whose values a survey changes."""
-        return self.cases[self.surveys[name].case].problem(snapshot_step=None)
+        return self.cases[self.surveys[name].case].problem(snapshot_step=None, times=None)
 
     def values_by_half_width(self, name: str) -> dict[int, dict[str, Any]]:
         """Return, for each half-width of a survey, the parameters that are functions of the sites.
@@ -286,6 +286,7 @@ class Configuration(Model):
             "end_time": max(end for _, end in given.windows),
             "half_width": max(given.half_widths),
             "snapshot_step": None,
+            "times": None,
         }
         if given.solver is not None:
             changes["solver"] = given.solver.model_dump()

@@ -162,7 +162,9 @@ class Survey(Model):
         factor = 1.0 + FARTHEST * self.members.size
         larger = {site: [factor * z for z in data] for site, data in case.initial.items()}
         try:
-            case.model_validate({**case.model_dump(), "snapshot_step": None, "initial": larger})
+            case.model_validate(
+                {**case.model_dump(), "snapshot_step": None, "times": None, "initial": larger}
+            )
         except ValidationError as error:
             texts = [text for fault in error.errors() for _, text in _texts(fault)]
             return [("members.size", f"is {self.members.size:g}, and {texts[0]}")]

@@ -45,10 +45,11 @@ NAMES = {
     "energy": "conserved energy",
     "modulus": "modulus of a field on a site",
     "final": "field at the end time",
+    "state": "field at the snapshots",
 }
 """Long names of variables that several datasets share; all of them have the units "1". A program
 that calls the library adds its own, or gives its own words for these."""
-ANGLES = ("linf", "l2", "modulus", "final", "error")
+ANGLES = ("linf", "l2", "modulus", "final", "state", "error")
 """Those that are angles in "rad" where pendula are followed."""
 
 

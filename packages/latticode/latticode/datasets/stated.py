@@ -23,6 +23,7 @@ OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_e
 def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
     """Return the attributes that say what was solved, and by which controls."""
     about = {key: getattr(problem, key) for key in OF_A_PROBLEM}
+    about |= {"start_time": problem.start_time} if problem.start_time else {}
     about |= integration_of(problem).describe(problem)
     return {
         "case": name,

@@ -33,8 +33,8 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
-    """Return the norms, the energy if there is one, and the moduli where the run kept them."""
-    model, every = integration_of(problem), problem.snapshot_every
+    """Return the norms, the energy if there is one, and what the run kept of its snapshots."""
+    model, every = integration_of(problem), len(trajectory.snapshot_tau)
     words = model.words
     variables = {
         "tau": Variable(("tau",), trajectory.tau),
@@ -48,8 +48,13 @@ def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, 
         grid, moduli = ("component", "site", "snapshot"), trajectory.modulus.astype(np.float32)
         variables |= {
             "site": _sites(trajectory.modulus.shape[1]),
-            "snapshot_tau": Variable(("snapshot",), trajectory.tau[::every]),
+            "snapshot_tau": Variable(("snapshot",), trajectory.snapshot_tau),
             "modulus": Variable(grid, moduli, words.modulus, words.units),
+        }
+    if every and problem.keep == "state":
+        variables |= {
+            "part": Variable(("part",), list(model.parts), words.part),
+            "state": Variable(("part", *grid), trajectory.state, words.state, words.units),
         }
     return variables
 

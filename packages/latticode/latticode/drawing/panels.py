@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import PowerNorm
+from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
@@ -27,31 +27,74 @@ def positive(curve: xr.DataArray) -> xr.DataArray:
 
 def over_time(run: xr.Dataset) -> xr.Dataset:
     """Return the moduli of a trajectory over the times of its snapshots."""
-    moduli = run[["modulus", "snapshot_tau"]].set_coords("snapshot_tau")
-    moduli = moduli.drop_vars("snapshot", errors="ignore")  # the same times, in a notebook
-    return moduli.swap_dims(snapshot="snapshot_tau")
+    return _by_time(run[["modulus", "snapshot_tau"]])
 
 
-def draw_moduli(figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str]) -> None:
-    """Draw the moduli of each field of one case, under its name, on one scale of colours."""
-    moduli = case["modulus"].transpose("component", "site", "snapshot_tau")
+def values_over_time(run: xr.Dataset) -> xr.Dataset:
+    """Return the values of real fields, with their signs, over the times of the snapshots."""
+    values = run["state"].sel(part="value", drop=True)
+    return _by_time(run[["snapshot_tau"]].assign(value=values))
+
+
+def _by_time(fields: xr.Dataset) -> xr.Dataset:
+    fields = fields.set_coords("snapshot_tau")
+    fields = fields.drop_vars("snapshot", errors="ignore")  # the same times, in a notebook
+    return fields.swap_dims(snapshot="snapshot_tau")
+
+
+def draw_moduli(
+    figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str], evenly: bool = True
+) -> None:
+    """Draw the moduli of each field of one case, under its name, on one scale of colours.
+
+    Snapshots whose times are not `evenly` spaced are as wide as the time between them.
+    """
+    moduli = case["modulus"]
     peak = float(moduli.max()) or 1.0
-    extent = (*_edges(moduli["snapshot_tau"].values), *_edges(moduli["site"].values))
-    for axes, modulus, name in zip(row, moduli, names, strict=True):
-        image = axes.imshow(
-            modulus,
-            extent=extent,
-            origin="lower",
-            aspect="auto",
-            interpolation="nearest",
-            cmap="inferno",
-            norm=PowerNorm(0.5, vmin=0, vmax=peak),  # else one bright site blackens the rest
-        )
-        field = style.symbol(modulus["component"].item(), "n")
-        axes.set_title(f"$|{field}|$,  {name}", loc="left")
+    norm = PowerNorm(0.5, vmin=0, vmax=peak)  # else one bright site blackens the rest
+    look = {"cmap": "inferno", "norm": norm}
+    image = _draw_fields(row, moduli, names, r"$|{field}|$,  {name}", evenly, **look)
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
     units = moduli.attrs.get("units", "1")
     bar.set_label(f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)")
+
+
+def draw_values(
+    figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str], evenly: bool = True
+) -> None:
+    """Draw the values of each real field of one case: blue is negative, white zero, red positive.
+
+    All fields have one scale, which reaches as far below zero as above.
+    """
+    values = case["value"]
+    peak = float(np.abs(values).max()) or 1.0
+    look = {"cmap": "RdBu_r", "norm": Normalize(-peak, peak)}
+    image = _draw_fields(row, values, names, "${field}$,  {name}", evenly, **look)
+    bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
+    bar.set_label(f"value{style.name_units(values)}")
+
+
+def is_even(times: np.ndarray) -> bool:
+    """Return whether times are equally spaced."""
+    steps = np.diff(times)
+    return not steps.size or bool(np.ptp(steps) <= 1e-6 * steps.max())
+
+
+def _draw_fields(
+    row: np.ndarray, fields: xr.DataArray, names: list[str], title: str, evenly: bool, **look
+):
+    """Draw each field over time and sites, and return the last image."""
+    fields = fields.transpose("component", "site", "snapshot_tau")
+    times, sites = fields["snapshot_tau"].values, fields["site"].values
+    for axes, field, name in zip(row, fields, names, strict=True):
+        if evenly:
+            shape = {"extent": (*_edges(times), *_edges(sites)), "origin": "lower"}
+            image = axes.imshow(field, aspect="auto", interpolation="nearest", **shape, **look)
+        else:
+            image = axes.pcolormesh(times, sites, field, shading="nearest", **look)
+        symbol = style.symbol(field["component"].item(), "n")
+        axes.set_title(title.format(field=symbol, name=name), loc="left")
+    return image
 
 
 def _edges(centres: np.ndarray) -> tuple[float, float]:

@@ -35,6 +35,9 @@ NORMS_CAPTION = (
     "differs visibly, a dashed line marks the time, and the other run is shown below."
 )
 SPACETIME_CAPTION = "Moduli of {fields} over time and sites, from left to right."
+VALUES_CAPTION = (
+    "Values of {fields} over time and sites, from left to right: red is positive, blue negative."
+)
 BREATHER_CAPTION = (
     "A localised state of these equations, continued from the site with the largest initial "
     "amplitudes (left), and its Floquet multipliers (right): it is unstable if a multiplier lies "
@@ -121,20 +124,27 @@ def draw_norms(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
 
 
 def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
-    """Return the moduli of a trajectory over the times of its snapshots."""
+    """Return the values of real fields, else moduli, over the times of the snapshots.
+
+    A run that keeps moduli alone has no values.
+    """
     names = [str(name) for name in run["component"].values]
-    caption = SPACETIME_CAPTION.format(fields=", ".join(f"{name}ₙ" for name in names))
-    return panels.over_time(run).assign_attrs(caption=caption, fields=", ".join(names))
+    signed = "state" in run and "value" in run["part"].values
+    caption = VALUES_CAPTION if signed else SPACETIME_CAPTION
+    caption = caption.format(fields=", ".join(f"{name}ₙ" for name in names))
+    shown = panels.values_over_time(run) if signed else panels.over_time(run)
+    return shown.assign_attrs(caption=caption, fields=", ".join(names))
 
 
 @style.styled
 def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
-    """Draw the moduli of all fields side by side, on one scale of colours."""
+    """Draw the moduli or values of all fields side by side, on one scale of colours."""
     figure = style.new_figure(style.WIDTH, 2.5)
     count = data.sizes["component"]
     row = figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
     names = [name_parameters(data.attrs, naming), name_data(data, naming), *[""] * count]
-    panels.draw_moduli(figure, row, data, names[:count])
+    draw = panels.draw_values if "value" in data else panels.draw_moduli
+    draw(figure, row, data, names[:count], panels.is_even(data["snapshot_tau"].values))
     for axes in row:
         axes.set_xlabel(r"$\tau$")
     row[0].set_ylabel("site $n$")

@@ -53,6 +53,7 @@ class Words(NamedTuple):
     modulus: str = ""
     part: str = ""
     final: str = ""
+    state: str = ""
     keeps_final: bool = True  # whether the dataset of a run has the state at its end
 
 

@@ -119,7 +119,12 @@ def observer(square, keep_site):
 
 @inlined_by_llvm
 def keep_modulus(y, k, j, snapshot, kept):
-    kept[k, j - 1, snapshot] = sqrt(modulus2(y, 2 * k, j))
+    """Keep the modulus, or both parts where `kept` has room for them."""
+    if kept.ndim == 4:  # numba compiles one of the two
+        for part in range(2):
+            kept[part, k, j - 1, snapshot] = y[2 * k + part, j]
+    else:
+        kept[k, j - 1, snapshot] = sqrt(modulus2(y, 2 * k, j))
 
 
 @inlined_by_llvm

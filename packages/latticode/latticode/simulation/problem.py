@@ -17,6 +17,10 @@ from latticode.equations.ends import ends_of
 from latticode.equations.model import Model
 from latticode.equations.model_file import at_middle
 
+KEPT = ("norms", "moduli", "state")
+"""What datasets may have of the snapshots: nothing, moduli in single precision, or beside them the
+whole state in double precision."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem:
@@ -25,8 +29,9 @@ class Problem:
     `parameters` are those of the model, where they differ from its own values. `initial` is
     complex, of shape (component, 2r + 1): the fields on the sites -r..r at the start; all sites
     beyond are at rest. `half_width` is M, the chain has the sites -M..M; None stands for an
-    infinite chain. `snapshot_every` keeps each component at every site at each so many outputs; 0
-    keeps none.
+    infinite chain. The run starts at `start_time`. `snapshot_every` keeps each component at every
+    site at each so many outputs; 0 keeps none. `snapshots_at` are numbers of outputs: of those that
+    are kept, these alone. `keep` is a name of KEPT: what datasets have of the snapshots.
 
     Raises ValueError where data lie outside the chain, or there are no such ends.
     """
@@ -40,6 +45,9 @@ class Problem:
     output_step: float
     solver: Mapping[str, Any]  # {"name": ..., **controls}
     snapshot_every: int = 0
+    start_time: float = 0.0
+    snapshots_at: tuple[int, ...] = ()
+    keep: str = "moduli"
 
     def __post_init__(self):
         ends_of(self.boundary)
@@ -50,6 +58,9 @@ class Problem:
         if self.half_width is not None:
             require_inside(initial.shape[1] // 2, self.half_width)
         initial.flags.writeable = False
+        if self.keep not in KEPT:
+            raise ValueError(f"keep is {self.keep!r}; give one of {', '.join(KEPT)}")
+        object.__setattr__(self, "snapshots_at", tuple(self.snapshots_at))
         object.__setattr__(self, "initial", initial)
         object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
         object.__setattr__(self, "solver", MappingProxyType(dict(self.solver)))
@@ -75,6 +86,9 @@ class Problem:
             "output_step": self.output_step,
             "solver": dict(self.solver),
             "snapshot_every": self.snapshot_every,
+            "start_time": self.start_time,
+            "snapshots_at": list(self.snapshots_at),
+            "keep": self.keep,
             "model": self.model.plain,
             "parameters": dict(self.parameters),
         }
@@ -105,14 +119,34 @@ class Problem:
 
     @property
     def times(self) -> np.ndarray:
-        """The output times 0, ..., end_time in equal steps; integers among them are exact."""
-        return output_times(self.end_time, self.output_step)
+        """The output times start_time, ..., end_time in equal steps; integers are exact."""
+        return output_times(self.end_time, self.output_step, self.start_time)
+
+    @property
+    def span(self) -> float:
+        """How long the run lasts."""
+        return self.end_time - self.start_time
+
+    @property
+    def snapshot_outputs(self) -> np.ndarray:
+        """The numbers of the outputs that are snapshots."""
+        last = round(self.span / self.output_step)
+        if self.snapshots_at:
+            return np.array([number for number in self.snapshots_at if number <= last])
+        return np.arange(0, last + 1, self.snapshot_every) if self.snapshot_every else np.arange(0)
 
 
-def output_times(end_time: float, output_step: float) -> np.ndarray:
-    """Return 0, ..., end_time in equal steps; integers among them are exact."""
+def output_times(end_time: float, output_step: float, start_time: float = 0.0) -> np.ndarray:
+    """Return start_time, ..., end_time in equal steps; integers among them are exact.
+
+    Where `start_time` is a whole number of steps, the times are those of a run from 0.
+    """
     count = round(end_time / output_step)
-    return end_time * np.arange(count + 1) / count
+    first = round(start_time / output_step)
+    if first and abs(first * output_step - start_time) > 1e-9 * abs(start_time):
+        count, first = round((end_time - start_time) / output_step), 0
+        return start_time + (end_time - start_time) * np.arange(count + 1) / count
+    return end_time * np.arange(first, count + 1) / count
 
 
 def place(initial: np.ndarray, half_width: int) -> np.ndarray:

@@ -50,8 +50,10 @@ class Trajectory(NamedTuple):
     final: np.ndarray  # at the end time: complex (component, site); real fields as snapshots are
     outcome: Outcome
     solver: dict[str, Any]  # {"name": ..., **controls} of the run
-    snapshots: np.ndarray | None = None
-    """Both parts of each field, (part, component, site, snapshot)."""
+    snapshot_tau: np.ndarray = np.empty(0)
+    """The times of the snapshots, (snapshot,)."""
+    state: np.ndarray | None = None
+    """The parts of each field at the snapshots, (part, component, site, snapshot)."""
     conserved: Mapping[str, np.ndarray] = MappingProxyType({})
     """What the model conserves, each (time,)."""
 
@@ -67,6 +69,10 @@ def simulate(
     by default and gives up, `dop853` makes the run. Raises IntegrationError where the run would not
     end, the solver gives up, or the result is not finite.
     """
+    if problem.snapshots_at:
+        return chosen_snapshots(
+            simulate(problem.changed(snapshots_at=()), reduction, energy), problem
+        )
     if problem.solver["name"] == "auto":
         return _simulate_to_error(problem, lambda one: _simulate_once(one, reduction, energy))
     try:
@@ -92,6 +98,7 @@ def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) 
         l2=unfold(record.l2, both),
         outcome=outcome,
         solver={key: one for key, one in problem.solver.items() if key != "by_default"},
+        snapshot_tau=problem.times[problem.snapshot_outputs],
         **integration_of(problem).collect(problem, record, y, reduction),
     )
 
@@ -116,6 +123,8 @@ def integrate(
     times = model.times(problem)
     size = y.shape[0] // 2, y.shape[1] - 2, len(times)
     record = model.record(*size, problem.snapshot_every, energy)
+    if problem.keep == "state" and record.kept.ndim == 3:
+        record = record._replace(kept=np.empty((2, *record.kept.shape)))
     scales = {"atol": model.atol(problem)}
     controls = tuple(
         float(problem.solver[name]) * scales.get(name, 1.0) for name in method.controls
@@ -142,7 +151,7 @@ def find_obstacle(problem: Problem, model: Integration) -> str | None:
     parts = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary ones
     peak = float(np.abs(parts).max(initial=0.0))  # NaN where there is one
     numbers = {k: one for k, one in problem.parameters.items() if isinstance(one, int | float)}
-    rates, span = model.rates(problem, peak), float(problem.end_time)
+    rates, span = model.rates(problem, peak), float(problem.span)
     found = find_fault(numbers, rates, peak, span, problem.solver, model.clock(problem))
     return found and found[1]
 
@@ -201,7 +210,7 @@ class _Runs(NamedTuple):
 
     def apart(self, one: Trajectory, other: Trajectory) -> Agreement:
         """Return how far two trajectories are apart."""
-        return compare(one, other, self.problem.snapshot_every)
+        return compare(one, other)
 
     def agreeing(self, names: tuple[str, str]) -> Trajectory:
         """Return the run of the first method that agrees with one of the second."""
@@ -257,10 +266,25 @@ class _Runs(NamedTuple):
 def angle_of(problem: Problem) -> float:
     """Return a bound of the angle in radians by which the data turn in a run."""
     peak = float(np.abs(np.ascontiguousarray(problem.initial).view(float)).max(initial=0.0))
-    return sum(integration_of(problem).rates(problem, peak).values()) * problem.end_time
+    return sum(integration_of(problem).rates(problem, peak).values()) * problem.span
 
 
 def without_snapshots(run: Trajectory) -> Trajectory:
     """Return a trajectory without the snapshots that were kept to compare it."""
-    kept = None if run.snapshots is None else run.snapshots[..., :0]
-    return run._replace(modulus=run.modulus[..., :0], snapshots=kept)
+    return _at_snapshots(run, np.arange(0))
+
+
+def chosen_snapshots(run: Trajectory, problem: Problem) -> Trajectory:
+    """Return a trajectory with a snapshot at each `snapshot_every`-th output, but for all but those
+    that the problem chooses."""
+    numbers = problem.snapshot_outputs
+    return _at_snapshots(run, numbers // problem.snapshot_every)
+
+
+def _at_snapshots(run: Trajectory, numbers: np.ndarray) -> Trajectory:
+    """Return a trajectory with those of its snapshots that have these numbers."""
+    return run._replace(
+        modulus=run.modulus[..., numbers],
+        state=None if run.state is None else run.state[..., numbers],
+        snapshot_tau=run.snapshot_tau[numbers],
+    )

@@ -36,7 +36,7 @@ def runs_of_sweep(
     Where a run ends before anything has come to the ends of its chain, longer chains do the same,
     and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
-    problem = problem.changed(snapshot_every=0)
+    problem = problem.changed(snapshot_every=0, snapshots_at=())
     alike, enough, inside, printed = not site_dependent(problem), np.inf, None, False
 
     def make(one: Problem) -> dict[str, np.ndarray]:

@@ -162,10 +162,15 @@ PARTS = {"i_dt": ("re", "im"), "dt": ("value",), "d2_dt2": ("value", "rate")}
 """The parts of the state of a field, by the function that gives the equations."""
 WORDS = {
     "i_dt": Words(),
-    "dt": Words(part="value of a field", final="value of a field at the end time"),
+    "dt": Words(
+        part="value of a field",
+        final="value of a field at the end time",
+        state="value of a field at the snapshots",
+    ),
     "d2_dt2": Words(
         part="value of a field, and its rate",
         final="value of a field, and its rate, at the end time",
+        state="value of a field, and its rate, at the snapshots",
     ),
 }
 
@@ -198,7 +203,7 @@ def _collect(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[st
         "energy": record.energy,
         "modulus": np.abs(snapshots[0]) if real else modulus(complex_of(*snapshots)),
         "final": parts if real else complex_of(*parts),
-        "snapshots": snapshots,
+        "state": snapshots,
         "conserved": dict(zip(problem.model.conserved, record.conserved, strict=True)),
     }
 

@@ -47,7 +47,7 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
     assert plain["model"]["name"] == "mine.py" and plain["model"]["text"] == DAMPED
     assert plain["parameters"] == {"epsilon": 1.0, "gamma": 0.2}
     assert str(tmp_path) not in str(plain)
-    assert Problem.of(plain).plain() == {**plain, "snapshot_every": plain["snapshot_every"]}
+    assert Problem.of(plain).plain() == {**plain, "start_time": 0.0}
 
 
 @pytest.mark.parametrize(

@@ -112,7 +112,7 @@ def test_half_of_an_even_chain_has_the_bits_of_the_whole(boundary):
     given = problem(model, np.concatenate([half[:, :0:-1], half], axis=1), boundary)
     runs = [simulate(given, kept) for kept in (None, WHOLE)]
     assert runs[0].final[0, 0] == runs[0].final[0, -1]
-    for name in ("final", "l2", "linf", "snapshots"):
+    for name in ("final", "l2", "linf", "state"):
         np.testing.assert_array_equal(*(getattr(run, name) for run in runs))
 
 

@@ -39,7 +39,7 @@ def test_sums_are_those_of_numpy_at_every_output(boundary, sites):
         i_dt=lambda p, u: lap(u) + p.w * u, conserved=bonds,
     )  # fmt: skip
     _, found = run(model, random(1, sites), boundary, every=1)
-    u = found.snapshots[0, 0] + 1j * found.snapshots[1, 0]  # (site, snapshot)
+    u = found.state[0, 0] + 1j * found.state[1, 0]  # (site, snapshot)
     mode = {"dirichlet": "constant", "free": "symmetric"}.get(boundary, "wrap")
     wide = np.pad(u, [(2, 2), (0, 0)], mode)
     if boundary == "antiperiodic":
@@ -93,5 +93,5 @@ def test_a_density_has_the_functions_of_the_kernels():
     )
     _, found = run(model, random(1, 9).real.astype(complex), "free", every=1)
     np.testing.assert_allclose(
-        found.conserved["c"], np.cos(found.snapshots[0, 0]).sum(axis=0), rtol=1e-13
+        found.conserved["c"], np.cos(found.state[0, 0]).sum(axis=0), rtol=1e-13
     )

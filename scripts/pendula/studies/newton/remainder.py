@@ -35,7 +35,7 @@ def amplitudes_of(problem: Problem) -> np.ndarray:
 
 def largest_error(pendula: Trajectory, problem: Problem, amplitudes: np.ndarray) -> float:
     """Return the largest error of the angles 2 mu Re(A e^{i omega t}), at as many outputs as A."""
-    angles = np.moveaxis(pendula.snapshots[0], -1, 0)
+    angles = np.moveaxis(pendula.state[0], -1, 0)
     omega, mu = problem.constants.omega, problem.mu
     return max(
         np.abs(angles[i] - leading_angles(one, omega, mu, pendula.tau[i])).max()
