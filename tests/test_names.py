@@ -19,6 +19,7 @@ PERCENT = 1.0
 
 ROOMS = (
     "scripts/pendula/studies/hard_cases",
+    "scripts/pendula/studies/newton",
     "scripts/pendula/studies/reference",
 )
 """Folders and modules that are held to it."""

@@ -11,7 +11,7 @@ from latticode.simulation.ensembles import draw_members
 from pendula.problem import PENDULA
 from pendula.studies.breathers.fates import map_fates
 from pendula.studies.breathers.sensitivity import sensitivity_contents
-from pendula.studies.newton.over_the_top import passage
+from pendula.studies.newton.over_the_top import measure_passage
 from problems import problem_of
 from scipy.stats import fisher_exact, mannwhitneyu
 
@@ -60,7 +60,7 @@ def test_pendula_go_over_the_top_as_early_by_a_symplectic_method():
     times = []
     for solver, seed in (({**TAYLOR, "rtol": 1e-8}, 1), (KAHAN_LI, 2)):
         members = draw_members(case.changed(solver=solver), 1e-2, 16, seed)
-        times.append([passage(member)["time"] for member in members])
+        times.append([measure_passage(member)["time"] for member in members])
     assert np.isfinite(times).all()
     assert mannwhitneyu(*times).pvalue > CHANCE
     assert mannwhitneyu(times[0], 2.0 * np.array(times[1])).pvalue < CHANCE

@@ -6,9 +6,9 @@ import xarray as xr
 from latticode.datasets.netcdf import as_xarray
 from on_pendula import pendula
 from pendula.studies.newton.over_the_top import (
-    amplitude_power,
+    measure_amplitude_power,
     measure_over_the_top,
-    passage,
+    measure_passage,
     printed_numbers,
 )
 from problems import problem_of
@@ -23,19 +23,19 @@ def one_pendulum(angle: float, velocity: float = 0.0, **changes):
 @pytest.mark.parametrize(("share", "goes"), [(0.999, False), (1.001, True)])
 def test_a_pendulum_goes_over_the_top_with_more_energy_than_there(share, goes):
     """From below with the velocity v it comes to the top if v^2 / 2 > 2."""
-    found = passage(one_pendulum(0.0, 2.0 * share, end_time=3.0))
-    assert np.isfinite(found["time"]) == goes
+    passage = measure_passage(one_pendulum(0.0, 2.0 * share, end_time=3.0))
+    assert np.isfinite(passage["time"]) == goes
 
 
 def test_power_is_that_of_the_amplitudes_of_a_small_swing():
-    found = passage(one_pendulum(0.01, end_time=20.0))
-    assert found["site_power"] == pytest.approx(2.0 * (0.01 / 0.6) ** 2, rel=0.01)
+    passage = measure_passage(one_pendulum(0.01, end_time=20.0))
+    assert passage["site_power"] == pytest.approx(2.0 * (0.01 / 0.6) ** 2, rel=0.01)
 
 
 def test_power_of_the_amplitudes_is_that_of_a_site_on_the_same_chain():
     """On A = B the drive vanishes and P is conserved: 2 * 1.5^2 on three pairs."""
     case = problem_of("fig4_small", half_width=1, initial={0: (1.5, 1.5)}, end_time=4.0)
-    assert amplitude_power(case)["site_power"] == pytest.approx(2.0 * 1.5**2 / 3.0)
+    assert measure_amplitude_power(case)["site_power"] == pytest.approx(2.0 * 1.5**2 / 3.0)
 
 
 def test_power_is_compared_only_where_no_pendulum_is_over_the_top():
@@ -51,9 +51,9 @@ def test_power_is_compared_only_where_no_pendulum_is_over_the_top():
     for end in ("", "_low", "_high"):
         passed = (("mu", "tau"), [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5]])
         study = study.assign({f"passed{end}": passed, f"passage_rate{end}": ("mu", [0.0, 0.1])})
-    found = printed_numbers(study, 2.0)
-    np.testing.assert_allclose(found["power_excess"].value, [0.03, np.nan])
-    np.testing.assert_array_equal(found["passed"].value, [0.0, 0.0])
+    numbers = printed_numbers(study, 2.0)
+    np.testing.assert_allclose(numbers["power_excess"].value, [0.03, np.nan])
+    np.testing.assert_array_equal(numbers["passed"].value, [0.0, 0.0])
 
 
 def test_small_mu_stays_below_the_top_and_large_mu_goes_over_it():

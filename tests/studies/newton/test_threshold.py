@@ -13,21 +13,25 @@ from scipy.special import mathieu_a, mathieu_b
 def test_tongues_are_those_of_scipy():
     """Where b_1 or a_1 is 1 + offset."""
     for curve, offset in ((mathieu_b, [-0.9, -0.5, -0.1, -1e-3]), (mathieu_a, [1e-3, 0.1, 0.5, 1])):
-        found = curve(1, mathieu.first_tongue(offset))
-        np.testing.assert_allclose(found, 1.0 + np.array(offset), rtol=0, atol=2e-15)
+        computed = curve(1, mathieu.first_tongue(offset))
+        np.testing.assert_allclose(computed, 1.0 + np.array(offset), rtol=0, atol=2e-15)
 
 
 def test_only_a_drive_that_beats_the_strings_loses_pendula():
     """By Mathieu's equation: a <= 4 epsilon mu^2 / omega^2 is stable up to q = b_1(a)."""
-    of_paper = [Constants.of(one) for one in paper()["cases"].values()]
-    assert not any(mathieu.strings_grow(one, mu) for one in of_paper for mu in (0.05, 0.15, 0.3))
-    plain = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
-    for changes in ({"gamma": 3.0}, {"epsilon": 2.0}, {"epsilon": -0.1, "gamma": 0.0}):
-        assert mathieu.strings_grow(Constants(**plain | changes), 0.3)
-    free = Constants(epsilon=0.0, gamma=1.0, omega=0.0)
-    assert not mathieu.strings_grow(free, np.sqrt(0.9 / 2.0)) and mathieu.strings_grow(
-        free, np.sqrt(0.91 / 2.0)
+    of_paper = [Constants.of(constants) for constants in paper()["cases"].values()]
+    assert not any(
+        mathieu.waves_on_strings_grow(constants, mu)
+        for constants in of_paper
+        for mu in (0.05, 0.15, 0.3)
     )
+    constants_of_fig3 = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
+    for changes in ({"gamma": 3.0}, {"epsilon": 2.0}, {"epsilon": -0.1, "gamma": 0.0}):
+        assert mathieu.waves_on_strings_grow(Constants(**constants_of_fig3 | changes), 0.3)
+    free = Constants(epsilon=0.0, gamma=1.0, omega=0.0)
+    assert not mathieu.waves_on_strings_grow(
+        free, np.sqrt(0.9 / 2.0)
+    ) and mathieu.waves_on_strings_grow(free, np.sqrt(0.91 / 2.0))
 
 
 # --- The thresholds of the chain ------------------------------------------------------------------
@@ -51,10 +55,12 @@ def multiplier(omega, mu, gamma, curvature, epsilon=1.0):
 @pytest.mark.parametrize("mu", [0.05, 0.2])
 @pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (8.0, 4.0)])
 def test_the_edge_of_the_band_is_the_first_to_lose_stability(omega, curvature, mu):
-    found = float(threshold.pendula_threshold(omega, mu, 1.0))
-    assert multiplier(omega, mu, found * (1 + 1e-4), curvature) > 1.0 + 1e-5
-    for other in (0.0, 1.0, 2.0, 3.0, 4.0):
-        assert multiplier(omega, mu, found * (1 - 1e-4), other) == pytest.approx(1.0, abs=1e-9)
+    gamma_0 = float(threshold.pendula_threshold(omega, mu, 1.0))
+    assert multiplier(omega, mu, gamma_0 * (1 + 1e-4), curvature) > 1.0 + 1e-5
+    for stable_curvature in (0.0, 1.0, 2.0, 3.0, 4.0):
+        assert multiplier(omega, mu, gamma_0 * (1 - 1e-4), stable_curvature) == pytest.approx(
+            1.0, abs=1e-9
+        )
 
 
 @pytest.mark.parametrize(("factor", "grows"), [(0.98, False), (1.02, True)])

@@ -1,1 +1,1 @@
-"""What Newton's equations (1) do where the amplitude equations (4) approximate them."""
+"""Newton's equations (1) of the pendula compared with the amplitude equations (4)."""

@@ -1,6 +1,7 @@
-"""How far the expansion, Lemma 1 and the chaotic state of the amplitudes hold for the pendula."""
+"""Claims that carry the expansion, Lemma 1 and the chaotic state over to the pendula."""
 
 import numpy as np
+import xarray as xr
 from latticode.measures.confidence import difference_limits, order_limits
 from latticode.numerics.elementary import log
 from replication.ledger.chances import RARE
@@ -29,21 +30,21 @@ SLOW = "mu^2 t / 2"
 """The slow time of the expansion (3)."""
 SMALL_ANGLES = 0.15
 """Up to this mu the angles of the chaotic state stay below a quarter of a turn."""
-SMALL = keep(mu=slice(None, SMALL_ANGLES))
+SMALL_MU_ALONE = keep(mu=slice(None, SMALL_ANGLES))
 
 ORDER = Cutoff(0.25, "an order counts as a whole number if it differs from one by up to a quarter")
 SAME = Cutoff(0.1, "half of what P of the thermal state changes by from Omega = 0 to 1")
 
 
-def by_mu(dataset, fewest: int = 2):
-    """Return the dataset by falling mu; it must hold enough of them."""
-    if dataset.sizes["mu"] < fewest:
+def sort_by_falling_mu(data: xr.Dataset, fewest: int = 2) -> xr.Dataset:
+    """Return the dataset sorted by falling mu. Raises UndecidableError if it has too few mu."""
+    if data.sizes["mu"] < fewest:
         raise UndecidableError(f"an order requires {fewest} values of mu")
-    return dataset.isel(mu=np.argsort(-dataset["mu"].values))
+    return data.isel(mu=np.argsort(-data["mu"].values))
 
 
-def order_of(values):
-    """Return the order in mu of what has `values` at each mu, from the two smallest."""
+def order_of(values: xr.DataArray) -> np.ndarray:
+    """Return the order in mu of `values` (..., mu), from the two smallest mu, which are last."""
     coarse, fine = values.isel(mu=-2), values.isel(mu=-1)
     ratio = float(coarse["mu"] / fine["mu"])
     return log(coarse.values / fine.values) / log(ratio)
@@ -51,7 +52,7 @@ def order_of(values):
 
 # --- The expansion (3) ----------------------------------------------------------------------------
 
-FAST = Control("amplitudes with the slow time mu^2 t", exchange("slow_time"))
+FAST_SLOW_TIME = Control("amplitudes with the slow time mu^2 t", exchange("slow_time"))
 
 
 @claim(
@@ -59,52 +60,53 @@ FAST = Control("amplitudes with the slow time mu^2 t", exchange("slow_time"))
     "The expansion is justified on times of the order mu^-2: up to a tau of order 1 the angles of "
     "(3) and (4) differ from those of the pendula by the order mu^3.",
     (REMAINDER,),
-    (FAST,),
+    (FAST_SLOW_TIME,),
     on=CASES,
 )
-def expansion_order(remainder) -> Finding:
-    order = order_of(by_mu(remainder)["error"].sel(slow_time=SLOW))
+def expansion_order(remainder: xr.Dataset) -> Finding:
+    order = order_of(sort_by_falling_mu(remainder)["error"].sel(slow_time=SLOW))
     measured = {
         "least_order": order.min(),
         "largest_order": order.max(),
         "up_to_tau": remainder.attrs["end_time"],
     }
-    says = "order in mu of the error of the angles"
-    return judge(measured, Near(3.0, ORDER, "least_order", "largest_order", says=says))
+    label = "order in mu of the error of the angles"
+    return judge(measured, Near(3.0, ORDER, "least_order", "largest_order", says=label))
 
 
 @claim(
     "Section 2, before (4)",
     "The remainder of the expansion stays bounded as the system evolves.",
     (REMAINDER,),
-    (FAST,),
+    (FAST_SLOW_TIME,),
     on=CASES,
 )
-def remainder_bounded(remainder) -> Finding:
-    """Compare the remainder at two mu and one slow time: t is four times as late at half of the mu.
+def remainder_bounded(remainder: xr.Dataset) -> Finding:
+    """Compare the remainder at two mu and one slow time.
 
-    That is the condition from which (4) follows: no term of the remainder grows in proportion to t.
+    At half of the mu the same slow time is four times as late in t, so the comparison shows terms
+    that grow in proportion to t. Equations (4) follow from the condition that there are none.
     """
-    errors = by_mu(remainder)["error"].sel(slow_time=SLOW).isel(mu=[-2, -1])
+    errors = sort_by_falling_mu(remainder)["error"].sel(slow_time=SLOW).isel(mu=[-2, -1])
     mu = errors["mu"]
     coarse, fine = (errors / (mu * mu * mu)).transpose("mu", "case")
     times = float(mu[0] * mu[0] / (mu[1] * mu[1]))
     end = float(remainder.attrs["end_time"])
-    says = f"growth of the remainder over mu^3 at tau = {end:g} as t grows {times:g} times"
+    label = f"growth of the remainder over mu^3 at tau = {end:g} as t grows {times:g} times"
     caveat = f"as mu goes to 0 at a fixed slow time, here up to tau = {end:g}"
     growth = (fine.values / coarse.values).max()
-    return judge({"largest_growth": growth}, Below(FACTOR, "largest_growth", says=says), caveat)
+    return judge({"largest_growth": growth}, Below(FACTOR, "largest_growth", says=label), caveat)
 
 
 # --- Lemma 1 --------------------------------------------------------------------------------------
 
 
-def outside(dataset):
-    """Return the detunings outside the band."""
-    some = dataset["gamma_0_lemma"] > 0
-    if not some.any():
+def outside_band(data: xr.Dataset) -> xr.Dataset:
+    """Return the data at detunings outside the band. Raises UndecidableError if there are none."""
+    is_outside = data["gamma_0_lemma"] > 0
+    if not is_outside.any():
         raise UndecidableError("no detuning lies outside the band")
-    return dataset.isel(omega=some.values)
+    return data.isel(omega=is_outside.values)
 
 
 @claim(
@@ -114,12 +116,12 @@ def outside(dataset):
     (THRESHOLD,),
     (Control("thresholds for half of the drive", scale("gamma_0_lemma", 2.0)),),
 )
-def lemma_1_is_the_limit(threshold) -> Finding:
-    beside = outside(by_mu(threshold))
-    order = order_of(abs(beside["gamma_0"] - beside["gamma_0_lemma"]))
+def lemma_1_is_the_limit(threshold: xr.Dataset) -> Finding:
+    thresholds = outside_band(sort_by_falling_mu(threshold))
+    order = order_of(abs(thresholds["gamma_0"] - thresholds["gamma_0_lemma"]))
     measured = {"least_order": order.min(), "largest_order": order.max()}
-    says = "order in mu of the difference"
-    return judge(measured, Near(2.0, ORDER, *measured, says=says))
+    label = "order in mu of the difference"
+    return judge(measured, Near(2.0, ORDER, *measured, says=label))
 
 
 @claim(
@@ -128,13 +130,13 @@ def lemma_1_is_the_limit(threshold) -> Finding:
     (THRESHOLD,),
     (Control("only detunings below the band", keep(omega=slice(None, -1e-6)), confirms=True),),
 )
-def lemma_1_for_the_pendula(threshold) -> Finding:
+def lemma_1_for_the_pendula(threshold: xr.Dataset) -> Finding:
     """Compare the exact thresholds with Lemma 1's at each mu, outside the band."""
-    beside = outside(threshold)
+    thresholds = outside_band(threshold)
     fails = "above the band a drive weaker than gamma_0 makes the pendula unstable"
-    says = "least threshold of the pendula over that of Lemma 1"
-    criterion = AtLeast(1.0, "least_share", says=says)
-    share = (beside["gamma_0"] / beside["gamma_0_lemma"]).min()
+    label = "least threshold of the pendula over that of Lemma 1"
+    criterion = AtLeast(1.0, "least_share", says=label)
+    share = (thresholds["gamma_0"] / thresholds["gamma_0_lemma"]).min()
     return judge({"least_share": share}, criterion, fails=fails)
 
 
@@ -150,33 +152,33 @@ def lemma_1_for_the_pendula(threshold) -> Finding:
         Control("mu in reverse order", exchange("mu")),
     ),
 )
-def same_sea(over_the_top) -> Finding:
-    """Compare P a site at the smallest mu with that of the amplitudes on the same chain.
+def same_sea(over_the_top: xr.Dataset) -> Finding:
+    """Compare P per site at the smallest mu with P of the amplitudes on the same chain.
 
-    At larger mu pendula go over the top, and their angles tell no power.
+    At larger mu pendula go over the top, and P cannot be computed from their angles.
     """
     if over_the_top.sizes["member"] < 2:
         raise UndecidableError("a difference of means requires two members")
     slowest, amplitudes = over_the_top.sortby("mu").isel(mu=0), over_the_top["amplitude_power"]
     excess, power = difference_limits(slowest["site_power"], amplitudes), float(amplitudes.mean())
     measured = {"difference": abs(excess.value) / power, "its_limits": excess.half / power}
-    says = "relative difference of P per site, and half of its confidence interval"
+    label = "relative difference of P per site, and half of its confidence interval"
     smallest = float(over_the_top["mu"].min())
     caveat = f"at mu = {smallest:g}, where they differ by {measured['difference']:.1%}"
-    return judge(measured, Distance(SAME, *measured, says=says), caveat)
+    return judge(measured, Distance(SAME, *measured, says=label), caveat)
 
 
 @claim(
     "Abstract and Section 6, for the pendula (1)",
     "The l-infinity norm of the pendula at Omega = 0 remains finite: each oscillates.",
     (TOP,),
-    (Control(f"only mu up to {SMALL_ANGLES:g}", SMALL, confirms=True),),
+    (Control(f"only mu up to {SMALL_ANGLES:g}", SMALL_MU_ALONE, confirms=True),),
 )
-def pendula_stay_below_the_top(over_the_top) -> Finding:
+def pendula_stay_below_the_top(over_the_top: xr.Dataset) -> Finding:
     shares = over_the_top["passed"].isel(tau=-1)
-    says = "largest share of runs in which a pendulum goes over the top"
+    label = "largest share of runs in which a pendulum goes over the top"
     fails = "at larger mu some pendula go over the top after a while and keep rotating"
-    criterion = AtMost(0.0, "largest_share", says=says)
+    criterion = AtMost(0.0, "largest_share", says=label)
     return judge({"largest_share": shares.max()}, criterion, fails=fails)
 
 
@@ -189,16 +191,15 @@ def pendula_stay_below_the_top(over_the_top) -> Finding:
         Control("the same times of passage at all mu", repeat("mu", SMALL_ANGLES, slice(None))),
     ),
 )
-def waiting_grows(over_the_top) -> Finding:
-    """Compare the first passages of all pairs of runs at two mu.
+def waiting_grows(over_the_top: xr.Dataset) -> Finding:
+    """Compare the first passages of all pairs of runs at two mu, by Jonckheere's test.
 
-    The limit is that of Jonckheere's test: if mu did not matter, the share of pairs in which the
-    run at the smaller mu takes longer would be a half.
+    If mu did not matter, the run at the smaller mu would take longer in half of the pairs.
     """
     times = over_the_top.sortby("mu")["passage_time"].transpose("mu", "member").values
     if len(times) < 2:
         raise UndecidableError("passages are known at fewer than two mu")
     share = order_limits(times, 1.0 - RARE.value)
-    says = "lower limit of the share of pairs of runs in which that at the smaller mu takes longer"
+    label = "lower limit of the share of pairs of runs in which that at the smaller mu takes longer"
     measured = {"share": share.value, "share_low": share.low}
-    return judge(measured, Above(0.5, "share_low", says=says))
+    return judge(measured, Above(0.5, "share_low", says=label))

@@ -1,4 +1,4 @@
-"""First passages of the pendula over the top, in a picture."""
+"""The figure of first passages of the pendula over the top."""
 
 import xarray as xr
 from latticode.drawing import style
@@ -6,10 +6,10 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 MARKS = "osD^vPX*"
-WIDER = 0.6
-"""Curves are wider than those above them by so many points, so that those of one share are seen."""
-BESIDE = 0.025
-"""Confidence limits at the end stand so far beside each other, as a part of the time."""
+WIDTH_STEP = 0.6
+"""In points: each curve is this much wider than the next one, which may cover it."""
+LIMIT_SPACING = 0.025
+"""Distance of neighbouring confidence intervals at the end, as a fraction of the end time."""
 CAPTION = (
     "Pendula at Ω = {omega:g} by μ: share of the runs in which a pendulum has gone over the top by "
     "τ, with confidence intervals at the end beside the curves. Wide curves lie below narrow ones."
@@ -17,25 +17,27 @@ CAPTION = (
 
 
 def gather_over_the_top(over_the_top: xr.Dataset) -> xr.Dataset:
-    """Return by mu and tau how many members have gone over the top."""
+    """Return the share of members over the top, and its limits, (mu, tau)."""
     omega = over_the_top.attrs["omega"]
     caption = CAPTION.format(omega=float(omega))
-    shown = over_the_top[["passed", "passed_low", "passed_high"]].drop_attrs(deep=False)
-    return shown.assign_attrs(omega=omega, caption=caption)
+    shares = over_the_top[["passed", "passed_low", "passed_high"]].drop_attrs(deep=False)
+    return shares.assign_attrs(omega=omega, caption=caption)
 
 
 @style.styled
 def draw_over_the_top(data: xr.Dataset) -> Figure:
-    """Draw the share that has gone over the top, with limits at the end."""
+    """Draw the share over the top against tau, one curve each mu, with limits at the end."""
     figure = style.new_figure(style.WIDTH, 2.5)
     axes, count, tau = figure.subplots(), data.sizes["mu"], data["tau"].values
     for i, mu in enumerate(data["mu"].values):
-        one, colour = data.isel(mu=i), colormaps["viridis"](0.95 * i / max(1, count - 1))
-        width = 1.2 + WIDER * (count - 1 - i)
-        axes.step(tau, one["passed"], where="post", lw=width, color=colour)
-        last, low, high = (float(one[name][-1]) for name in ("passed", "passed_low", "passed_high"))
+        at_mu, colour = data.isel(mu=i), colormaps["viridis"](0.95 * i / max(1, count - 1))
+        width = 1.2 + WIDTH_STEP * (count - 1 - i)
+        axes.step(tau, at_mu["passed"], where="post", lw=width, color=colour)
+        last, low, high = (
+            float(at_mu[name][-1]) for name in ("passed", "passed_low", "passed_high")
+        )
         axes.errorbar(
-            tau[-1] * (1.03 + BESIDE * i),
+            tau[-1] * (1.03 + LIMIT_SPACING * i),
             last,
             [[last - low], [high - last]],
             capsize=1.5,
@@ -46,9 +48,9 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
             label=rf"$\mu = {mu:g}$",
         )
     axes.set(xlabel=r"$\tau$", ylabel="share of runs over the top")
-    axes.set_xlim(0, tau[-1] * (1.03 + BESIDE * count))
+    axes.set_xlim(0, tau[-1] * (1.03 + LIMIT_SPACING * count))
     axes.axvline(tau[-1], color="0.5", lw=0.6, ls=":")
-    axes.set_xticks([one for one in axes.get_xticks() if 0 <= one <= tau[-1]])
+    axes.set_xticks([tick for tick in axes.get_xticks() if 0 <= tick <= tau[-1]])
     axes.set_ylim(-0.03, 1.05)
     style.name_legend(figure, axes, columns=4)
     return figure

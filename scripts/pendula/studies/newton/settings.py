@@ -1,4 +1,4 @@
-"""What the configuration gives for the pendula: a model for each topic."""
+"""The keys of config/newton.yaml, one class for each topic."""
 
 from collections.abc import Iterable
 from typing import Annotated, Literal
@@ -21,7 +21,7 @@ from pendula.configuration.runs import Runs
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 from pendula.problem import Constants
 
-from .mathieu import squared_frequency, strings_grow
+from .mathieu import squared_frequency, waves_on_strings_grow
 
 
 class Threshold(Model):
@@ -32,7 +32,7 @@ class Threshold(Model):
     mus: Positives
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield where a wave comes near the second resonance of the drive, which is at a = 4."""
+        """Yield a fault if a wave comes near the second resonance of the drive, at a = 4."""
         mu, omega = max(self.mus), min(self.omegas)
         if mu * mu * (4.0 * self.epsilon - omega) > squared_frequency(omega, mu):
             least = 0.5 * (4.0 * self.epsilon - 1.0 / (mu * mu))
@@ -41,13 +41,13 @@ class Threshold(Model):
             yield "omegas", f"{where} near the second resonance of the drive: {way_out}"
 
 
-class Followed(Model):
-    """What topics share that run pendula: their mu, and a tolerance."""
+class PendulaRuns(Model):
+    """Keys of topics that integrate pendula: mu and a tolerance."""
 
     mus: Positives
     tolerance: Tolerance
 
-    def unfit(
+    def faults_of_cases(
         self,
         settings: Configuration,
         cases: Iterable[str],
@@ -56,10 +56,10 @@ class Followed(Model):
         key: str = "mus",
         **changes,
     ) -> Faults:
-        """Yield where a case is missing or has no pendula at a mu, or what takes too long.
+        """Yield a fault if a case is missing, cannot be integrated at a mu, or takes too long.
 
-        The relative differences of the data are normal draws times `size`. `key` is that of the mu,
-        which may be those of a longer study.
+        Members differ by normal draws times `size`, relative to the initial data. `key` is the key
+        of the mu, "mus" or "long.mus".
         """
         mus = self.mus if key == "mus" else self.long.mus
         if absent := list(settings.absent("cases", "case", cases)):
@@ -69,21 +69,21 @@ class Followed(Model):
         for name in cases:
             for mu in mus:
                 run = settings.run_of(name, self.tolerance, model="pendula", mu=mu, **changes)
-                if why := _endless(Constants.of(run), mu):
+                if why := _why_endless(Constants.of(run), mu):
                     yield key, f"has {mu:g}, and {why.format(case=name)}"
                     return
                 runs.append(run)
         yield from settings.faults_of_runs(Runs(key, "tolerance", runs, times, "size", size))
 
 
-def _endless(constants: Constants, mu: float) -> str:
-    """Return why a run of the pendula at mu may never end, or nothing.
+def _why_endless(constants: Constants, mu: float) -> str:
+    """Return why a run of the pendula at mu may never end, empty if it does.
 
-    Of a negative epsilon the case itself tells, since no figure of the paper has one.
+    A case with a negative epsilon is rejected elsewhere.
     """
     if 1.0 + mu * mu * constants.omega <= 0.0:
         return "1 + mu^2 Omega must be positive"
-    if constants.epsilon >= 0.0 and strings_grow(constants, mu):
+    if constants.epsilon >= 0.0 and waves_on_strings_grow(constants, mu):
         return (
             "pendula of {case} that swing over the top are driven ever faster there: "
             "take a smaller gamma, epsilon or mu"
@@ -91,7 +91,7 @@ def _endless(constants: Constants, mu: float) -> str:
     return ""
 
 
-class Remainder(Followed):
+class Remainder(PendulaRuns):
     """The error of the expansion (3)."""
 
     mus: Annotated[list[Positive], Field(min_length=2)]
@@ -99,15 +99,15 @@ class Remainder(Followed):
     output_step: Positive
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the cases."""
+        """Yield faults of times and of runs of the paper's cases."""
         if not is_multiple(self.end_time, self.output_step):
             yield "end_time", f"is not a whole number of `output_step`, {self.output_step:g}"
         cases = [name for name in PAPER_CASES if name in settings.cases]
-        yield from self.unfit(settings, cases, end_time=self.end_time)
+        yield from self.faults_of_cases(settings, cases, end_time=self.end_time)
 
 
-class OverTheTop(Followed):
-    """When the first pendulum turns over, in an ensemble of perturbed data of one case."""
+class OverTheTop(PendulaRuns):
+    """First passages over the top in an ensemble of one case."""
 
     case: Name
     size: Positive
@@ -123,7 +123,7 @@ class OverTheTop(Followed):
     )
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the case."""
+        """Yield faults of times and of runs of the case."""
         if not self.settled < self.end_time:
             yield "settled", f"is {self.settled:g}, and must lie before the end time"
         if not (latest := max(self.long.variations.get("settled", [0.0]))) < self.long.end_time:
@@ -131,13 +131,15 @@ class OverTheTop(Followed):
             yield key, f"has {latest:g}, and must lie before the end time, {self.long.end_time:g}"
         for key, runs in (("mus", self), ("long.mus", self.long)):
             many = runs.members, self.size, key
-            if unfit := list(self.unfit(settings, [self.case], *many, end_time=runs.end_time)):
+            if unfit := list(
+                self.faults_of_cases(settings, [self.case], *many, end_time=runs.end_time)
+            ):
                 yield from unfit
                 return
 
 
 class Settings(Model):
-    """Section `pendula` of the configuration."""
+    """Section `newton` of the configuration."""
 
     threshold: Threshold
     remainder: Remainder
