@@ -13,6 +13,7 @@ _HOMES = {
         *("Model", "ModelError", "lap", "abs2", "conj", "shift"),
         *("sin", "cos", "exp", "log", "sqrt"),
     ),
+    "latticode.equations.symbols": ("abs", "max", "sign", "where"),
     "latticode.notebook": (
         *("Case", "simulate", "sweep", "survey", "check", "read"),
         *("draw_breather", "draw_norms", "draw_spacetime", "draw_survey", "draw_sweep"),

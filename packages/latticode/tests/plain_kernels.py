@@ -55,6 +55,7 @@ VECTORS = {
     "largest_in_rows": largest_in_rows,
     "vector_views": lambda states: tuple(map(View, states)),
     "square_root": np.sqrt,
+    "select_positive": lambda condition, one, other: np.where(condition > 0.0, one, other),
     "power_of_two": lambda k: np.exp2(np.clip(k, -1022, 1023)),
     "whole_exponent": lambda x: np.floor(np.log2(x) + 0.5),
 }

@@ -27,6 +27,7 @@ from latticode.simulation.feasibility import (
     find_fault,
     rates_of,
     solver_names,
+    why_no_series,
 )
 from latticode.simulation.problem import KEPT, Problem
 
@@ -208,6 +209,11 @@ class Case(Model):
         return self.solvers_taking(self.model)
 
     @property
+    def why_no_series(self) -> str:
+        """Why the equations have no power series, in words; "" where they have."""
+        return why_no_series(self.model) if isinstance(self.model, Traced) else ""
+
+    @property
     def ordinary(self) -> Mapping[str, Mapping]:
         """Values, at which a run is short, of the keys that decide a cost."""
         return cost.ORDINARY
@@ -359,10 +365,9 @@ class Case(Model):
         """Yield the fault of a solver that does not take the equations of the case."""
         if solver.name not in self.solver_names and not getattr(solver, FLAG, False):
             known, what = ", ".join(self.solver_names), self.equations
-            yield (
-                "solver.name",
-                f"{solver.name} does not take {what}; give one of {known}",
-            )
+            why = self.why_no_series if solver.name == "taylor" else ""
+            what += f", which {why}" if why else ""
+            yield "solver.name", f"{solver.name} does not take {what}; give one of {known}"
 
     def _faults_of_times(self) -> Iterator[tuple[str, str]]:
         step, off_grid = self.output_step, []
@@ -449,7 +454,7 @@ class Case(Model):
         """
         if not solver.get(FLAG) or "taylor" in self.solver_names:
             return solver
-        why = f"{self.equations} has a root of squares, such as |x|, which has no power series at 0"
+        why = f"{self.equations} {self.why_no_series}"
         return {**instead_of_taylor(solver), "instead_of_taylor": why}
 
     def shown_problem(self, **changes) -> dict:

@@ -29,8 +29,9 @@ class Node:
 
     Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, part,
     shift), and ("clock", name): a function of the time that the system has by its name. The others
-    are add, sub, neg, mul, div, sin, cos, exp, log and sqrt. Power series have one leaf more,
-    ("carried", i), and halves of squares, see latticode.generation.series_graph.
+    are add, sub, neg, mul, div, sin, cos, exp, log, sqrt, and ("where", c, a, b), which is a where
+    c is above zero and b elsewhere. Power series have one leaf more, ("carried", i), and
+    halves of squares, see latticode.generation.series_graph.
     """
 
     def __init__(self, operation: str, *operands):
@@ -154,6 +155,13 @@ def div(a: Node, b: Node) -> Node:
     return mul(reciprocal(b), a) if b.level == CONSTANT and a is not ONE else node("div", a, b)
 
 
+def where(condition: Node, a: Node, b: Node) -> Node:
+    """Return a where the condition is above zero, b elsewhere."""
+    if is_number(condition):
+        return a if condition.operands[0] > 0.0 else b
+    return a if a is b else node("where", condition, a, b)
+
+
 BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul}
 """What makes a node of its operands, where that may simplify it."""
 
@@ -178,6 +186,11 @@ def in_order(nodes: Iterable[Node]) -> list[Node]:
 def leaves_in(nodes: Iterable[Node], operation: str) -> list[Node]:
     """Return the leaves of a kind that expressions hold."""
     return [one for one in in_order(nodes) if one.operation == operation]
+
+
+def switches(nodes: Iterable[Node]) -> bool:
+    """Return whether expressions change from one to another where a field or the time has it so."""
+    return any(one.operation == "where" and one.level > CONSTANT for one in in_order(nodes))
 
 
 def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | None]) -> list[Node]:
@@ -208,14 +221,22 @@ def shifted(a: Node, by: int) -> Node:
     return rebuilt([a], moved)[0]
 
 
-ARITHMETIC = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
+ARITHMETIC = {
+    "add": "{} + {}",
+    "sub": "{} - {}",
+    "mul": "{} * {}",
+    "div": "{} / {}",
+    "neg": "-{}",
+    "where": "where({} > 0.0, {}, {})",
+}
 
 
 def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) -> list:
     """Return the values of nodes, whatever numbers value(leaf) gives for their leaves.
 
     These may be numbers of any kind that adds and multiplies: arrays, multiprecision reals,
-    integers where no leaf is a fraction. `functions` has sin, cos, exp, log and sqrt of them.
+    integers where no leaf is a fraction. `functions` has sin, cos, exp, log and sqrt of them; what
+    is chosen by a condition is chosen by NumPy.
     """
     leaves, compute = _as_function(tuple(nodes))
     return compute([*map(value, leaves)], functions)
@@ -235,7 +256,7 @@ def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
         if one.inputs:
             how = ARITHMETIC.get(one.operation, f"functions.{one.operation}({{}})")
             lines.append(f"    {names[one]} = {how.format(*(names[a] for a in one.inputs))}")
-    made: dict[str, Callable] = {}
+    made: dict[str, Callable] = {"where": np.where}
     values = ", ".join(names[one] for one in nodes)
     exec("\n".join(["def compute(leaves, functions):", *lines, f"    return [{values}]"]), made)
     return leaves, made["compute"]
@@ -276,6 +297,8 @@ def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[No
                 return div(made[a], mul(TWO, one))
             case "div", a, b:
                 return div(sub(made[a], mul(one, made[b])), b)
+            case "where", condition, a, b:
+                return where(condition, made[a], made[b])
         return change(one)
 
     for one in in_order(nodes):

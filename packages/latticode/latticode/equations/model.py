@@ -238,10 +238,11 @@ class Model:
 
         Then the field's real part, which alone is read, never moves.
         """
-        for c, field in enumerate(self.fields):
-            read = any(one.operands[:2] == (c, 1) for one in leaves_in(self.rates, "field"))
+        read = {one.operands[:2] for one in leaves_in(self.rates, "field")}
+        for c, field in enumerate(self.fields if self.form == "i_dt" else ()):
             real, imaginary = self.rates[2 * c : 2 * c + 2]
-            if self.form == "i_dt" and not read and _vanishes(real) and not _vanishes(imaginary):
+            read_alone = (c, 0) in read and (c, 1) not in read
+            if read_alone and _vanishes(real) and not _vanishes(imaginary):
                 raise ModelError(
                     f"{self.name}: i_dt moves only the imaginary part of {field}, which no equation"
                     f" reads; for real fields give dt, which returns d{field}/dt, or multiply this"

@@ -1,5 +1,7 @@
 """The complex numbers that a model computes with: pairs of nodes, and functions of them."""
 
+import builtins
+from functools import reduce
 from operator import index
 from typing import Any
 
@@ -20,10 +22,11 @@ from .graph import (
     shifted,
     sub,
 )
+from .graph import where as select
 
 HIGHEST_POWER = 16
 """Whole powers up to this one are products; others are exponentials of a logarithm."""
-KNOWN = "exp", "log", "sqrt", "sin", "cos", "abs2", "conj"
+KNOWN = "exp", "log", "sqrt", "sin", "cos", "abs2", "conj", "abs", "max", "sign", "where"
 """The functions of fields and parameters."""
 ARRAYS = (
     "a field is its value at one site, and no array of all; neighbours are u.left, u.right and "
@@ -31,6 +34,12 @@ ARRAYS = (
 )
 LONGEST_SHIFT = 7
 """How far along the chain an equation may look: within the next block of a vector."""
+
+
+BRANCH = (
+    "a comparison or a branch is taken from a symbol, which has no value yet; write max(a, b), "
+    "where(x > 0, a, b), abs(x) or sign(x) of latticode"
+)
 
 
 class ModelError(ValueError):
@@ -110,12 +119,12 @@ class Value:
     def __pow__(self, exponent):
         if isinstance(exponent, float) and exponent.is_integer():
             exponent = int(exponent)
-        if not isinstance(exponent, int) or abs(exponent) > HIGHEST_POWER:
+        if not isinstance(exponent, int) or builtins.abs(exponent) > HIGHEST_POWER:
             if isinstance(exponent, int | float | Value) and not isinstance(exponent, bool):
                 return exp(Value.of(exponent) * log(self))
             raise ModelError(f"the power {exponent!r}: give a number or a parameter")
         power = Value(number(1.0)) if exponent == 0 else self
-        for _ in range(abs(exponent) - 1):
+        for _ in range(builtins.abs(exponent) - 1):
             power = power * self
         return power if exponent >= 0 else 1 / power
 
@@ -147,16 +156,26 @@ class Value:
         """Do what NumPy's functions and its numbers ask for, where there is a rule for it."""
         rule = UFUNCS.get(ufunc.__name__)
         if rule is None or method != "__call__":
-            if ufunc.__name__ == "absolute":
-                return abs(self)
             text = f"{ufunc.__name__} of a field or a parameter has no rule"
             raise ModelError(f"{text}; write it with {', '.join(KNOWN)}")
         if ufunc.__name__ == "power" and isinstance(operands[0], Value):
             return Value.__pow__(*operands)
         return rule(*map(Value.of, operands))
 
+    def __gt__(self, other) -> "Condition":
+        return Condition(sub(_real_part(self, ">"), _real_part(other, ">")))
+
+    def __lt__(self, other) -> "Condition":
+        return Value.of(other) > self
+
+    def __ge__(self, other) -> "Condition":
+        return Condition((self < other).difference, negated=True)
+
+    def __le__(self, other) -> "Condition":
+        return Value.of(other) >= self
+
     def _refuse(self, *_):
-        raise ModelError("a comparison or a branch is taken from a symbol")
+        raise ModelError(BRANCH)
 
     def _refuse_number(self, *_):
         text = "a number is taken from a symbol; the functions of latticode take symbols"
@@ -165,7 +184,7 @@ class Value:
     def _refuse_sites(self, *_, **__):
         raise ModelError(ARRAYS)
 
-    __bool__ = __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
+    __bool__ = __eq__ = __ne__ = _refuse
     __float__ = __complex__ = __int__ = __index__ = _refuse_number
     __iter__ = __len__ = __getitem__ = __array__ = _refuse_sites
 
@@ -176,7 +195,23 @@ class Value:
         raise ModelError(f"there is no .{name}: {text}")
 
     def __abs__(self):
-        raise ModelError("abs has no rule; use abs2(u), the squared modulus")
+        if self.im is not ZERO:
+            return sqrt(abs2(self))
+        return Value(select(self.re, self.re, neg(self.re)))
+
+
+class Condition:
+    """A comparison of two real values, for `where`: whether their difference is above zero."""
+
+    __hash__ = None
+
+    def __init__(self, difference: Node, negated: bool = False):
+        self.difference, self.negated = difference, negated
+
+    def _refuse(self, *_):
+        raise ModelError(BRANCH)
+
+    __bool__ = __eq__ = __ne__ = __and__ = __or__ = __invert__ = _refuse
 
 
 def shift(w: Value, sites: int) -> Value:
@@ -191,7 +226,7 @@ def shift(w: Value, sites: int) -> Value:
         raise ModelError(f"shift(u, m) takes a whole number m, such as 2, not {what}") from None
     w = Value.of(w)
     moved = Value(shifted(w.re, sites), shifted(w.im, sites))
-    reach = max(moved.re.reach, moved.im.reach)
+    reach = builtins.max(moved.re.reach, moved.im.reach)
     if reach > LONGEST_SHIFT:
         raise ModelError(
             f"this looks {reach} sites along the chain, and an equation may look at most "
@@ -244,6 +279,45 @@ def sqrt(w: Value) -> Value:
     return _of_real("sqrt", w)
 
 
+def where(condition: Condition, one: Value, other: Value) -> Value:
+    """Return `one` at the sites where a condition such as x > 0 holds, `other` elsewhere."""
+    if not isinstance(condition, Condition):
+        raise ModelError("where(condition, a, b) takes a comparison of real values, such as x > 0")
+    one, other = Value.of(one), Value.of(other)
+    if condition.negated:
+        one, other = other, one
+    re, im = (
+        select(condition.difference, *pair) for pair in ((one.re, other.re), (one.im, other.im))
+    )
+    return Value(re, im)
+
+
+def max(*values: Value) -> Value:
+    """Return the largest of real values at each site; of plain numbers, what Python does."""
+    if not any(isinstance(value, Value) for value in values):
+        return builtins.max(*values)
+    return reduce(lambda one, other: where(Value.of(one) > other, one, other), values)
+
+
+def abs(w: Value) -> Value:
+    """Return the modulus; of a plain number, what Python does."""
+    return builtins.abs(w)
+
+
+def sign(w: Value) -> Value:
+    """Return 1, 0 or -1 with the sign of a real value."""
+    return where(Value.of(w) > 0, 1, where(Value.of(w) < 0, -1, 0))
+
+
+def _real_part(w: Value, function: str) -> Node:
+    w = Value.of(w)
+    if w.im is not ZERO:
+        raise ModelError(
+            f"{function} compares real values, and one is complex; give its part .real"
+        )
+    return w.re
+
+
 def _of_real(name: str, w: Value) -> Value:
     w = Value.of(w)
     if w.im is not ZERO:
@@ -264,5 +338,12 @@ UFUNCS = {
     "log": log,
     "sqrt": sqrt,
     "power": Value.__pow__,
+    "absolute": abs,
+    "maximum": max,
+    "sign": sign,
+    "greater": Value.__gt__,
+    "less": Value.__lt__,
+    "greater_equal": Value.__ge__,
+    "less_equal": Value.__le__,
 }
 """Functions of NumPy by their names, with their rules."""

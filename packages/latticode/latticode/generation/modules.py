@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import cache
 from types import ModuleType
 
-from latticode.equations.graph import Node
+from latticode.equations.graph import Node, switches
 from latticode.equations.model import Model
 from latticode.kernels.cache import keep_source
 
@@ -85,13 +85,11 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
     """Return the text of the module of a model with these rates, and their series."""
     parts = parts_of_rates(rates, site_dependent)
     names = Names(parts)
-    return "".join([
-        HEAD,
-        rates_text(rates, names, reach),
-        Series(rates, names, site_dependent).text(reach),
-        at_time_text(parts, names),
-        clocks_text(parts, names),
-    ])  # fmt: skip
+    texts = [HEAD, rates_text(rates, names, reach), at_time_text(parts, names)]
+    if not switches(rates):  # else there is no power series
+        texts[2:2] = [Series(rates, names, site_dependent).text(reach)]
+        texts.append(clocks_text(parts, names))
+    return "".join(texts)
 
 
 def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:

@@ -92,6 +92,8 @@ class Rule:
                 return f"(1.0 / {self.value(b)}) * {self.value(a)}"
             case "div", a, b:
                 return f"{self.value(a)} / {self.value(b)}"
+            case "where", condition, a, b:
+                return f"select_positive({', '.join(map(self.value, (condition, a, b)))})"
             case "exp", a:
                 return f"exponential({self.value(a)})"
             case "log" | "sqrt" as which, a:

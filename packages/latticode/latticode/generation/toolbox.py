@@ -20,6 +20,7 @@ from latticode.kernels.simd import (
     load,
     power_of_two,
     right_neighbours,
+    select_positive,
     square_root,
     store,
     whole_exponent,

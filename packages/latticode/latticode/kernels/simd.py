@@ -233,6 +233,28 @@ def whole_exponent(builder, value, wide):
     return builder.sitofp(exponent, value.type)
 
 
+@intrinsic
+def select_positive(typing_context, condition, one, other):
+    """Return `one` where the condition is above zero and `other` elsewhere, lane by lane.
+
+    Each is a vector or a number; the result is a vector where one of them is.
+    """
+    arguments = condition, one, other
+    if not {*arguments} <= {vector, types.float64}:
+        return None
+    kind = vector if vector in arguments else types.float64
+
+    def generate(context, builder, signature, values):
+        typed = zip(signature.args, values, strict=True)
+        if kind == vector:
+            values = [value if of == vector else repeat(builder, value) for of, value in typed]
+        zero = ir.Constant(values[0].type, [0.0] * LANES if kind == vector else 0.0)
+        above = builder.fcmp_ordered(">", values[0], zero)
+        return builder.select(above, values[1], values[2])
+
+    return kind(*arguments), generate
+
+
 # --- What passes between the lanes --------------------------------------------------------------
 
 

@@ -10,7 +10,7 @@ from math import frexp, isfinite
 
 import numpy as np
 
-from latticode.equations.graph import MOTION, Node, in_order
+from latticode.equations.graph import MOTION, Node, in_order, switches
 from latticode.equations.model import Model
 from latticode.numerics.elementary import log
 
@@ -31,10 +31,19 @@ Obstacle = tuple[str, str]
 
 def solver_names(model: Model) -> list[str]:
     """Return the solvers that take a model: all but two of them need equations of one kind."""
-    found = [] if has_kinks(model.rates) else ["taylor"]
+    found = [] if why_no_series(model) else ["taylor"]
     found += ["dop853", "ode45"]
     found += ["kahan_li"] if model.separable else []
     return found + ([] if model.driven else ["crank_nicolson"])
+
+
+def why_no_series(model: Model) -> str:
+    """Return why a model has no power series, in words to stand behind its name; "" if it has."""
+    if switches(model.rates):
+        return "has max, abs, sign or where, which have no power series where they switch"
+    if has_kinks(model.rates):
+        return "has a root of squares, such as |x|, which has no power series at 0"
+    return ""
 
 
 def has_kinks(rates: tuple[Node, ...]) -> bool:

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from latticode.equations.graph import switches
 from latticode.integrators import DONE, FAULTS, NOT_FINITE, STEP_TOO_SMALL, Outcome
 from latticode.integrators.families import (
     FINEST,
@@ -32,6 +33,8 @@ SINGULAR = (
 """Why a state that was finite at the start is so no longer."""
 
 
+JUMPS = "; where a rate jumps, as by sign or where, give larger tolerances, such as 1e-8"
+"""What a user may do where a step across a jump would be shorter than rounding allows."""
 NEEDS_NO_SERIES = "; dop853 needs no power series, and may go on"
 """What a user may do where a power series ends, as that of |u| where u passes zero."""
 
@@ -135,6 +138,8 @@ def integrate(
     if outcome.status != DONE:
         at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
         why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
+        if outcome.status == STEP_TOO_SMALL and switches(problem.model.rates):
+            why += JUMPS
         stopped = _stopped(problem, model.slow(problem, outcome.time), why)
         if outcome.status not in (NOT_FINITE, STEP_TOO_SMALL):
             raise stopped
