@@ -9,6 +9,7 @@ their parts "angle" and "velocity". Figures are matplotlib's.
 
 import xarray as xr
 from latticode import notebook
+from latticode.configuration.initial import end_of_run
 from latticode.notebook import draw_breather, draw_survey, read, simulate, survey, sweep
 
 from pendula.configuration import cases
@@ -40,7 +41,9 @@ class Case(cases.Case):
     epsilon, gamma: coupling of neighbours and strength of the drive, both 1.
     half_width: M; the chain has 2M + 1 pairs on the sites -M..M. 30.
     boundary: "dirichlet" (A = B = 0 beyond the ends), "free" or "periodic".
-    initial: {site: (A, B)} in complex numbers, at rest elsewhere. {0: (1, 0.1)}.
+    initial: {site: (A, B)} in complex numbers, at rest elsewhere. {0: (1, 0.1)}. Or an array, a
+        function of the sites, a run or a file: see `latticode.Case`.
+    start_time: in tau. 0, or the end of the run in `initial`.
     end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
     snapshot_step: in tau; how often moduli on all sites are kept. Left out, 200 times or more.
     times: in place of it, a list of the times at which they are kept.
@@ -75,7 +78,10 @@ class Case(cases.Case):
         >>> Case(omega=-4).changed(omega=8, half_width=10).half_width
         10
         """
-        return Case(**{**self.model_dump(), **keys})
+        known = self.model_dump()
+        if end_of_run(keys.get("initial")) is not None:
+            del known["start_time"]  # that of the run
+        return Case(**{**known, **keys})
 
 
 def check(case: Case, run=None):

@@ -13,6 +13,7 @@ def test_what_is_left_out_takes_the_papers_value_and_the_default_solver():
         "half_width": 30,
         "boundary": "dirichlet",
         "initial": {0: (1 + 0j, 0.1 + 0j)},
+        "start_time": 0.0,
         "end_time": 50.0,
         "output_step": 0.025,
         "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},

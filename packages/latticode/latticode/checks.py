@@ -144,8 +144,8 @@ def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
     even, rng = integration_of(problem).find_reduction(problem).even, np.random.default_rng(SEED)
     tangent = random_tangent(problem.sites, rng, even, len(problem.model.fields))
-    step = min(STEP, problem.end_time / FEWEST_STEPS)
-    return grow(problem, tangent[None], problem.end_time, even, step)
+    step = min(STEP, problem.span / FEWEST_STEPS)
+    return grow(problem, tangent[None], problem.span, even, step)
 
 
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
@@ -170,13 +170,15 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
         "late_growth": (late, "growth relative to the solution's, second half, logarithm"),
         "chaotic": (chaotic, "chaotic (1: yes, 0: no)"),
         "divergence_rounding": (
-            predict(tau, amplified, ROUNDING),
+            problem.start_time + predict(tau, amplified, ROUNDING),
             "tau at which one rounding a unit of tau has grown to 1 %",
         ),
     }
     described = {name: variable(value, (), text) for name, (value, text) in numbers.items()}
     curve = variable(log_growth, ("growth_tau",), "logarithm of the growth of a tangent vector")
-    return xr.Dataset.from_dict(table(TITLE, {"growth_tau": tau}, log_growth=curve, **described))
+    return xr.Dataset.from_dict(
+        table(TITLE, {"growth_tau": problem.start_time + tau}, log_growth=curve, **described)
+    )
 
 
 # --- A localised state ----------------------------------------------------------------------------

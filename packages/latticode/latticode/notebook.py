@@ -20,6 +20,7 @@ from pydantic import ValidationError
 from latticode.checks import UNSTABLE_REST, check_run
 from latticode.configuration import cases, cost, values
 from latticode.configuration.files import ConfigurationError, list_faults
+from latticode.configuration.initial import end_of_run
 from latticode.configuration.messages import in_words, load
 from latticode.configuration.schema import Limits
 from latticode.configuration.solvers import DEFAULT, with_controls
@@ -57,7 +58,12 @@ class Case(cases.Case):
     model: a Model, or the path of its file.
     parameters: {name: a number, one for each site, or a function of the sites}; others have the
         model's own values.
-    initial: {site: a value for each field} in complex numbers, at rest elsewhere.
+    initial: {site: a value for each field} in complex numbers, at rest elsewhere; or an array of a
+        number for each site, (field, site) for several fields; or a function of the array of sites
+        that returns one; or a run, which goes on at its end; or a DataArray over site,
+        such as run["state"].sel(snapshot=20); or a file of one of these (.nc, .npy, or .py with an
+        `initial`). Of a field with d2_dt2 the imaginary part is the rate.
+    start_time: the time at the start, of a drive p.t too. 0, or the end of the run in `initial`.
     half_width: M; the chain has the 2M + 1 sites -M..M. 30.
     boundary: "dirichlet" (zero beyond the ends), "free" (a mirror beyond the last site: to second
         neighbours it adds a bond between the last two sites), "periodic" or "antiperiodic".
@@ -88,7 +94,10 @@ class Case(cases.Case):
 
     def changed(self, **keys) -> "Case":
         """Return the case with other values under `keys`, checked anew."""
-        return type(self)(**{**self.model_dump(), **keys})
+        known = self.model_dump()
+        if end_of_run(keys.get("initial")) is not None:
+            del known["start_time"]  # that of the run
+        return type(self)(**{**known, **keys})
 
 
 def made(initialise: Callable, keys: dict, **place) -> None:
@@ -226,6 +235,8 @@ def simulate(
     problem = case.kind.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
     _print_remark(trajectory.solver)
+    if anew := simulation.remark_on_start(problem):
+        print(anew, flush=True)
     if case.has_needless_imaginary_parts:
         print(NEEDLESS, flush=True)
     variables, attributes = trajectory_contents(name, problem, trajectory)

@@ -98,6 +98,9 @@ class Case(cases.Case):
         mu = self.mu
         if self.model == AMPLITUDES and mu is not None:
             yield "mu", "requires model: pendula; add it, or leave mu out"
+        if self.model == PENDULA and self.start_time:
+            text = "the pendula start at 0, where (3) gives their angles; leave it out"
+            yield "start_time", text
         if self.model == PENDULA and mu is None:
             yield "mu", "is missing: Newton's equations need it, for example 0.1"
         if self.model == PENDULA and mu is not None and not 1.0 + mu * mu * self.omega > 0.0:

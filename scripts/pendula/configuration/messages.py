@@ -72,7 +72,7 @@ def _faults_of_figures(name: str, case: Case) -> Iterator[str]:
     if case.model != AMPLITUDES:
         yield f"cases.{name}.model: the figures of the paper are of the amplitudes; {other}"
         return
-    if not any(z for pair in case.initial.values() for z in pair):
+    if not any(z for pair in case.data.values() for z in pair):
         yield f"cases.{name}.initial: is zero everywhere, and figures show what moves; {other}"
     if case.epsilon < 0.0:
         text = "and pendula that push each other apart speed up without bound"
@@ -83,7 +83,7 @@ def _faults_of_figures(name: str, case: Case) -> Iterator[str]:
 
 def _faults_of_short_chains(name: str, settings: Configuration) -> Iterator[str]:
     """Yield why a case does not fit on the chains of studies that are shorter than its own."""
-    reach = max(map(abs, settings.cases[name].initial), default=0)
+    reach = max(map(abs, settings.cases[name].data), default=0)
     shorter = settings.chaos.shorter_chains(settings, name) if settings.chaos else {}
     for key, half_width in shorter.items():
         if half_width < reach <= settings.cases[name].half_width:

@@ -12,6 +12,8 @@ from pydantic import (
     PlainSerializer,
     SerializationInfo,
     ValidationInfo,
+    ValidatorFunctionWrapHandler,
+    WrapValidator,
     field_validator,
     model_validator,
 )
@@ -33,6 +35,7 @@ from latticode.simulation.problem import KEPT, Problem
 
 from . import cost
 from .cost import Cost
+from .initial import BySite, end_of_run, fields_on, read_initial
 from .solvers import DEFAULT, FLAG, Solver, Solvers, Taylor
 from .values import (
     Complex,
@@ -42,10 +45,8 @@ from .values import (
     Number,
     Positive,
     Whole,
-    as_whole,
     fault,
     faults,
-    shown,
 )
 
 FEWEST = 200
@@ -100,28 +101,19 @@ def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
     return f"the nearest that do are {below * step:.12g} and {above * step:.12g}"
 
 
-def sites_of(given: Any) -> Any:
-    """Return initial data by the number of their site; refuse a site that stands twice."""
-    if not isinstance(given, Mapping):
-        text = f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}"
-        if np.iterable(given) and not isinstance(given, str):
-            text += "; of an array a: {n: [a[n + M]] for n in range(-M, M + 1)}, M the half_width"
-        raise fault(text)
-    found: dict = {}
-    for key, values in given.items():
-        site = as_whole(key)
-        if site in found and len(found) < len(given):
-            raise fault(f"the site {site} stands twice, as a number and as a word")
-        values = values.tolist() if isinstance(values, np.ndarray) else values
-        if not isinstance(values, list | tuple):
-            raise fault(f"site {site} has {shown(values)}; give a list of a value for each field")
-        found[site] = values
-    return found
+def _initial(given: Any, by_site: ValidatorFunctionWrapHandler) -> Any:
+    """Return data by site as numbers; arrays and functions get the sites of a chain later."""
+    data = read_initial(given)
+    return by_site(data) if isinstance(data, dict) else data
 
 
 Initial = Annotated[
-    dict[Whole, tuple[Complex, ...]], BeforeValidator(sites_of), Field(min_length=1)
+    dict[Whole, tuple[Complex, ...]],
+    Field(min_length=1),
+    WrapValidator(_initial),
+    PlainSerializer(lambda data: data),
 ]
+"""Data by site, an array of a number for each site, or a function of the sites."""
 
 
 def _listed_times(given: Any) -> Any:
@@ -164,12 +156,22 @@ class Case(Model):
     half_width: Natural = 30
     boundary: Literal[tuple(ENDS)] = "dirichlet"
     initial: Initial
+    start_time: Time = 0.0
     end_time: Positive = 50.0
     output_step: Positive = 0.025
     snapshot_step: Positive | None = None
     times: Times | None = None
     keep: Literal[KEPT] = "state"
     solver: Solver = Taylor(**DEFAULT)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _going_on(cls, raw: Any) -> Any:
+        """Let a case that starts from a run start at its end, if it names no other time."""
+        if not isinstance(raw, dict) or "start_time" in raw:
+            return raw
+        start = end_of_run(raw.get("initial"))
+        return raw if start is None else {**raw, "start_time": start}
 
     @field_validator("solver", mode="before")
     @classmethod
@@ -187,6 +189,23 @@ class Case(Model):
         return given
 
     # --- What the model decides
+
+    def data_on(self, half_width: int) -> BySite:
+        """Return the initial data {site: a value for each field} on a chain.
+
+        Raises ValueError where an array or a function has no values for its sites.
+        """
+        return fields_on(self.initial, self.fields, range(-half_width, half_width + 1))
+
+    @property
+    def data(self) -> BySite:
+        """The initial data {site: a value for each field}."""
+        return self.data_on(self.half_width)
+
+    @property
+    def span(self) -> float:
+        """How long the run lasts."""
+        return self.end_time - self.start_time
 
     @classmethod
     def solvers_taking(cls, model: Any) -> list[str]:
@@ -309,7 +328,7 @@ class Case(Model):
     def at(self, values: Mapping[str, Any]) -> "Case":
         """Return the case at a point of the axes of a survey, checked."""
         changes: dict[str, Any] = {"snapshot_step": None, "times": None}
-        initial = {site: list(data) for site, data in self.initial.items()}
+        initial = {site: list(data) for site, data in self.data.items()}
         for name, value in values.items():
             if name.startswith("initial."):
                 site, place = map(int, name.split(".")[1:])
@@ -334,13 +353,18 @@ class Case(Model):
 
     def _faults_of_initial(self) -> Iterator[tuple[str, str]]:
         count, m = len(self.fields), self.half_width
-        for site, values in self.initial.items():
+        try:
+            _ = self.data
+        except ValueError as error:
+            yield "initial", str(error)
+            return
+        for site, values in self.data.items():
             if len(values) != count:
                 names = ", ".join(self.fields)
                 has = f"{len(values)} value{'s' * (len(values) != 1)}"
                 yield "initial", f"site {site} has {has}; give {count}, [{names}]"
         yield from self._needless_imaginary_parts()
-        outside = [site for site in self.initial if abs(site) > m]
+        outside = [site for site in self.data if abs(site) > m]
         if outside:
             text = f"site {outside[0]} lies outside the chain, whose sites run from -{m} to {m}"
             yield "initial", text
@@ -348,7 +372,7 @@ class Case(Model):
     def _needless_imaginary_parts(self) -> Iterator[tuple[str, str]]:
         """Yield an imaginary part that no equation reads or changes, and that norms would count."""
         alone = getattr(self.model, "without_imaginary_parts", ())
-        for site, values in self.initial.items():
+        for site, values in self.data.items():
             for name, z in zip(self.fields, values, strict=False):
                 if name in alone and z.imag:
                     text = f"site {site} gives {name} the imaginary part {z.imag:g}, which no"
@@ -358,7 +382,7 @@ class Case(Model):
     @property
     def has_needless_imaginary_parts(self) -> bool:
         """Whether data have imaginary parts, and equations are those of real fields."""
-        complex_data = any(z.imag for values in self.initial.values() for z in values)
+        complex_data = any(z.imag for values in self.data.values() for z in values)
         return complex_data and getattr(self.model, "continues_real_equations", False)
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
@@ -371,20 +395,24 @@ class Case(Model):
 
     def _faults_of_times(self) -> Iterator[tuple[str, str]]:
         step, off_grid = self.output_step, []
-        for key in ("end_time", "snapshot_step"):
-            time = getattr(self, key)
+        if self.span <= 0:
+            yield "end_time", f"is {self.end_time:g}; it must be later than {self.start_time:g}"
+            return
+        for key, time in (("end_time", self.span), ("snapshot_step", self.snapshot_step)):
             if time is not None and not is_multiple(time, step):
                 off_grid.append(key)
                 near = _nearest_multiples(time, step)
-                yield key, f"{time:g} is not a whole number of output steps of {step:g}; {near}"
+                since = f" after start_time {self.start_time:g}" if self.start_time else ""
+                text = f"is not a whole number of output steps of {step:g}"
+                yield key, f"{time:g}{since} {text}; {near}"
         yield from self._faults_of_chosen_times()
         if self.snapshot_step is None or off_grid:
             return
-        if self.snapshot_step > self.end_time:
+        if self.snapshot_step > self.span:
             yield "snapshot_step", "is longer than the run"
-        elif not is_multiple(self.end_time, self.snapshot_step):
-            outputs, every = round(self.end_time / step), round(self.snapshot_step / step)
-            text = f"{self.snapshot_step:g} does not divide the run of {self.end_time:g}"
+        elif not is_multiple(self.span, self.snapshot_step):
+            outputs, every = round(self.span / step), round(self.snapshot_step / step)
+            text = f"{self.snapshot_step:g} does not divide the run of {self.span:g}"
             near = _nearest_snapshots(outputs, every, step) if outputs < 1e7 else ""
             yield "snapshot_step", f"{text}, whose last picture would be lost; {near}".strip("; ")
 
@@ -394,9 +422,14 @@ class Case(Model):
             yield "times", "and snapshot_step both say when fields are kept; leave one of them out"
         if late := [time for time in times if time > self.end_time]:
             yield "times", f"{late[0]:g} lies after the end of the run at {self.end_time:g}"
-        if off_grid := [time for time in times if time and not is_multiple(time, step)]:
+        if early := [time for time in times if time < self.start_time]:
+            yield "times", f"{early[0]:g} lies before the start of the run at {self.start_time:g}"
+            return
+        since = [time - self.start_time for time in times]
+        if off_grid := [time for time in since if time and not is_multiple(time, step)]:
             near = _nearest_multiples(off_grid[0], step)
-            text = f"{off_grid[0]:g} is not a whole number of output steps of {step:g}"
+            after = f" after start_time {self.start_time:g}" if self.start_time else ""
+            text = f"{off_grid[0]:g}{after} is not a whole number of output steps of {step:g}"
             yield "times", f"{text}; {near}"
 
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
@@ -414,21 +447,23 @@ class Case(Model):
 
         `solver` and `span` take the place of the case's own solver and end time.
         """
-        span = span or self.end_time
+        span = span or self.span
         given = self._solver_of_run((solver or self.solver).model_dump())
         if given["name"] == "auto":  # its first run, which asks for least
             tolerance = first_tolerance(given["error"], 0.0)
             name, _ = pair_of(self.solver_names)
             given = {"name": name, "rtol": tolerance, "atol": tolerance}
-        amplitudes = [z for values in self.initial.values() for z in values]
+        amplitudes = [z for values in self.data.values() for z in values]
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
         found, speed = self._fault_and_rate(peak, span, given)
         angle = speed * span
-        took = self.cost(self.problem(solver=given, end_time=span, snapshot_step=None))
+        ends = {"end_time": self.start_time + span, "snapshot_step": None, "times": None}
+        took = self.cost(self.problem(solver=given, **ends))
         if found is not None and cost.HOUR < took.seconds < inf:
             found = found[0], f"{found[1]}, and would take {took}"
         if found is not None and MOST_STEPS < angle < inf:
-            longest = 0.99 * MOST_STEPS / speed  # which three digits never round up beyond it
+            # three digits never round up beyond it
+            longest = self.start_time + 0.99 * MOST_STEPS / speed
             found = found[0], f"{found[1]}; end_time may be at most {longest:.3g} here"
         if found is None and 0.0 < angle < SMALLEST_ANGLE:
             text = f"is so short that the data turn by {angle:.0e} radians: nothing would be seen"
@@ -437,9 +472,12 @@ class Case(Model):
 
     def _plain(self, **changes) -> dict:
         values = {**self.model_dump(), **changes}
+        if "initial" not in changes:
+            values["initial"] = self.data_on(values["half_width"])
         snapshots, times = values.pop("snapshot_step"), values.pop("times")
         every = round(snapshots / values["output_step"]) if snapshots else 0
-        chosen = sorted(round(time / values["output_step"]) for time in times or [])
+        since = [time - values["start_time"] for time in times or []]
+        chosen = sorted(round(time / values["output_step"]) for time in since)
         if chosen:
             every = gcd(*chosen) or 1
         solver = self._solver_of_run(values["solver"])
@@ -463,7 +501,7 @@ class Case(Model):
         if self.keep == "norms":
             return {**problem, "snapshot_every": 0, "snapshots_at": []}
         every = problem["snapshot_every"] or choose_every(
-            round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
+            round(cost.span_of(problem) / problem["output_step"]), 2 * problem["half_width"] + 1
         )
         return {**problem, "snapshot_every": every}
 

@@ -57,6 +57,11 @@ class Demand(NamedTuple):
     clock: float = 1.0  # units of the equations' own time in one of the problem
 
 
+def span_of(problem: Mapping) -> float:
+    """Return how long a run lasts, in the problem's time."""
+    return problem["end_time"] - problem.get("start_time", 0.0)
+
+
 Measure = Callable[[Mapping], Demand]
 """From a problem, as plain values, to its demand. What knows its equations better has its own."""
 
@@ -109,11 +114,11 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
         needs, sites = measure(problem), 2 * problem["half_width"] + 1
         solvers = [solver]
         if solver["name"] == "auto":
-            angle = needs.rate * problem["end_time"]
+            angle = needs.rate * span_of(problem)
             tolerance = first_tolerance(solver["error"], angle)
             solvers = [{"name": name, "rtol": tolerance} for name in pair_of(solvers_of(problem))]
         method = EXPLICIT.get(solvers[0]["name"])
-        outputs = problem["end_time"] / problem["output_step"] + 1
+        outputs = span_of(problem) / problem["output_step"] + 1
         fields = len(next(iter(problem["initial"].values())))
         kept = STATE_BYTES if problem.get("keep") == "state" else MODULUS_BYTES
         snapshots = kept * fields * sites * (outputs / every) if every else 0.0
@@ -160,7 +165,7 @@ def runs_of_checks(problem: Mapping) -> list[Mapping]:
     other = other_family(problem["solver"]["name"], solvers_of(problem))
     again = {**problem, "solver": {"name": other, "rtol": TIGHTEST[other]}}
     plain = {**problem, "snapshot_every": 0}
-    tangent = plain | {"solver": OF_TANGENTS, "output_step": problem["end_time"]}
+    tangent = plain | {"solver": OF_TANGENTS, "output_step": span_of(problem)}
     return [problem, again, tangent, tangent]
 
 
@@ -197,7 +202,7 @@ def total(costs: Iterable[Cost]) -> Cost:
 
 def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
     """Return the steps of a run and, for a scheme that is solved by iteration, the evaluations."""
-    span, rate = problem["end_time"], needs.rate
+    span, rate = span_of(problem), needs.rate
     if solver["name"] in EXPLICIT:
         method = EXPLICIT[solver["name"]]
         tolerance = max(solver["rtol"], 1e-17) ** (-1.0 / method.order)
@@ -224,7 +229,7 @@ def _iterations(angle: float, solver: Mapping) -> float:
 ORDINARY = {
     "half_width": {"half_width": 30},
     "output_step": {"output_step": 0.025},
-    "end_time": {"end_time": 50.0},
+    "end_time": {"start_time": 0.0, "end_time": 50.0},
     "snapshot_step": {"snapshot_every": 0},
     "initial": {"initial": {0: (1.0,)}},
     "solver": {"solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}},

@@ -31,6 +31,8 @@ SURPRISES = {
 """Numbers that YAML reads otherwise than people do."""
 OF_MODELS = ".py"
 """How the names of files end that hold equations."""
+PATHS = {"model": (OF_MODELS,), "initial": (".nc", ".npy", ".py")}
+"""Keys of a case that may be the path of a file, and how its name ends."""
 PLAIN = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The tags of YAML that a configuration may have; others would make objects of programs."""
 WHOLE = ("initial",)
@@ -226,15 +228,17 @@ def merge(below: Mapping, above: Mapping) -> dict:
 
 
 def with_paths(configuration: dict, folder: Path) -> dict:
-    """Return a configuration whose paths of models start at `folder`."""
+    """Return a configuration whose paths of models and of initial data start at `folder`."""
     cases = configuration.get("cases")
     if not isinstance(cases, dict):
         return configuration
     found = dict(cases)
     for name, case in cases.items():
-        path = case.get("model") if isinstance(case, dict) else None
-        if isinstance(path, str) and path.endswith(OF_MODELS):
-            found[name] = {**case, "model": str(folder / path)}
+        for key, endings in PATHS.items():
+            path = case.get(key) if isinstance(case, dict) else None
+            if isinstance(path, str) and path.endswith(endings):
+                case = {**case, key: str(folder / path)}
+        found[name] = case
     return {**configuration, "cases": found}
 
 

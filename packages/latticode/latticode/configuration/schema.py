@@ -159,7 +159,11 @@ class Configuration(Model):
         if sweep.case not in self.cases:
             return list(self.absent("cases", "case", [sweep.case]))
         case, found = self.cases[sweep.case], []
-        reach, shortest = max(map(abs, case.initial)), min(sweep.half_widths)
+        try:
+            data = case.data_on(max(sweep.half_widths))
+        except ValueError as error:
+            return [("half_widths", f"case {sweep.case!r}: initial {error}")]
+        reach, shortest = max(map(abs, data)), min(sweep.half_widths)
         if reach > shortest:
             text = f"lies outside the chain of half-width {shortest}"
             found.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
@@ -167,8 +171,12 @@ class Configuration(Model):
         found += [("half_widths", f"case {sweep.case!r}: {k}: {text}") for k, text in unknown]
         if found:
             return found
-        times = [time for window in sweep.windows for time in window if time > 0]
-        off_grid = [time for time in times if not is_multiple(time, case.output_step)]
+        start = case.start_time
+        if early := [window for window in sweep.windows if window[0] < start]:
+            text = f"{name_window(early[0])} begins before the run, which starts at {start:g}"
+            return [("windows", text)]
+        times = [time for window in sweep.windows for time in window if time > start]
+        off_grid = [time for time in times if not is_multiple(time - start, case.output_step)]
         if off_grid:
             text = f"is not a whole number of output steps of {case.output_step:g}"
             found.append(("windows", f"{off_grid[0]:g} {text}"))
@@ -176,7 +184,7 @@ class Configuration(Model):
             found += [*case.faults_of_solver(sweep.solver)] or case.faults_of_step(sweep.solver)
             if found:
                 return found
-        for key, text in case.obstacles(sweep.solver, max(times)):
+        for key, text in case.obstacles(sweep.solver, max(times) - start):
             own = key.startswith("solver") and sweep.solver is not None
             here = key if own else "windows" if key == "end_time" else "case"
             found.append((here, text if own else f"in case {sweep.case!r}, {key}: {text}"))
@@ -189,7 +197,8 @@ class Configuration(Model):
             return []
         many = self.sweeps[name].half_widths
         ordinary = self._sum_of(name, ({"half_width": 30} for _ in many))
-        short = self._sum_of(name, ({"half_width": m, "end_time": 50.0} for m in many))
+        end = self.cases[self.sweeps[name].case].start_time + 50.0
+        short = self._sum_of(name, ({"half_width": m, "end_time": end} for m in many))
         key = "windows" if short.excess(limits) < ordinary.excess(limits) else "half_widths"
         return [(key, cost.refusal(total, limits))]
 

@@ -130,7 +130,7 @@ class Survey(Model):
         found = []
         for key, names in (("axes", self.axes), ("together", self.together)):
             for name in names:
-                text = survey.fault_of_axis(name, case.varied, case.initial, len(case.fields))
+                text = survey.fault_of_axis(name, case.varied, case.data, len(case.fields))
                 found += [(key, text)] if text else []
         twice = {name for name in [*self.axes, *self.together] if name in self.keep}
         found += [
@@ -160,7 +160,7 @@ class Survey(Model):
     def _faults_of_members(self, case: Case) -> list[tuple[str, str]]:
         """Return why no solver can follow data as large as those of a member may be."""
         factor = 1.0 + FARTHEST * self.members.size
-        larger = {site: [factor * z for z in data] for site, data in case.initial.items()}
+        larger = {site: [factor * z for z in data] for site, data in case.data.items()}
         try:
             case.model_validate(
                 {**case.model_dump(), "snapshot_step": None, "times": None, "initial": larger}

@@ -84,7 +84,7 @@ def _countable(value: int) -> int:
     return value
 
 
-def _as_complex(value: Any) -> complex:
+def as_complex(value: Any) -> complex:
     """Read 2, 2.0 or "-0.3+0.4j" as Python writes complex numbers; refuse what is not finite."""
     try:
         if isinstance(value, str):
@@ -122,7 +122,7 @@ def _aperiodic(name: str) -> str:
     return name
 
 
-Complex = Annotated[complex, BeforeValidator(_as_complex)]
+Complex = Annotated[complex, BeforeValidator(as_complex)]
 AnyNumber = Annotated[float, BeforeValidator(lambda value: _plain(value))]
 # without negative zeros
 Number = Annotated[AnyNumber, AfterValidator(lambda x: x + 0.0), Field(allow_inf_nan=False)]

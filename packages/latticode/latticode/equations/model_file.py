@@ -3,6 +3,7 @@
 import importlib
 import sys
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -71,7 +72,7 @@ def values_at(given: Any, half_width: int) -> float | list[float]:
     """
     sites = range(-half_width, half_width + 1)
     if callable(given):
-        given = _called(given, np.array(sites))
+        given = call_on_sites(given, np.array(sites))
     values = _as_array(given)
     if values.shape not in ((), (len(sites),)):
         size = " x ".join(map(str, values.shape))
@@ -103,7 +104,7 @@ def _as_array(given: Any) -> np.ndarray:
     raise ValueError(f"is {_shown(given)}, not a number or a list of one for each site{real}")
 
 
-def _called(function, sites: np.ndarray) -> Any:
+def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
     """Return what a function of the sites gives, which must be the same each time."""
     with np.errstate(all="ignore"):
         try:

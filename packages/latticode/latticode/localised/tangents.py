@@ -80,12 +80,13 @@ def grow(
     start = integration_of(problem).start(problem, cut)
     bundle = np.concatenate([start, *(pack(one, cut) for one in tangents)])
     tau = output_times(end_time, step)
+    times = problem.start_time + tau
     lengths, sizes = np.empty((tau.size, count)), np.empty(tau.size)
     orthonormalise(system, bundle, lengths[0])
     lengths[0], sizes[0] = 1.0, size_of_solution(system, bundle, count)
     carry = kernels_of_tangents(problem.model, site_dependent(problem)).carry
     given = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)
-    status = interruptible(carry, system, bundle, tau, *given, lengths[1:], sizes[1:])
+    status = interruptible(carry, system, bundle, times, *given, lengths[1:], sizes[1:])
     if status != DONE:
         raise IntegrationError(f"the motion could not be followed: {FAULTS[status]}")
     return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)

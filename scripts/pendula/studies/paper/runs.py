@@ -6,7 +6,7 @@ import numpy as np
 from latticode.datasets.trajectories import Contents, sweep_contents, trajectory_contents
 from latticode.integrators.families import remark_on
 from latticode.simulation.runs import ManyRuns
-from latticode.simulation.simulate import simulate
+from latticode.simulation.simulate import remark_on_start, simulate
 from latticode.simulation.sweep import runs_of_sweep
 
 from pendula.problem import Problem
@@ -16,6 +16,8 @@ def run_case(name: str, problem: Problem) -> Contents:
     """Return the observables of a case."""
     result = simulate(problem)
     if remark := remark_on(result.solver):
+        print(f"{name}: {remark}")
+    if remark := remark_on_start(problem):
         print(f"{name}: {remark}")
     if "iterations" in problem.solver and result.outcome.rejected:
         cut = result.outcome.rejected

@@ -1,0 +1,200 @@
+"""Initial data as people write them: by site, as an array, a function, a run, or a file of these.
+
+All of them become {site: a value for each field}. A complex field has its value; of a field with a
+second derivative the real part is the value, and the imaginary part the rate.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from latticode.equations.model_file import call_on_sites, run_file
+from latticode.equations.symbols import ModelError
+
+from .files import PATHS
+from .values import as_complex, as_whole, fault, shown
+
+FORMS = (
+    "data by site such as {0: [1, 0.1]}, an array of a number for each site, a function of the"
+    " sites, a run, or a file of one of these (.nc, .npy, .py)"
+)
+BySite = Mapping[int, tuple[complex, ...]]
+
+
+class LabelledFields(NamedTuple):
+    """Complex values (field, site) with the names of their fields and the numbers of their sites.
+
+    `fields` is empty where the fields have no names, `sites` where the sites have no numbers.
+    """
+
+    values: np.ndarray
+    fields: tuple[str, ...]
+    sites: tuple[int, ...]
+
+
+def read_initial(given: Any) -> Any:
+    """Return data by site, an array, a function or `LabelledFields`, of all that a case may take.
+
+    Raises the fault of what is none of these.
+    """
+    if isinstance(given, str | Path) and Path(given).suffix in PATHS["initial"]:
+        given = _read_file(Path(given))
+    if isinstance(given, Mapping) and not hasattr(given, "data_vars"):
+        return _by_number(given)
+    if hasattr(given, "data_vars"):
+        given = final_of(given)
+    if hasattr(given, "dims"):
+        return _labelled(given)
+    if callable(given) or isinstance(given, LabelledFields):
+        return given
+    if isinstance(given, np.ndarray | list | tuple):
+        return _as_numbers(given)
+    raise fault(f"is {shown(given)}, not {FORMS}")
+
+
+def end_of_run(given: Any) -> float | None:
+    """Return the time at which a run ends, or the run in a file; None for all other data."""
+    if isinstance(given, str | Path) and Path(given).suffix == ".nc" and Path(given).exists():
+        given = _read_file(Path(given))
+    end = getattr(given, "attrs", {}).get("end_time") if hasattr(given, "data_vars") else None
+    return None if end is None else float(end)
+
+
+def _by_number(given: Mapping) -> dict[int, list]:
+    """Return data by the number of their site; refuse a site that stands twice."""
+    found: dict = {}
+    for key, values in given.items():
+        site = as_whole(key)
+        if site in found and len(found) < len(given):
+            raise fault(f"the site {site} stands twice, as a number and as a word")
+        values = values.tolist() if isinstance(values, np.ndarray) else values
+        if not isinstance(values, list | tuple):
+            raise fault(f"site {site} has {shown(values)}; give a list of a value for each field")
+        found[site] = values
+    return found
+
+
+def _read_file(path: Path) -> Any:
+    """Return the dataset, the array, or what a Python file calls `initial`."""
+    from latticode.datasets import DatasetError, netcdf  # here: few cases read a file
+
+    try:
+        if path.suffix == ".nc":
+            return netcdf.read(path)
+        if path.suffix == ".npy":
+            return np.load(path, allow_pickle=False)
+        names = run_file(path, path.read_text(encoding="utf-8"))
+    except (DatasetError, ModelError) as error:
+        raise fault(str(error)) from None
+    except (OSError, ValueError) as error:
+        raise fault(f"{path} cannot be read: {error}") from None
+    if "initial" not in names:
+        raise fault(f"{path.name} has no initial, a function of the sites or an array")
+    return names["initial"]
+
+
+def final_of(run) -> Any:
+    """Return the fields at the end of a run: its `final`, or the last snapshot of its `state`."""
+    if "final" in run:
+        return run["final"]
+    if "state" in run and float(run["snapshot_tau"][-1]) == float(run.attrs["end_time"]):
+        return run["state"].isel(snapshot=-1)
+    raise fault("is a dataset without the fields at the end of a run: it has no final")
+
+
+def _labelled(array) -> LabelledFields:
+    """Return the values, fields and sites of a DataArray over site, and component and part."""
+    known = ("component", "part", "site")
+    if more := [str(name) for name in array.dims if name not in known]:
+        raise fault(f"has the dimension {more[0]}; choose one, as by .sel({more[0]}=...)")
+    if "site" not in array.dims:
+        raise fault("has no dimension site")
+    values = array.transpose(*(name for name in known if name in array.dims)).values
+    if "part" in array.dims:
+        parts = np.moveaxis(values, values.ndim - 2, 0)
+        values = parts[0] + 1j * parts[1] if len(parts) > 1 else parts[0]
+    if "component" not in array.dims:
+        values = values[None]
+    names = array["component"].values if "component" in array.dims else []
+    sites = array["site"].values if "site" in array.coords else []
+    return LabelledFields(
+        _as_numbers(values), tuple(map(str, names)), tuple(int(site) for site in sites)
+    )
+
+
+def _as_numbers(given: Any) -> np.ndarray:
+    """Return an array of finite complex numbers; refuse all else."""
+    try:
+        values = np.asarray(given)
+    except ValueError:
+        raise fault(f"is {shown(given)}, whose rows are not of one length") from None
+    if values.dtype.kind == "U":  # complex numbers as Python writes them
+        values = np.reshape([as_complex(one) for one in values.flat], values.shape)
+    if values.dtype.kind not in "iufc" or not values.size:
+        raise fault(f"is {shown(given)}, not {FORMS}")
+    return values.astype(complex) + 0.0
+
+
+def fields_on(given: Any, names: Sequence[str], sites: Sequence[int]) -> BySite:
+    """Return initial data {site: a value for each of the named fields} on the sites of a chain.
+
+    Raises ValueError with what is wrong, to stand behind `initial`.
+    """
+    if isinstance(given, Mapping):
+        return given
+    if isinstance(given, LabelledFields):
+        values, sites = _of_labels(given, names, sites)
+    else:
+        values = _called(given, len(names), np.array(sites)) if callable(given) else given
+        values = _of_shape(values, len(names), len(sites))
+    wrong = np.argwhere(~np.isfinite(values))
+    if wrong.size:
+        field, place = wrong[0]
+        value = values[field, place]
+        number = value if value.imag else value.real
+        raise ValueError(f"is {number:g} at site {sites[place]}, which is not finite")
+    moving = np.flatnonzero((values != 0).any(axis=0))
+    columns = moving if moving.size else [len(sites) // 2]
+    return {int(sites[j]): tuple(map(complex, values[:, j])) for j in columns}
+
+
+def _of_labels(
+    given: LabelledFields, names: Sequence[str], sites: Sequence[int]
+) -> tuple[np.ndarray, Sequence[int]]:
+    values = given.values
+    if given.fields:
+        if absent := [name for name in names if name not in given.fields]:
+            raise ValueError(f"has no field {absent[0]}; it has {', '.join(given.fields)}")
+        values = values[[given.fields.index(name) for name in names]]
+    if given.sites:
+        return _of_shape(values, len(names), len(given.sites)), given.sites
+    return _of_shape(values, len(names), len(sites)), sites
+
+
+def _called(function: Callable, fields: int, sites: np.ndarray) -> Any:
+    """Return the values of a function of the sites, which may return one for each field."""
+
+    def on_sites(sites: np.ndarray) -> Any:
+        values = function(sites)
+        if isinstance(values, tuple | list) and len(values) == fields != 1:
+            return np.array([np.broadcast_to(of_field, sites.shape) for of_field in values])
+        number = np.ndim(values) == 0 and not isinstance(values, str)
+        return np.broadcast_to(values, sites.shape) if number else values
+
+    return call_on_sites(on_sites, sites)
+
+
+def _of_shape(given: Any, fields: int, sites: int) -> np.ndarray:
+    """Return values as (field, site)."""
+    values = np.asarray(given)
+    if values.dtype.kind not in "iufc":
+        raise ValueError(f"is {shown(given)}, not numbers")
+    if values.ndim == 1 and fields == 1:
+        values = values[None]
+    if values.shape != (fields, sites):
+        size = " x ".join(map(str, values.shape[fields == 1 == len(values) < values.ndim :]))
+        needed = f"{sites} sites" if fields == 1 else f"{fields} fields on {sites} sites"
+        raise ValueError(f"has {size} values for {needed}")
+    return values.astype(complex) + 0.0
