@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
+from replication.variables import REGULAR
 
 from pendula import names  # noqa: F401, so that datasets have the paper's words
 from pendula.problem import Problem
@@ -21,10 +22,12 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
     each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
     variables = {
         "case": Variable(("case",), list(problems)),
-        "omega": Variable(("case",), [float(one["omega"]) for one in each]),
+        "omega": Variable(("case",), [float(one["omega"]) for one in each], attributes=REGULAR),
         "initial": Variable(("case",), [one["initial"] for one in each]),
     }
     shared = shared_by(each, *variables)
     for name in [name for name in ("epsilon", "gamma") if name not in shared]:
-        variables[name] = Variable(("case",), [float(one[name]) for one in each])
+        variables[name] = Variable(
+            ("case",), [float(one[name]) for one in each], attributes=REGULAR
+        )
     return variables, shared

@@ -12,7 +12,7 @@ use rule job as figure_diff with:
     pathvars:
         made="figure_diff/comparison",
     params:
-        call=function("replication.figure_diff.comparison_page.compare_results"),
+        call=function("pendula.jobs.compare.compare_results"),
         made=lambda wildcards, input: os.path.commonpath(input.results),
         baseline=baseline_told_at_the_end,
         configuration=plain(SETTINGS),

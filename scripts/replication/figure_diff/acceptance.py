@@ -22,7 +22,8 @@ from .baseline import (
     recorded,
     unlike_settings,
 )
-from .compare_datasets import fault_of_form
+from .chaos import Chaos, cases_of
+from .compare_datasets import fault_of_form, undeclared_words
 from .compare_pictures import damage, edited
 from .compare_shown import hash_of
 
@@ -86,6 +87,7 @@ def accept(
             if (folder / name).exists() and (fault := fault_of_kept(name, was, folder)):
                 raise AcceptanceError(f"{folder / name}, which no run makes, {fault}: delete it")
         contents = {name: _read(name, made / name) for name in sorted(taken & names)}
+        _require_declarations(contents, configuration)
     except DatasetError as error:
         raise AcceptanceError(error) from error
     files = {name: told for name, told in was.items() if name not in taken}
@@ -99,6 +101,16 @@ def accept(
         f"{len(contents)} files accepted, {changed} of them new or changed, {len(taken - names)} "
         f"removed: `git diff --stat {folder}` shows what has changed"
     )
+
+
+def _require_declarations(
+    contents: Mapping[str, bytes | xr.Dataset], configuration: Mapping[str, Any]
+) -> None:
+    """Raise AcceptanceError for a variable that nobody could compare with the accepted one."""
+    chaos = Chaos({}, cases=cases_of(configuration))
+    for name, content in contents.items():
+        if isinstance(content, xr.Dataset) and (unknown := chaos.undeclared(name, content)):
+            raise AcceptanceError(f"of {name}, {undeclared_words(unknown)}")
 
 
 def _read(name: str, path: Path) -> bytes | xr.Dataset:

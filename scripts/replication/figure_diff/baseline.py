@@ -20,7 +20,7 @@ from matplotlib import ft2font
 from PIL import features
 
 from . import Finding, Status, Verdict, compare_datasets, compare_pictures, compare_shown, hashes
-from .chaos import TRUST, Chaos, known_chaos
+from .chaos import Trust, known_chaos
 from .scatter import known_scatter
 
 RECORD = "hashes.json"
@@ -79,11 +79,13 @@ def compare(
     made: Path,
     folder: Path,
     configuration: Mapping[str, Any],
+    trust: Trust | None = None,
     any_bits: bool = False,
 ) -> Verdict:
     """Return a finding for each file of `names` below `made` or in the baseline alone.
 
-    With `any_bits` numbers have a tolerance.
+    `trust` names the dataset that says until when chaotic cases are known. With `any_bits` numbers
+    have a tolerance.
     """
     try:
         record = recorded(folder)
@@ -91,7 +93,7 @@ def compare(
         way_out = "restore it by git, or delete it and run `snakemake accept_figures`"
         says = f"in the baseline is damaged or was edited: {way_out}"
         return Verdict("Nothing was compared.", [Finding(RECORD, Status.DAMAGED, says)])
-    comparison = Comparison(record, made, folder)
+    comparison = Comparison(record, made, folder, trust)
     findings = [comparison.strictly(each, any_bits) for each in comparison.look_at_all(set(names))]
     unlike = " and ".join(unlike_settings(record["configuration"], configuration)[:2])
     if unlike and record["files"]:
@@ -112,12 +114,14 @@ def compare(
 class Comparison:
     """A run beside its baseline, and what was found of each file."""
 
-    def __init__(self, record: Mapping, made: Path, folder: Path):
+    def __init__(self, record: Mapping, made: Path, folder: Path, trust: Trust | None = None):
         self.accepted, self.made, self.folder = record["files"], made, folder
         was, now = record["environment"], environment()
         self.same_data, self.same_drawing = was.get("data") == now["data"], was == now
-        unknown = fault_of_kept(TRUST, self.accepted, folder)
-        self.chaos = Chaos({}) if unknown else known_chaos(folder, record["configuration"])
+        if trust and fault_of_kept(trust.dataset, self.accepted, folder):
+            trust = None
+        self.steps = trust.steps if trust else ()
+        self.chaos = known_chaos(folder, record["configuration"], trust)
         self.scatter = known_scatter(folder)
         self.found: dict[str, Finding] = {}
 
@@ -145,7 +149,9 @@ class Comparison:
 
     def _compare(self, name: str, new: Path, kept: Path, accepted: Any) -> tuple[Status, str]:
         if name.endswith(".nc"):
-            return compare_datasets.compare(name, new, accepted, kept, self.chaos, self.scatter)
+            return compare_datasets.compare(
+                name, new, accepted, kept, self.chaos, self.scatter, self.steps
+            )
         found = compare_shown.hash_of(name, new.read_bytes())
         same = found == accepted
         if name.startswith(FIGURES) and name.endswith(PICTURES):

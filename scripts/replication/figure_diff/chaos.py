@@ -1,20 +1,21 @@
 """Which numbers rest on chaos, and how far they may be off in a right run.
 
-The accepted run says it: the run by Taylor's method, whose only errors are roundings, leaves the
-reference by `difference` of full scale. Those of any right run are smaller than that over MARGIN.
-The horizon of trust is the time at which this reaches the tolerance; a case without one is regular.
-From then on a number is the less known the later it is, until nothing of it is.
+The accepted run says it: a run whose only errors are roundings leaves the reference by a part of
+full scale (`Trust`). Those of any right run are smaller than that over MARGIN. The horizon of trust
+is the time at which this reaches the tolerance; a case without one is regular. From then on a
+number is the less known the later it is, until nothing of it is.
 """
 
 import re
-from collections.abc import Iterable, Mapping
-from fnmatch import fnmatchcase
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import read
+
+from replication.variables import ALONG, ALWAYS, BY_CASE, CHAOS, NO, YES
 
 from .hashes import are_words
 
@@ -25,41 +26,26 @@ ROUNDING = 1e-8
 """A variable with nothing larger holds errors of rounding, of which no digit can be compared."""
 
 MARGIN = 0.001
-"""Other solvers round ten times as often as Taylor's, or more, and roundings add up."""
+"""Other solvers round ten times as often as that run, or more, and roundings add up."""
 
 LOCAL, UNKNOWN = 10.0, 0.1
 """How much more than a norm the numbers of single sites may be off after the horizon; and what part
 of full scale an error has that no longer grows as a small one does, so that it may be any."""
 
-TRUST, ROUNDED_ONLY = "checks/trust.nc", "taylor"
-"""The dataset with the differences to the references, and the solver among those of it."""
 
+class Trust(NamedTuple):
+    """Where the accepted results say until when chaotic cases are known, and what time is called.
 
-RESTS_ON_CHAOS = [
-    # Maps and scans over data, some of which lead to chaos
-    *("breathers/fates:*fate", "breathers/sensitivity:*"),
-    *("checks/lifetimes:*", "figures/lifetimes:*", "figures/fates:*fate"),
-    "checks/second_solver:*l2",
-    # Chains without ends, at the detuning of a chaotic case
-    *("figures/fronts:*", "unbounded/fronts:*", "unbounded/omegas:*", "unbounded/starts:*"),
-    # Ensembles of pendula at a chaotic detuning, and the amplitude equations beside them
-    *("pendula/over_the_top:*", "figures/pendula_over_the_top:*"),
-]
-"""Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of
-the file or along a dimension."""
+    In `dataset` the `variable` (case, time) is how far runs are from references, as a part of full
+    scale, and `labels` name the run whose only errors are roundings. Along `steps` the values of a
+    run change little from one to the next.
+    """
 
-OF_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far", "figures/growth_law:law"]
-"""Variables that rest on the tail of a run at all times: they are divided by its largest value, or
-are a law whose speeds are measured on it."""
-
-STEADY = [
-    *("*omega", "*:start", "*_start", "*:true_*", "*_undriven", "*:stated_drift"),
-    *("*:theorem_*", "*:widened", "*:l*_bound"),
-    "checks/trust:*distance",
-    *("*:linear_speed", "*:predicted_[dr]*", "*:predicted_speed", "*:thermal*_power"),
-    "pendula/remainder:error",  # it ends before chaos
-]
-"""Variables that theory, a reference or the configuration gives, also those beside chaotic runs."""
+    dataset: str
+    variable: str
+    labels: Mapping[str, str]
+    time: str = "time"
+    steps: tuple[str, ...] = ("time",)
 
 
 class Chaos(NamedTuple):
@@ -69,46 +55,73 @@ class Chaos(NamedTuple):
     """The horizon of trust of each chaotic case, and -inf for each sweep over one, by name."""
     errors: Mapping[str, tuple[np.ndarray, np.ndarray]] = {}
     """By the name of a chaotic case, times, and what a right run may be off until each of them."""
-    regular_omegas: frozenset[float] = frozenset()
-    """The detunings at which no case is chaotic."""
+    cases: Mapping[str, Mapping[str, Any]] = {}
+    """The parameters of each case of the configuration, and none for a sweep, by name."""
+    time: str = "time"
 
     def freedom(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
         """Return how far each value of the variable `key` of the dataset `name` may be off.
 
         This is a part of the largest: zero for a regular number, infinity where nothing is known.
-        A case or a sweep is known by the parts of its name in the name of the file and in the words
-        along the dimensions: the curve `large` in figures/fig3 is of fig3_large.
+        The attribute `rests_on_chaos` decides, see `replication.variables`. A case or a sweep is
+        known by the words of its name in the name of the file and along the dimensions: the curve
+        `large` in figures/fig3 is of fig3_large.
         """
-        variable, stem = data.variables[key], name.removesuffix(".nc")
-        label, nothing = f"{stem}:{key}", np.zeros(variable.shape)
-        if are_coordinates(key, variable):  # a star does not mean them
-            return np.full(variable.shape, np.inf if label in RESTS_ON_CHAOS else 0.0)
-        if _is_one_of(label, STEADY):
-            return nothing
-        if _is_one_of(label, RESTS_ON_CHAOS):
-            return np.where(self._at_regular_omegas(variable, data), nothing, np.inf)
-        if variable.dtype.kind != "f":  # counts and parameters
-            return nothing
-        return self._of_cases(variable, data, stem, _is_one_of(label, OF_THE_TAIL))
+        variable = data.variables[key]
+        default = data.attrs.get(CHAOS, BY_CASE) if variable.dtype.kind == "f" else NO
+        chaos = variable.attrs.get(CHAOS, default)
+        if are_coordinates(key, variable, self.time) or chaos == NO:
+            return np.zeros(variable.shape)
+        if chaos.startswith(ALONG):
+            return self._along(chaos.removeprefix(ALONG), variable, data)
+        if chaos == YES:
+            return np.full(variable.shape, np.inf)
+        return self._of_cases(variable, data, name.removesuffix(".nc"), chaos == ALWAYS)
 
-    def _at_regular_omegas(self, variable: xr.Variable, data: xr.Dataset) -> np.ndarray:
-        """Return which values stand at a detuning at which no case of the paper is chaotic."""
-        if "omega" not in variable.dims:
-            return np.array(False)
-        axis = [-1 if dimension == "omega" else 1 for dimension in variable.dims]
-        return np.isin(data["omega"].values, list(self.regular_omegas)).reshape(axis)
+    def undeclared(self, name: str, data: xr.Dataset) -> list[str]:
+        """Return the variables of which nobody knows whether they rest on chaos.
+
+        They have no attribute, and the dataset is of no case of the configuration.
+        """
+        dimensions = [_labels(dimension, data) for dimension in data.dims]
+        labels = [words for along in dimensions for words in along]
+        words = _words(name.removesuffix(".nc")).union(*labels)
+        if any(_words(case) <= words for case in self.cases):
+            return []
+        return [
+            str(key)
+            for key, variable in data.variables.items()
+            if variable.dtype.kind == "f" and not are_coordinates(str(key), variable, self.time)
+            if CHAOS not in variable.attrs and CHAOS not in data.attrs
+        ]
+
+    def _along(self, parameter: str, variable: xr.Variable, data: xr.Dataset) -> np.ndarray:
+        """Return infinity for values at which a case with this parameter is chaotic, or none is."""
+        if parameter not in variable.dims:
+            return np.full(variable.shape, np.inf)
+        axis = [-1 if dimension == parameter else 1 for dimension in variable.dims]
+        regular = np.isin(data[parameter].values, list(self._regular_values(parameter)))
+        return np.broadcast_to(np.where(regular.reshape(axis), 0.0, np.inf), variable.shape)
+
+    def _regular_values(self, parameter: str) -> set[float]:
+        """Return the values of a parameter at which all cases are regular."""
+        values: dict[bool, set[float]] = {True: set(), False: set()}
+        for name, case in self.cases.items():
+            if parameter in case:
+                values[name in self.horizons].add(float(case[parameter]))
+        return values[False] - values[True]
 
     def _of_cases(
-        self, variable: xr.Variable, data: xr.Dataset, stem: str, of_the_tail: bool
+        self, variable: xr.Variable, data: xr.Dataset, stem: str, at_all_times: bool
     ) -> np.ndarray:
         """Return the freedom of values, of which some are of chaotic cases or sweeps."""
         freedom = np.zeros(variable.shape)
-        times = np.inf if of_the_tail else _times(variable, data)
+        times = np.inf if at_all_times else _times(variable, data, self.time)
         labels = [_labels(dimension, data) for dimension in variable.dims]
         for place in np.ndindex(*map(len, labels)):
             pairs = list(zip(labels, place, strict=True))
-            words = _parts(stem).union(*(along[i] for along, i in pairs))
-            cases = [known for known in self.horizons if _parts(known) <= words]
+            words = _words(stem).union(*(along[i] for along, i in pairs))
+            cases = [case for case in self.horizons if _words(case) <= words]
             if cases:
                 index = (slice(i, i + 1) if len(along) > 1 else slice(None) for along, i in pairs)
                 freedom[tuple(index)] = np.max([self._until(case, times) for case in cases], axis=0)
@@ -121,49 +134,60 @@ class Chaos(NamedTuple):
         return np.where(np.asarray(times) < self.horizons[case], 0.0, error[at])
 
 
-def _is_one_of(label: str, patterns: Iterable[str]) -> bool:
-    return any(fnmatchcase(label, pattern) for pattern in patterns)
-
-
-def are_coordinates(key: str, variable: xr.Variable) -> bool:
+def are_coordinates(key: str, variable: xr.Variable, time: str) -> bool:
     """Return whether a variable of this name says where the values along a dimension lie."""
-    return variable.dims in ((key,), (key.removesuffix("_tau"),))
+    return variable.dims in ((key,), (key.removesuffix(f"_{time}"),))
 
 
-def known_chaos(folder: Path, configuration: Mapping[str, Any]) -> Chaos:
-    """Return what the baseline in `folder`, of this configuration, tells of chaos."""
-    trust = read(folder / TRUST)
-    difference = trust["difference"].sel(solver=ROUNDED_ONLY).transpose("case", "tau")
-    grown = np.maximum.accumulate(difference.fillna(0.0).values, axis=1) / MARGIN
-    tau, horizons, errors = trust["tau"].values, {}, {}
-    for case, error in zip(map(str, trust["case"].values), grown, strict=True):
+def cases_of(configuration: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    """Return the parameters of each case of a configuration, and none for a sweep, by name."""
+    return {
+        **{sweep: {} for sweep in configuration.get("sweeps", {})},
+        **configuration.get("cases", {}),
+    }
+
+
+def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | None) -> Chaos:
+    """Return what the baseline in `folder`, of this configuration, says of chaos.
+
+    The section `cases` of the configuration holds parameters by name, `sweeps` the case of each.
+    """
+    cases, sweeps = cases_of(configuration), configuration.get("sweeps", {})
+    if trust is None:
+        return Chaos({}, cases=cases)
+    horizons, errors = {}, {}
+    for case, times, error in _growing_errors(folder, trust):
         if (late := error > TOLERANCE).any():
-            horizons[case] = float(tau[late.argmax()])
-            errors[case] = tau, np.where(error < UNKNOWN, LOCAL * error, np.inf)
-    sweeps, cases = (configuration.get(name, {}) for name in ("sweeps", "cases"))
+            horizons[case] = float(times[late.argmax()])
+            errors[case] = times, np.where(error < UNKNOWN, LOCAL * error, np.inf)
     swept = {name: -np.inf for name, sweep in sweeps.items() if sweep["case"] in horizons}
-    omegas = [
-        {float(cases[name]["omega"]) for name in cases if (name in horizons) == chaotic}
-        for chaotic in (False, True)
-    ]
-    return Chaos(horizons | swept, errors, frozenset(omegas[0] - omegas[1]))
+    return Chaos(horizons | swept, errors, cases, trust.time)
 
 
-def _parts(text: str) -> set[str]:
+def _growing_errors(folder: Path, trust: Trust) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Yield each case, its times, and how far right runs may be off until each of them."""
+    data = read(folder / trust.dataset)
+    difference = data[trust.variable].sel(trust.labels).transpose("case", trust.time)
+    grown = np.maximum.accumulate(difference.fillna(0.0).values, axis=1) / MARGIN
+    for case, error in zip(map(str, data["case"].values), grown, strict=True):
+        yield case, data[trust.time].values, error
+
+
+def _words(text: str) -> set[str]:
     return set(re.findall(r"[a-z0-9]+", text))
 
 
 def _labels(dimension: str, data: xr.Dataset) -> list[set[str]]:
     """Return the words at each place along a dimension; one empty set for one without words."""
     along = data.variables.get(dimension)
-    return [set()] if along is None or not are_words(along) else [*map(_parts, along.values)]
+    return [set()] if along is None or not are_words(along) else [*map(_words, along.values)]
 
 
-def _times(variable: xr.Variable, data: xr.Dataset) -> np.ndarray | float:
+def _times(variable: xr.Variable, data: xr.Dataset, time: str) -> np.ndarray | float:
     """Return the times along the dimensions of a variable; infinity for one without a time."""
     for dimension in variable.dims:
-        for name in (dimension, f"{dimension}_tau"):
-            if name.endswith("tau") and name in data and data[name].dims == (dimension,):
+        for name in (dimension, f"{dimension}_{time}"):
+            if name.endswith(time) and name in data and data[name].dims == (dimension,):
                 shape = [-1 if d == dimension else 1 for d in variable.dims]
                 return data[name].values.reshape(shape)
     return np.inf

@@ -13,6 +13,8 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import LENGTH, MARK, DatasetError, read
 
+from replication.variables import CHAOS, NO, YES
+
 from . import Status, hashes, values
 from .chaos import Chaos, are_coordinates
 
@@ -39,10 +41,12 @@ def compare(
     kept: Path,
     chaos: Chaos,
     scatter: Mapping[str, float],
+    steps: tuple[str, ...] = (),
 ) -> tuple[Status, str]:
     """Return status and reason of the dataset `name`, in the file `new`, with its accepted hashes.
 
-    `kept` is the copy in the baseline, `scatter` what is known of chaotic variables (`scatter`).
+    `kept` is the copy in the baseline, `scatter` what is known of chaotic variables (`scatter`),
+    and `steps` are the dimensions of `values.jumps`.
     """
     try:
         content = read(new)
@@ -52,14 +56,25 @@ def compare(
         return Status.DAMAGED, fault
     if hashes.of(content).items() <= accepted.items():
         return Status.IDENTICAL, ""
+    if undeclared := chaos.undeclared(name, content):
+        return Status.DIFFERENT, undeclared_words(undeclared)
     was = read(kept)
     found = list(differences(name, was, content, accepted["variables"], chaos, scatter))
-    if faults := [each.says for each in found if each.is_fault] or [*values.jumps(was, content)]:
+    faults = [each.says for each in found if each.is_fault]
+    if faults := faults or [*values.jumps(was, content, steps)]:
         return Status.DIFFERENT, "; ".join(faults[:3])
     if beyond := [each.says for each in found if each.beyond]:
         count = sum(each.beyond for each in found)
         return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
     return Status.WITHIN, "; ".join([each.says for each in found][:3])
+
+
+def undeclared_words(variables: list[str]) -> str:
+    """Return why variables cannot be compared, and what their maker must write."""
+    return (
+        f"{variables[0]} does not say whether it rests on chaos, and its data name no case: let "
+        f'its maker write the attribute {CHAOS} = "{NO}" or "{YES}", see docs/another_paper.md'
+    )
 
 
 def fault_of_form(path: Path, content: xr.Dataset) -> str:
@@ -110,6 +125,9 @@ def differences(
             yield Unlike(True, 0, f"{key} is {now_kind} in place of {kind}")
         elif hashes.of_values(after) != hash_of_values:
             known = scatter.get(f"{name.removesuffix('.nc')}:{key}")
+            if fault := _of_labels(key, after, chaos.time):
+                yield fault
+                continue
             yield _of_values(key, before, after, chaos.freedom(name, key, now), now, known)
 
 
@@ -123,6 +141,15 @@ def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[Unlike]:
             yield Unlike(not counts_work, int(counts_work), says)
 
 
+def _of_labels(key: str, now: xr.Variable, time: str) -> Unlike | None:
+    """Return the fault of words or coordinates with other values; None for numbers."""
+    if hashes.are_words(now):
+        return Unlike(True, 0, f"{key} holds other words")
+    if are_coordinates(key, now, time):
+        return Unlike(True, 0, f"{key} holds other coordinates")
+    return None
+
+
 def _of_values(
     key: str,
     was: xr.Variable,
@@ -132,9 +159,7 @@ def _of_values(
     scatter: float | None,
 ) -> Unlike:
     """Compare values with other bits; `freedom` says which of them rest on chaos."""
-    is_text, chaotic = hashes.are_words(was), freedom > 0.0
-    if is_text or (are_coordinates(key, now) and not chaotic.all()):
-        return Unlike(True, 0, f"{key} holds other {'words' if is_text else 'coordinates'}")
+    chaotic = freedom > 0.0
     if fault := values.fault(key, was, now, freedom, data, scatter):
         return Unlike(True, 0, fault)
     count = int(chaotic.sum())

@@ -10,6 +10,7 @@ from replication.report import page
 
 from . import Status, Verdict
 from .baseline import compare
+from .chaos import Trust
 
 
 def render(verdict: Verdict, made: Path, folder: Path) -> str:
@@ -41,11 +42,15 @@ def compare_results(
     any_bits: bool,
     html: str,
     verdict: str,
+    trust: Trust | None = None,
 ) -> None:
-    """Compare files of a run in the folder `made` with a baseline; the run's end tells faults."""
+    """Compare files of a run in the folder `made` with a baseline, and write what was found.
+
+    `trust` is that of `baseline.compare`.
+    """
     names = [Path(path).relative_to(made).as_posix() for path in results]
     folders = Path(made), Path(baseline)
-    found = compare(names, *folders, configuration, any_bits)
+    found = compare(names, *folders, configuration, trust, any_bits)
     with complete_or_absent(html) as partial:
         partial.write_text(render(found, *folders), "utf-8")
     write_json(verdict, {"faults": found.faults, "counts": found.counts, "lines": found.lines})

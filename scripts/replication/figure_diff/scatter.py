@@ -1,13 +1,10 @@
 """By how much numbers that rest on chaos differ from one right run to the next.
 
-    python -m replication.figure_diff.scatter tests/baseline RESULTS...
-
-measures it on folders of results of right runs, such as those of `.ci/elsewhere moved`, beside the
-baseline, and writes it there. For each variable it is the largest mean difference of a row of equal
+`write_scatter` measures it on folders of results of right runs beside a baseline, and writes it
+there. For each variable it is the largest mean difference of a row of equal
 words, as a part of its mean size.
 """
 
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -17,7 +14,7 @@ from latticode.datasets.json_files import load_json, write_json
 from latticode.datasets.netcdf import DatasetError, read
 
 from . import values
-from .chaos import Chaos, known_chaos
+from .chaos import Chaos, Trust, known_chaos
 
 SCATTER, RECORD = "scatter.json", "hashes.json"
 DIGITS = 3
@@ -35,10 +32,10 @@ def known_scatter(folder: Path) -> dict[str, float]:
         return {}
 
 
-def measure(folder: Path, runs: Sequence[Path]) -> dict[str, float]:
+def measure(folder: Path, runs: Sequence[Path], trust: Trust | None) -> dict[str, float]:
     """Return the scatter of all variables of right runs about the baseline in `folder`."""
     record = load_json(folder / RECORD)
-    chaos, scatter = known_chaos(folder, record["configuration"]), {}
+    chaos, scatter = known_chaos(folder, record["configuration"], trust), {}
     for name in (name for name in record["files"] if name.endswith(".nc")):
         was, others = read(folder / name), [read(run / name) for run in runs]
         for key in map(str, was.variables):
@@ -50,7 +47,7 @@ def measure(folder: Path, runs: Sequence[Path]) -> dict[str, float]:
 
 def _parts(name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos) -> Iterator[float]:
     """Yield the mean difference of each chaotic row of a variable, as a part of its mean size."""
-    if was[key].dtype.kind not in "fi" or values.SCATTERED.search(key):
+    if was[key].dtype.kind not in "fi" or values.is_statistic(was.variables[key]):
         return
     rests = chaos.freedom(name, key, was) > 0.0
     old, new = (each[key].values.astype(float) for each in (was, now))
@@ -61,6 +58,6 @@ def _parts(name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos) 
             yield float(abs(after - before).mean()) / size
 
 
-if __name__ == "__main__":
-    baseline, *results = map(Path, sys.argv[1:])
-    write_json(baseline / SCATTER, {"scatter": measure(baseline, results)})
+def write_scatter(baseline: Path, runs: Sequence[Path], trust: Trust | None) -> None:
+    """Write the scatter of right runs, whose results lie in folders, into the baseline."""
+    write_json(baseline / SCATTER, {"scatter": measure(baseline, runs, trust)})

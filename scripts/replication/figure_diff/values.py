@@ -7,11 +7,12 @@ horizon by little, later by at most TIMES_SCATTER what rows of right runs differ
 keeps its sign and its range, and its steps in time are not much longer.
 """
 
-import re
 from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
+
+from replication.variables import BOUND, KIND, STATISTIC
 
 from . import hashes
 from .chaos import ROUNDING, TOLERANCE
@@ -22,31 +23,23 @@ NOISE = 1e-11
 UNIT, FACTOR = 1e-15, 100.0
 """A rounding of one, and by what factor an error may differ that is a sum of roundings."""
 
-PROVEN, GROWN = re.compile("bound|radius"), 0.01
-"""Names of what is proved, which is no error of rounding however small it is, and how much larger
-it may be."""
-
-SCATTERED = re.compile("error|deviation|correlation|width|drift|uncertainty")
-"""Names of what a few runs say of their own scatter, which is uncertain itself."""
-
-SIGNED = re.compile("correlation|energy|region_mean")
-"""Names of what may have either sign."""
+GROWN = 0.01
+"""How much larger a proven bound may be, which is no error of rounding however small it is."""
 
 TIMES_SCATTER, LEAST, APART = 2.5, 0.05, 0.6
 """Limit of the mean difference of a chaotic row: so many times its scatter, but at least so large a
 part of its mean size, and such a part where the scatter is not known."""
 
 SCATTER, LONG, SMALL = 4.0, 100, 0.01
-"""By what factor what is SCATTERED may be larger or smaller; LONG chaotic rows also keep their
+"""By what factor a statistic may be larger or smaller; LONG chaotic rows also keep their
 range. What is SMALL beside the largest of the variable may be anything."""
 
 ROUNDED = 1e-5
 """How far equal numbers may be apart, relative to the largest: accepted ones have seven digits."""
 
-TIMES = ("tau", "snapshot", "snapshot_tau")
 STEP, FEWEST = 3.0, 20
-"""How much larger a step in time may be than the largest accepted one, and twice that of what is
-SCATTERED: one excursion of a chaotic run makes the largest step of its drift. FEWEST times make a
+"""How much larger a step in time may be than the largest accepted one, and twice that of a
+statistic: one excursion of a chaotic run makes the largest step of its drift. FEWEST times make a
 run."""
 
 
@@ -69,28 +62,30 @@ def fault(
     for row in rows(now, data):
         old, new, free = (np.atleast_1d(each[row]) for each in (before, after, freedom))
         rests = free > 0.0
-        says = _of_regular(key, old[~rests], new[~rests], largest, is_exact)
+        says = _of_regular(now, old[~rests], new[~rests], largest, is_exact)
         if not says and rests.any():
-            says = _soon_after_the_horizon(key, old, new, free)
-            says = says or _of_chaotic(key, old[rests], new[rests], SMALL * largest, apart)
+            says = _soon_after_the_horizon(now, old, new, free)
+            says = says or _of_chaotic(now, old[rests], new[rests], SMALL * largest, apart)
         if says:
             return f"{key} {says}"
     return ""
 
 
-def jumps(was: xr.Dataset, now: xr.Dataset) -> Iterator[str]:
-    """Yield a message for each variable that changes too much from one time to the next.
+def jumps(was: xr.Dataset, now: xr.Dataset, steps: tuple[str, ...]) -> Iterator[str]:
+    """Yield a message for each variable that changes too much from one place to the next.
+
+    `steps` are the dimensions along which values change little.
 
     Its largest change there is compared with that of the accepted run (see STEP).
     """
     for key, variable in was.variables.items():
-        times = [dim for dim in TIMES if variable.sizes.get(dim, 0) >= FEWEST]
+        times = [dim for dim in steps if variable.sizes.get(dim, 0) >= FEWEST]
         for dim in times if variable.dtype.kind == "f" else ():
             axis, rounded = variable.get_axis_num(dim), ROUNDED * hashes.largest(variable.values)
-            longest = STEP * (2.0 if SCATTERED.search(str(key)) else 1.0)
-            steps = [abs(np.diff(data[key].values, axis=axis)) for data in (was, now)]
+            longest = STEP * (2.0 if is_statistic(variable) else 1.0)
+            changes = [abs(np.diff(data[key].values, axis=axis)) for data in (was, now)]
             for row in rows(variable, was):
-                before, after = (hashes.largest(each[row]) for each in steps)
+                before, after = (hashes.largest(each[row]) for each in changes)
                 if after > longest * before + rounded:
                     yield f"{key} jumps along {dim}"
                     break
@@ -109,16 +104,23 @@ def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
         yield tuple(i if word else slice(None) for i, word in zip(place, words, strict=True))
 
 
-def _of_regular(key: str, old: np.ndarray, new: np.ndarray, largest: float, exact: bool) -> str:
+def is_statistic(variable: xr.Variable) -> bool:
+    """Return whether a variable is what a few runs say of their scatter, uncertain itself."""
+    return variable.attrs.get(KIND) == STATISTIC
+
+
+def _of_regular(
+    variable: xr.Variable, old: np.ndarray, new: np.ndarray, largest: float, exact: bool
+) -> str:
     with np.errstate(invalid="ignore"):
         apart = abs(new - old)  # NaN where only one of two is finite, or none
     same = (old == new) | (np.isnan(old) & np.isnan(new))
     if gaps := int((~same & ~np.isfinite(apart)).sum()):
         return f"has NaN or infinity elsewhere, at {gaps} places"
-    if PROVEN.search(key):
+    if variable.attrs.get(KIND) == BOUND:
         return _of_proven(old[~same], new[~same])
     scale, off = hashes.largest(old), float(apart[~same].max(initial=0.0))
-    tolerance = TOLERANCE * (FACTOR if SCATTERED.search(key) else 1.0)
+    tolerance = TOLERANCE * (FACTOR if is_statistic(variable) else 1.0)
     if off <= (0.0 if exact else tolerance * scale + NOISE * largest):
         return ""
     if not exact and are_roundings(scale, hashes.largest(new)):
@@ -142,10 +144,12 @@ def are_roundings(was: float, now: float) -> bool:
     return large < ROUNDING and large < FACTOR * small
 
 
-def _soon_after_the_horizon(key: str, old: np.ndarray, new: np.ndarray, free: np.ndarray) -> str:
+def _soon_after_the_horizon(
+    variable: xr.Variable, old: np.ndarray, new: np.ndarray, free: np.ndarray
+) -> str:
     """Return where numbers differ by more than errors can have grown to by then."""
     known = (free > 0.0) & np.isfinite(free) & np.isfinite(old) & np.isfinite(new)
-    if SCATTERED.search(key) or not known.any():  # an error is no part of the solution
+    if is_statistic(variable) or not known.any():  # an error is no part of the solution
         return ""
     grown = free[known] * (hashes.largest(old) or 1.0)
     beyond = (abs(new - old)[known] / grown).max()
@@ -154,7 +158,9 @@ def _soon_after_the_horizon(key: str, old: np.ndarray, new: np.ndarray, free: np
     return f"is off soon after the horizon by {beyond:.2g} times what errors can have grown to"
 
 
-def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float, most: float) -> str:
+def _of_chaotic(
+    variable: xr.Variable, old: np.ndarray, new: np.ndarray, small: float, most: float
+) -> str:
     """Return what no right run of a chaotic case has, though nobody knows its numbers.
 
     Its mean difference is at most the part `most` of its mean size.
@@ -165,11 +171,11 @@ def _of_chaotic(key: str, old: np.ndarray, new: np.ndarray, small: float, most: 
     old, new = old[both], new[both]
     if not old.size:
         return ""
-    if not SIGNED.search(key) and old.min() >= 0 > new.min():
+    if old.min() >= 0 > new.min():
         return "is negative, as it never was"
     size, new_size, apart = (float(abs(each).mean()) for each in (old, new, new - old))
     differs = f"rests on chaos, but differs by too much: {new_size:.3g} in place of {size:.3g}"
-    if SCATTERED.search(key) or old.min() < 0 < old.max() or new.min() < 0 < new.max():
+    if is_statistic(variable) or old.min() < 0 < old.max() or new.min() < 0 < new.max():
         is_alike = 1 / SCATTER <= (new_size + small) / (size + small) <= SCATTER
         return "" if is_alike else differs
     if apart > most * size + small:

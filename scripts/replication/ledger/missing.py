@@ -10,17 +10,12 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 import xarray as xr
 
+from replication.variables import MISSING, SAMPLES
+
 from .cutoff import once
 
 FEWEST = 3
 """So many samples at least: any two of them make a line."""
-SERIES = (
-    "tau piece_tau long_tau end output generation step half_width sites gamma frequency size "
-    "initial start_amplitude a0 b0 distance decay sample point proof wave modulus"
-)
-"""The coordinates along which a claim is on many samples."""
-MEANT = "NaN: "
-"""Long names with these words say what NaN means; the functions that read these variables know."""
 
 
 def missing(
@@ -31,23 +26,27 @@ def missing(
     `on` names the cases and sweeps that are read, where a dataset holds others as well.
     """
     return "; ".join(
-        f"{what} of {name}"
+        f"{lack} of {name}"
         for name in names
         if isinstance(datasets[name], xr.Dataset)
-        for what in _missing(datasets[name], on)
+        for lack in _missing(datasets[name], on)
     )
 
 
 @once
 def _missing(dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
     several = [along for along in ("case", "sweep") if along in dataset.indexes]
-    read = {along: [one for one in dataset[along].values if one in on] for along in several}
-    dataset = dataset.sel(read) if any(read.values()) else dataset
+    labels = {along: [label for label in dataset[along].values if label in on] for along in several}
+    dataset = dataset.sel(labels) if any(labels.values()) else dataset
     unknown = [
-        f"{variable} is unknown in part"
-        for variable, values in dataset.data_vars.items()
-        if MEANT not in values.attrs.get("long_name", "") and values.dtype.kind in "fc"
+        f"{name} is unknown in part"
+        for name, values in dataset.data_vars.items()
+        if MISSING not in values.attrs and values.dtype.kind in "fc"
         if np.isnan(values.values).any()
     ]
-    few = [one for one in SERIES.split() if dataset.sizes.get(one, FEWEST) < FEWEST]
-    return [*unknown, *(f"{along} has fewer than {FEWEST} samples" for along in few)]
+    return unknown + [
+        f"{name} has fewer than {fewest} samples"
+        for name, coordinate in dataset.coords.items()
+        if coordinate.dims == (name,) and coordinate.dtype.kind in "fiu"
+        if coordinate.size < (fewest := int(coordinate.attrs.get(SAMPLES, FEWEST)))
+    ]

@@ -22,7 +22,7 @@ class Run(NamedTuple):
 
     def judge(self, names=made_up.NAMES, any_bits=False) -> Verdict:
         """Compare these files of the run with the baseline."""
-        return baseline.compare(names, *self, made_up.CONFIGURATION, any_bits)
+        return baseline.compare(names, *self, made_up.CONFIGURATION, made_up.TRUSTED, any_bits)
 
     def findings(self, **options) -> dict[str, Finding]:
         """Compare, and return what was found of each file."""
@@ -36,7 +36,9 @@ class Run(NamedTuple):
         """
         findings, stem = [], name.rpartition(".")[0]
         for is_accepted_environment in (True, False):
-            comparison = baseline.Comparison(baseline.recorded(self.accepted), *self)
+            comparison = baseline.Comparison(
+                baseline.recorded(self.accepted), *self, made_up.TRUSTED
+            )
             if not is_accepted_environment:
                 comparison.same_data = comparison.same_drawing = False
             comparison.found = dict(known)
@@ -100,7 +102,7 @@ def accepted_run(tmp_path_factory) -> Run:
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
     run.accept()
     others = [made_up.make_run(folder / f"right_{seed}", seed) for seed in (2, 3)]
-    write_json(run.accepted / scatter.SCATTER, {"scatter": scatter.measure(run.accepted, others)})
+    scatter.write_scatter(run.accepted, others, made_up.TRUSTED)
     return run
 
 

@@ -9,10 +9,31 @@ from latticode.datasets.json_files import write_json
 from latticode.datasets.netcdf import save
 from latticode.drawing import style
 from matplotlib.figure import Figure
+from replication.figure_diff.chaos import Trust
+from replication.variables import (
+    ALL_TIMES,
+    PROVEN,
+    SCATTERED,
+    chaotic_along,
+    mark,
+)
+from replication.variables import (
+    CHAOTIC as DRAWN,
+)
+from replication.variables import (
+    REGULAR as STEADY,
+)
 
 TAU, HORIZON, M = np.linspace(0, 50, 401), 9.0, np.arange(5.0, 45.0, 5.0)
 LARGEST = 0.3
 """The error that a chaotic run has in the end, from HORIZON + 9.5 on."""
+TRUSTED = Trust(
+    "checks/trust.nc",
+    "difference",
+    {"solver": "taylor"},
+    time="tau",
+    steps=("tau", "snapshot", "snapshot_tau"),
+)
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"
 SWEEP = "sweeps/fig5_right.nc"
 TRUST, EXPONENTS, ROUNDING = "checks/trust.nc", "checks/lyapunov.nc", "checks/balance.nc"
@@ -53,7 +74,7 @@ def norms(chaotic: bool, seed: int = 0) -> xr.Dataset:
     """Return norms of two components; chaotic ones depend on the seed more and more."""
     draws = np.random.default_rng(seed).normal(size=(2, TAU.size))
     l2, share = np.array([2 + np.cos(0.7 * TAU), 1 + 0.5 * np.sin(1.1 * TAU)]), grown() / LARGEST
-    return dataset(
+    curves = dataset(
         {"component": ["A", "B"], "tau": TAU},
         {
             "l2": (("component", "tau"), l2 + chaotic * share * (3 + 0.5 * draws - l2)),
@@ -64,6 +85,7 @@ def norms(chaotic: bool, seed: int = 0) -> xr.Dataset:
         solver="ode45",
         steps=1500,
     )
+    return mark(curves, PROVEN, "bound")
 
 
 def numbers(seed: int = 0) -> dict[str, xr.Dataset]:
@@ -78,21 +100,40 @@ def numbers(seed: int = 0) -> dict[str, xr.Dataset]:
         REGULAR: regular,
         CHAOTIC: norms(True, seed),
         SWEEP: dataset({"half_width": M}, {"l2": ("half_width", some(9.0 * np.sqrt(M), 0.01))}),
-        TRUST: dataset(
-            {"case": cases, "solver": ["taylor"], "tau": TAU},
-            {"difference": (("case", "solver", "tau"), 10 * errors[:, None])},
+        TRUST: mark(
+            dataset(
+                {"case": cases, "solver": ["taylor"], "tau": TAU},
+                {"difference": (("case", "solver", "tau"), 10 * errors[:, None])},
+            ),
+            ALL_TIMES,
+            "difference",
         ),
         EXPONENTS: dataset({"case": cases}, {"exponent": ("case", [1e-4, 1.73 + 0.01 * draw()])}),
-        ROUNDING: dataset({"tau": TAU[:9]}, {"defect": ("tau", 1e-15 * draw(size=9))}),
-        BOUND: dataset({"tau": TAU}, {"bound": ("tau", 1e-12 * np.exp(0.1 * TAU))}),
+        ROUNDING: dataset({"tau": TAU[:9]}, {"defect": ("tau", 1e-15 * draw(size=9))}, **STEADY),
+        BOUND: mark(
+            dataset({"tau": TAU}, {"bound": ("tau", 1e-12 * np.exp(0.1 * TAU))}), PROVEN, "bound"
+        ),
         MAP: dataset(
             {"omega": [0.0, 8.0], "half_width": M},
             {"fate": (("omega", "half_width"), [some(1 + 0 * M, 0.1), 1 + 0 * M])},
+            **chaotic_along("omega"),
         ),
-        LIVES: dataset({"half_width": M}, {"median": ("half_width", some(M, 0.02))}),
-        PROOFS: dataset({}, {"radius": ("row", [1.4e-16, 2.5e-16])}),
-        HARD: dataset({}, {"case": ("row", ["stiff", "tiny", "long"]),
-                           "error": ("row", [3e-13, 1e-9, 2e-12])}),
+        LIVES: dataset({"half_width": M}, {"median": ("half_width", some(M, 0.02))}, **DRAWN),
+        PROOFS: mark(
+            dataset({}, {"radius": ("row", [1.4e-16, 2.5e-16])}, **STEADY), PROVEN, "radius"
+        ),
+        HARD: mark(
+            dataset(
+                {},
+                {
+                    "case": ("row", ["stiff", "tiny", "long"]),
+                    "error": ("row", [3e-13, 1e-9, 2e-12]),
+                },
+                **STEADY,
+            ),
+            SCATTERED,
+            "error",
+        ),
     }  # fmt: skip
 
 

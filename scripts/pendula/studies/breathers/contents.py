@@ -8,6 +8,7 @@ from latticode.datasets.checks import rounded
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
 from latticode.localised.breathers import TOLERANCE, exponents
+from replication.variables import FEW_CHOICES, REGULAR, missing
 
 from pendula.many_cases import COMPONENTS
 from pendula.models.pairs import FAMILIES, pair
@@ -24,9 +25,8 @@ RATE = "largest rate of growth of a perturbation"
 
 def kept(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
     """Return a variable rounded to so many significant digits. NaN stands where there is none."""
-    words += "; NaN: there is none" if np.isnan(values).any() else ""
-    about = {"significant_digits": digits}
-    return Variable(dimensions, rounded(values, digits), words, attributes=about)
+    attributes = {"significant_digits": digits, **missing("there is no such state")}
+    return Variable(dimensions, rounded(values, digits), words, attributes=attributes)
 
 
 def steady_contents(
@@ -49,12 +49,12 @@ def steady_contents(
         "part": PARTS,
         "component": COMPONENTS,
         "family": Variable(("family",), [one.name for one in FAMILIES], "family of steady states"),
-        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
+        "omega": Variable(("omega",), np.array(omegas, dtype=float), attributes=FEW_CHOICES),
         "amplitude": kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
         "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
         "growth": kept(over, rates, RATE, GROWTH_DIGITS),
     }
-    about = {"epsilon": epsilon, "gamma": gamma, "residual": TOLERANCE}
+    about = {"epsilon": epsilon, "gamma": gamma, "residual": TOLERANCE, **REGULAR}
     return variables, {"title": "Steady states localised at one pair", **about}
 
 
@@ -88,7 +88,7 @@ def periodic_contents(
     variables = {
         "component": COMPONENTS,
         "family": Variable(("family",), list(periodic.FAMILIES), "family of periodic breathers"),
-        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
+        "omega": Variable(("omega",), np.array(omegas, dtype=float), attributes=FEW_CHOICES),
         "frequency": Variable(
             ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
         ),
@@ -104,6 +104,7 @@ def periodic_contents(
         **soliton_variables(epsilon, gamma, **solitons),
     }
     about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
+    about |= REGULAR
     return variables, {"title": "Periodic breathers localised at one pair", **about}
 
 
@@ -125,7 +126,9 @@ def soliton_variables(
         powers[at], rates[at] = periodic.power(soliton.data).sum(), multipliers.growth(soliton)
     over = ("soliton_half_width", "soliton_frequency")
     return {
-        "soliton_half_width": Variable(over[:1], list(half_widths), "half-width of the chain"),
+        "soliton_half_width": Variable(
+            over[:1], list(half_widths), "half-width of the chain", attributes=FEW_CHOICES
+        ),
         "soliton_frequency": Variable(
             over[1:], np.array(frequencies, float), f"frequency of the soliton at Omega = {omega:g}"
         ),

@@ -31,6 +31,7 @@ from latticode.simulation.lattice import find_reduction, unpack
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import integrate
 from latticode.simulation.survey import Survey, Surveyed
+from replication.variables import FEW_CHOICES, chaotic_along
 
 from pendula.problem import Constants, Problem
 
@@ -145,8 +146,9 @@ def _map_of(
     mapped = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=np.int8)
     mapped[:, rows, columns] = mapped[:, columns, rows] = fates
     flags = {"flag_values": np.arange(len(FATES), dtype=np.int8), "flag_meanings": " ".join(FATES)}
+    flags |= chaotic_along("omega")
     variables = {
-        "omega": Variable(("omega",), np.array(list(problems))),
+        "omega": Variable(("omega",), np.array(list(problems)), attributes=FEW_CHOICES),
         "a0": Variable(("a0",), amplitudes, "initial amplitude A_0 of the centre"),
         "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
         "fate": Variable(("omega", "a0", "b0"), mapped, "fate of the data", attributes=flags),

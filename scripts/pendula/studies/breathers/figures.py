@@ -8,6 +8,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from replication.variables import chaotic_along
 
 LOOKS = {
     "disperses": "#fdfcf8",
@@ -41,7 +42,7 @@ def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Datase
     if known and all(fates.attrs[name] == fine.attrs[name] for name in SAME_RUNS):
         shown = fine.sel(omega=omegas)
     caption = FATES_CAPTION.format(end=f"{float(fates.attrs['end_time']):g}")
-    return shown[["fate"]].assign_attrs(caption=caption)
+    return shown[["fate"]].assign_attrs(caption=caption, **chaotic_along("omega"))
 
 
 @style.styled

@@ -15,6 +15,7 @@ from latticode.datasets.trajectories import Contents
 from latticode.measures.confidence import Limits, share_limits
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns
+from replication.variables import CHAOTIC
 
 from pendula.problem import Problem
 
@@ -38,6 +39,7 @@ def sensitivity_contents(
         for one in draw_members(at_the_end_alone, size, members, [seed, number])
     ]
     about = describe_run(name, problem, problem.solver) | {"members": members, "seed": seed}
+    about |= CHAOTIC
     title = f"Which data close to those of {name} spread"
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:

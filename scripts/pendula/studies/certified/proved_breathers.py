@@ -6,6 +6,7 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.registry import NAMES
 from latticode.datasets.trajectories import Contents
+from replication.variables import PROVEN, REGULAR
 
 from pendula.many_cases import COMPONENTS
 from pendula.models.pairs import FAMILIES, Family
@@ -46,16 +47,18 @@ def breathers_contents(
             of,
             radii,
             "one true state lies within this l-infinity distance, infinite where none is proved",
+            attributes=PROVEN,
         ),
         "proof_refusal": Variable(of, refusals, "why nothing is proved"),
         "wrong_radius": Variable(
             ("wrong_proof",),
             refused,
             "radius that is proved of the wrong state, infinite if it is refused",
+            attributes=PROVEN,
         ),
     }
     title = "Steady breathers whose existence is proved"
-    about = {"gamma": gamma, "half_width": half_width, "bits": existence.BITS}
+    about = {"gamma": gamma, "half_width": half_width, "bits": existence.BITS, **REGULAR}
     return variables, {"title": title, **about}
 
 

@@ -16,6 +16,7 @@ from latticode.simulation.problem import name_window
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, STATISTICS, windowed
+from replication.variables import CHAOTIC, FEW_CHOICES, SCATTERED, missing
 
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem, by_name
@@ -114,7 +115,7 @@ def measure_second_solver(
         data = _second_solver_of(values, half_widths, second)
         _, shared = describe_cases({"sweep": Problem.of(first)})
         title = "A chaotic sweep by the paper's second solver, from almost equal data"
-        return data.assign_attrs({**shared, **about, "title": title})
+        return data.assign_attrs({**shared, **about, "title": title, **CHAOTIC})
 
     return ManyRuns(
         [member for part in drawn for member in part],
@@ -141,7 +142,11 @@ def _second_solver_of(
         },
         {
             "half_width": ("half_width", list(half_widths), {"long_name": NAMES["half_width"]}),
-            "solver_step": ("solver_step", steps, {"long_name": "step of the second solver"}),
+            "solver_step": (
+                "solver_step",
+                steps,
+                {"long_name": "step of the second solver", **FEW_CHOICES},
+            ),
         },
     )
 
@@ -151,7 +156,11 @@ def _moments(norms: Mapping[str, np.ndarray], about: Mapping) -> xr.Dataset:
     data = xr.Dataset(coords={"reading": list(READINGS), "half_width": about["half_widths"]})
     for norm, values in norms.items():
         for key, moment in moments(values.swapaxes(0, 1)).items():
-            says = f"{MOMENTS[key]} of the {NAMES[norm]} of the pair; NaN: none"
-            data[f"{norm}_{key}"] = ("half_width", "reading"), moment, {"long_name": says}
+            attributes = {
+                "long_name": f"{MOMENTS[key]} of the {NAMES[norm]} of the pair",
+                **missing("no run has this half-width"),
+                **(SCATTERED if key != "mean" else {}),
+            }
+            data[f"{norm}_{key}"] = ("half_width", "reading"), moment, attributes
     says = {"long_name": "members at each half-width"}
     return data.assign(swept_members=((), about["members"], says))

@@ -17,6 +17,7 @@ from latticode.datasets.trajectories import Contents
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import Trajectory, simulate
+from replication.variables import CHAOTIC
 
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem
@@ -122,7 +123,7 @@ def _lifetimes_of(
     }
     _, shared = describe_cases({"centre": problem})
     title = "The transition at Omega = 0 and the life of the centre, against the initial amplitude"
-    return variables, {**shared, "title": title}
+    return variables, {**shared, "title": title, **CHAOTIC}
 
 
 def vary_lifetimes(

@@ -14,6 +14,7 @@ from latticode.localised.tangents import Growth, grow, random_tangent
 from latticode.measures.confidence import mean_limits, student
 from latticode.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
 from latticode.simulation.ensembles import draw_members
+from replication.variables import REGULAR, SCATTERED
 
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem
@@ -108,6 +109,11 @@ def measure_lyapunov(
     for name, found, of in (("", driven, words), ("_undriven", undriven, f"{words} at gamma = 0")):
         rates, errors = map(np.array, zip(*found, strict=True))
         half = f"{of}: half of the confidence interval"
-        variables[f"exponents{name}"] = Variable(by_index, rates, f"{of}, per unit of tau")
-        variables[f"exponents_error{name}"] = Variable(by_index, errors, half)
+        regular = REGULAR if name else {}
+        variables[f"exponents{name}"] = Variable(
+            by_index, rates, f"{of}, per unit of tau", attributes=regular
+        )
+        variables[f"exponents_error{name}"] = Variable(
+            by_index, errors, half, attributes=SCATTERED | regular
+        )
     return variables, attributes

@@ -19,6 +19,7 @@ from latticode.simulation.problem import name_window
 from latticode.simulation.runs import ManyRuns, shaped
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, pair_l2, pair_linf
+from replication.variables import REGULAR, SCATTERED, missing
 
 from pendula.many_cases import COMPONENTS, describe_cases
 from pendula.problem import Problem
@@ -32,10 +33,11 @@ REDUCED = {
     "norm_correlation": (("window",), "correlation in time of the squared l2 norms of A and B"),
     "rms": (
         ("window", "component", "site"),
-        "root mean square of an amplitude over the window; NaN: no site",
+        "root mean square of an amplitude over the window",
     ),
 }
 """What each member is reduced to: dimensions after case and member, and in words."""
+ATTRIBUTES = {"norm_correlation": SCATTERED, "rms": missing("the chain has no such site")}
 
 Window = tuple[float, float]
 
@@ -106,9 +108,11 @@ def _numbers_of(
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
-        "l2_start": Variable(("case",), l2, "l2 norm of the data, of the pair"),
-        "linf_start": Variable(("case",), linf, "l-infinity norm of the data"),
-        "relative_width": Variable(("case",), list(map(relative_width, late)), width),
+        "l2_start": Variable(("case",), l2, "l2 norm of the data, of the pair", attributes=REGULAR),
+        "linf_start": Variable(("case",), linf, "l-infinity norm of the data", attributes=REGULAR),
+        "relative_width": Variable(
+            ("case",), list(map(relative_width, late)), width, attributes=SCATTERED
+        ),
     }
     for name in ("l2", "linf"):
         variables[name] = Variable(
@@ -118,6 +122,9 @@ def _numbers_of(
         )
     for name, (rest, long_name) in REDUCED.items():
         values = found[name].astype(np.float32) if name == "rms" else found[name]
-        variables[name] = Variable(("case", "member", *rest), values, long_name)
+        attributes = ATTRIBUTES.get(name, {})
+        variables[name] = Variable(
+            ("case", "member", *rest), values, long_name, attributes=attributes
+        )
     title = "Ensembles of every case, from almost equal data"
     return variables, {"title": title, **shared}

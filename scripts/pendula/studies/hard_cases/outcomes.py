@@ -7,19 +7,24 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
 from latticode.simulation.simulate import IntegrationError
+from replication.variables import REGULAR, SCATTERED, missing
 
 from . import errors
 
 LONG_NAMES = {
     "case": "",  # as in the registry
     "solver": "solver, and its controls",
-    "error": "error, NaN if the run was rejected",
-    "limit": "largest allowed error, NaN if the run must be rejected",
+    "error": "error",
+    "limit": "largest allowed error",
     "refusal": "why the run was rejected, empty if it was not",
     "reference": "what the error is measured against",
     "sound": "whether the outcome is the expected one",
 }
 """The variables of the dataset, one row a run."""
+ATTRIBUTES = {
+    "error": SCATTERED | missing("the run was rejected"),
+    "limit": missing("the run must be rejected"),
+}
 
 
 def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, Any]:
@@ -53,9 +58,14 @@ def hard_cases_contents(cases: list[dict]) -> Contents:
         if not row["sound"]:
             print(f"NOT AS EXPECTED: {row['case']}, {row['solver']}: {row['error']:.3g} ")
     variables = {
-        name: Variable(("row",), np.array([row[name] for row in results]), words)
+        name: Variable(
+            ("row",),
+            np.array([row[name] for row in results]),
+            words,
+            attributes=ATTRIBUTES.get(name, {}),
+        )
         for name, words in LONG_NAMES.items()
     }
     title = "Hard cases for the solvers: errors against known results, or messages of rejected runs"
     seeds = "for random data the number of sites; the constants are in the name of a case"
-    return variables, {"title": title, "seed": seeds}
+    return variables, {"title": title, "seed": seeds, **REGULAR}

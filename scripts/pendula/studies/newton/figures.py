@@ -4,6 +4,7 @@ import xarray as xr
 from latticode.drawing import style
 from matplotlib import colormaps
 from matplotlib.figure import Figure
+from replication.variables import CHAOTIC
 
 MARKS = "osD^vPX*"
 WIDTH_STEP = 0.6
@@ -21,7 +22,7 @@ def gather_over_the_top(over_the_top: xr.Dataset) -> xr.Dataset:
     omega = over_the_top.attrs["omega"]
     caption = CAPTION.format(omega=float(omega))
     shares = over_the_top[["passed", "passed_low", "passed_high"]].drop_attrs(deep=False)
-    return shares.assign_attrs(omega=omega, caption=caption)
+    return shares.assign_attrs(omega=omega, caption=caption, **CHAOTIC)
 
 
 @style.styled

@@ -23,6 +23,7 @@ from latticode.measures.confidence import Limits, difference_limits, event_rate,
 from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns, run_all, shaped
 from latticode.simulation.simulate import Trajectory, simulate
+from replication.variables import CHAOTIC, FEW_CHOICES, missing
 
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, Problem
@@ -105,7 +106,7 @@ def _passage_contents(
     rates = [event_rate(row, settled, end_time) for row in times]
     over = ("mu", "member")
     variables = {
-        "mu": Variable(("mu",), list(mus)),
+        "mu": Variable(("mu",), list(mus), attributes=FEW_CHOICES),
         "tau": Variable(("tau",), tau),
         "passage_time": Variable(
             over, times, "time of the first passage over the top, infinite if later"
@@ -117,20 +118,30 @@ def _passage_contents(
             ("member",), amplitude_powers, "mean of |A|^2 + |B|^2 over the same, by equations (4)"
         ),
     }
-    for name, dims, limits, words in (
-        ("passed", ("mu", "tau"), passed, "share of members that have gone over the top"),
-        (
-            "passage_rate",
-            ("mu",),
-            rates,
-            "rate of first passages after the settled time, per unit of tau; NaN: none was left",
-        ),
-    ):
-        value, low, high = np.moveaxis(np.array(limits), -1, 0)
-        variables[name] = Variable(dims, value, words)
-        variables[f"{name}_low"] = Variable(dims, low, f"{words}, lower confidence limit")
-        variables[f"{name}_high"] = Variable(dims, high, f"{words}, upper confidence limit")
-    return variables, {"title": "When pendula go over the top"}
+    shares = "share of members that have gone over the top"
+    per_time = "rate of first passages after the settled time, per unit of tau"
+    variables |= with_limits("passed", ("mu", "tau"), passed, shares)
+    variables |= with_limits(
+        "passage_rate", ("mu",), rates, per_time, missing("no member was left to pass")
+    )
+    return variables, {"title": "When pendula go over the top", **CHAOTIC}
+
+
+def with_limits(
+    name: str,
+    dimensions: tuple[str, ...],
+    limits: Sequence,
+    long_name: str,
+    attributes: Mapping[str, str] = {},
+) -> dict[str, Variable]:
+    """Return a number and its confidence limits as variables, from (..., 3) of `limits`."""
+    ends = {"": "", "_low": ", lower confidence limit", "_high": ", upper confidence limit"}
+    return {
+        f"{name}{end}": Variable(dimensions, values, f"{long_name}{words}", attributes=attributes)
+        for (end, words), values in zip(
+            ends.items(), np.moveaxis(np.array(limits), -1, 0), strict=True
+        )
+    }
 
 
 # --- The numbers of the article under other choices -----------------------------------------------
@@ -138,8 +149,8 @@ def _passage_contents(
 MEANINGS = {
     "passed": "share of members that have gone over the top by the end",
     "passage_rate": "rate of first passages after the settled time, per unit of tau",
-    "power_excess": "relative excess of P of a site over that of the amplitudes on the same chain; "
-    "NaN: a pendulum went over the top",
+    "power_excess": "relative excess of P of a site over that of the amplitudes on the same chain, "
+    "unknown where a pendulum went over the top",
 }
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
 from latticode.simulation.simulate import Trajectory, simulate
+from replication.variables import FEW_CHOICES, REGULAR, SCATTERED
 
 from pendula.models.pendula import leading_angles
 from pendula.problem import PENDULA, Problem
@@ -66,12 +67,13 @@ def remainder_contents(problems: Mapping[str, Problem], mus: Sequence[float]) ->
     variables = {
         "slow_time": Variable(("slow_time",), list(SLOW_TIMES), "slow time of the amplitudes"),
         "case": Variable(("case",), list(problems)),
-        "mu": Variable(("mu",), list(mus)),
+        "mu": Variable(("mu",), list(mus), attributes=FEW_CHOICES),
         "error": Variable(
             ("case", "slow_time", "mu"),
             np.array([measure_errors(problem, mus) for problem in problems.values()]),
             "largest error of an angle",
             "rad",
+            SCATTERED,
         ),
     }
-    return variables, {"title": "Errors of the expansion (3) against Newton's equations"}
+    return variables, {"title": "Errors of the expansion (3) against Newton's equations", **REGULAR}

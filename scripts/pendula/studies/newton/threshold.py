@@ -13,6 +13,7 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
 from numpy.typing import ArrayLike
+from replication.variables import FEW_CHOICES, REGULAR
 
 from pendula.models.linear_chain import gamma_0
 
@@ -34,8 +35,8 @@ def threshold_contents(epsilon: float, omegas: Sequence[float], mus: Sequence[fl
     omega, mu = np.array(omegas, dtype=float), np.array(mus, dtype=float)
     thresholds = pendula_threshold(omega[:, None], mu, epsilon)
     variables = {
-        "omega": Variable(("omega",), omega),
-        "mu": Variable(("mu",), mu),
+        "omega": Variable(("omega",), omega, attributes=FEW_CHOICES),
+        "mu": Variable(("mu",), mu, attributes=FEW_CHOICES),
         "gamma_0": Variable(
             ("omega", "mu"),
             thresholds,
@@ -46,4 +47,4 @@ def threshold_contents(epsilon: float, omegas: Sequence[float], mus: Sequence[fl
             ("omega",), gamma_0(omega, epsilon), "threshold gamma_0 of Lemma 1"
         ),
     }
-    return variables, {"title": "Lemma 1 for the pendula", "epsilon": epsilon}
+    return variables, {"title": "Lemma 1 for the pendula", "epsilon": epsilon, **REGULAR}

@@ -6,6 +6,7 @@ from latticode.drawing import style
 from latticode.numerics.elementary import cos, sin
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from replication.variables import REGULAR
 
 PAIRS, ANGLES = 3, (-0.5, 0.35)
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
@@ -47,7 +48,7 @@ def gather() -> xr.Dataset:
             "pendulum": ("pendulum", ["x", "y"], _about("pendulum of the pair")),
             "axis": ("axis", ["across", "up"], _about("direction on the page")),
         },
-        {"caption": CAPTION},
+        {"caption": CAPTION, **REGULAR},
     )
 
 

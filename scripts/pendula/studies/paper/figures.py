@@ -14,6 +14,7 @@ from latticode.measures.difference import (
 )
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from replication.variables import REGULAR, mark
 
 from pendula.drawing import KEPT, draw_cases, name_case
 
@@ -73,7 +74,8 @@ def gather_norms(
         cases = [case.assign(_bands(case, ensembles)) for case in cases]
         band = BAND_CAPTION.format(_share(ensembles))
     caption = NORMS_CAPTION + (parts + band) * any(map(strips.diverges, cases))
-    return style.join(cases, SIZES, "initial_size", KEPT).assign_attrs(caption=caption)
+    data = mark(style.join(cases, SIZES, "initial_size", KEPT), REGULAR, "omega")
+    return data.assign_attrs(caption=caption)
 
 
 def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
@@ -81,7 +83,7 @@ def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
     known = is_of_same_case(run, reference)
     for name in NORMS:
         long_name = f"true {reference[name].attrs['long_name']}, in multiprecision"
-        drawn[f"true_{name}"] = true[name].where(known).assign_attrs(long_name=long_name)
+        drawn[f"true_{name}"] = true[name].where(known).assign_attrs(long_name=long_name, **REGULAR)
     apart = difference(run, reference) if known else xr.full_like(run["tau"], np.nan)
     drawn["divergence_time"] = divergence_time(apart)
     drawn["solver"] = (), run.attrs["solver"]
@@ -138,8 +140,9 @@ def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
     Beside them is when the runs leave their references, from what `gather_norms` returns of them.
     """
     cases = [panels.over_time(case) for case in runs]
-    data = style.join(cases, SIZES, "initial_size", KEPT).assign_attrs(caption=SPACETIME_CAPTION)
-    return data.assign(divergence_time=norms["divergence_time"])
+    data = mark(style.join(cases, SIZES, "initial_size", KEPT), REGULAR, "omega")
+    data = data.assign(divergence_time=norms["divergence_time"])
+    return data.assign_attrs(caption=SPACETIME_CAPTION)
 
 
 @style.styled
@@ -179,7 +182,7 @@ def gather_sweeps(
     """
     sweeps = {"left": left, "right": right}
     readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
-    data = panels.join_sweeps(sweeps, readings, list(norms), KEPT)
+    data = mark(panels.join_sweeps(sweeps, readings, list(norms), KEPT), REGULAR, "omega")
     if ensembles is not None:
         names = [sweep.attrs["case"] for sweep in sweeps.values()]
         every = ensembles.reindex(sweep=names, half_width=data["half_width"])

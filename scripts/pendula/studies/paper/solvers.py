@@ -24,6 +24,7 @@ from latticode.measures.difference import (
 from latticode.measures.norms import drift, total_power
 from latticode.simulation.simulate import simulate
 from replication.ledger.cutoff import Cutoff
+from replication.variables import ALL_TIMES, FEW_CHOICES, PROVEN, REGULAR, SCATTERED, mark, missing
 
 from pendula.problem import Problem
 
@@ -51,12 +52,27 @@ COMPARED = {
 TRUSTED = {
     "horizon": f"first tau at which a norm is visibly off, {ABSENT}",
     "visible": COMPARED["visible"],
-    "known_until": "last tau at which run and reference are both known; NaN: no reference",
-    "l2_bound": "largest proven bound of the certified curve in the l2 norm; NaN: no proof",
+    "known_until": "last tau at which run and reference are both known",
+    "l2_bound": "largest proven bound of the certified curve in the l2 norm",
     "distance": "largest distance of its norms from the reference, over the bound",
     "late_distance": "the same distance of the curve one output late",
 }
 """What the two datasets hold, beside names of the registry and of `measures.difference`."""
+NO_REFERENCE = missing("there is no reference")
+ATTRIBUTES = {
+    "omega": REGULAR,
+    "drift": SCATTERED,
+    "largest_drift": SCATTERED,
+    "stated_drift": SCATTERED | REGULAR,
+    "second_step": FEW_CHOICES,
+    "difference": ALL_TIMES,
+    "horizon": NO_REFERENCE,
+    "known_until": NO_REFERENCE,
+    "l2_bound": PROVEN | REGULAR | missing("nothing is proved"),
+    "distance": REGULAR,
+    "late_distance": REGULAR,
+}
+"""What the comparison and the ledger must know of these variables."""
 
 
 def measure_solvers(
@@ -202,5 +218,7 @@ def _described(data: xr.Dataset, names: Mapping, runs: Mapping, title: str) -> x
     for name, long_name in names.items():
         if name in data:
             data[name].attrs = {"long_name": long_name}
+    for name, attributes in ATTRIBUTES.items():
+        data = mark(data, attributes, name)
     shared = shared_by([run.attrs for by_solver in runs.values() for run in by_solver.values()])
     return data.assign_attrs({**shared, "title": title})

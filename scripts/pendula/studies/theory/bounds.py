@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.checks import describe, tabulate, variable
 from latticode.measures.norms import total_power
+from replication.variables import REGULAR, mark
 
 from pendula.models.bounds import find_bounds, proven_region
 from pendula.problem import Constants
@@ -21,6 +22,8 @@ NUMBERS = {
     "theorem_3": ("C_N of Theorem 3", None),
 }
 """The numbers of a trajectory, each with its long name and its tolerance."""
+GIVEN = ("start", "theorem_1", "theorem_2", "widened", "theorem_3")
+"""Those that follow from the initial conditions."""
 
 
 def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
@@ -55,4 +58,4 @@ def check_observed(trajectories: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """Return the check of the paper's cases, and print whether it holds."""
     check = check_cases(trajectories)
     print(describe("cases", check))
-    return xr.Dataset.from_dict(check)
+    return mark(xr.Dataset.from_dict(check), REGULAR, "omega", *GIVEN)

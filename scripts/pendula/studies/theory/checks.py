@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.checks import describe, table, variable
 from latticode.simulation.problem import write_initial
+from replication.variables import REGULAR
 
 from .equations import ENDS, PAIR, constants_at, controls_of, one_pair, run, squared_norm
 from .stability import check_chart, check_threshold
@@ -51,4 +52,4 @@ def run_checks() -> Iterator[xr.Dataset]:
     for name, make in CHECKS.items():
         check = make()
         print(f"Check of the theory: {describe(name, check)}")
-        yield xr.Dataset.from_dict(check).assign_attrs(epsilon=constants_at(0.0).epsilon)
+        yield xr.Dataset.from_dict(check).assign_attrs(epsilon=constants_at(0.0).epsilon, **REGULAR)

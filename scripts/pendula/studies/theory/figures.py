@@ -10,6 +10,7 @@ import xarray as xr
 from latticode.drawing import style
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
+from replication.variables import REGULAR
 
 from pendula.drawing import name_initial
 
@@ -49,7 +50,7 @@ def gather_chart(
 
     `points` are pairs (Omega, gamma) in units of epsilon, `of_paper` says whether of its figures.
     """
-    data = chart[CHART].drop_attrs(deep=False).assign_attrs(caption=CHART_CAPTION)
+    data = chart[CHART].drop_attrs(deep=False).assign_attrs(caption=CHART_CAPTION, **REGULAR)
     whose = "the paper's cases" if of_paper else "the cases"
     for name, values in zip(("omega", "gamma"), np.reshape(points, (-1, 2)).T, strict=True):
         about = {"long_name": f"{name} of {whose}", "units": "1"}

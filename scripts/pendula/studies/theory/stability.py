@@ -3,6 +3,7 @@
 import numpy as np
 from latticode.datasets.checks import columns, table, variable
 from latticode.numerics.elementary import log
+from replication.variables import FEW_CHOICES
 
 from pendula.models.linear_chain import (
     curvatures,
@@ -95,5 +96,6 @@ def check_threshold() -> dict:
         excess=variable(excess, ("omega", "sites"), "threshold of N sites minus gamma_0"),
         **columns(("omega",), about, dict(zip(about, np.transpose(rows), strict=True))),
     )
+    found["coords"]["omega"]["attrs"] |= FEW_CHOICES
     found["attrs"] |= {**controls_of(SOLVER), "end_time": LONG}
     return found

@@ -4,6 +4,7 @@ import numpy as np
 from latticode.datasets.checks import table, variable
 from latticode.measures.norms import power_of
 from latticode.numerics.elementary import log, square_modulus
+from replication.variables import FEW_CHOICES
 
 from pendula.models.bounds import (
     extent,
@@ -98,12 +99,14 @@ def check_chain_growth() -> dict:
         ]
         exponents.append(np.diff(log(grown), axis=0)[0] / log(SIZES[1] / SIZES[0]))
     of_bound, of_shell = np.transpose(exponents)
-    return table(
+    found = table(
         "What grows with the length of the chain: C_N, and the largest P of one energy",
         {"omega": omegas},
         constant_exponent=variable(of_bound, dims, "exponent in N of C_N"),
         shell_exponent=variable(of_shell, dims, "exponent in N of the largest P of one energy"),
     )
+    found["coords"]["omega"]["attrs"] |= FEW_CHOICES
+    return found
 
 
 # --- Errors of the proofs, each with the smallest example that anyone can rerun -------------------

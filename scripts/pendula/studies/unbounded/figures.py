@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from replication.variables import ALL_TIMES, missing
 
 from pendula.drawing import name_case
 
@@ -43,7 +44,11 @@ def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dat
     cases = xr.Variable("case", [run.attrs["name"] for run in runs])
     found = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
     found["band"].attrs["long_name"] = "value over the members of the ensemble"
-    found["law"].attrs["long_name"] = "l2^2 by thermal states and speeds of fronts"
+    found["law"].attrs = {
+        "long_name": "l2^2 by thermal states and speeds of fronts",
+        **missing("no thermal state was solved"),
+        **ALL_TIMES,
+    }
     found["initial"].attrs["long_name"] = "initial {site: [A, B]}"
     return found.assign_attrs(title="Growth of the norms", caption=GROWTH_CAPTION)
 

@@ -10,12 +10,16 @@ from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
 from latticode.numerics.draws import normal
 from latticode.simulation.runs import ManyRuns, shaped
+from replication.variables import CHAOTIC, REGULAR, missing
 
 from pendula.problem import Problem
 
 from .active_sites import run_long
 from .bulk import EDGE, KINDS, LEVEL, PREDICTED_SPEED, REGIONS
 from .front import linear_front
+
+SCANS = ("omegas", "starts")
+"""Ensembles over detunings or initial conditions that are no case of the paper."""
 
 
 def member(problem: Problem, perturbation: float, seed: int, number: int) -> Problem:
@@ -42,7 +46,8 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
     described = [describe_run(name, problem, problem.solver) for problem in problems]
     shared = shared_by(described, "half_width", "snapshot_every")
     ends = {"boundary": "none: sites are added as the front moves", "rest": rest}
-    return {"title": title, **shared, **ends, **ensemble}
+    chaos = CHAOTIC if name in SCANS else {}
+    return {"title": title, **shared, **ends, **ensemble, **chaos}
 
 
 def spread_case(
@@ -78,10 +83,11 @@ def run_variables(
     predicted = [linear_front(problem.constants) for problem in problems]
 
     def of_variants(values: list[float], long_name: str = "") -> Variable:
-        return Variable(("variant",), np.array(values, float), long_name)
+        return Variable(("variant",), np.array(values, float), long_name, attributes=REGULAR)
 
-    def of_runs(name: str, axes: tuple, long_name: str) -> Variable:
-        return Variable(("variant", "member", *axes), series[name], long_name)
+    def of_runs(name: str, axes: tuple, long_name: str, attributes: Mapping = {}) -> Variable:
+        dimensions = ("variant", "member", *axes)
+        return Variable(dimensions, series[name], long_name, attributes=attributes)
 
     both, place = "of A and B together", "site of the front"
     level = ("level",) if len(levels) > 1 else ()
@@ -108,7 +114,8 @@ def run_variables(
         "region_mean": of_runs(
             "means",
             ("piece_tau", *edge, "region", "kind"),
-            "mean over a region; NaN: it has no sites",
+            "mean over a region",
+            missing("the region has no sites"),
         ),
         "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
         "predicted_delay": of_variants(

@@ -15,8 +15,12 @@ from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.measures.confidence import CONFIDENCE, Limits, mean_limits
 from latticode.measures.spreading import fit_line, lay_line
 from latticode.numerics.elementary import log
+from replication.variables import REGULAR, SCATTERED, chaotic_along, missing
 
 from .bulk import BEHIND, BETWEEN, KINDS, LEVEL, POWER, PREDICTED_SPEED
+
+NO_FRONT, NO_SITES = missing("no second front has formed"), missing("the region has no sites")
+NO_STATE = REGULAR | missing("no thermal state was solved")
 
 LATE = 0.5
 """The part of a run, at its end, that powers are means of."""
@@ -158,20 +162,32 @@ def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     found = {
         "omega": (omegas["omega"].values, ""),
         "front_speed": (first, f"speed of the first front with its delay added back, {of_speed}"),
-        "front_speed_error": (first_error, f"{limits}, or what the places of the front resolve"),
-        "linear_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
-        "second_front_speed": (second, f"speed of the second front, {of_speed}; NaN: none"),
-        "second_front_speed_error": (second_error, limits),
-        "power_behind": (behind.value, f"{POWER} {BEHIND}; NaN: none"),
-        "power_behind_error": (_known(behind.half), limits),
-        "power_between": (between.value, f"{POWER} {BETWEEN}; NaN: no sites"),
-        "power_between_error": (_known(between.half), limits),
-        "thermal_power": (thermal_powers(thermal, omegas), f"{POWER} in the thermal state"),
+        "front_speed_error": (
+            first_error,
+            f"{limits}, or what the places of the front resolve",
+            SCATTERED,
+        ),
+        "linear_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED, REGULAR),
+        "second_front_speed": (second, f"speed of the second front, {of_speed}", NO_FRONT),
+        "second_front_speed_error": (second_error, limits, NO_FRONT | SCATTERED),
+        "power_behind": (behind.value, f"{POWER} {BEHIND}", NO_FRONT),
+        "power_behind_error": (_known(behind.half), limits, NO_FRONT | SCATTERED),
+        "power_between": (between.value, f"{POWER} {BETWEEN}", NO_SITES),
+        "power_between_error": (_known(between.half), limits, NO_SITES | SCATTERED),
+        "thermal_power": (
+            thermal_powers(thermal, omegas),
+            f"{POWER} in the thermal state",
+            NO_STATE,
+        ),
         "thermal_antisymmetric_power": (
             thermal_powers(thermal, omegas, "antisymmetric_power"),
             f"{POWER} in the thermal state of the chain with A = -B",
+            NO_STATE,
         ),
     }
-    variables = {name: Variable(("omega",), *given) for name, given in found.items()}
+    variables = {
+        name: Variable(("omega",), values, long_name, attributes=dict(*attributes))
+        for name, (values, long_name, *attributes) in found.items()
+    }
     title = "The two fronts on infinite chains, and the states behind them"
-    return as_xarray(variables, {**omegas.attrs, "title": title})
+    return as_xarray(variables, {**omegas.attrs, "title": title, **chaotic_along("omega")})

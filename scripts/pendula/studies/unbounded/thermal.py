@@ -14,6 +14,7 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
 from latticode.numerics.elementary import exp, log
+from replication.variables import FEW_CHOICES, REGULAR, SCATTERED
 
 from pendula.problem import Constants
 
@@ -111,7 +112,7 @@ def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int)
         except NoThermalStateError as error:
             print(f"left out: {error}")
     known = [both.operator.constants.omega for both, _ in found]
-    variables, along = {"omega": Variable(("omega",), known)}, ("omega",)
+    variables, along = {"omega": Variable(("omega",), known, attributes=FEW_CHOICES)}, ("omega",)
     for number, prefix, words in (
         (0, "", f"{POWER} in the thermal state of no energy"),
         (1, "antisymmetric_", f"{POWER} in that of the chain with A = -B"),
@@ -119,6 +120,12 @@ def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int)
         powers, errors = np.reshape([pair[number][1:3] for pair in found], (-1, 2)).T
         variables[f"{prefix}power"] = Variable(along, powers, words)
         said = f"change of the {words} from a coarser and wider grid"
-        variables[f"{prefix}power_error"] = Variable(along, errors, said)
+        variables[f"{prefix}power_error"] = Variable(along, errors, said, attributes=SCATTERED)
     title = "Thermal states of the infinite chain, by its transfer operator"
-    return variables, {"title": title, "epsilon": epsilon, "gamma": gamma, "nodes": 2 * nodes}
+    return variables, {
+        "title": title,
+        "epsilon": epsilon,
+        "gamma": gamma,
+        "nodes": 2 * nodes,
+        **REGULAR,
+    }
