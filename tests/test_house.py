@@ -14,6 +14,7 @@ STOREYS = (
     ("live",),
     ("notebook",),
     ("article", "own_cases"),
+    ("jobs",),
     ("studies",),
     ("drawing",),
     ("many_cases", "varied"),

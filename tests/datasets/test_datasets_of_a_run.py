@@ -3,10 +3,13 @@
 from collections import defaultdict
 
 import netCDF4
-from helpers import ROOT
+from helpers import MY_BASELINE, ROOT
+from latticode.datasets.json_files import load_json
 from latticode.datasets.netcdf import read
 from latticode.datasets.registry import NAMES, UNITS
 from latticode.datasets.stated import COMPUTED_FROM
+from replication.figure_diff.chaos import Chaos, cases_of
+from replication.variables import ALONG, ALWAYS, BOUND, CHAOS, KIND, NO, STATISTIC, YES
 
 NOT_COMPUTED = {"figures/fig1", "checks/identities"}
 """A drawing of the chain, and algebra for all constants."""
@@ -26,6 +29,32 @@ def test_every_dataset_explains_itself_and_a_name_has_one_meaning(full_run):
                 meanings[name].add((variable.long_name, variable.units))
     several = {name: found for name, found in meanings.items() if len(found) > 1}
     assert {name: found for name, found in several.items() if name not in NAMES} == {}
+
+
+def test_every_variable_says_whether_it_rests_on_chaos_or_is_of_a_known_case(full_run):
+    """Else `figure_diff` would not compare it: the maker writes the attribute rests_on_chaos."""
+    results = full_run / "results"
+    configuration = load_json(full_run / MY_BASELINE / "hashes.json")["configuration"]
+    chaos = Chaos({}, cases=cases_of(configuration), time="tau")
+    names = [path.relative_to(results).as_posix() for path in results.rglob("*.nc")]
+    silent = {name: chaos.undeclared(name, read(results / name)) for name in names}
+    assert {name: variables for name, variables in silent.items() if variables} == {}
+
+
+def test_attributes_on_chaos_and_on_kinds_have_known_values(full_run):
+    used = defaultdict(set)
+    for path in (full_run / "results").rglob("*.nc"):
+        data = read(path)
+        for name, attributes in [
+            ("", data.attrs),
+            *((n, v.attrs) for n, v in data.variables.items()),
+        ]:
+            for key in {CHAOS, KIND} & attributes.keys():
+                used[key].add(attributes[key])
+            if str(attributes.get(CHAOS, "")).startswith(ALONG):
+                assert attributes[CHAOS].removeprefix(ALONG) in data, (path, name)
+    assert used[CHAOS] == {NO, YES, ALWAYS, "along omega"}
+    assert used[KIND] == {BOUND, STATISTIC}
 
 
 def test_every_dataset_says_with_what_it_was_computed_or_names_datasets_that_do(full_run):

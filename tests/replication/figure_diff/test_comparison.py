@@ -10,6 +10,7 @@ from latticode.datasets.netcdf import read
 from latticode.drawing.seals import sealed_pdf
 from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICTURE, REGULAR, REPORT
 from replication.figure_diff import Status, baseline
+from replication.figure_diff.acceptance import AcceptanceError
 from replication.figure_diff.chaos import LOCAL, MARGIN, TOLERANCE, Chaos, known_chaos
 from replication.figure_diff.compare_pictures import damage, edited
 from replication.figure_diff.compare_shown import comparable, compare
@@ -152,6 +153,41 @@ def test_what_rests_on_chaos(run, name, variable, expected):
     chaos = Chaos({"fig4_small": HORIZON}, time="tau")
     rests = chaos.freedom(f"{name}.nc", variable, data) > 0.0
     assert rests.mean() == pytest.approx(expected, abs=0.003)
+
+
+def declared(data, **attributes):
+    return data.assign(l2=data["l2"].assign_attrs(attributes))
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        ("no", 0.0),
+        ("yes", 1.0),
+        ("by case", 0.818),
+        ("by case at all times", 1.0),
+        ("along omega", 1.0),  # which is no dimension of the norms
+    ],
+)
+def test_a_variable_says_whether_it_rests_on_chaos(run, value, expected):
+    data = declared(read(run.made / CHAOTIC), rests_on_chaos=value)
+    rests = Chaos({"fig4_small": HORIZON}, time="tau").freedom(CHAOTIC, "l2", data) > 0.0
+    assert rests.mean() == pytest.approx(expected, abs=0.003)
+
+
+def test_a_variable_that_says_nothing_of_chaos_is_neither_compared_nor_accepted(run):
+    data = read(run.made / CHAOTIC)
+    chaos = Chaos({}, cases=CONFIGURATION["cases"], time="tau")
+    assert chaos.undeclared(CHAOTIC, data) == []  # its name is that of a case
+    assert chaos.undeclared("waves/lives.nc", data) == ["l2", "bound"]
+    assert chaos.undeclared("waves/lives.nc", declared(data, rests_on_chaos="no")) == ["bound"]
+    run.change(made_up.LIVES, lambda lives: (lives + 1.0).drop_attrs())
+    found = run.findings(any_bits=True)[made_up.LIVES]
+    assert found.status == Status.DIFFERENT
+    assert found.says.startswith("median does not say whether it rests on chaos")
+    assert 'write the attribute rests_on_chaos = "no" or "yes"' in found.says
+    with pytest.raises(AcceptanceError, match=r"checks/lifetimes.nc, median does not say whether"):
+        run.accept()
 
 
 # Files, and what is written

@@ -71,7 +71,7 @@ def remainder_contents(problems: Mapping[str, Problem], mus: Sequence[float]) ->
         "error": Variable(
             ("case", "slow_time", "mu"),
             np.array([measure_errors(problem, mus) for problem in problems.values()]),
-            "largest error of an angle",
+            "error of an angle, the largest",
             "rad",
             SCATTERED,
         ),
