@@ -13,7 +13,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
         *checks("ensembles", "members", "lifetimes"),
     ],
     "breathers": rules.breathers.input.datasets,
-    "pendula": rules.newton.input.datasets,
+    "newton": rules.newton.input.datasets,
     "unbounded": [
         *datasets("breathers", "sensitivity"),
         *datasets("unbounded", *SETTINGS.unbounded.names, "thermal"),
