@@ -52,6 +52,16 @@ DATASETS = [
 ]
 
 
+# Results of long studies that the article quotes, and their copies beside it
+QUOTED = [
+    *expand("tests/baseline/quoted/{name}.nc", name=["unbounded", "chaos", "breathers", "pendula"]),
+    "tests/baseline/quoted/reproduction.json",
+    "tests/baseline/speed/work_precision.nc",
+    *expand("tests/baseline/proofs/{case}.nc", case=PAPER_CASES),
+]
+QUOTED_COPIES = [f"<results>/{copy_of(path)}" for path in QUOTED]
+
+
 rule all:
     "Everything: datasets, figures, tables and the report (the target of `snakemake` alone)"
     default_target: True
@@ -64,6 +74,7 @@ rule all:
         expand("<results>/tables/{name}.md", name=["claims", "claims_figures"]),
         *("<results>/report.html", "<results>/live.html"),
         expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
+        QUOTED_COPIES,
     message:
         "All datasets, figures and tables are there: begin with results/article.html and results/report.html"
 

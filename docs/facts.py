@@ -18,7 +18,7 @@ from latticode.measures.confidence import chance_inside, chance_of_counts, share
 from pendula.article.values import counts, largest_bound
 from pendula.configuration.paper import paper
 from pendula.varied import names_of, numbers_in, single_numbers, variations_of
-from replication.article.numbers import KEPT
+from replication.article.quoted import is_quoted, original_of
 from replication.ledger.chances import ALLOWED, RARE
 from replication.report.results import Results
 from replication.report.words import case_of, markdown, number, plainly, symbols, with_error
@@ -88,7 +88,7 @@ class Accepted(Results):
         return self.path(f"{name}.nc").exists()
 
     def path(self, link: str) -> Path:
-        return BASELINE / link.removeprefix(f"{KEPT}/")
+        return BASELINE.parents[1] / original_of(link) if is_quoted(link) else BASELINE / link
 
 
 def topics(accepted: Results) -> dict[str, Any]:

@@ -7,11 +7,12 @@ from facts import Accepted
 from html_tags import Tags
 from pendula.article.write import ARTICLE
 from replication.article import crosslinks
+from test_article import PICTURES, linked_source
 
 
 @pytest.fixture(scope="module")
 def text() -> str:
-    return ARTICLE.source(Accepted(), "/figures/{}.png")
+    return linked_source()[0]
 
 
 def test_every_heading_figure_table_equation_and_reference_has_an_id(text):
@@ -46,7 +47,7 @@ def test_pictures_are_described_in_words_in_the_page_and_in_the_pdf(text):
     assert len(pictures) == text.count("\n![")
     assert all(len(words) > 60 and not re.search(r"[\\$*{]", words) for words in pictures.values())
     assert "norms of A and B at Ω = 8" in pictures["/figures/fig2.png"]
-    pdf = ARTICLE.typeset(text, Accepted().path("claims.json").parent)
+    pdf = ARTICLE.pdf(Accepted(), PICTURES)
     assert pdf.count(b"/Alt") >= len(pictures)
 
 

@@ -14,8 +14,9 @@ from facts import Accepted
 from pendula.article.write import ARTICLE
 from pendula.varied import VARIATION, numbers_in, variations_of
 from replication.article import render
-from replication.article.numbers import QUOTED, Numbers
-from replication.report.words import Quote
+from replication.article.numbers import Numbers
+from replication.article.quoted import FOLDER
+from replication.article.sources import Printed, Source
 
 SECTION = "## Beyond the paper"
 RANGES = ("span", "range_of", "share_span")
@@ -51,8 +52,8 @@ OF_THE_LEDGER = {
 def tokens() -> list[tuple[bool, str, str, str, dict]]:
     """Return of each number whether it is in SECTION, its function, source, name and labels."""
 
-    def token(*parts) -> Quote:
-        return Quote(f"⟦{json.dumps(parts)}⟧", "")
+    def token(*parts) -> Printed:
+        return Printed(f"⟦{json.dumps(parts)}⟧", Source())
 
     def of_dataset(function):
         return lambda self, name, variable, *_, **labels: token(function, name, variable, labels)
@@ -81,7 +82,7 @@ def unvaried(accepted, tokens) -> list[str]:
     for inside, function, source, name, labels in tokens:
         if function in OF_CLAIMS:
             known = not inside or source in OF_THE_LEDGER
-        elif inside or source.startswith(QUOTED):
+        elif inside or source.startswith(FOLDER):
             known = name in WITHOUT or f"{name} of {source}" in WITHOUT
             known = known or is_varied(accepted[source], function, name, labels)
         else:
@@ -109,7 +110,7 @@ def test_every_number_beyond_the_paper_was_varied_or_has_a_reason(tokens):
 
 def test_a_number_without_variations_is_found(tokens):
     accepted = Accepted()
-    name = f"{QUOTED}unbounded"
+    name = f"{FOLDER}/unbounded"
     accepted._read[name] = accepted[name].drop_vars("power_between_varied")
     told = unvaried(accepted, tokens)
     assert told and all(one.startswith("power_between of") for one in told)
@@ -207,5 +208,5 @@ def test_every_variation_lies_in_the_interval_that_is_printed(printed):
 
 @pytest.mark.parametrize("text", ["7.0 to 7.4", "0.5 ± 0.1", "8 % (7 % to 9 %)"])
 def test_an_interval_that_leaves_a_variation_out_is_told(text):
-    source = f"{QUOTED}chaos"
+    source = f"{FOLDER}/chaos"
     assert excluded(Accepted(), [(text, source, "transition", {"definition": "level"})])

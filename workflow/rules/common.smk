@@ -69,6 +69,7 @@ from requests_of_slurm import never_started, partitions_of_slurm
 from benchmarks.problems import REGIMES
 from pendula import __version__
 from replication.archive.contents import code_files
+from replication.article.quoted import copy_of
 from latticode.configuration.cost import Cost
 from latticode.configuration.files import ConfigurationError, gather, read_entries
 from latticode.configuration.values import Steps

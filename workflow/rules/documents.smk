@@ -36,25 +36,18 @@ use rule job as article with:
     "results/article.pdf and article.html: what reproduces, what does not, and what is new"
     input:
         datasets=DATASETS,
-        pictures=expand("<results>/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf"]),
+        pictures=expand("<results>/figures/{name}.{kind}", name=FIGURES, kind=["nc", "png", "pdf"]),
         ledger="<results>/claims.json",
     output:
         html="<results>/article.html",
         pdf="<results>/article.pdf",
         metadata="<results>/article.yaml",
+        quoted=QUOTED_COPIES,
     pathvars:
         made="article",
     params:
         call=function("pendula.article.write.write_article"),
-        committed=committed(
-            kept=[
-                *("tests/baseline/quoted/unbounded.nc", "tests/baseline/quoted/chaos.nc"),
-                *("tests/baseline/quoted/breathers.nc", "tests/baseline/quoted/pendula.nc"),
-                "tests/baseline/quoted/reproduction.json",
-                "tests/baseline/speed/work_precision.nc",
-                *expand("tests/baseline/proofs/{case}.nc", case=PAPER_CASES),
-            ]
-        ),
+        committed=committed(committed_results=QUOTED),
         digests=[version(name) for name in ("typst", "pypandoc_binary")],
         differs=DIFFERS,
 

@@ -1,4 +1,4 @@
-"""The numbers that the article quotes, by name, each read from a dataset and linked to it."""
+"""The numbers that the article prints, by name, each with the source that its card describes."""
 
 import json
 import re
@@ -8,26 +8,22 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from latticode.measures.confidence import CONFIDENCE
-from replication.article.numbers import KEPT, MARK, QUOTED, Numbers
+from replication.article.cards import COUNTS
+from replication.article.numbers import MARK, Numbers
+from replication.article.quoted import FOLDER
+from replication.article.sources import Printed, Source, printed
 from replication.ledger.claim import Kind, Origin
 from replication.ledger.criterion import Verdict
-from replication.ledger.rows import (
-    Ledger,
-    load,
-    tally,
-)
+from replication.ledger.rows import tally
 from replication.report.results import Results
-from replication.report.words import (
-    Quote,
-    enclosing_span,
-    number,
-    percent,
-)
+from replication.report.words import enclosing_span, number, percent
 
 from pendula.configuration.schema import PAPER_CASES
 from pendula.studies.paper.solvers import ORDER
 
-LONG, FRONTS = f"{QUOTED}unbounded", "unbounded/fronts"
+from .long_studies import PROOFS, SPEED, TIMES, UNBOUNDED
+
+FRONTS = "unbounded/fronts"
 UPWARD = 1.05
 """By so much a bound grows before two of its digits are printed: they are then no smaller."""
 
@@ -35,49 +31,59 @@ UPWARD = 1.05
 def gather(results: Results) -> dict[str, Any]:
     """Return all that the template names: functions of `Numbers`, and numbers made of several."""
     numbers = Numbers(results)
-    compared, study = results["checks/solvers"], results[LONG]
-    speed = results[f"{KEPT}/speed/work_precision"]
+    compared, study = results["checks/solvers"], results[UNBOUNDED]
+    diverging = int(np.isfinite(compared["second_divergence"][:, 0]).sum())
+    speed = results[SPEED]
+    cpp_programs = [peer for peer in speed["peer"].values if "cpp" in peer]
     return {
         **numbers.functions(),
-        "counts": counts(load(results)),
-        "kept": QUOTED,
+        "counts": counts(numbers.rows),
+        "quoted": f"{FOLDER}/",
         "confidence": percent(CONFIDENCE),
         "percent": percent,
-        "cases": results.quote("checks/solvers", compared.sizes["case"]),
-        "apart": results.quote(
-            "checks/solvers", int(np.isfinite(compared["second_divergence"][:, 0]).sum())
-        ),
-        "allowed": number(ORDER.number),
+        "cases": printed(str(compared.sizes["case"]), "checks/solvers", "second_divergence"),
+        "diverging": printed(str(diverging), "checks/solvers", "second_divergence"),
+        "allowed": Printed(number(ORDER.number), Source(claim="energy_small")),
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
-        "cells": results["checks/chart"]["measured"].size,
+        "cells": printed(str(results["checks/chart"]["measured"].size), "checks/chart", "measured"),
         "mark": MARK,
-        "omegas": results.quote(LONG, study.sizes["omega"]),
-        "levels": [results.quote(LONG, level, 2) for level in study["level"].values],
-        "noises": [results.quote(LONG, float(size), 2) for size in study["noise"].values[:-1]],
-        "left_out": results.say(LONG, str(study.attrs["edge"])),
+        "omegas": printed(str(study.sizes["omega"]), UNBOUNDED, "exponent"),
+        "levels": [
+            printed(number(level, 2), UNBOUNDED, "level_speed") for level in study["level"].values
+        ],
+        "noises": [
+            printed(number(size, 2), UNBOUNDED, "distance") for size in study["noise"].values[:-1]
+        ],
+        "left_out": Printed(str(study.attrs["edge"]), Source(UNBOUNDED, attribute="edge")),
         "largest_bound": largest_bound(results),
-        "radius": upward(results["certified/breathers"]["radius"].max()),
+        "radius": printed(
+            upward(results["certified/breathers"]["radius"].max()), "certified/breathers", "radius"
+        ),
         "peer": lambda name: times_as_long(speed, name),
-        "by_hand": times_as_long(speed, *(peer for peer in speed["peer"].values if "cpp" in peer)),
+        "by_hand": times_as_long(speed, *cpp_programs),
         "fastest_in": wins_of_taylor(speed),
-        "spread_from": results.quote(LONG, spread_from(study)),
-        "grown": grown(numbers.ledger),
-        "least_between": results.say(FRONTS, percent(least_between(results[FRONTS]))),
-        "full_run": full_run(results),
-    }
+        "spread_from": printed(number(spread_from(study)), UNBOUNDED, "level_speed"),
+        "grown": grown(numbers),
+        "least_between": printed(percent(least_between(results[FRONTS])), FRONTS, "power_between"),
+        "full_run": {
+            name: printed(time, TIMES) for name, time in full_run(results).items()
+        },
+    }  # fmt: skip
 
 
-def times_as_long(speed: xr.Dataset, *peers: str) -> str:
+def times_as_long(speed: xr.Dataset, *peers: str) -> Printed:
     """Return the range over the cases of the fastest of such peers' times over our solver's."""
     ratios = speed["ratio"].sel(peer=list(peers)).min("peer")
-    return f"{enclosing_span(float(ratios.min()), float(ratios.max()), 2)}{MARK}"
+    text = f"{enclosing_span(float(ratios.min()), float(ratios.max()), 2)}{MARK}"
+    return printed(text, SPEED, "ratio", {"peer": list(peers)})
 
 
-def wins_of_taylor(speed: xr.Dataset) -> str:
+def wins_of_taylor(speed: xr.Dataset) -> Printed:
     """Return in how many cases the Taylor method takes the least time at equal error."""
     best = speed["best_seconds"].dropna("solver", how="all").dropna("case", how="all")
     wins = int((best.idxmin("solver") == "taylor").sum())
-    return f"{'all' if wins == best.sizes['case'] else f'{wins} of'} {best.sizes['case']} cases"
+    text = f"{'all' if wins == best.sizes['case'] else f'{wins} of'} {best.sizes['case']} cases"
+    return printed(text, SPEED, "best_seconds")
 
 
 def spread_from(study: xr.Dataset) -> float:
@@ -91,19 +97,19 @@ def least_between(fronts: xr.Dataset) -> float:
     return float((fronts["power_between"] / fronts["thermal_antisymmetric_power"]).min())
 
 
-def grown(ledger: Ledger) -> Quote:
+def grown(numbers: Numbers) -> Printed:
     """Return of how many runs from other initial conditions the norm grows."""
-    share, runs = (ledger.value("unbounded_starts", key) for key in ("share", "runs"))
-    return ledger.quote("unbounded_starts", "share")._replace(text=f"{share * runs:.0f}")
+    share, runs = (numbers.measured("unbounded_starts", key) for key in ("share", "runs"))
+    return Printed(f"{share * runs:.0f}", Source(claim="unbounded_starts"))
 
 
-def counts(rows: list[dict]) -> dict[str, str]:
+def counts(rows: list[dict]) -> dict[str, Printed]:
     """Return how many claims of the paper are of each kind and have each verdict, and controls."""
     of_paper = Counter(tally(rows).get(Origin.PAPER, {}))
     kinds = Counter(row["kind"] for row in rows if row["origin"] == Origin.PAPER)
-    controls = [one["passes"] for row in rows for one in row["controls"]]
+    controls = [control["passes"] for row in rows for control in row["controls"]]
     of_all = "" if all(controls) else f"{controls.count(True)} of the"
-    found = {
+    numbers = {
         **{str(kind): kinds[kind] for kind in Kind},
         "papers": of_paper.total(),
         "confirmed": of_paper[Verdict.CONFIRMED],
@@ -115,20 +121,22 @@ def counts(rows: list[dict]) -> dict[str, str]:
         "resting": sum(bool(row["rests_on"]) for row in rows),
         "as_required": f"{of_all or 'All'} {len(controls)}",
     }
-    return {name: str(count) for name, count in found.items()}
+    return {name: Printed(str(count), COUNTS) for name, count in numbers.items()}
 
 
-def regular_error(results: Results, solver: str) -> Quote:
+def regular_error(results: Results, solver: str) -> Printed:
     """Return the largest error of a solver's norms in the cases that are not chaotic."""
-    regular = results["checks/lyapunov"]["chaotic"] == 0
-    errors = results["checks/trust"]["difference"].sel(solver=solver).where(regular)
-    return results.quote("checks/trust", float(errors.max()), 2)
+    is_regular = results["checks/lyapunov"]["chaotic"] == 0
+    errors = results["checks/trust"]["difference"].sel(solver=solver).where(is_regular)
+    text = number(float(errors.max()), 2)
+    return printed(text, "checks/trust", "difference", {"solver": solver})
 
 
-def largest_bound(results: Results) -> str:
+def largest_bound(results: Results) -> Printed:
     """Return the largest proven distance of a computed curve from the true one, rounded upward."""
-    proofs = (results[f"{KEPT}/proofs/{case}"] for case in PAPER_CASES)
-    return upward(max(one["bound"].max() for one in proofs))
+    bounds = {case: float(results[f"{PROOFS}/{case}"]["bound"].max()) for case in PAPER_CASES}
+    worst = max(bounds, key=bounds.get)
+    return printed(upward(bounds[worst]), f"{PROOFS}/{worst}", "bound")
 
 
 def upward(bound: float) -> str:
@@ -138,6 +146,6 @@ def upward(bound: float) -> str:
 
 def full_run(results: Results) -> dict[str, str]:
     """Return the wall times of whole runs in seconds, as measured once, and on how many cores."""
-    kept = json.loads(results.path(f"{QUOTED}reproduction.json").read_text(encoding="utf-8"))
-    times = {name: f"{one['wall']:.0f}" for name, one in kept["runs"].items()}
-    return times | {"cores": str(kept["machine"]["cores"])}
+    measured = json.loads(results.path(TIMES).read_text(encoding="utf-8"))
+    times = {name: f"{run['wall']:.0f}" for name, run in measured["runs"].items()}
+    return times | {"cores": str(measured["machine"]["cores"])}

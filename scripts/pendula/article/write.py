@@ -3,11 +3,13 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from replication.article.quoted import copy_quoted
 from replication.article.render import Article
 from replication.report.results import Results
 
 from pendula import RELEASED
 
+from .long_studies import LONG_STUDIES
 from .values import gather
 
 ARTICLE = Article(
@@ -15,6 +17,7 @@ ARTICLE = Article(
     title="[Re] Coupled pendula chains under parametric PT-symmetric driving force",
     released=RELEASED,
     gather=gather,
+    long_studies=LONG_STUDIES,
     navigation='<a href="report.html">The report, with every verdict and its data</a> · '
     '<a href="live.html">the cases in your browser</a> · <a href="article.pdf">PDF</a>',
     rights="The code has the license BSD-3-Clause, the data and the text have CC-BY-4.0.",
@@ -25,16 +28,18 @@ def write_article(
     datasets: list[str],
     pictures: list[str],
     ledger: str,
-    kept: list[str],
+    committed_results: list[str],
     differs: Mapping[str, str],
     html: str,
     pdf: str,
     metadata: str,
+    quoted: list[str],
 ) -> None:
-    """Write the three files of the article.
+    """Write the three files of the article, and `quoted`, copies of `committed_results` beside it.
 
-    `kept` are committed files that it quotes. `differs` says where the configuration is not the
+    `differs` says where the configuration is not the
     paper's: then there is a notice in place of the article, which is on the paper's cases.
     """
-    results = Results([*datasets, *pictures, ledger, *kept], html, differs=differs)
+    copy_quoted(committed_results, quoted)
+    results = Results([*datasets, *pictures, ledger, *quoted], html, differs=differs)
     ARTICLE.write(results, html, pdf, metadata)

@@ -75,6 +75,7 @@ def describe_caption(caption: str) -> str:
     """Return a caption as plain words; raises ValueError if it holds unknown TeX."""
     for tex, letter in PLAIN_TEX.items():
         caption = caption.replace(tex, letter)
+    caption = re.sub(r"\s*\[[^\]]*\]\([^)]*\)\{\.source\}", "", caption)
     caption = re.sub(r"\[([^\]]*)\]\([^)]*\)(\{\.n[^}]*\})?", r"\1", caption)
     words = re.sub(r"[$*{}]", "", caption)
     if "\\" in words:

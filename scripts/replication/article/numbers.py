@@ -1,16 +1,13 @@
-"""The numbers that an article quotes, each read from a dataset and linked to it."""
+"""The numbers that an article prints, each with the source that its card describes."""
 
 from collections.abc import Callable
 
-import xarray as xr
-
-from replication.ledger.rows import Ledger, counted_verdicts, on_figure, whether_it_holds
+from replication.ledger.rows import counted_verdicts, load, on_figure, whether_it_holds
 from replication.report.results import Results
 from replication.report.words import (
     DOWN,
     FIRM,
     UP,
-    Quote,
     enclosing_span,
     number,
     outward,
@@ -19,9 +16,9 @@ from replication.report.words import (
 )
 from replication.variables import VARIATION
 
-KEPT = "../tests/baseline"
-"""Where committed datasets lie, seen from the article."""
-QUOTED = f"{KEPT}/quoted/"
+from .quoted import is_quoted
+from .sources import Printed, Source, printed
+
 MARK = "†"
 """It follows each result of a long study, which a full run does not make again."""
 PER_CENT_DIGITS = 2
@@ -46,49 +43,79 @@ class Numbers:
     """Numbers of a run: `of` datasets, or measured for claims (`n`), also in per cent."""
 
     def __init__(self, results: Results):
-        self.results, self.ledger = results, Ledger(results)
+        self.results, self.rows = results, load(results)
+        self._claims = {row["name"]: row for row in self.rows}
 
     def labels(self, name: str, coordinate: str) -> list:
         """Return the labels of a coordinate."""
         return list(self.results[name][coordinate].values)
 
-    def of(self, name: str, variable: str, digits: int = 3, **labels) -> Quote:
+    def of(self, name: str, variable: str, digits: int = 3, **labels) -> Printed:
         """Return a number with what the dataset has of its error; a time may never come."""
         data = self.results[name].sel(labels)
         if f"{variable}_error" in data and f"{variable}_low" not in data:
-            value, error = (float(data[f"{variable}{part}"]) for part in ("", "_error"))
-            return self.long(name, with_error(value, error, digits))
-        return self._say(name, data, variable, digits, lambda value: number(value, digits))
+            value, error = (float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
+            return self._mark(with_error(value, error, digits), name, variable, labels)
+        write = lambda value: number(value, digits)  # noqa: E731
+        return self._with_limits(name, variable, labels, digits, write)
 
-    def span(self, name: str, variable: str, digits: int = 3) -> Quote:
-        """Return the range of a number over all its labels, which contains their errors."""
-        return self.long(name, enclosing_span(*self._limits(name, variable, {}), digits))
+    def share(self, name: str, variable: str, **labels) -> Printed:
+        """Return a fraction in per cent."""
+        return self._with_limits(name, variable, labels, PER_CENT_DIGITS, percent)
 
-    def percent_of(self, name: str, variable: str, **labels) -> Quote:
+    def percent_of(self, name: str, variable: str, **labels) -> Printed:
         """Return a number with its error in per cent."""
         data = self.results[name].sel(labels)
-        value, error = (100.0 * float(data[f"{variable}{part}"]) for part in ("", "_error"))
-        return self.long(name, f"({with_error(value, error)}){FIRM}%")
+        value, error = (100.0 * float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
+        return self._mark(f"({with_error(value, error)}){FIRM}%", name, variable, labels)
 
-    def share(self, name: str, variable: str, **labels) -> Quote:
-        """Return a fraction in per cent."""
-        return self._say(name, self.results[name].sel(labels), variable, PER_CENT_DIGITS, percent)
+    def span(self, name: str, variable: str, digits: int = 3) -> Printed:
+        """Return the range of a number over all its labels, which contains their errors."""
+        limits = self._limits(name, variable, {})
+        return self._mark(enclosing_span(*limits, digits), name, variable, {})
 
     def range_of(
         self, name: str, variable: str, digits: int = 2, definition: str = "", **labels
-    ) -> Quote:
+    ) -> Printed:
         """Return the range of several numbers with their limits, such as 6.7 to 7.9.
 
         Variations of `definition` are left out: they measure another thing, printed by itself.
         """
         limits = self._limits(name, variable, labels, definition)
-        return self.long(name, enclosing_span(*limits, digits))
+        return self._mark(enclosing_span(*limits, digits), name, variable, labels)
 
-    def share_span(self, name: str, variable: str, **labels) -> Quote:
+    def share_span(self, name: str, variable: str, **labels) -> Printed:
         """Return the range of several fractions with their limits in per cent."""
         low, high = self._limits(name, variable, labels)
         ends = outward(low, PER_CENT_DIGITS, DOWN), outward(high, PER_CENT_DIGITS, UP)
-        return self.long(name, " to ".join(map(percent, ends)))
+        return self._mark(" to ".join(map(percent, ends)), name, variable, labels)
+
+    def n(self, claim: str, key: str, digits: int = 3) -> Printed:
+        """Return a number that decides a claim."""
+        return Printed(number(self.measured(claim, key), digits), Source(claim=claim))
+
+    def share_of(self, claim: str, key: str) -> Printed:
+        """Return the same in per cent."""
+        return Printed(percent(self.measured(claim, key)), Source(claim=claim))
+
+    def measured(self, claim: str, key: str) -> float:
+        """Return a number that a claim measured, NaN if it was not decided or is not applicable."""
+        value = self._claims[claim]["measured"].get(key, "nan")
+        return float({"none": "nan", "infinite": "inf"}.get(value, value))
+
+    def verdicts(self, figure: int) -> Printed:
+        """Return how many of the paper's claims on a figure have each verdict."""
+        text = counted_verdicts(on_figure(self.rows, figure))
+        return Printed(text, Source(figure=f"fig{figure}"))
+
+    def figure_holds(self, figure: int) -> Printed:
+        """Return in words whether what the paper says of a figure holds."""
+        text = whether_it_holds(on_figure(self.rows, figure))
+        return Printed(text, Source(figure=f"fig{figure}"))
+
+    def functions(self) -> dict[str, Callable]:
+        """Return the functions that a template calls, by name."""
+        return {name: getattr(self, name) for name in FUNCTIONS}
 
     def _limits(
         self, name: str, variable: str, labels: dict, definition: str = ""
@@ -108,12 +135,13 @@ class Numbers:
             values = [value - data[f"{variable}_error"], value + data[f"{variable}_error"]]
         else:
             values = [value]
-        return min(float(part.min()) for part in values), max(float(part.max()) for part in values)
+        return min(float(ends.min()) for ends in values), max(float(ends.max()) for ends in values)
 
-    def _say(
-        self, name: str, data: xr.Dataset, variable: str, digits: int, write: Callable[[float], str]
-    ) -> Quote:
+    def _with_limits(
+        self, name: str, variable: str, labels: dict, digits: int, write: Callable[[float], str]
+    ) -> Printed:
         """Return a number with its confidence interval, if this has a width, rounded outward."""
+        data = self.results[name].sel(labels)
         value = float(data[variable] if variable in data.variables else data.attrs[variable])
         middle = write(outward(value, digits, DOWN) if variable.endswith("_low") else value)
         ends = [
@@ -122,29 +150,11 @@ class Numbers:
             if f"{variable}{end}" in data
         ]
         interval = f" ({' to '.join(ends)})" if set(ends) - {middle} else ""
-        say = self.long if variable in data.data_vars else self.results.say
-        return say(name, middle + interval)
+        if variable in data.data_vars:
+            return self._mark(middle + interval, name, variable, labels)
+        return Printed(middle + interval, Source(name, attribute=variable))  # it was chosen
 
-    def long(self, name: str, text: str) -> Quote:
+    def _mark(self, text: str, name: str, variable: str, labels: dict) -> Printed:
         """Return a result, with a mark if it is of a long study."""
-        return self.results.say(name, f"{text}{MARK if name.startswith(QUOTED) else ''}")
-
-    def n(self, claim: str, key: str, digits: int = 3) -> Quote:
-        """Return a number that decides a claim."""
-        return self.ledger.quote(claim, key, digits)
-
-    def share_of(self, claim: str, key: str) -> Quote:
-        """Return the same in per cent."""
-        return self.n(claim, key)._replace(text=percent(self.ledger.value(claim, key)))
-
-    def verdicts(self, figure: int) -> str:
-        """Return how many of the paper's claims on a figure have each verdict."""
-        return counted_verdicts(on_figure(self.ledger.rows, figure))
-
-    def figure_holds(self, figure: int) -> str:
-        """Return in words whether what the paper says of a figure holds."""
-        return whether_it_holds(on_figure(self.ledger.rows, figure))
-
-    def functions(self) -> dict[str, Callable]:
-        """Return the functions that a template calls, by name."""
-        return {name: getattr(self, name) for name in FUNCTIONS}
+        variable = variable.removesuffix("_low")
+        return printed(f"{text}{MARK if is_quoted(name) else ''}", name, variable, labels)

@@ -6,7 +6,7 @@ language of Typst, which sets the PDF with the fonts that come with it.
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,10 +21,13 @@ from replication.ledger.claim import Origin
 from replication.ledger.criterion import REFUTED, Verdict
 from replication.ledger.rows import load
 from replication.report.results import Results
-from replication.report.words import FIRM, Quote
+from replication.report.words import FIRM
 
+from .cards import Card, Cards, functions_of
 from .crosslinks import alternatives, link_mentions
-from .numbers import KEPT
+from .page import LiveParts, complete_page
+from .quoted import BASELINE, LongStudies
+from .sources import Printed, Source
 
 LAYOUTS = Path(__file__).parent
 MARKDOWN = "markdown-auto_identifiers"
@@ -37,61 +40,84 @@ MARKS = {
 }
 """How the template marks sentences that rest on a verdict. Every claim of the paper that fails or
 cannot be decided must be marked."""
+TO_CARD = "data and code"
+"""The words below a figure that lead to its card."""
 
 
 class Article(NamedTuple):
     """The article of one replication.
 
     `folder` holds its source article.md.j2 and the journal's metadata.yaml, `gather` returns the
-    functions and numbers that the source names. `navigation` are the links above the page in HTML,
-    `rights` the sentence on licenses below the PDF.
+    functions and numbers that the source names, and `long_studies` what makes again what it quotes.
+    `navigation` are the links above the page in HTML, `rights` the sentence on licenses below the
+    PDF.
     """
 
     folder: Path
     title: str
     released: str
     gather: Callable[[Results], Mapping[str, Any]]
+    long_studies: LongStudies = {}
     navigation: str = ""
     rights: str = ""
 
-    def write(self, results: Results, html: str, pdf: str, metadata: str) -> None:
-        """Write the page, the PDF and the journal's metadata."""
-        text = self.source(results, VECTORS)
+    def write(
+        self, results: Results, html: str, pdf: str, metadata: str, live: LiveParts | None = None
+    ) -> None:
+        """Write the page, with what runs in it, the PDF and the journal's metadata."""
         contents = {
-            html: self.page(results).encode(),
-            pdf: self.typeset(text, _folder(results)),
-            metadata: self.describe(text).encode(),
+            html: self.page(results, live).encode(),
+            pdf: self.pdf(results, VECTORS),
+            metadata: self.describe(self.source(results, VECTORS)).encode(),
         }
         for path, content in contents.items():
             with complete_or_absent(path) as partial:
                 Path(partial).write_bytes(content)
 
-    def page(self, results: Results) -> str:
-        """Return the article as a page of HTML that holds its pictures, and links to its data."""
-
-        def linked(value: Any) -> Any:
-            return f"[{value.text}]({value.link}){{.n}}" if isinstance(value, Quote) else value
-
-        text = link_mentions(self.source(results, "figures/{}.png", linked))
+    def page(self, results: Results, live: LiveParts | None = None) -> str:
+        """Return the article as a page of HTML with its pictures and a card for each number."""
+        cards = Cards(results, self.long_studies)
+        text = self.source(results, "figures/{}.png", cards)
         options = ["--mathml", "--embed-resources", f"--resource-path={_folder(results)}"]
-        html = self.convert(text, "html", *options)
-        # else readers aloud, and whoever copies a formula, get its TeX as well
-        return re.sub(r"<annotation .*?</annotation>", "", html)
+        return complete_page(self.convert(text, "html", *options), cards.describe(), live)
 
-    def typeset(self, text: str, folder: Path) -> bytes:
+    def pdf(self, results: Results, pictures: str) -> bytes:
+        """Return the article as PDF; an appendix says where its numbers come from.
+
+        `pictures` is the path of a figure by its name, seen from the folder of the results.
+        """
+        cards = Cards(results, self.long_studies)
+        text = self.source(results, pictures, cards)
+        return self.typeset(text, _folder(results), cards.describe())
+
+    def typeset(self, text: str, folder: Path, cards: Iterable[Card]) -> bytes:
         """Return as PDF the article in Markdown, whose pictures lie in `folder`.
 
         Equal articles have equal bytes.
         """
-        code = self.convert(link_mentions(text), "typst")
+        code = self.convert(text, "typst")
         for picture, words in alternatives(text):
             alternative = f'"{picture}", alt: {json.dumps(words, ensure_ascii=False)}'
             code = code.replace(f'"{picture}"', alternative)
-        return typst.compile(code.encode(), root=folder, ignore_system_fonts=True)
+        appendix = json.dumps(self.appendix(list(cards)), ensure_ascii=False)
+        return typst.compile(
+            code.encode(),
+            root=folder,
+            ignore_system_fonts=True,
+            sys_inputs={"appendix": appendix},
+        )
+
+    def appendix(self, cards: list[Card]) -> dict[str, list]:
+        """Return what the appendix of the PDF prints."""
+        return {
+            "cards": list(map(_entry, cards)),
+            "functions": [[code.short_name, code.file] for code in functions_of(cards)],
+            "studies": [[study.command, name] for name, study in self.long_studies.items()],
+        }
 
     def markdown(self, results: Results) -> str:
         """Return the article as a page of docs/, with the accepted pictures."""
-        return self.source(results, f"{KEPT}/figures/{{}}.png", captions_below=True)
+        return self.source(results, f"../{BASELINE}/figures/{{}}.png")
 
     def describe(self, text: str) -> str:
         """Return the journal's metadata of the article in Markdown, as YAML."""
@@ -100,42 +126,34 @@ class Article(NamedTuple):
         metadata |= {"title": self.title, "abstract": " ".join(abstract.split())}
         return yaml.safe_dump(metadata, sort_keys=False, allow_unicode=True)
 
-    def source(
-        self,
-        results: Results,
-        pictures: str,
-        quoted: Callable[[Any], Any] = str,
-        captions_below: bool = False,
-    ) -> str:
+    def source(self, results: Results, pictures: str, cards: Cards | None = None) -> str:
         """Return the article in Markdown, or a notice where it would not be true of this run.
 
-        `pictures` is the path of a figure by its name, such as "figures/{}.png". `captions_below`
-        makes its caption a paragraph of its own. `quoted` writes a number, which may link to its
-        dataset.
+        `pictures` is the path of a figure by its name, such as "figures/{}.png". With `cards`
+        numbers, verdicts and figures link to them, and captions belong to the pictures; without,
+        the text is plain, and captions are paragraphs.
         """
         if results.differs:
             return self._notice([f"{in_short(list(results.differs.values()))}."])
-
-        def figure(name: str, caller: Callable[[], str]) -> str:
-            place = pictures.format(name)
-            if captions_below:
-                return f"![{name}]({place})\n\n{caller()}\n"
-            return f"![{' '.join(caller().split())}]({place})\n\n"
-
         marked: dict[str, set[str]] = {mark: set() for mark in MARKS}
-        marks = {mark: _recorder(claims) for mark, claims in marked.items()}
         environment = Environment(
             loader=FileSystemLoader(self.folder),
             undefined=StrictUndefined,
-            finalize=quoted,
+            finalize=lambda value: _write_value(value, cards),
             trim_blocks=True,
             lstrip_blocks=True,
         )
-        template = environment.get_template("article.md.j2")
-        text = template.render(title=self.title, figure=figure, **marks, **self.gather(results))
+        text = environment.get_template("article.md.j2").render(
+            title=self.title,
+            figure=lambda name, caller: _picture(name, pictures.format(name), caller(), cards),
+            **{mark: _recorder(claims, cards) for mark, claims in marked.items()},
+            **self.gather(results),
+        )
         text = re.sub(r"\$\s=\s+", f"${FIRM}={FIRM}", text)
         text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # else a list would begin there
         wrong = list(_untrue(marked, load(results)))
+        if wrong and cards:
+            cards.clear()
         return self._notice(wrong) if wrong else text
 
     def _notice(self, reasons: list[str]) -> str:
@@ -158,15 +176,37 @@ class Article(NamedTuple):
             f"--variable=rights:{self.rights}",
             f"--metadata-file={self.folder / 'metadata.yaml'}",
         ]
-        return pypandoc.convert_text(text, kind, MARKDOWN, [*settings, *options])
+        return pypandoc.convert_text(link_mentions(text), kind, MARKDOWN, [*settings, *options])
 
 
-def _recorder(claims: set[str]) -> Callable[..., str]:
-    """Return a function of a template that notes names of claims, and prints nothing."""
+def _write_value(value: Any, cards: Cards | None) -> str:
+    """Return a value of the template in Markdown, linked to its card if there are cards."""
+    if isinstance(value, list):
+        return "".join(_write_value(entry, cards) for entry in value)
+    if not isinstance(value, Printed) or cards is None:
+        return str(value)
+    card = cards.note(value)
+    if cards.is_sign(value):
+        return f'[{value.text}](#{card}){{.v aria-label="{cards.verdict(value)}"}}'
+    row = cards.row_of(value)
+    place = "" if row is None else f" data-row={row}"
+    return f"[{value.text}](#{card}){{.n{place}}}"
 
-    def record(*names: str) -> str:
+
+def _picture(name: str, path: str, caption: str, cards: Cards | None) -> str:
+    """Return a figure in Markdown; with cards its caption is a part of it and ends with a link."""
+    if cards is None:
+        return f"![{name}]({path})\n\n{caption}\n"
+    card = cards.note(Printed("", Source(figure=name)))
+    return f"![{' '.join(caption.split())} [{TO_CARD}](#{card}){{.source}}]({path})\n\n"
+
+
+def _recorder(claims: set[str], cards: Cards | None) -> Callable[..., list[Printed]]:
+    """Return a function of a template that notes names of claims and prints their verdicts."""
+
+    def record(*names: str) -> list[Printed]:
         claims.update(names)
-        return ""
+        return [cards.sign(name) for name in names] if cards else []
 
     return record
 
@@ -179,6 +219,19 @@ def _untrue(marked: Mapping[str, set[str]], rows: list[dict]) -> Iterator[str]:
         left_out = row["origin"] == Origin.PAPER and right - {"holds"} - stated
         if stated - right or left_out:
             yield f'The verdict on "{row["says"]}" ({row["place"]}) is: {row["verdict"]}.'
+
+
+def _entry(card: Card) -> dict[str, str]:
+    """Return what the appendix of the PDF prints of a card."""
+    return {
+        "id": card.id,
+        "texts": ", ".join(card.texts),
+        "title": card.title,
+        "verdict": card.verdict,
+        "criterion": card.criterion,
+        "data": card.files[0].text,
+        "function": card.code.short_name,
+    }
 
 
 def _folder(results: Results) -> Path:

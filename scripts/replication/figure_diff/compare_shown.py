@@ -32,9 +32,14 @@ JOB = re.compile(rb'<tr><th scope="row">[\w/.]+</th><td>[\d.]+</td><td>\d+</td><
 PROCESSOR = re.compile(rb'(<th scope="row">processor</th><td>)[^<]*')
 VERSION_OR_TIME = re.compile(rb"\b\d[\w.+]*")
 
+OF_THE_CODE = {
+    "article.html": re.compile(rb'<div class="card" id="code_.*?</div>', re.DOTALL),
+}
+"""What a page shows of the code's text, which may change while all results stay."""
+
 OF_VERSIONS = {
     "live.html": re.compile(rb'"code": "[\w+/=]*"'),
-    "article.html": re.compile(rb'"data:image/png;base64,[\w+/=]*"'),
+    "article.html": re.compile(rb'"data:image/png;base64,[\w+/=]*"|"code": "[\w+/=]*"'),
     "report.html": re.compile(rb' width="\d+" height="\d+"'),
 }
 """What other versions of packages write otherwise in a page: compiled code, and pictures or their
@@ -63,11 +68,13 @@ Known = Mapping[str, Status]
 
 
 def comparable(name: str, content: bytes) -> bytes:
-    """Return what is compared of the file `name` of a run: of a page, not what is of the machine.
+    """Return what is compared of the file `name` of a run: nothing of the machine or of the code.
 
-    There the rows of jobs, the processor and all numbers are left out. What else it says is
+    Of the machine the rows of jobs, the processor and all numbers are left out. The rest is
     compared, and where it stands twice, all is.
     """
+    if name in OF_THE_CODE:
+        content = OF_THE_CODE[name].sub(b"", content)
     parts = OF_THE_MACHINE[name].findall(content) if name in OF_THE_MACHINE else []
     if len(parts) != 1:
         return content

@@ -12,7 +12,6 @@ from .criterion import Verdict
 
 if TYPE_CHECKING:
     from replication.report.results import Results
-    from replication.report.words import Quote
 
 LEDGER = "claims.json"
 
@@ -79,22 +78,3 @@ def _in_words(counts: dict[str, int]) -> str:
         f"{n} {verdict if n == 1 else verdict.replace('does not', 'do not')}"
         for verdict, n in counts.items()
     )
-
-
-class Ledger:
-    """The numbers of the ledger by claim, each linked to a dataset that decides the claim."""
-
-    def __init__(self, results: "Results"):
-        self._results = results
-        self.rows = load(results)
-        self._by_name = {row["name"]: row for row in self.rows}
-
-    def value(self, claim: str, key: str) -> float:
-        """Return a measured number, NaN if the claim was not decided or is not applicable."""
-        measured = self._by_name[claim]["measured"].get(key, "nan")
-        return float({"none": "nan", "infinite": "inf"}.get(measured, measured))
-
-    def quote(self, claim: str, key: str, digits: int = 3) -> "Quote":
-        """Return a measured number as a page shows it."""
-        source = self._by_name[claim]["decided_by"][0]
-        return self._results.quote(source, self.value(claim, key), digits)

@@ -1,13 +1,10 @@
-"""The files of a run by name, and numbers from them with links, for the article."""
+"""The files of a run by name, for the article."""
 
 from collections.abc import Iterable
 from pathlib import Path
 
 from latticode.datasets.netcdf import read
 from pendula.configuration.paper import Differences
-from pendula.sources import SCRIPTS
-
-from .words import Quote, number
 
 
 class ReportError(RuntimeError):
@@ -41,19 +38,7 @@ class Results:
         except KeyError:
             raise ReportError(f"the page needs {link}: add it to the inputs of its rule") from None
 
-    def quote(self, name: str, value: float, digits: int = 3) -> Quote:
-        """Return a number that links to the dataset it comes from."""
-        return self.say(name, number(value, digits))
-
-    def say(self, name: str, text: str) -> Quote:
-        """Return words made from a dataset, or from another file with its ending, linked to it."""
-        link = f"{name}.nc" if name in self else name
-        self.path(link)
-        return Quote(text, link)
-
 
 def link_to(path: str, page: str) -> str:
-    """Return how a page links to a file of the run, or of the project, where results lie in it."""
-    if Path(path).is_relative_to(SCRIPTS.parent / "tests"):
-        return (Path("..") / Path(path).relative_to(SCRIPTS.parent)).as_posix()
+    """Return how a page links to a file of the run."""
     return Path(path).relative_to(Path(page).parent).as_posix()

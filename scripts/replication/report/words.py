@@ -1,9 +1,8 @@
-"""How pages write numbers, cases, solvers, symbols and tables; a number links to its dataset."""
+"""How pages write numbers, cases, solvers, symbols and tables."""
 
 import re
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from latticode.datasets import complete_or_absent
@@ -43,16 +42,6 @@ _POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
 _MINUS = re.compile(r"(?<![\w)|])-(?=[\w(|])")
 _EXPONENTS = re.compile(r"\^(-?\d+)(?![\d.])")
 _NAMES = re.compile(r"(?<![A-Za-z])(?<![a-z]\.)(" + "|".join(SYMBOLS) + r")(?![A-Za-z])")
-
-
-class Quote(NamedTuple):
-    """A text made from a dataset, and where that is, seen from the page."""
-
-    text: str
-    link: str
-
-    def __str__(self) -> str:
-        return self.text
 
 
 def number(value: float, digits: int = 3) -> str:

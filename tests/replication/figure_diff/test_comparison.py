@@ -13,7 +13,7 @@ from replication.figure_diff import Status, baseline
 from replication.figure_diff.acceptance import AcceptanceError
 from replication.figure_diff.chaos import LOCAL, MARGIN, TOLERANCE, Chaos, known_chaos
 from replication.figure_diff.compare_pictures import damage, edited
-from replication.figure_diff.compare_shown import comparable, compare
+from replication.figure_diff.compare_shown import comparable, compare, hash_of
 from replication.figure_diff.comparison_page import compare_results
 
 
@@ -235,3 +235,11 @@ def test_a_flipped_bit_anywhere_in_a_png_is_damage(accepted_run):
         flipped = bytearray(content)
         flipped[place] ^= 1
         assert damage(path, bytes(flipped)) or edited(path, bytes(flipped)), place
+
+
+def test_other_code_of_the_same_results_leaves_the_article_as_it_is():
+    card = b'<div class="card" id="code_a.b"><p>a.b</p><pre>%s</pre></div>'
+    pages = [b"<p>2 (1 to 3)</p>" + card % code for code in (b"x = 1", b"x = 1  # why")]
+    first, second = (hash_of("article.html", page) for page in pages)
+    assert first == second
+    assert first != hash_of("article.html", pages[0].replace(b"2 (1", b"2 (0"))
