@@ -23,6 +23,7 @@ RESTS_ON = {  # by part: the datasets that its claims rest on
 DECIDED_IN = {part: [f"{part}/claims"] for part in RESTS_ON} | {
     "figures": ["paper/claims_norms", "paper/claims_sweeps"],
     "solvers": ["paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"],
+    "pendula": ["newton/claims"],
 }
 DECIDING = {
     part: function("replication.ledger.decide.decide_claims", parts=modules)
