@@ -6,27 +6,32 @@ from flint import arb, arb_mat, ctx
 from pendula.models.pairs import FAMILIES
 from pendula.studies.certified import existence
 from pendula.studies.certified.existence import ProofChain, ProofFailedError, prove
-from pendula.studies.certified.proved_breathers import find
+from pendula.studies.certified.proved_breathers import compute_state
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
-HERE = ProofChain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
-FAR = HERE._replace(half_width=22)
+CHAIN = ProofChain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
+FAR = CHAIN._replace(half_width=22)
 
 
 def find_state(chain, family):
-    return find(chain.gamma, chain.half_width, {"family": family.name, **chain._asdict()})[-1]
+    return compute_state(chain.gamma, chain.half_width, {"family": family.name, **chain._asdict()})[
+        -1
+    ]
 
 
 def proved(family, chain, state):
     return prove(chain, family.drive(chain.gamma), state)
 
 
-def better(chain, s, whole):
+def better(chain, s, state):
     """Return the state of a finite chain to some sixty digits, by Newton's method."""
-    u = arb_mat([[arb(float(x))] for x in whole])
+    u = arb_mat([[arb(float(x))] for x in state])
     for _ in range(2):
         values = u.entries()
-        k, miss = existence.slope(chain, s, values), existence.residual(chain, s, values)
+        k, miss = (
+            existence.make_derivative(chain, s, values),
+            existence.make_residual(chain, s, values),
+        )
         u = (u - k.mid().solve(miss.mid())).mid()
     return u.entries()
 
@@ -35,12 +40,14 @@ def better(chain, s, whole):
 def test_the_true_state_lies_within_the_radius_and_not_within_a_small_part_of_it(family):
     """The state of a far longer chain stands for that of the infinite one."""
     longer = np.zeros((2, FAR.half_width + 1))
-    longer[:, : HERE.half_width + 1] = state = find_state(HERE, family)
-    whole = np.concatenate([longer[:, :0:-1], longer], axis=1).ravel()
+    longer[:, : CHAIN.half_width + 1] = state = find_state(CHAIN, family)
+    full_state = np.concatenate([longer[:, :0:-1], longer], axis=1).ravel()
     with ctx.workprec(200):
-        true = better(FAR, family.drive(FAR.gamma), whole)
-        distance = max(float(abs(x - arb(y)).upper()) for x, y in zip(true, whole, strict=True))
-    radius = proved(family, HERE, state)
+        true = better(FAR, family.drive(FAR.gamma), full_state)
+        distance = max(
+            float(abs(x - arb(y)).upper()) for x, y in zip(true, full_state, strict=True)
+        )
+    radius = proved(family, CHAIN, state)
     assert distance <= radius < 1e-10
     assert radius < 20.0 * distance
 
@@ -54,7 +61,7 @@ def dense(chain, s, u, extra):
     sites = 2 * longer.half_width + 1
     wide = np.zeros((2, sites))
     wide[:, extra:-extra] = u
-    slope = existence.slope(longer, s, [arb(float(x)) for x in wide.ravel()])
+    slope = existence.make_derivative(longer, s, [arb(float(x)) for x in wide.ravel()])
     df = np.array([[float(x.mid()) for x in row] for row in slope.tolist()])
     block = np.arange(extra, sites - extra)
     block = np.concatenate([block, block + sites])
@@ -64,7 +71,7 @@ def dense(chain, s, u, extra):
     for n in [*range(extra), *range(sites - extra, sites)]:
         both = np.ix_([n, n + sites], [n, n + sites])
         a[both] = np.linalg.inv([[outer, s], [s, outer]])
-    miss = existence.residual(longer, s, [arb(float(x)) for x in wide.ravel()]).entries()
+    miss = existence.make_residual(longer, s, [arb(float(x)) for x in wide.ravel()]).entries()
     return a, df, wide.ravel(), np.array([float(x.mid()) for x in miss])
 
 
@@ -76,12 +83,12 @@ def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale, epsilon, hal
 
     On a block of one site both neighbours beyond act on that site.
     """
-    chain = HERE._replace(epsilon=epsilon, omega=-4.0 * epsilon, half_width=half_width)
+    chain = CHAIN._replace(epsilon=epsilon, omega=-4.0 * epsilon, half_width=half_width)
     u = scale * np.random.default_rng(3).uniform(-1.0, 1.0, (2, 2 * half_width + 1))
     with ctx.workprec(existence.BITS):
         a, df, wide, miss = dense(chain, s, u, 4)
-        found = existence.estimate(chain, s, [arb(float(x)) for x in u.ravel()])
-        eta, z, bent, cubic = (float(one.upper()) for one in found)
+        estimates = existence.make_estimates(chain, s, [arb(float(x)) for x in u.ravel()])
+        eta, z, bent, cubic = (float(ball.upper()) for ball in estimates)
 
     def norm(matrix):
         return np.abs(matrix).sum(axis=1).max()
@@ -101,34 +108,34 @@ def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale, epsilon, hal
 def test_inside_a_band_the_outside_does_not_contract(family, omega):
     """[0, 4 epsilon] for sums, shifted by 2 s for differences."""
     with pytest.raises(ProofFailedError, match="band"):
-        proved(family, HERE._replace(omega=omega), find_state(HERE, family))
+        proved(family, CHAIN._replace(omega=omega), find_state(CHAIN, family))
 
 
 def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
-    state = find_state(HERE, EQUAL)
+    state = find_state(CHAIN, EQUAL)
     off = np.array([1e-10, 1e-6, 1e-3])
-    radii = [proved(EQUAL, HERE, state * (1.0 + one)) for one in off]
+    radii = [proved(EQUAL, CHAIN, state * (1.0 + error)) for error in off]
     sizes = np.abs(state).max() * off
     assert np.all(radii >= sizes) and np.all(radii < 3.0 * sizes)
     with pytest.raises(ProofFailedError, match="residual"):
-        proved(EQUAL, HERE, 1.3 * state)
+        proved(EQUAL, CHAIN, 1.3 * state)
     with pytest.raises(ProofFailedError, match="zero"):
-        proved(EQUAL, HERE, 0.0 * state)
+        proved(EQUAL, CHAIN, 0.0 * state)
 
 
 def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
     """p has its roots at 0.4975 and 0.5025: just below the second one p < 0, but q > 1."""
     with ctx.workprec(existence.BITS):
         eta = arb(0.4975) * arb(0.5025) / 2
-        there = existence.Estimates(eta, arb(0.5), arb(1), arb(1e-12))
+        estimates = existence.Estimates(eta, arb(0.5), arb(1), arb(1e-12))
         with pytest.raises(ProofFailedError, match="residual"):
-            existence.radius_of(there)
-        assert 0.342 < existence.radius_of(there._replace(eta=0.9 * eta)) < 0.36
+            existence.find_radius(estimates)
+        assert 0.342 < existence.find_radius(estimates._replace(eta=0.9 * eta)) < 0.36
         with pytest.raises(ProofFailedError, match="residual"):  # p(0.202) = 0.002, q < 1
-            existence.radius_of(there._replace(eta=arb(0.08), cubic=arb(1)))
+            existence.find_radius(estimates._replace(eta=arb(0.08), cubic=arb(1)))
 
 
 def test_the_sign_of_epsilon_does_not_open_a_band():
     """For epsilon = -1 it is [-4, 0]."""
     with pytest.raises(ProofFailedError, match="band"):
-        proved(EQUAL, HERE._replace(epsilon=-1.0, omega=-3.0), find_state(HERE, EQUAL))
+        proved(EQUAL, CHAIN._replace(epsilon=-1.0, omega=-3.0), find_state(CHAIN, EQUAL))

@@ -15,110 +15,112 @@ BITS, ORDER = 96, 36
 
 
 def problem(data=((0, 1.5, 0), (0, 0.1j, 0)), boundary="dirichlet", **changes):
-    given = {"half_width": 2, "end_time": 0.6, "output_step": 0.05} | changes
-    return make_problem(np.array(data), (0.9, 0.7, -1.3), boundary, **given)
+    keys = {"half_width": 2, "end_time": 0.6, "output_step": 0.05} | changes
+    return make_problem(np.array(data), (0.9, 0.7, -1.3), boundary, **keys)
 
 
-def steps_of(given, bits=BITS, order=ORDER):
+def make_steps(case, bits=BITS, order=ORDER):
     """Return the chain, and the steps of its curve from each output to the next."""
-    chain = fixed_point.half_chain(given, bits)
-    found = fixed_point.follow(fixed_point.start(given, chain)[0], chain, order)
-    return chain, [next(found) for _ in given.times[1:]]
+    chain = fixed_point.make_half_chain(case, bits)
+    steps = fixed_point.generate_steps(fixed_point.round_initial_data(case, chain)[0], chain, order)
+    return chain, [next(steps) for _ in case.times[1:]]
 
 
-def certify(given, steps, bits=BITS, order=ORDER, per_frame=10):
+def certify(case, steps, bits=BITS, order=ORDER, per_frame=10):
     """Return what frames.certify finds of steps that it is given in place of its own."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(frames, "follow", lambda state, chain, order: iter(steps))
-        return frames.certify(given, bits, order, per_frame)
+        patch.setattr(frames, "generate_steps", lambda state, chain, order: iter(steps))
+        return frames.certify(case, bits, order, per_frame)
 
 
-def bound(given, steps, **how):
+def bound(case, steps, **how):
     """Return the bound at the end, without what is due to the output in doubles."""
-    return float(certify(given, steps, **how).parts[:3, -1].sum())
+    return float(certify(case, steps, **how).contributions[:3, -1].sum())
 
 
 def exact_end(steps, chain):
-    whole = np.array(fixed_point.end(steps[-1][-1].terms), object)
-    return [[Fraction(int(x), 2**chain.bits) for x in part] for part in whole]
+    end = np.array(fixed_point.evaluate_end(steps[-1][-1].terms), object)
+    return [[Fraction(int(x), 2**chain.bits) for x in row] for row in end]
 
 
-def apart(one, other):
-    both = zip(joined(*one), joined(*other), strict=True)
+def distance(first, second):
+    both = zip(joined(*first), joined(*second), strict=True)
     return float(sum((x - y) ** 2 for x, y in both)) ** 0.5
 
 
 @pytest.fixture(scope="module")
 def right():
     """A problem, its chain, the steps of its curve, and their bound."""
-    given = problem()
-    chain, steps = steps_of(given)
-    return given, chain, steps, bound(given, steps)
+    case = problem()
+    chain, steps = make_steps(case)
+    return case, chain, steps, bound(case, steps)
 
 
 def test_a_curve_with_twice_the_digits_lies_within_the_bound(right):
-    given, chain, steps, _ = right
-    finer, better = steps_of(given, 2 * BITS, 2 * ORDER)
-    off = apart(exact_end(steps, chain), exact_end(better, finer))
+    case, chain, steps, _ = right
+    finer, better = make_steps(case, 2 * BITS, 2 * ORDER)
+    off = distance(exact_end(steps, chain), exact_end(better, finer))
     assert off > 1e-30
     for per_frame in (1, 7, 1000):
-        assert off < bound(given, steps, per_frame=per_frame) < 1e-18
+        assert off < bound(case, steps, per_frame=per_frame) < 1e-18
 
 
 def test_the_defect_is_what_a_curve_misses_of_the_equation():
-    given = problem(end_time=0.05)
-    chain, ((step, *_), *_) = steps_of(given, 48, 8)
-    h, theta = chain.interval / step.pieces, Fraction(1, 3)
+    case = problem(end_time=0.05)
+    chain, ((step, *_), *_) = make_steps(case, 48, 8)
+    h, theta = chain.interval / step.divisor, Fraction(1, 3)
     p, slope = (
-        np.array([[sum(w(k) * own[k] for k in range(9)) for own in part] for part in step.terms])
+        np.array(
+            [[sum(w(k) * series[k] for k in range(9)) for series in row] for row in step.terms]
+        )
         for w in (lambda k: theta**k, lambda k: k * theta ** (k - 1) if k else 0)
     )
     p, slope = p / Fraction(2**48), slope / Fraction(2**48)
     q, field = fixed_point.scaled_linear(p.tolist(), chain)
     square = (p[0] ** 2 + p[1] ** 2) / 2
     missed = np.array([-slope[1], slope[0]]) - h * (np.array(field) / q + square * p)
-    there = float((missed**2).sum()) ** 0.5
-    assert 0.0 < there < fixed_point.defect(step, chain) < 1e-6
+    expected = float((missed**2).sum()) ** 0.5
+    assert 0.0 < expected < fixed_point.bound_defect(step, chain) < 1e-6
 
 
 def test_the_half_chain_has_the_field_of_the_whole():
-    given, draws = problem(half_width=3), np.random.default_rng(1)
-    chain = fixed_point.half_chain(given, BITS)
+    case, draws = problem(half_width=3), np.random.default_rng(1)
+    chain = fixed_point.make_half_chain(case, BITS)
     half = draws.normal(size=(2, 2, 4))
     x, y = np.concatenate([half[..., :0:-1], half], axis=-1)
-    z, (epsilon, gamma, omega) = x + 1j * y, given.constants
+    z, (epsilon, gamma, omega) = x + 1j * y, case.constants
     field = epsilon * z @ laplacian(7, "dirichlet") + omega * z + gamma * (z[::-1] - z).conj()
     expected = np.stack([field.real, field.imag])[..., 3:]
-    assert frames.linear(half[..., None], chain)[..., 0] == pytest.approx(expected, rel=1e-13)
+    assert frames.linear_terms(half[..., None], chain)[..., 0] == pytest.approx(expected, rel=1e-13)
     q, exact = fixed_point.scaled_linear(half.reshape(2, -1).tolist(), chain)
     assert np.array(exact).reshape(half.shape) / q == pytest.approx(expected, rel=1e-13)
 
 
 def _raised(steps, output, place, by):
     """Return steps of which the first behind an output has another coefficient."""
-    (part, site, k), (first, *rest) = place, steps[output]
-    terms = [[list(own) for own in each] for each in first.terms]
-    terms[part][site][k] += by
-    return [*steps[:output], [first._replace(terms=terms), *rest], *steps[output + 1 :]]
+    (row, site, k), (first, *later) = place, steps[output]
+    terms = [[list(series) for series in each] for each in first.terms]
+    terms[row][site][k] += by
+    return [*steps[:output], [first._replace(terms=terms), *later], *steps[output + 1 :]]
 
 
 WRONG = {
-    "a constant": lambda given, steps: steps_of(given.changed(gamma=0.7 + 1e-9))[1],
-    "the data": lambda given, steps: steps_of(given.changed(initial=(1 + 1e-9) * given.initial))[1],
-    "a coefficient": lambda given, steps: _raised(steps, 3, (0, 1, 5), 2 ** (BITS - 40)),
-    "a jump": lambda given, steps: _raised(steps, 4, (1, 2, 0), 2 ** (BITS - 40)),
-    "an interval": lambda given, steps: steps[:4] + steps[5:] + steps[-1:],
+    "a constant": lambda case, steps: make_steps(case.changed(gamma=0.7 + 1e-9))[1],
+    "the data": lambda case, steps: make_steps(case.changed(initial=(1 + 1e-9) * case.initial))[1],
+    "a coefficient": lambda case, steps: _raised(steps, 3, (0, 1, 5), 2 ** (BITS - 40)),
+    "a jump": lambda case, steps: _raised(steps, 4, (1, 2, 0), 2 ** (BITS - 40)),
+    "an interval": lambda case, steps: steps[:4] + steps[5:] + steps[-1:],
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_curve_is_found_out(name, right):
-    given, chain, steps, small = right
-    wrong = WRONG[name](given, steps)
-    off = apart(exact_end(wrong, chain), exact_end(steps, chain))
-    found = bound(given, wrong)
-    assert found > 1e6 * small
-    assert found > 0.99 * off
+    case, chain, steps, small = right
+    wrong = WRONG[name](case, steps)
+    off = distance(exact_end(wrong, chain), exact_end(steps, chain))
+    wrong_bound = bound(case, wrong)
+    assert wrong_bound > 1e6 * small
+    assert wrong_bound > 0.99 * off
 
 
 COMMITTED = sorted(ROOT.glob("tests/baseline/proofs/*.nc"))
@@ -126,35 +128,37 @@ UNEVEN = {
     "one left out": lambda eight: eight[:3] + eight[4:],
     "one too many": lambda eight: [*eight, eight[-1]],
     "none": lambda eight: [],
-    "one that is longer": lambda eight: [eight[0]._replace(pieces=7), *eight[1:]],
-    "one back in time": lambda eight: [*eight, *eight[:2], eight[0]._replace(pieces=-4)],
+    "one that is longer": lambda eight: [eight[0]._replace(divisor=7), *eight[1:]],
+    "one back in time": lambda eight: [*eight, *eight[:2], eight[0]._replace(divisor=-4)],
 }
 
 
 @pytest.mark.parametrize("name", UNEVEN)
 def test_steps_that_do_not_cover_the_time_between_outputs_are_refused(name):
-    given, eight = problem(end_time=0.05), []
-    chain = fixed_point.half_chain(given, BITS)
-    state = fixed_point.start(given, chain)[0]
+    case, eight = problem(end_time=0.05), []
+    chain = fixed_point.make_half_chain(case, BITS)
+    state = fixed_point.round_initial_data(case, chain)[0]
     while len(eight) < 8:
         eight.append(
-            fixed_point.Step(8, fixed_point.taylor(state, chain, chain.interval / 8, ORDER))
+            fixed_point.Step(
+                8, fixed_point.make_taylor_terms(state, chain, chain.interval / 8, ORDER)
+            )
         )
-        state = fixed_point.end(eight[-1].terms)
-    assert bound(given, [eight]) < 1e-20
+        state = fixed_point.evaluate_end(eight[-1].terms)
+    assert bound(case, [eight]) < 1e-20
     with pytest.raises(fixed_point.StepError, match="more or less than the time"):
-        certify(given, [UNEVEN[name](eight)])
+        certify(case, [UNEVEN[name](eight)])
 
 
 @pytest.mark.parametrize("path", COMMITTED, ids=lambda path: path.stem)
 def test_the_first_outputs_are_those_that_are_committed(path):
-    one = read(path)
-    assert one["tau"][-1] == 50.0
-    given = problem_of(path.stem, end_time=0.05)
+    committed = read(path)
+    assert committed["tau"][-1] == 50.0
+    case = problem_of(path.stem, end_time=0.05)
     keys = ("bits", "order", "outputs_per_frame")
-    found = frames.certify(given, **{key: int(one.attrs[f"solver_{key}"]) for key in keys})
-    assert (found.bound == one["bound"].values[:3]).all()
-    assert (found.l2 == one["l2"].values[:, :3]).all()
+    curve = frames.certify(case, **{key: int(committed.attrs[f"solver_{key}"]) for key in keys})
+    assert (curve.bound == committed["bound"].values[:3]).all()
+    assert (curve.l2 == committed["l2"].values[:, :3]).all()
 
 
 def test_what_frames_miss_is_the_linear_and_the_cubic_part_of_the_last_order():
@@ -163,33 +167,37 @@ def test_what_frames_miss_is_the_linear_and_the_cubic_part_of_the_last_order():
         Fraction(-1, 2), Fraction(1, 4), Fraction(3), 3, Fraction(1), 64
     )
     strength, h, sizes = 5 * 0.5 + 3.0 + 2 * 0.25, 0.125, np.array([0.3])
-    found = frames.missed(np.array([2.0]), sizes, h, chain)
-    assert found == pytest.approx(h * 2.0 * (strength + 1.5 * 0.3**2), rel=1e-6)
+    computed = frames.bound_tangent_defect(np.array([2.0]), sizes, h, chain)
+    assert computed == pytest.approx(h * 2.0 * (strength + 1.5 * 0.3**2), rel=1e-6)
 
 
 def test_the_quadratic_term_adds_what_errors_and_amplitudes_of_one_size_make():
     moved, largest, time = 1e-3, 2e-3, 0.5
     y = moved * (1.0 + frames.SLACK)
     exact = time * 0.5 * (3.0 * largest * y + y * y) * y
-    assert frames._quadratic(0.0, moved, largest, time) == pytest.approx(exact, rel=1e-6, abs=0.0)
-    assert np.isinf(frames._quadratic(0.0, moved, 1e3, time))
+    assert frames._bound_quadratic_term(0.0, moved, largest, time) == pytest.approx(
+        exact, rel=1e-6, abs=0.0
+    )
+    assert np.isinf(frames._bound_quadratic_term(0.0, moved, 1e3, time))
 
 
 def test_what_no_column_follows_grows_at_the_rate_of_the_linearised_flow(right):
     _, chain, ((step, *_), *_), _ = right
-    tube = frames.begin(chain, 0.0)
+    tube = frames.make_initial_tube(chain, 0.0)
     tube = tube._replace(z=np.zeros_like(tube.z), w=np.array([1e-20, 0.0, 0.0, 0.0]))
-    p = fixed_point.doubles(step, chain)
+    p = fixed_point.as_doubles(step, chain)
     largest = np.sqrt((p**2).sum(axis=1).max(axis=(1, 2))).sum()
-    h, rate = float(chain.interval / step.pieces), 2.0 * 0.7 + 0.9 / 2.0 + largest**2 / 2.0
-    found = frames.advance(tube, step, chain, 0.0).w[0]
-    assert found == pytest.approx(1e-20 * frames.exponential(h * rate), rel=1e-6, abs=0.0)
+    h, rate = float(chain.interval / step.divisor), 2.0 * 0.7 + 0.9 / 2.0 + largest**2 / 2.0
+    computed = frames.advance_tube(tube, step, chain, 0.0).w[0]
+    assert computed == pytest.approx(1e-20 * frames.bound_exponential(h * rate), rel=1e-6, abs=0.0)
 
 
 @pytest.mark.parametrize("x", [0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0])
 def test_the_factor_of_growth_is_an_upper_bound_to_third_order(x):
-    assert np.exp(np.longdouble(x)) <= frames.exponential(x) <= np.exp(x) + x**3 / 8 + 1e-14
-    assert np.isinf(frames.exponential(x + 1.0 + 1e-12)) and np.isinf(frames.exponential(np.nan))
+    assert np.exp(np.longdouble(x)) <= frames.bound_exponential(x) <= np.exp(x) + x**3 / 8 + 1e-14
+    assert np.isinf(frames.bound_exponential(x + 1.0 + 1e-12)) and np.isinf(
+        frames.bound_exponential(np.nan)
+    )
 
 
 @pytest.mark.parametrize(
@@ -201,8 +209,8 @@ def test_a_problem_that_is_not_even_is_refused(changes):
 
 
 def test_a_distance_counts_both_halves_of_the_chain(right):
-    tube = frames.begin(right[1], 0.0)
+    tube = frames.make_initial_tube(right[1], 0.0)
     z, w = np.zeros_like(tube.z), np.array([0.0, 1e-20, 0.0, 0.0])
     z[1, 0] = 1e-20  # Re A of the site 1
-    found = frames.distances(tube._replace(z=z, w=w))
-    assert found[:2] == pytest.approx(np.sqrt(2.0) * 1e-20, rel=1e-6, abs=0.0)
+    bounds = frames.bound_distances(tube._replace(z=z, w=w))
+    assert bounds[:2] == pytest.approx(np.sqrt(2.0) * 1e-20, rel=1e-6, abs=0.0)

@@ -62,9 +62,9 @@ def test_our_solvers_agree_while_doubles_suffice(case, solver):
 def test_integer_arithmetic_gives_the_same_doubles(case):
     """To tau = 1 the sites 0..4 are those of a longer chain to 1e-22."""
     problem = problem_of(case, half_width=14)
-    chain = fixed_point.half_chain(problem, 128)
-    steps = fixed_point.follow(fixed_point.start(problem, chain)[0], chain, 32)
+    chain = fixed_point.make_half_chain(problem, 128)
+    steps = fixed_point.generate_steps(fixed_point.round_initial_data(problem, chain)[0], chain, 32)
     last = [next(steps)[-1] for _ in problem.times[1:]][-1]
-    exact = np.array(fixed_point.end(last.terms), object) / 2**chain.bits
+    exact = np.array(fixed_point.evaluate_end(last.terms), object) / 2**chain.bits
     re, im = exact.astype(float).reshape(2, 2, -1)
     np.testing.assert_array_equal((re + 1j * im)[:, :5], amplitudes(case, 1)[:, 30:35])

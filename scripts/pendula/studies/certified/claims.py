@@ -55,11 +55,11 @@ def curves_certified(trust) -> Finding:
     (
         Control(
             "a state inside the band of linear waves",
-            lambda one: put("radius", one["wrong_radius"][0])(one),
+            lambda proved: put("radius", proved["wrong_radius"][0])(proved),
         ),
         Control(
             "a state at another Omega than its own",
-            lambda one: put("radius", one["wrong_radius"][1])(one),
+            lambda proved: put("radius", proved["wrong_radius"][1])(proved),
         ),
     ),
 )

@@ -15,23 +15,23 @@ def curve_contents(
 ) -> Contents:
     """Return the norms of a curve, and the proven bound of their distance to the true ones."""
     proof = {"bits": bits, "order": order, "outputs_per_frame": outputs_per_frame}
-    found = frames.certify(problem, **proof)
+    curve = frames.certify(problem, **proof)
     norms, of_tau = ("component", "tau"), ("tau",)
     variables = {
-        "tau": Variable(of_tau, found.tau),
+        "tau": Variable(of_tau, curve.tau),
         "component": COMPONENTS,
-        "linf": Variable(norms, found.linf),
-        "l2": Variable(norms, found.l2),
+        "linf": Variable(norms, curve.linf),
+        "l2": Variable(norms, curve.l2),
         "bound": Variable(
             of_tau,
-            found.bound,
+            curve.bound,
             "bound, as proved, of the l2 distance to the true state, and so of each norm's error",
         ),
     }
-    about = {
+    attributes = {
         "title": f"Norms of {name} against time, with a proven bound of their distance to the "
         "true ones",
         **describe_run(name, problem, {"name": "polynomials of integers", **proof}),
         "parameters_mean": "the printed decimals",
     }
-    return variables, about
+    return variables, attributes

@@ -82,7 +82,7 @@ class Estimates(NamedTuple):
 
     eta: arb
     z: arb  # Z
-    bent: arb  # lambda
+    quadratic: arb  # lambda
     cubic: arb  # mu
 
 
@@ -90,15 +90,15 @@ class ProofFailedError(ArithmeticError):
     """There is no proof; the message says which inequality fails."""
 
 
-def refined(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
+def refine(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
     """Return a state of ten digits after a step of Newton's method, which doubles them.
 
     The step is solved in balls: far from the centre, where the ten digits are zeros, the result is
     this step alone, so that its last bits count.
     """
     with ctx.workprec(BITS):
-        u = on_the_whole(state)
-        step = slope(chain, s, u).mid().solve(residual(chain, s, u).mid())
+        u = on_full_chain(state)
+        step = make_derivative(chain, s, u).mid().solve(make_residual(chain, s, u).mid())
     numbers = np.array([float(x.mid()) for x in step.entries()])
     return state - numbers.reshape(2, -1)[:, chain.half_width :]
 
@@ -110,24 +110,24 @@ def prove(chain: ProofChain, s: float, state: np.ndarray) -> float:
     ProofFailedError where an inequality of the theorem cannot be shown.
     """
     with ctx.workprec(BITS):
-        u = on_the_whole(state)
-        radius = radius_of(estimate(chain, s, u))
+        u = on_full_chain(state)
+        radius = find_radius(make_estimates(chain, s, u))
         if not arb(radius) < _largest(map(abs, u)):
             raise ProofFailedError("the enclosure of the state contains zero")
         return radius
 
 
-def on_the_whole(state: np.ndarray) -> list[arb]:
+def on_full_chain(state: np.ndarray) -> list[arb]:
     """Return an even state on the sites -M..M, components in turn."""
-    whole = np.concatenate([state[:, :0:-1], state], axis=1)
-    return [arb(float(value)) for value in whole.ravel()]
+    full_state = np.concatenate([state[:, :0:-1], state], axis=1)
+    return [arb(float(value)) for value in full_state.ravel()]
 
 
-def estimate(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
+def make_estimates(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
     """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
-    k, size = slope(chain, s, u), len(u)
-    epsilon, away = abs(as_ball(chain.epsilon)), distance(chain, s)
-    if not 2 * epsilon < away:
+    k, size = make_derivative(chain, s, u), len(u)
+    epsilon, tail = abs(as_ball(chain.epsilon)), tail_distance(chain, s)
+    if not 2 * epsilon < tail:
         raise ProofFailedError("the outside does not contract: Omega lies in a band of waves")
     try:
         n = k.inv().mid()  # N
@@ -139,16 +139,16 @@ def estimate(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
     left = _moduli(unit - n * k) * arb_mat([[1]] * size)
     # row sums of |N E|, |N_ij u_j| and |N|
     sums = _moduli(n) * arb_mat([[ends.count(j), abs(x), 1] for j, x in enumerate(u)])
-    beyond = [epsilon * abs(u[j]) / away for j in ends]
-    eta = _largest([*map(abs, (n * residual(chain, s, u)).entries()), *beyond])
-    within = (left[i, 0] + epsilon * sums[i, 0] for i in range(size))
-    z = _largest([*within, 2 * epsilon / away])
-    bent = _largest(sums[i, 1] for i in range(size))
-    plain = _largest([*(sums[i, 2] for i in range(size)), 1 / away])
-    return Estimates(eta, z, 3 * bent, 1.5 * plain)
+    outside = [epsilon * abs(u[j]) / tail for j in ends]
+    eta = _largest([*map(abs, (n * make_residual(chain, s, u)).entries()), *outside])
+    inside = (left[i, 0] + epsilon * sums[i, 0] for i in range(size))
+    z = _largest([*inside, 2 * epsilon / tail])
+    weighted_row_sum = _largest(sums[i, 1] for i in range(size))
+    largest_row_sum = _largest([*(sums[i, 2] for i in range(size)), 1 / tail])
+    return Estimates(eta, z, 3 * weighted_row_sum, 1.5 * largest_row_sum)
 
 
-def slope(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
+def make_derivative(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
     """Return K, the matrix of DF(u) on the sites -M..M, components one after the other."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites = len(u) // 2
@@ -162,40 +162,46 @@ def slope(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
     return arb_mat(rows)
 
 
-def residual(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
+def make_residual(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
     """Return F(u) on the sites -M..M, a column."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites, zero = len(u) // 2, [arb(0)]
     values = []
-    for own, other in ((u[:sites], u[sites:]), (u[sites:], u[:sites])):
-        for left, a, b, right in zip(zero + own, own, other, own[1:] + zero, strict=False):
+    for component, partner in ((u[:sites], u[sites:]), (u[sites:], u[:sites])):
+        for left, a, b, right in zip(
+            zero + component, component, partner, component[1:] + zero, strict=False
+        ):
             coupled = epsilon * (right + left - 2 * a) + omega * a + drive * (b - a)
             values.append([coupled + a * a * a / 2])
     return arb_mat(values)
 
 
-def distance(chain: ProofChain, s: float) -> arb:
+def tail_distance(chain: ProofChain, s: float) -> arb:
     """Return d, below the moduli of the eigenvalues of C."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     moduli = abs(omega - 2 * epsilon), abs(omega - 2 * drive - 2 * epsilon)
     return arb.min(*moduli)
 
 
-def radius_of(estimates: Estimates) -> float:
+def find_radius(estimates: Estimates) -> float:
     """Return r of the theorem, shown by its inequalities.
 
     Where to try it is no matter of proof: a little above the smaller root of p without its last
     term.
     """
-    eta, z, bent, cubic = estimates
-    room = 1 - z
-    if not room > 0:
+    eta, z, quadratic, cubic = estimates
+    contraction = 1 - z
+    if not contraction > 0:
         raise ProofFailedError("the inverse is not near enough: the slope may be singular")
-    under = room * room - 2 * bent * eta
-    radius = float((1.01 * 2 * eta / (room + under.sqrt())).upper()) if under > 0 else np.inf
+    discriminant = contraction * contraction - 2 * quadratic * eta
+    radius = (
+        float((1.01 * 2 * eta / (contraction + discriminant.sqrt())).upper())
+        if discriminant > 0
+        else np.inf
+    )
     r = arb(radius)
-    p = eta - room * r + bent * r * r / 2 + cubic * r * r * r / 3
-    if not (p <= 0 and z + bent * r + cubic * r * r < 1):
+    p = eta - contraction * r + quadratic * r * r / 2 + cubic * r * r * r / 3
+    if not (p <= 0 and z + quadratic * r + cubic * r * r < 1):
         raise ProofFailedError("the residual is too large for the slope and the curvature")
     return radius
 

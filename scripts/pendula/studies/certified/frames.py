@@ -77,14 +77,14 @@ from .fixed_point import (
     UP,
     FixedPointChain,
     Step,
-    defect,
-    doubles,
-    end,
-    follow,
-    half_chain,
-    jump,
-    start,
-    whole,
+    as_doubles,
+    bound_defect,
+    bound_jump,
+    evaluate_end,
+    generate_steps,
+    make_half_chain,
+    require_full_interval,
+    round_initial_data,
 )
 
 UNIT = 2.0**-53
@@ -100,18 +100,20 @@ UNIT_ERROR = 3
 """The place of the unit error among the parts that grow: start, defect, quadratic term, and it."""
 
 
-class Certified(NamedTuple):
+class CertifiedCurve(NamedTuple):
     """Norms of the curve at the output times, with a bound of their distance to the true ones."""
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    parts: np.ndarray  # (part, time): start, defect, quadratic term, and rounding of the outputs
+    contributions: (
+        np.ndarray
+    )  # (part, time): start, defect, quadratic term, and rounding of the outputs
 
     @property
     def bound(self) -> np.ndarray:
         """The bound of the distance of the states, (time,), the sum of its parts rounded up."""
-        return UP * np.sum(self.parts, axis=0)
+        return UP * np.sum(self.contributions, axis=0)
 
 
 class Tube(NamedTuple):
@@ -122,81 +124,83 @@ class Tube(NamedTuple):
     w: np.ndarray  # (part,)
 
 
-def begin(chain: FixedPointChain, off: float) -> Tube:
-    """Return the tube around the start, which is `off` by the rounding of the data."""
+def make_initial_tube(chain: FixedPointChain, initial_error: float) -> Tube:
+    """Return the tube around the start, which is `initial_error` by the rounding of the data."""
     size = 4 * chain.sites
     z = np.zeros((size, UNIT_ERROR + 1))
-    z[:, 0], z[:, UNIT_ERROR] = off, 1.0 / sqrt(size)
+    z[:, 0], z[:, UNIT_ERROR] = initial_error, 1.0 / sqrt(size)
     return Tube(np.eye(size).reshape(2, 2, chain.sites, size), z, np.zeros(UNIT_ERROR + 1))
 
 
-def distances(tube: Tube) -> np.ndarray:
+def bound_distances(tube: Tube) -> np.ndarray:
     """Return bounds of the distance over the whole chain, (part,)."""
     flat = np.abs(tube.matrix).reshape(len(tube.z), -1)
-    reached = np.stack([np.sum(flat * own, axis=1) for own in tube.z.T], axis=1)
-    found = UP * sqrt(2.0) * (np.sqrt(np.sum(reached**2, axis=0)) + tube.w)
-    return np.where(np.isnan(found), np.inf, found)  # zero times infinity
+    entry_bounds = np.stack(
+        [np.sum(flat * column_bounds, axis=1) for column_bounds in tube.z.T], axis=1
+    )
+    bounds = UP * sqrt(2.0) * (np.sqrt(np.sum(entry_bounds**2, axis=0)) + tube.w)
+    return np.where(np.isnan(bounds), np.inf, bounds)  # zero times infinity
 
 
 # --- A step ---------------------------------------------------------------------------------------
 
 
-def advance(
-    tube: Tube, step: Step, chain: FixedPointChain, jumped: float, order: int = ORDER
+def advance_tube(
+    tube: Tube, step: Step, chain: FixedPointChain, jump: float, order: int = ORDER
 ) -> Tube:
-    """Return the tube at the end of a step that starts `jumped` from where the tube is."""
-    coefficients = doubles(step, chain)
+    """Return the tube at the end of a step that starts `jump` from where the tube is."""
+    coefficients = as_doubles(step, chain)
     sizes = UP * np.sqrt(np.max(np.sum(coefficients**2, axis=1), axis=(1, 2))) + TINY
-    h = float(chain.interval / step.pieces)
-    terms = tangents(tube.matrix, coefficients, h, chain, order)
+    h = float(chain.interval / step.divisor)
+    terms = make_tangents(tube.matrix, coefficients, h, chain, order)
     norms = np.array([UP * sqrt(np.sum(term * term)) for term in terms])
     largest = UP * float(np.sum(sizes))
     rate = 2.0 * abs(chain.gamma) + 0.5 * abs(chain.epsilon)
-    growth = exponential(UP * h * (float(rate) + 0.5 * largest * largest))
+    growth = bound_exponential(UP * h * (float(rate) + 0.5 * largest * largest))
     z = UP * np.sqrt(np.sum(tube.z**2, axis=0))
-    w = tube.w + UP * missed(norms, sizes, h, chain) * z
-    w[1] += jumped + defect(step, chain)
+    w = tube.w + UP * bound_tangent_defect(norms, sizes, h, chain) * z
+    w[1] += jump + bound_defect(step, chain)
     w *= UP * growth
-    moved = UP * float(np.sum(norms) * np.sum(z[:3]))
-    w[2] += _quadratic(float(np.sum(w[:3])), moved, largest, UP * growth * h)
-    matrix = sum_up(terms)
+    mz_bound = UP * float(np.sum(norms) * np.sum(z[:3]))
+    w[2] += _bound_quadratic_term(float(np.sum(w[:3])), mz_bound, largest, UP * growth * h)
+    matrix = sum_terms(terms)
     w += UP * (len(terms) + 1) * UNIT * np.sum(norms) * z
     return Tube(matrix, tube.z, UP * w)
 
 
-def exponential(x: float) -> float:
+def bound_exponential(x: float) -> float:
     """Return an upper bound of e^x for 0 <= x <= 1: x^3 / 6 (1 + x/4 + x^2/20 + ...) <= x^3 / 4."""
     if not x <= 1.0:
         return np.inf
     return (1.0 + x + 0.5 * x * x + 0.25 * x * x * x) * (1.0 + 4.0 * UNIT)
 
 
-def _quadratic(w: float, moved: float, largest: float, time: float) -> float:
+def _bound_quadratic_term(w: float, mz_bound: float, largest: float, time: float) -> float:
     """Return what the quadratic term adds to |w| over a step, infinite if that is not small.
 
-    `moved` bounds |M z|, and `time` e^(mu h) h.
+    `mz_bound` bounds |M z|, and `time` e^(mu h) h.
     """
-    trial = w + SLACK * (w + moved) + TINY
-    y = UP * (trial + moved)
+    trial = w + SLACK * (w + mz_bound) + TINY
+    y = UP * (trial + mz_bound)
     added = UP * time * 0.5 * (3.0 * largest * y + y * y) * y
     return added if UP * (w + added) <= trial else np.inf
 
 
-def tangents(
+def make_tangents(
     matrix: np.ndarray, p: np.ndarray, h: float, chain: FixedPointChain, order: int
 ) -> list:
     """Return the tangent polynomials' coefficients, each of the shape of the matrix."""
-    square, real, imaginary = products(p, order)
+    square, real, imaginary = multiply_series(p, order)
     plus, minus, across = square + 0.5 * real, square - 0.5 * real, 0.5 * imaginary
     terms = [matrix]
     for k in range(order):
-        x, y = linear(terms[k], chain)
+        x, y = linear_terms(terms[k], chain)
         for i in range(k + 1):
-            own_x, own_y = terms[k - i]
-            x += plus[i][..., None] * own_x
-            x += across[i][..., None] * own_y
-            y += across[i][..., None] * own_x
-            y += minus[i][..., None] * own_y
+            re, im = terms[k - i]
+            x += plus[i][..., None] * re
+            x += across[i][..., None] * im
+            y += across[i][..., None] * re
+            y += minus[i][..., None] * im
         x *= -h
         y *= h
         x /= k + 1
@@ -205,32 +209,37 @@ def tangents(
     return terms
 
 
-def products(p: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def multiply_series(p: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return so many coefficients of |A|^2 and of both parts of A^2, (order, component, site)."""
     p = np.concatenate([p[:count], np.zeros((max(count - len(p), 0), *p.shape[1:]))])
     square, real, imaginary = np.zeros((3, count, *p.shape[2:]))
     for k in range(count):
-        own, other = p[: k + 1], p[k::-1]
-        xx, yy = np.sum(own[:, 0] * other[:, 0], axis=0), np.sum(own[:, 1] * other[:, 1], axis=0)
+        forward, backward = p[: k + 1], p[k::-1]
+        xx, yy = (
+            np.sum(forward[:, 0] * backward[:, 0], axis=0),
+            np.sum(forward[:, 1] * backward[:, 1], axis=0),
+        )
         square[k], real[k] = xx + yy, xx - yy
-        imaginary[k] = 2.0 * np.sum(own[:, 0] * other[:, 1], axis=0)
+        imaginary[k] = 2.0 * np.sum(forward[:, 0] * backward[:, 1], axis=0)
     return square, real, imaginary
 
 
-def linear(values: np.ndarray, chain: FixedPointChain) -> np.ndarray:
+def linear_terms(values: np.ndarray, chain: FixedPointChain) -> np.ndarray:
     """Return the linear terms of (4) on half of a chain, (part, component, site, column)."""
     epsilon, gamma, omega = map(float, (chain.epsilon, chain.gamma, chain.omega))
-    both = np.zeros_like(values)
-    both[:, :, :-1] += values[:, :, 1:]
-    both[:, :, 1:] += values[:, :, :-1]
+    neighbours = np.zeros_like(values)
+    neighbours[:, :, :-1] += values[:, :, 1:]
+    neighbours[:, :, 1:] += values[:, :, :-1]
     if chain.sites > 1:
-        both[:, :, 0] *= 2.0
+        neighbours[:, :, 0] *= 2.0
     drive = np.array([gamma, -gamma])[:, None, None, None]
-    found = epsilon * (both - 2.0 * values) + omega * values
-    return found + drive * (values[:, ::-1] - values)
+    terms = epsilon * (neighbours - 2.0 * values) + omega * values
+    return terms + drive * (values[:, ::-1] - values)
 
 
-def missed(norms: np.ndarray, sizes: np.ndarray, h: float, chain: FixedPointChain) -> float:
+def bound_tangent_defect(
+    norms: np.ndarray, sizes: np.ndarray, h: float, chain: FixedPointChain
+) -> float:
     """Return a bound of the integral of |J M - M'| over a step."""
     order = len(norms) - 1
     squares = np.zeros(2 * len(sizes) - 1)
@@ -240,14 +249,14 @@ def missed(norms: np.ndarray, sizes: np.ndarray, h: float, chain: FixedPointChai
     for j, norm in enumerate(norms):
         cubes[j : j + len(squares)] += norm * squares
     strength = float(5 * abs(chain.epsilon) + abs(chain.omega) + 2 * abs(chain.gamma))
-    found = 1.5 * cubes
-    found[order] += strength * norms[order]
+    coefficients = 1.5 * cubes
+    coefficients[order] += strength * norms[order]
     rounded = strength * norms[:order] + 2.0 * cubes[:order]
-    found[:order] = (4 * order + 16) * UNIT * rounded
-    return UP * h * float(np.sum(found / np.arange(1, len(found) + 1)))
+    coefficients[:order] = (4 * order + 16) * UNIT * rounded
+    return UP * h * float(np.sum(coefficients / np.arange(1, len(coefficients) + 1)))
 
 
-def sum_up(terms: list) -> np.ndarray:
+def sum_terms(terms: list) -> np.ndarray:
     """Return the sum of all terms, the small ones first."""
     total = terms[-1].copy()
     for term in terms[-2::-1]:
@@ -258,28 +267,32 @@ def sum_up(terms: list) -> np.ndarray:
 # --- A new frame ----------------------------------------------------------------------------------
 
 
-def reframe(tube: Tube) -> Tube:
+def change_frame(tube: Tube) -> Tube:
     """Return the same tube with columns that are nearly orthogonal."""
     size = len(tube.z)
     matrix = tube.matrix.reshape(size, size)
     lengths = np.sqrt(np.sum(matrix**2, axis=0))
     order = np.argsort(-lengths * np.sum(tube.z, axis=1), kind="stable")
-    frame = orthogonal(matrix[:, order])
+    frame = orthogonalise(matrix[:, order])
     gamma = UP * size * UNIT
-    own, others = (UP * np.sqrt(np.sum(m * m, axis=0)) for m in (frame, matrix))
-    gram = times(frame, frame) - np.eye(size)
-    eta = UP * (sqrt(np.sum(gram * gram)) + 2.0 * gamma * float(np.sum(own * own)))
+    frame_norms, matrix_norms = (UP * np.sqrt(np.sum(m * m, axis=0)) for m in (frame, matrix))
+    gram = multiply_transposed(frame, frame) - np.eye(size)
+    eta = UP * (sqrt(np.sum(gram * gram)) + 2.0 * gamma * float(np.sum(frame_norms * frame_norms)))
     if not eta < 0.5:
         return tube._replace(z=np.full_like(tube.z, np.inf))
-    turned = np.abs(times(frame, matrix)) + gamma * own[:, None] * others
-    y = UP * np.stack([np.sum(turned * part, axis=1) for part in tube.z.T], axis=1)
+    turned = (
+        np.abs(multiply_transposed(frame, matrix)) + gamma * frame_norms[:, None] * matrix_norms
+    )
+    y = UP * np.stack(
+        [np.sum(turned * column_bounds, axis=1) for column_bounds in tube.z.T], axis=1
+    )
     w = UP * sqrt(1.0 + eta) * tube.w
     slack = eta / (1.0 - eta) * (np.sqrt(np.sum(y * y, axis=0)) + w)
     z = UP * (y + w + UP * slack) + TINY
     return Tube(frame.reshape(tube.matrix.shape), z, np.zeros_like(tube.w))
 
 
-def orthogonal(matrix: np.ndarray) -> np.ndarray:
+def orthogonalise(matrix: np.ndarray) -> np.ndarray:
     """Return orthonormal columns by the modified method of Gram and Schmidt, done twice."""
     rows = matrix.T.copy()
     for _ in range(2):
@@ -290,71 +303,77 @@ def orthogonal(matrix: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(rows.T)
 
 
-def times(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+def multiply_transposed(left: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Return left^T right as plain sums, which have the same bits whatever BLAS is there."""
     total = np.zeros((left.shape[1], right.shape[1]))
-    for row, other in zip(left, right, strict=True):
-        total += row[:, None] * other
+    for left_row, right_row in zip(left, right, strict=True):
+        total += left_row[:, None] * right_row
     return total
 
 
 # --- The curve at its outputs ---------------------------------------------------------------------
 
 
-def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> Certified:
+def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> CertifiedCurve:
     """Return the curve at the outputs, with its proven distance to the solution.
 
     The coefficients are in units of 2^-bits, and the polynomials of the given order. Raises
     NotEvenError and StepError.
     """
-    chain = half_chain(problem, bits)
-    state, off = start(problem, chain)
-    tube = begin(chain, off)
-    steps_between = follow(state, chain, order)
-    states, parts = [], []
+    chain = make_half_chain(problem, bits)
+    state, initial_error = round_initial_data(problem, chain)
+    tube = make_initial_tube(chain, initial_error)
+    steps_between = generate_steps(state, chain, order)
+    states, contributions = [], []
     for count, tau in enumerate(problem.times.tolist()):
-        for step in whole(next(steps_between)) if count else ():
-            tube = advance(tube, step, chain, jump(state, step, chain))
-            state = end(step.terms)
-        half = np.array([[value / 2**bits for value in part] for part in state])
+        for step in require_full_interval(next(steps_between)) if count else ():
+            tube = advance_tube(tube, step, chain, bound_jump(state, step, chain))
+            state = evaluate_end(step.terms)
+        half = np.array([[value / 2**bits for value in row] for row in state])
         half = half.reshape(2, 2, chain.sites)
         states.append(np.concatenate([half[..., :0:-1], half], axis=-1))
-        grown = distances(tube)[:UNIT_ERROR]
-        late = float(abs(Fraction(tau) - count * chain.interval))  # tau is a double
-        parts.append(round_up([*grown, evaluation(states[-1], grown, chain, late)]))
+        bounds = bound_distances(tube)[:UNIT_ERROR]
+        delay = float(abs(Fraction(tau) - count * chain.interval))  # tau is a double
+        contributions.append(
+            round_up([*bounds, bound_output_error(states[-1], bounds, chain, delay)])
+        )
         if count and count % outputs_per_frame == 0:
-            tube = reframe(tube)
-    return Certified(problem.times, *norms_of(np.array(states)), np.array(parts).T)
+            tube = change_frame(tube)
+    return CertifiedCurve(
+        problem.times, *compute_norms(np.array(states)), np.array(contributions).T
+    )
 
 
-def evaluation(state: np.ndarray, parts: np.ndarray, chain: FixedPointChain, late: float) -> float:
+def bound_output_error(
+    state: np.ndarray, contributions: np.ndarray, chain: FixedPointChain, delay: float
+) -> float:
     """Return how far outputs are off by rounding: of states and norms, and of their times.
 
     States to doubles, squares, the at most 16 levels of the sum, and the root are 12 roundings of
-    the norm or fewer. Over `late` the solution moves by at most late |u'|, where
+    the norm or fewer. Over `delay` the solution moves by at most late |u'|, where
     |u'| <= (lambda + |u|^2 / 2) |u|, and |u| itself grows by no more than e^(2 |gamma| late), which
     `UP` covers.
     """
     strength = float(4 * abs(chain.epsilon) + abs(chain.omega) + 2 * abs(chain.gamma))
     norm = UP * sqrt(np.sum(state * state))
-    near = norm + float(np.sum(parts))
-    moved = UP * late * (strength + 0.5 * near * near) * near
-    return UP * (12.0 * UNIT * norm + moved) + TINY
+    near = norm + float(np.sum(contributions))
+    motion = UP * delay * (strength + 0.5 * near * near) * near
+    return UP * (12.0 * UNIT * norm + motion) + TINY
 
 
-def norms_of(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def compute_norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return l-infinity and l2 norms, (component, time), of (time, part, component, site)."""
     squares = states[:, 0] ** 2 + states[:, 1] ** 2
-    return np.sqrt(squares.max(axis=2)).T, np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T
+    return np.sqrt(squares.max(axis=2)).T, np.sqrt(sum_pairwise(np.moveaxis(squares, 2, 0))).T
 
 
-def tree_sum(values: np.ndarray) -> np.ndarray:
+def sum_pairwise(values: np.ndarray) -> np.ndarray:
     """Return the sum over the first axis by halves, so that a term goes through few roundings."""
     while len(values) > 1:
         half = (len(values) + 1) // 2
-        rest = values[half:]
+        second_half = values[half:]
         values = values[:half].copy()
-        values[: len(rest)] += rest
+        values[: len(second_half)] += second_half
     return values[0]
 
 

@@ -21,59 +21,66 @@ DIGITS = 10
 
 
 def breathers_contents(
-    gamma: float, half_width: int, proofs: Sequence[Mapping], wrong: Sequence[float]
+    gamma: float, half_width: int, proofs: Sequence[Mapping], control_omegas: Sequence[float]
 ) -> Contents:
     """Return the proofs of the given `family`, `omega` and `epsilon`, and radii of wrong states.
 
     The states are kept on a block of the infinite chain of the given `half_width`. The first state
-    is tested at the Omegas of `wrong` too.
+    is tested at the Omegas of `control_omegas` too.
     """
-    found = [find(gamma, half_width, one) for one in proofs]
-    radii, refusals = zip(*(prove(*one) for one in found), strict=True)
-    family, chain, state = found[0]
-    refused = [prove(family, chain._replace(omega=one), state)[0] for one in wrong]
-    of = ("proof",)
+    candidates = [compute_state(gamma, half_width, proof) for proof in proofs]
+    radii, refusals = zip(*(try_proof(*candidate) for candidate in candidates), strict=True)
+    family, chain, state = candidates[0]
+    control_radii = [
+        try_proof(family, chain._replace(omega=control_omega), state)[0]
+        for control_omega in control_omegas
+    ]
+    dimensions = ("proof",)
     amplitude = f"{NAMES['amplitude']}; divided by i in the imaginary families"
     variables = {
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(half_width + 1)),
-        "family": Variable(of, [one["family"] for one in proofs], "family of states"),
-        "omega": Variable(of, [float(one["omega"]) for one in proofs]),
-        "epsilon": Variable(of, [float(one["epsilon"]) for one in proofs]),
+        "family": Variable(dimensions, [proof["family"] for proof in proofs], "family of states"),
+        "omega": Variable(dimensions, [float(proof["omega"]) for proof in proofs]),
+        "epsilon": Variable(dimensions, [float(proof["epsilon"]) for proof in proofs]),
         "amplitude": Variable(
-            (*of, "component", "site"), np.array([state for _, _, state in found]), amplitude
+            (*dimensions, "component", "site"),
+            np.array([state for _, _, state in candidates]),
+            amplitude,
         ),
         "radius": Variable(
-            of,
+            dimensions,
             radii,
             "one true state lies within this l-infinity distance, infinite where none is proved",
             attributes=PROVEN,
         ),
-        "proof_refusal": Variable(of, refusals, "why nothing is proved"),
+        "proof_refusal": Variable(dimensions, refusals, "why nothing is proved"),
         "wrong_radius": Variable(
             ("wrong_proof",),
-            refused,
+            control_radii,
             "radius that is proved of the wrong state, infinite if it is refused",
             attributes=PROVEN,
         ),
     }
     title = "Steady breathers whose existence is proved"
-    about = {"gamma": gamma, "half_width": half_width, "bits": existence.BITS, **REGULAR}
-    return variables, {"title": title, **about}
+    attributes = {"gamma": gamma, "half_width": half_width, "bits": existence.BITS, **REGULAR}
+    return variables, {"title": title, **attributes}
 
 
-def find(gamma: float, half_width: int, given: Mapping) -> tuple[Family, ProofChain, np.ndarray]:
+def compute_state(
+    gamma: float, half_width: int, proof: Mapping
+) -> tuple[Family, ProofChain, np.ndarray]:
     """Return a family, a chain, and its even state there, (component, site 0..M)."""
-    (family,) = (one for one in FAMILIES if one.name == given["family"])
-    chain = ProofChain(float(given["epsilon"]), gamma, float(given["omega"]), half_width)
+    (family,) = (known for known in FAMILIES if known.name == proof["family"])
+    chain = ProofChain(float(proof["epsilon"]), gamma, float(proof["omega"]), half_width)
     constants = Constants(epsilon=chain.epsilon, gamma=gamma, omega=chain.omega)
-    problem, found = localised(family, constants, half_width)
-    parts = found.parts(problem)[:, int(family.imaginary), half_width:]
-    state = np.round(parts, DIGITS)
-    return family, chain, existence.refined(chain, family.drive(gamma), state)
+    problem, breather = localised(family, constants, half_width)
+    components = breather.parts(problem)[:, int(family.imaginary), half_width:]
+    state = np.round(components, DIGITS)
+    return family, chain, existence.refine(chain, family.drive(gamma), state)
 
 
-def prove(family: Family, chain: ProofChain, state: np.ndarray) -> tuple[float, str]:
+def try_proof(family: Family, chain: ProofChain, state: np.ndarray) -> tuple[float, str]:
     """Return within which radius one true state is proved, or infinity and why nothing is."""
     try:
         return existence.prove(chain, family.drive(chain.gamma), state), ""

@@ -38,7 +38,9 @@ class Breathers(Model):
     gamma: Positive
     half_width: Annotated[Whole, Field(ge=2, le=200)]  # at the largest a proof takes minutes
     proofs: Annotated[list[ProofSection], Field(min_length=1)]
-    wrong: Annotated[list[Number], Field(min_length=2, max_length=2)]  # tests of the first state
+    control_omegas: Annotated[
+        list[Number], Field(min_length=2, max_length=2)
+    ]  # tests of the first state
 
     def faults(self) -> Faults:
         """Yield the states that single pairs of pendula do not have."""
@@ -55,7 +57,7 @@ class Settings(Model):
     """Section `certified` of the configuration."""
 
     frames: dict[Name, Frames]  # curves with a proven distance to the true ones
-    own: Frames  # those of any other case
+    default_frames: Frames  # those of any other case
     breathers: Breathers
 
     def faults(self, settings: Configuration) -> Faults:
