@@ -20,7 +20,7 @@ use rule dataset as certify_curve with:
         call=function("pendula.studies.certified.contents.curve_contents"),
         name="{case}",
         problem=lambda wildcards: certified_problem(wildcards.case),
-        given=lambda wildcards: CERTIFIED.frames.get(wildcards.case, CERTIFIED.own).model_dump(),
+        given=lambda wildcards: CERTIFIED.frames.get(wildcards.case, CERTIFIED.default_frames).model_dump(),
 
 
 use rule dataset as prove_breathers with:

@@ -24,7 +24,11 @@ class Configuration(schema.Configuration):
     """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
     cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
-    FORMER_KEYS: ClassVar[Mapping[str, str]] = {"pendula": "newton"}
+    FORMER_KEYS: ClassVar[Mapping[str, str]] = {
+        "pendula": "newton",
+        "certified.own": "default_frames",
+        "certified.breathers.wrong": "control_omegas",
+    }
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
         """Yield each of `names`, which stand at `key`, that is no case or sweep of (4)."""

@@ -1,1 +1,1 @@
-"""Numbers with a proof: how far computed curves can be from the true ones, and what exists."""
+"""Proofs: error bounds of computed curves, and the existence of steady breathers."""

@@ -1,4 +1,4 @@
-"""What is proved of the curves of Figs 2 to 4, and of steady breathers."""
+"""Claims that rest on proofs: of the curves of Figs 2 to 4, and of steady breathers."""
 
 from replication.ledger.changes import put
 from replication.ledger.claim import Control, claim
@@ -32,7 +32,7 @@ NEAR = Cutoff(1e-12, "twelve correct digits of a state")
     ),
 )
 def curves_certified(trust) -> Finding:
-    """Require that bounds are small, and that no norm is further from the reference than that."""
+    """Require small bounds, and that no norm differs from the reference by more than its bound."""
     proved = trust.where(trust["l2_bound"].notnull(), drop=True)
     if not proved.sizes["case"]:
         raise UndecidableError("no curve of these cases is proved")
@@ -64,7 +64,7 @@ def curves_certified(trust) -> Finding:
     ),
 )
 def breathers_exist(proved) -> Finding:
-    """Require that each state has a true one within a small radius."""
+    """Require a proof for each computed state that a true one lies within a small radius."""
     measured = {
         "proofs": proved.sizes["proof"],
         "largest_radius": proved["radius"].max(skipna=False),

@@ -1,4 +1,4 @@
-"""A curve with its proven bound as a dataset."""
+"""The dataset of a curve with its proven error bound."""
 
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run
@@ -13,7 +13,7 @@ from . import frames
 def curve_contents(
     name: str, problem: Problem, bits: int, order: int, outputs_per_frame: int
 ) -> Contents:
-    """Return the norms of a curve, and the proven bound of their distance to the true ones."""
+    """Return the dataset of a curve: its norms, and a proven bound of their errors."""
     proof = {"bits": bits, "order": order, "outputs_per_frame": outputs_per_frame}
     curve = frames.certify(problem, **proof)
     norms, of_tau = ("component", "tau"), ("tau",)

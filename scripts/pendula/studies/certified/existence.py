@@ -43,12 +43,11 @@ them within r of u, which is the only one.
 Symmetries. F commutes with n -> -n, with X, and with u -> -u, which keep |.|. If u has a symmetry
 to the last bit, uniqueness gives it to the true state.
 
-The state is not zero, since r < |u| is asked for.
+The state is not zero, since r < |u| is required.
 
-Numbers are balls, as python-flint's `arb` keeps them: every operation returns a ball that contains
-the result for all numbers of its operands, and a comparison is true only if it holds for all
-numbers of the balls. The arithmetic is that of integers, so that balls have the same bits on every
-machine.
+Numbers are balls, python-flint's `arb`: every operation returns a ball that contains the result for
+all numbers in its operands, and a comparison is true only if it holds for all numbers in the balls.
+The arithmetic is that of integers, so that balls have the same bits on every machine.
 """
 
 from typing import NamedTuple
@@ -63,7 +62,7 @@ BITS = 128
 
 
 class ProofChain(NamedTuple):
-    """The constants of the equations, as doubles, and the half-width M of a chain."""
+    """The constants of the equations as doubles, and the half-width M of the block."""
 
     epsilon: float
     gamma: float
@@ -72,13 +71,13 @@ class ProofChain(NamedTuple):
 
 
 def as_ball(value: float) -> arb:
-    """Return the ball of the decimal fraction that a double prints as: 0.1 is one tenth."""
+    """Return a ball around the decimal that prints as this double: 0.1 is one tenth."""
     exact = decimal(value)
     return arb(fmpq(exact.numerator, exact.denominator))
 
 
 class Estimates(NamedTuple):
-    """What the theorem needs, as balls whose upper ends are bounds."""
+    """The numbers of the theorem as balls, whose upper ends are bounds."""
 
     eta: arb
     z: arb  # Z
@@ -87,14 +86,14 @@ class Estimates(NamedTuple):
 
 
 class ProofFailedError(ArithmeticError):
-    """There is no proof; the message says which inequality fails."""
+    """The proof failed; the message names the inequality."""
 
 
 def refine(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
-    """Return a state of ten digits after a step of Newton's method, which doubles them.
+    """Return a state of ten digits after one step of Newton's method, which doubles the digits.
 
-    The step is solved in balls: far from the centre, where the ten digits are zeros, the result is
-    this step alone, so that its last bits count.
+    The step is solved in balls, because far from the centre the ten digits are zeros and the
+    result is the step itself, whose last bits must not depend on the machine.
     """
     with ctx.workprec(BITS):
         u = on_full_chain(state)
@@ -106,8 +105,8 @@ def refine(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
 def prove(chain: ProofChain, s: float, state: np.ndarray) -> float:
     """Return r such that one true steady state of the infinite chain lies within r of `state`.
 
-    This is even, (component, site 0..M), of doubles, and `s` is the drive on a and b. Raises
-    ProofFailedError where an inequality of the theorem cannot be shown.
+    The state is even, (component, site 0..M), in doubles; `s` is the drive on a and b. Raises
+    ProofFailedError if an inequality of the theorem cannot be shown.
     """
     with ctx.workprec(BITS):
         u = on_full_chain(state)
@@ -118,13 +117,13 @@ def prove(chain: ProofChain, s: float, state: np.ndarray) -> float:
 
 
 def on_full_chain(state: np.ndarray) -> list[arb]:
-    """Return an even state on the sites -M..M, components in turn."""
+    """Return an even state (component, site 0..M) on the sites -M..M, all of a, then all of b."""
     full_state = np.concatenate([state[:, :0:-1], state], axis=1)
     return [arb(float(value)) for value in full_state.ravel()]
 
 
 def make_estimates(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
-    """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
+    """Return the numbers of 1, 3 and 4 for exact u, all of a on -M..M, then all of b."""
     k, size = make_derivative(chain, s, u), len(u)
     epsilon, tail = abs(as_ball(chain.epsilon)), tail_distance(chain, s)
     if not 2 * epsilon < tail:
@@ -149,7 +148,7 @@ def make_estimates(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
 
 
 def make_derivative(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
-    """Return K, the matrix of DF(u) on the sites -M..M, components one after the other."""
+    """Return K, the matrix of DF(u) on the sites -M..M, first those of a, then those of b."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites = len(u) // 2
     rows = [[arb(0)] * len(u) for _ in u]
@@ -163,7 +162,7 @@ def make_derivative(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
 
 
 def make_residual(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
-    """Return F(u) on the sites -M..M, a column."""
+    """Return F(u) on the sites -M..M as a column."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     sites, zero = len(u) // 2, [arb(0)]
     values = []
@@ -177,17 +176,17 @@ def make_residual(chain: ProofChain, s: float, u: list[arb]) -> arb_mat:
 
 
 def tail_distance(chain: ProofChain, s: float) -> arb:
-    """Return d, below the moduli of the eigenvalues of C."""
+    """Return d, the smaller modulus of the eigenvalues of C."""
     epsilon, omega, drive = map(as_ball, (chain.epsilon, chain.omega, s))
     moduli = abs(omega - 2 * epsilon), abs(omega - 2 * drive - 2 * epsilon)
     return arb.min(*moduli)
 
 
 def find_radius(estimates: Estimates) -> float:
-    """Return r of the theorem, shown by its inequalities.
+    """Return a radius r that satisfies the inequalities of the theorem.
 
-    Where to try it is no matter of proof: a little above the smaller root of p without its last
-    term.
+    The trial value is a little above the smaller root of p without its last term; the proof does
+    not depend on how it was chosen. Raises ProofFailedError if an inequality fails.
     """
     eta, z, quadratic, cubic = estimates
     contraction = 1 - z

@@ -1,16 +1,16 @@
 """A solution of (4) as polynomials whose coefficients are integers in units of 2^-bits.
 
-The data are even in n, and so is the solution: the chain and its reflection have the same equation
-and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} = u_1.
+The initial data are even in n, and so is the solution: the chain and its reflection have the same
+equation and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} = u_1.
 
-Each time between two outputs is cut into equal steps, and in each step the curve is a polynomial in
-theta = (tau - start of the step) / step. A step begins with the sum of the coefficients of the one
-before, which is an integer as well, so that the curve has no jumps.
+The interval between two outputs is divided into equal steps, and in each step the curve is a
+polynomial in theta = (tau - start of the step) / step. A step starts from the sum of the
+coefficients of the step before, which is an integer as well, so that the curve has no jumps.
 
-`generate_steps` finds the curve, and no proof rests on it. `require_full_interval` requires that the steps between two
-outputs cover this time exactly; `bound_jump` measures how far the start of a step is from the end of the
-one before, or from the data; and `bound_defect` measures exactly what a polynomial misses of (4). With
-step = 1 / H and q a common denominator of the constants, the numbers
+`generate_steps` computes the curve, and no proof rests on it. `require_full_interval` checks that
+the steps between two outputs cover the interval exactly; `bound_jump` bounds the distance from the
+start of a step to the end of the step before, or to the initial data; and `bound_defect` bounds the
+residual of (4). With step = 1 / H and q a common denominator of the constants, the numbers
 
     2 q H 4^bits i P'(theta) - 2 q 4^bits L P - q |P|^2 P,
 
@@ -33,55 +33,55 @@ from flint import fmpz_poly
 from pendula.problem import Problem
 
 UP = 1.0 + 1e-9
-"""Sums and products of positive numbers, with fewer than a million roundings, times this are upper
-bounds: 1e6 * 2^-53 < 1e-9."""
+"""Times this, a sum or product of positive numbers with fewer than a million roundings is an upper
+bound of the exact one: 1e6 * 2^-53 < 1e-9."""
 
 LAST_TERM = 16
-"""The last term of a polynomial is no larger than so many units, or the step becomes shorter."""
+"""In units: a step is shortened if the last term of its polynomial is larger."""
 MOST_STEPS = 64
-"""Steps between two outputs, at most."""
+"""Largest number of steps between two outputs."""
 
 IntegerSeries = list[list[list[int]]]
-"""By part, and site after site of A, then of B: the coefficients of the powers of theta."""
+"""Coefficients of the powers of theta: of Re and Im, then for each site of A and of B."""
 
 
 class NotEvenError(ValueError):
-    """The problem is none on half of a chain."""
+    """The problem is not even in n, and cannot be integrated on half of the chain."""
 
 
 class StepError(ArithmeticError):
-    """The steps do not lead from one output to the next."""
+    """The steps do not reach from one output to the next."""
 
 
 class FixedPointChain(NamedTuple):
-    """Half of a chain: its constants, exactly, and the units of its numbers."""
+    """Half of a chain: exact constants, sites, output interval and the bits of its integers."""
 
     epsilon: Fraction
     gamma: Fraction
     omega: Fraction
     sites: int
-    interval: Fraction  # between two outputs
-    bits: int
+    interval: Fraction  # between two outputs, in tau
+    bits: int  # integers are in units of 2^-bits
 
 
 class Step(NamedTuple):
-    """A polynomial of the curve: step = interval / pieces."""
+    """One polynomial of the curve, over a step of interval / divisor."""
 
     divisor: int
     terms: IntegerSeries
 
 
 def decimal(x: float) -> Fraction:
-    """Return the printed decimal that a double stands for: 1/10 for 0.1."""
+    """Return the decimal that prints as this double: 1/10 for 0.1."""
     return Fraction(repr(float(x)))
 
 
 def make_half_chain(problem: Problem, bits: int) -> FixedPointChain:
-    """Return the half of a chain with even data; raises NotEvenError for any other problem."""
+    """Return half of the chain of a problem. Raises NotEvenError if its data are not even."""
     amplitudes = problem.amplitudes
     if problem.boundary != "dirichlet" or (amplitudes != amplitudes[:, ::-1]).any():
         raise NotEvenError(
-            "a proof needs data that are even in n, on a chain at rest beyond its ends"
+            "a proof requires initial data that are even in n, and boundary: dirichlet"
         )
     constants = problem.constants
     epsilon, gamma, omega = map(decimal, (constants.epsilon, constants.gamma, constants.omega))
@@ -90,7 +90,10 @@ def make_half_chain(problem: Problem, bits: int) -> FixedPointChain:
 
 
 def round_initial_data(problem: Problem, chain: FixedPointChain) -> tuple[list[list[int]], float]:
-    """Return the data in units, (part, site of A, then of B), and how far they are off in l2."""
+    """Return the initial data as integers and a bound of their l2 error.
+
+    The integers are those of Re and of Im, each for all sites of A, then of B.
+    """
     half = problem.amplitudes[:, problem.half_width :]
     state, error = [], Fraction(0)
     for component in (half.real, half.imag):
@@ -101,14 +104,17 @@ def round_initial_data(problem: Problem, chain: FixedPointChain) -> tuple[list[l
 
 
 def round_up_product(count: Fraction | int, unit: Fraction) -> float:
-    """Return an upper bound of a number that is not negative."""
+    """Return an upper bound, as a double, of the product of two numbers that are not negative."""
     return UP * float(count * unit)
 
 
 def generate_steps(
     state: list[list[int]], chain: FixedPointChain, order: int
 ) -> Iterator[list[Step]]:
-    """Yield the steps from each output to the next; raises StepError."""
+    """Yield the steps from each output to the next.
+
+    Raises StepError if MOST_STEPS between two outputs are too few.
+    """
     divisor = 1
     while True:
         steps: list[Step] = []
@@ -127,18 +133,18 @@ def generate_steps(
         state = current
         last_term = max(abs(series[-1]) for step in steps for row in step.terms for series in row)
         if max(last_term, 1) * divisor**order <= LAST_TERM * (divisor - 1) ** order:
-            divisor -= 1  # longer steps would have done, judged by their last terms
+            divisor -= 1  # judged by the last terms, longer steps would have been short enough
 
 
 def evaluate_end(terms: IntegerSeries) -> list[list[int]]:
-    """Return the state at the end of a step, exactly."""
+    """Return the exact state at the end of a step."""
     return [[sum(series) for series in row] for row in terms]
 
 
 def make_taylor_terms(
     state: list[list[int]], chain: FixedPointChain, step: Fraction, order: int
 ) -> IntegerSeries:
-    """Return the terms of one step."""
+    """Return the Taylor coefficients of one step from `state`, for theta^0 to theta^order."""
     bits, count = chain.bits, 2 * chain.sites
     re_series, im_series = ([[value] for value in row] for row in state)
     halves: list[list[int]] = [[] for _ in range(count)]
@@ -161,7 +167,7 @@ def make_taylor_terms(
 
 
 def scaled_linear(values, chain: FixedPointChain) -> tuple[int, list[list]]:
-    """Return q and q times the linear terms of (4), for integers or polynomials of integers."""
+    """Return q, and q times the linear terms of (4), of integers or polynomials of integers."""
     q = lcm(chain.epsilon.denominator, chain.gamma.denominator, chain.omega.denominator)
     epsilon, gamma, omega = (int(q * c) for c in (chain.epsilon, chain.gamma, chain.omega))
     sites, results = chain.sites, []
@@ -179,31 +185,31 @@ def scaled_linear(values, chain: FixedPointChain) -> tuple[int, list[list]]:
 
 
 def bound_defect(step: Step, chain: FixedPointChain) -> float:
-    """Return a bound of the integral of the defect's l2 norm over a step."""
+    """Return an upper bound of the integral of the defect's l2 norm over a step."""
     h = chain.interval / step.divisor
     x, y = ([fmpz_poly(series) for series in row] for row in step.terms)
     q, field = scaled_linear([x, y], chain)
-    # with h = top / bottom all is multiplied by bottom, and the linear and cubic terms by top
+    # times the denominator of h, so that all are integers: the numerator stays with L and |P|^2 P
     shift, total = 4**chain.bits, 0
-    for n, (own_x, own_y) in enumerate(zip(x, y, strict=True)):
-        square = (own_x * own_x + own_y * own_y) * (q * h.numerator)
-        for change, own, row in ((-own_y.derivative(), own_x, 0), (own_x.derivative(), own_y, 1)):
-            slope = change * (2 * q * h.denominator) - field[row][n] * (2 * h.numerator)
-            missed = slope * shift - square * own
-            total += sum(map(abs, missed.coeffs()))
+    for n, (re, im) in enumerate(zip(x, y, strict=True)):
+        square = (re * re + im * im) * (q * h.numerator)
+        for rate, value, row in ((-im.derivative(), re, 0), (re.derivative(), im, 1)):
+            linear = rate * (2 * q * h.denominator) - field[row][n] * (2 * h.numerator)
+            residual = linear * shift - square * value
+            total += sum(map(abs, residual.coeffs()))
     unit = Fraction(1, 2 * q * h.denominator * 8**chain.bits)
     return round_up_product(int(total), unit)
 
 
 def require_full_interval(steps: list[Step]) -> list[Step]:
-    """Return the steps if they cover the time between two outputs exactly; raises StepError."""
+    """Return the steps. Raises StepError unless they cover the interval between outputs exactly."""
     if any(step.divisor < 1 for step in steps) or sum(Fraction(1, s.divisor) for s in steps) != 1:
-        raise StepError("the steps between two outputs are more or less than the time between them")
+        raise StepError("the steps are more or less than the time between two outputs")
     return steps
 
 
 def bound_jump(state: list[list[int]], after: Step, chain: FixedPointChain) -> float:
-    """Return a bound of the l2 distance from a state to the start of a step."""
+    """Return an upper bound of the l2 distance from a state to the start of a step."""
     ends = zip(joined(*state), joined(*after.terms), strict=True)
     return round_up_product(
         sum(abs(last - series[0]) for last, series in ends), Fraction(1, 2**chain.bits)
@@ -211,7 +217,7 @@ def bound_jump(state: list[list[int]], after: Step, chain: FixedPointChain) -> f
 
 
 def as_doubles(step: Step, chain: FixedPointChain) -> np.ndarray:
-    """Return the terms as nearest doubles, (order, part, component, site)."""
+    """Return the coefficients rounded to doubles, (order, Re or Im, component, site)."""
     coefficients = [
         [[value / 2**chain.bits for value in series] for series in row] for row in step.terms
     ]

@@ -1,4 +1,4 @@
-"""A proven bound of the distance between a curve of integers and the true solution, by frames.
+"""A proven bound of the distance from a curve of integers to the true solution, by frames.
 
 Where errors grow so fast that no norm bounds them usefully (large data, chaos), the linearised flow
 is followed instead, as by R. J. Lohner (1988). The curve p is that of `fixed_point`, on half of a
@@ -56,8 +56,8 @@ taken, which is |w| from (i) without r and a thousandth of all that |e| may be, 
 come out below it. Then |w| stays below the trial over the whole step, since it is continuous, and
 |e| below y = the trial + (sum of t_k) |z|.
 
-The parts of the bound grow alike, so they are carried side by side: the bounds of |z_i| and |w| are
-sums over parts. One more part, which belongs to no error, is a unit error at the start: the
+The contributions to the bound obey the same inequalities, so the bounds of |z_i| and |w| are kept
+separately for each. One more contribution, which is no error, is a unit error at the start: the
 order of the columns in a new frame depends on it.
 
 Rounding of the bound itself: it uses only + - * / and roots of numbers that are not negative, of
@@ -89,43 +89,43 @@ from .fixed_point import (
 
 UNIT = 2.0**-53
 TINY = 1e-140
-"""More than what any number of this module that underflows can have lost."""
+"""Larger than all that underflow can have lost in this module."""
 ORDER = 24
-"""Order of the tangent polynomials; what they leave out is as small as rounding."""
+"""Order of the tangent polynomials; their truncation error is as small as rounding."""
 DIGITS = 20
-"""Binary digits that a bound is kept with."""
+"""Binary digits of a stored bound."""
 SLACK = 2.0**-10
-"""The part of an error that the quadratic term may add to it over a step."""
+"""The quadratic term may add at most this fraction of an error over a step."""
 UNIT_ERROR = 3
-"""The place of the unit error among the parts that grow: start, defect, quadratic term, and it."""
+"""Index of the unit error among the contributions: start, defect, quadratic term, unit error."""
 
 
 class CertifiedCurve(NamedTuple):
-    """Norms of the curve at the output times, with a bound of their distance to the true ones."""
+    """Norms of the curve at the output times, with a bound of their errors."""
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
     contributions: (
         np.ndarray
-    )  # (part, time): start, defect, quadratic term, and rounding of the outputs
+    )  # (contribution, time): start, defect, quadratic term, and rounding of the outputs
 
     @property
     def bound(self) -> np.ndarray:
-        """The bound of the distance of the states, (time,), the sum of its parts rounded up."""
+        """The bound of the distance of the states, (time,): the sum of contributions, rounded up."""
         return UP * np.sum(self.contributions, axis=0)
 
 
 class Tube(NamedTuple):
-    """Where the error is: e = matrix z + w, with bounds of |z_i| and |w| by part."""
+    """An enclosure of the error e = matrix z + w: bounds of |z_i| and |w| by contribution."""
 
-    matrix: np.ndarray  # (part of a complex number, component, site, column)
-    z: np.ndarray  # (column, part)
-    w: np.ndarray  # (part,)
+    matrix: np.ndarray  # (Re or Im, component, site, column)
+    z: np.ndarray  # (column, contribution)
+    w: np.ndarray  # (contribution,)
 
 
 def make_initial_tube(chain: FixedPointChain, initial_error: float) -> Tube:
-    """Return the tube around the start, which is `initial_error` by the rounding of the data."""
+    """Return the tube at the start, whose error is that of rounding the initial data."""
     size = 4 * chain.sites
     z = np.zeros((size, UNIT_ERROR + 1))
     z[:, 0], z[:, UNIT_ERROR] = initial_error, 1.0 / sqrt(size)
@@ -133,7 +133,7 @@ def make_initial_tube(chain: FixedPointChain, initial_error: float) -> Tube:
 
 
 def bound_distances(tube: Tube) -> np.ndarray:
-    """Return bounds of the distance over the whole chain, (part,)."""
+    """Return bounds of the l2 error on the whole chain, (contribution,)."""
     flat = np.abs(tube.matrix).reshape(len(tube.z), -1)
     entry_bounds = np.stack(
         [np.sum(flat * column_bounds, axis=1) for column_bounds in tube.z.T], axis=1
@@ -148,7 +148,7 @@ def bound_distances(tube: Tube) -> np.ndarray:
 def advance_tube(
     tube: Tube, step: Step, chain: FixedPointChain, jump: float, order: int = ORDER
 ) -> Tube:
-    """Return the tube at the end of a step that starts `jump` from where the tube is."""
+    """Return the tube at the end of a step whose start is at a distance `jump` from the curve."""
     coefficients = as_doubles(step, chain)
     sizes = UP * np.sqrt(np.max(np.sum(coefficients**2, axis=1), axis=(1, 2))) + TINY
     h = float(chain.interval / step.divisor)
@@ -176,7 +176,7 @@ def bound_exponential(x: float) -> float:
 
 
 def _bound_quadratic_term(w: float, mz_bound: float, largest: float, time: float) -> float:
-    """Return what the quadratic term adds to |w| over a step, infinite if that is not small.
+    """Return a bound of what the quadratic term adds to |w| over a step, infinite if not small.
 
     `mz_bound` bounds |M z|, and `time` e^(mu h) h.
     """
@@ -189,7 +189,7 @@ def _bound_quadratic_term(w: float, mz_bound: float, largest: float, time: float
 def make_tangents(
     matrix: np.ndarray, p: np.ndarray, h: float, chain: FixedPointChain, order: int
 ) -> list:
-    """Return the tangent polynomials' coefficients, each of the shape of the matrix."""
+    """Return the coefficients of the tangent polynomials, each of the shape of `matrix`."""
     square, real, imaginary = multiply_series(p, order)
     plus, minus, across = square + 0.5 * real, square - 0.5 * real, 0.5 * imaginary
     terms = [matrix]
@@ -210,7 +210,7 @@ def make_tangents(
 
 
 def multiply_series(p: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return so many coefficients of |A|^2 and of both parts of A^2, (order, component, site)."""
+    """Return `count` coefficients of |A|^2, Re A^2 and Im A^2, each (order, component, site)."""
     p = np.concatenate([p[:count], np.zeros((max(count - len(p), 0), *p.shape[1:]))])
     square, real, imaginary = np.zeros((3, count, *p.shape[2:]))
     for k in range(count):
@@ -225,7 +225,7 @@ def multiply_series(p: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, 
 
 
 def linear_terms(values: np.ndarray, chain: FixedPointChain) -> np.ndarray:
-    """Return the linear terms of (4) on half of a chain, (part, component, site, column)."""
+    """Return the linear terms of (4) on half of a chain, (Re or Im, component, site, column)."""
     epsilon, gamma, omega = map(float, (chain.epsilon, chain.gamma, chain.omega))
     neighbours = np.zeros_like(values)
     neighbours[:, :, :-1] += values[:, :, 1:]
@@ -240,7 +240,7 @@ def linear_terms(values: np.ndarray, chain: FixedPointChain) -> np.ndarray:
 def bound_tangent_defect(
     norms: np.ndarray, sizes: np.ndarray, h: float, chain: FixedPointChain
 ) -> float:
-    """Return a bound of the integral of |J M - M'| over a step."""
+    """Return an upper bound of the integral of |J M - M'| over a step."""
     order = len(norms) - 1
     squares = np.zeros(2 * len(sizes) - 1)
     for j, size in enumerate(sizes):
@@ -257,7 +257,7 @@ def bound_tangent_defect(
 
 
 def sum_terms(terms: list) -> np.ndarray:
-    """Return the sum of all terms, the small ones first."""
+    """Return the sum of all terms, added from the last one, which is the smallest."""
     total = terms[-1].copy()
     for term in terms[-2::-1]:
         total += term
@@ -268,7 +268,7 @@ def sum_terms(terms: list) -> np.ndarray:
 
 
 def change_frame(tube: Tube) -> Tube:
-    """Return the same tube with columns that are nearly orthogonal."""
+    """Return a tube around the same errors, whose matrix is nearly orthogonal."""
     size = len(tube.z)
     matrix = tube.matrix.reshape(size, size)
     lengths = np.sqrt(np.sum(matrix**2, axis=0))
@@ -293,7 +293,7 @@ def change_frame(tube: Tube) -> Tube:
 
 
 def orthogonalise(matrix: np.ndarray) -> np.ndarray:
-    """Return orthonormal columns by the modified method of Gram and Schmidt, done twice."""
+    """Return orthonormal columns by the modified Gram-Schmidt method, applied twice."""
     rows = matrix.T.copy()
     for _ in range(2):
         for j, row in enumerate(rows):
@@ -304,7 +304,7 @@ def orthogonalise(matrix: np.ndarray) -> np.ndarray:
 
 
 def multiply_transposed(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Return left^T right as plain sums, which have the same bits whatever BLAS is there."""
+    """Return left^T right by plain sums: BLAS gives other bits on other processors."""
     total = np.zeros((left.shape[1], right.shape[1]))
     for left_row, right_row in zip(left, right, strict=True):
         total += left_row[:, None] * right_row
@@ -315,7 +315,7 @@ def multiply_transposed(left: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 
 def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> CertifiedCurve:
-    """Return the curve at the outputs, with its proven distance to the solution.
+    """Return the curve at the outputs of a problem, with a proven bound of its error.
 
     The coefficients are in units of 2^-bits, and the polynomials of the given order. Raises
     NotEvenError and StepError.
@@ -347,7 +347,7 @@ def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> 
 def bound_output_error(
     state: np.ndarray, contributions: np.ndarray, chain: FixedPointChain, delay: float
 ) -> float:
-    """Return how far outputs are off by rounding: of states and norms, and of their times.
+    """Return a bound of the errors of outputs by rounding of states, norms and times.
 
     States to doubles, squares, the at most 16 levels of the sum, and the root are 12 roundings of
     the norm or fewer. Over `delay` the solution moves by at most late |u'|, where
@@ -362,13 +362,13 @@ def bound_output_error(
 
 
 def compute_norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return l-infinity and l2 norms, (component, time), of (time, part, component, site)."""
+    """Return l-infinity and l2 norms (component, time) of (time, Re or Im, component, site)."""
     squares = states[:, 0] ** 2 + states[:, 1] ** 2
     return np.sqrt(squares.max(axis=2)).T, np.sqrt(sum_pairwise(np.moveaxis(squares, 2, 0))).T
 
 
 def sum_pairwise(values: np.ndarray) -> np.ndarray:
-    """Return the sum over the first axis by halves, so that a term goes through few roundings."""
+    """Return the sum over the first axis by halves, so that each term is rounded only a few times."""
     while len(values) > 1:
         half = (len(values) + 1) // 2
         second_half = values[half:]
@@ -378,6 +378,6 @@ def sum_pairwise(values: np.ndarray) -> np.ndarray:
 
 
 def round_up(values) -> np.ndarray:
-    """Return numbers with DIGITS binary digits, rounded up."""
+    """Return the numbers rounded up to DIGITS binary digits."""
     mantissa, exponent = np.frexp(values)
     return np.ldexp(np.ceil(mantissa * 2.0**DIGITS), exponent - DIGITS)

@@ -17,16 +17,17 @@ from . import existence
 from .existence import ProofChain
 
 DIGITS = 10
-"""Decimals of a state as LAPACK finds it, which are the same on every machine."""
+"""Decimals of a state that LAPACK computes alike on every machine."""
 
 
 def breathers_contents(
     gamma: float, half_width: int, proofs: Sequence[Mapping], control_omegas: Sequence[float]
 ) -> Contents:
-    """Return the proofs of the given `family`, `omega` and `epsilon`, and radii of wrong states.
+    """Return the dataset of breathers with their proofs, one for each of `proofs`.
 
-    The states are kept on a block of the infinite chain of the given `half_width`. The first state
-    is tested at the Omegas of `control_omegas` too.
+    Each proof gives `family`, `omega` and `epsilon`. States are stored on the sites 0..half_width
+    of the infinite chain. As controls, the first state is also tested at each of `control_omegas`,
+    where the proof must fail.
     """
     candidates = [compute_state(gamma, half_width, proof) for proof in proofs]
     radii, refusals = zip(*(try_proof(*candidate) for candidate in candidates), strict=True)
@@ -51,14 +52,16 @@ def breathers_contents(
         "radius": Variable(
             dimensions,
             radii,
-            "one true state lies within this l-infinity distance, infinite where none is proved",
+            "one true state lies within this l-infinity distance, infinite if none is proved",
             attributes=PROVEN,
         ),
-        "proof_refusal": Variable(dimensions, refusals, "why nothing is proved"),
+        "proof_refusal": Variable(
+            dimensions, refusals, "why the proof failed, empty if it did not"
+        ),
         "wrong_radius": Variable(
             ("wrong_proof",),
             control_radii,
-            "radius that is proved of the wrong state, infinite if it is refused",
+            "radius proved for the wrong state, infinite if the proof failed",
             attributes=PROVEN,
         ),
     }
@@ -70,7 +73,7 @@ def breathers_contents(
 def compute_state(
     gamma: float, half_width: int, proof: Mapping
 ) -> tuple[Family, ProofChain, np.ndarray]:
-    """Return a family, a chain, and its even state there, (component, site 0..M)."""
+    """Return the family, the chain and the even state (component, site 0..M) of a proof."""
     (family,) = (known for known in FAMILIES if known.name == proof["family"])
     chain = ProofChain(float(proof["epsilon"]), gamma, float(proof["omega"]), half_width)
     constants = Constants(epsilon=chain.epsilon, gamma=gamma, omega=chain.omega)
@@ -81,7 +84,7 @@ def compute_state(
 
 
 def try_proof(family: Family, chain: ProofChain, state: np.ndarray) -> tuple[float, str]:
-    """Return within which radius one true state is proved, or infinity and why nothing is."""
+    """Return the radius within which one true state is proved, or infinity and the reason."""
     try:
         return existence.prove(chain, family.drive(chain.gamma), state), ""
     except existence.ProofFailedError as error:

@@ -1,4 +1,4 @@
-"""What the configuration says of the proofs: which cases, and which errors they need."""
+"""The keys of config/certified.yaml: precision of the proofs for each case, and breathers."""
 
 from typing import Annotated
 
@@ -16,7 +16,7 @@ from pydantic import Field
 from pendula.configuration.schema import Configuration, Faults
 from pendula.models.pairs import FAMILIES, pair
 
-# How a curve of integers is made whose distance to the true one is bounded by frames.
+# Precision of a curve of integers, and how often its error bound changes frames.
 Frames = model(
     bits=Annotated[Whole, Field(ge=32, le=4096)],
     order=Annotated[Whole, Field(ge=8, le=400)],
@@ -43,7 +43,7 @@ class Breathers(Model):
     ]  # tests of the first state
 
     def faults(self) -> Faults:
-        """Yield the states that single pairs of pendula do not have."""
+        """Yield faults of states that a single pair of pendula does not have."""
         named = {family.name: family for family in FAMILIES}
         for i, state in enumerate(self.proofs):
             if state.family not in named:
@@ -56,12 +56,12 @@ class Breathers(Model):
 class Settings(Model):
     """Section `certified` of the configuration."""
 
-    frames: dict[Name, Frames]  # curves with a proven distance to the true ones
-    default_frames: Frames  # those of any other case
+    frames: dict[Name, Frames]  # by case
+    default_frames: Frames  # of cases that `frames` does not list
     breathers: Breathers
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield the cases that the configuration has not, and states that do not exist."""
+        """Yield faults of missing cases, and of states that do not exist."""
         yield from settings.absent("cases", "frames", self.frames)
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault
