@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from latticode.kernels.compiled import kernel
 from latticode.simulation.lattice import WHOLE, Reduction, find_reduction, unfold, unpack
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import equations_of
 from pendula.models.amplitudes import rates
 from pendula.models.pendula import at_time
 from pendula.models.pendula import rates as pendula_rates
@@ -42,9 +42,9 @@ def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarr
         raise ValueError(f"peers know only the boundary dirichlet, not {problem.boundary}")
     if reduction == HALF and not find_reduction(problem.amplitudes).even:
         raise ValueError("half a chain needs data that are even in n")
-    model = integration_of(problem)
-    end = float(model.times(problem)[-1])
-    return model.system(problem, reduction), model.start(problem, reduction), end
+    equations = equations_of(problem)
+    end = float(equations.times[-1])
+    return equations.system(reduction), equations.start(reduction), end
 
 
 def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = WHOLE) -> np.ndarray:

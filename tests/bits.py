@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from latticode.simulation.lattice import Reduction
 from latticode.simulation.simulate import Trajectory, simulate
-from pendula.models.integrations import NAMED
+from pendula.models.solvers import SOLVERS
 from pendula.problem import Problem
 
 TIGHT = {"taylor": 1e-14, "dop853": 1e-12, "ode45": 1e-9}
@@ -57,7 +57,7 @@ def run(name: str, even: bool) -> str:
 
 def hits(model: str, solver: str) -> int:
     """Return how often a kernel came from the cache."""
-    return sum(NAMED[model].integration.solvers[solver].run.stats.cache_hits.values())
+    return sum(SOLVERS[model][solver].run.stats.cache_hits.values())
 
 
 def main(threads: int, names: list[str]) -> dict:

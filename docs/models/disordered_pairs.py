@@ -1,7 +1,7 @@
 """The paper's equations (4) where each pair of pendula has a frequency of its own."""
 
 from numpy.random import default_rng
-from pendula.models import amplitudes
+from pendula.models import equations
 
 fields = "A", "B"
 parameters = {
@@ -13,5 +13,5 @@ parameters = {
 
 
 def i_dt(p, a, b):
-    in_a, in_b = amplitudes.i_dt(p, a, b)
+    in_a, in_b = equations.i_dt(p, a, b)
     return in_a + p.disorder * a, in_b + p.disorder * b

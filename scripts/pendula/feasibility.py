@@ -6,7 +6,7 @@ import numpy as np
 from latticode.simulation import feasibility
 from latticode.simulation.feasibility import Obstacle
 
-from pendula.problem import Constants
+from pendula.models.equations import Constants
 
 
 def find_fault(

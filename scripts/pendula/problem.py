@@ -4,7 +4,7 @@ Their plain values are those of a case in the configuration: the constants by th
 `model` and `mu` where they are of the pendula.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -13,31 +13,18 @@ from latticode.equations.ends import ANTIPERIODIC, kind_of
 from latticode.equations.model import Model
 from latticode.simulation import problem
 
-AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
-"""The amplitude equations (4), and Newton's equations (1) of the pendula."""
+from pendula.models.equations import (
+    AMPLITUDE_MODEL,
+    AMPLITUDES,
+    MODEL_NAMED,
+    MODELS,
+    PENDULA,
+    PENDULUM_MODEL,
+    Constants,
+)
+
 BOUNDARIES = ("dirichlet", "free", "periodic")
 """The ends for which the paper's equations have an energy, bounds and proofs."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Constants:
-    """The constants of the equations (4), in the one order that they have everywhere.
-
-    Keywords are required, so that no two of them can change places.
-    """
-
-    epsilon: float  # coupling of neighbours
-    gamma: float  # strength of the drive
-    omega: float  # detuning Omega
-
-    def __iter__(self) -> Iterator[float]:
-        """Yield epsilon, gamma and omega."""
-        yield from (self.epsilon, self.gamma, self.omega)
-
-    @classmethod
-    def of(cls, values: Mapping) -> "Constants":
-        """Return the constants that a mapping holds, such as the attributes of a dataset."""
-        return cls(**{name: float(values[name]) for name in ("epsilon", "gamma", "omega")})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -99,6 +86,16 @@ class Problem(problem.Problem):
         return super().changed(**changes)
 
     @property
+    def equations_class(self) -> type | None:
+        """The class that integrates the paper's equations; None for a model of a user's own."""
+        # here, since the configuration makes problems and needs no kernels
+        from pendula.models.integrations import AmplitudeEquations, PendulumEquations
+
+        if self.model is AMPLITUDE_MODEL:
+            return AmplitudeEquations
+        return PendulumEquations if self.model is PENDULUM_MODEL else None
+
+    @property
     def constants(self) -> Constants:
         """The constants of (4)."""
         return Constants.of(self.parameters)
@@ -110,11 +107,9 @@ class Problem(problem.Problem):
 
 
 def _model_of(name: str) -> Model:
-    from pendula.models.integrations import NAMED  # here: the configuration needs no kernels
-
-    if name not in NAMED:
-        raise ValueError(f"there is no model {name!r}; there are {', '.join(NAMED)}")
-    return NAMED[name]
+    if name not in MODEL_NAMED:
+        raise ValueError(f"there is no model {name!r}; there are {', '.join(MODEL_NAMED)}")
+    return MODEL_NAMED[name]
 
 
 def by_name(problems: Mapping[str, Mapping]) -> dict[str, Problem]:

@@ -12,7 +12,7 @@ from pendula.own_cases.page import write_report, write_table
 KINDS = "png", "pdf", "nc", "json"
 
 AMPLITUDES = """from latticode import abs2
-from pendula.models.amplitudes import i_dt
+from pendula.models.equations import i_dt
 fields = "A", "B"
 parameters = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
 def conserved(p, a, b):

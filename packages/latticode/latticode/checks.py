@@ -16,7 +16,9 @@ import xarray as xr
 from latticode.datasets.checks import table, variable
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
-from latticode.integrators.families import TIGHTEST, Agreement, compare, other_family
+from latticode.integrators.families import Agreement, compare, other_family
+from latticode.integrators.method import SMALLEST_ERROR
+from latticode.integrators.methods import METHODS
 from latticode.localised.breathers import NoStateError, exponents, find_state
 from latticode.localised.rest import describe_unstable_rest
 from latticode.localised.tangents import STEP, Growth, grow, random_tangent
@@ -37,25 +39,24 @@ from latticode.measures.growth import (
     predict,
 )
 from latticode.numerics.elementary import complex_of, log, modulus
-from latticode.simulation.feasibility import SMALLEST_ERROR
-from latticode.simulation.integration import GaveUpError, IntegrationError
+from latticode.simulation.equations import GaveUpError, IntegrationError
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import equations_of
 
 TITLE = "A run and its checks"
 UNSTABLE_REST = "unstable_rest"
 """The attribute with a sentence on sites that rest at an unstable point."""
 
 
-def choose_solver(name: str, peak: float, known: Collection[str] = TIGHTEST) -> dict:
+def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> dict:
     """Return the controls of a method of another family than `name`, for data up to `peak`.
 
     `known` are the methods that take the equations. Data smaller than 1 need a smaller absolute
     tolerance, as far as its square does not vanish.
     """
     other = other_family(name, known)
-    rtol = TIGHTEST[other]
+    rtol = METHODS[other].tightest
     atol = max(rtol * (peak if 0 < peak < 1 else 1.0), SMALLEST_ERROR)
     return {"name": other, "rtol": rtol, "atol": atol}
 
@@ -66,7 +67,7 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     `run` is the trajectory that `simulate` made of `problem`, by any solver. Its dataset holds no
     phases on the way: so its solver runs again too, and keeps the fields at the snapshots.
     """
-    peak, known = float(modulus(problem.initial).max()), set(integration_of(problem).solvers)
+    peak, known = float(modulus(problem.initial).max()), set(equations_of(problem).methods)
     solver = choose_solver(str(run.attrs["solver"]), peak, known)
     apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
     again, agreement, refusal = run[list(NORMS)] * np.nan, None, {}
@@ -142,7 +143,7 @@ FEWEST_STEPS, SEED = 64, 20170817
 
 def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
-    even, rng = integration_of(problem).find_reduction(problem).even, np.random.default_rng(SEED)
+    even, rng = equations_of(problem).find_reduction().even, np.random.default_rng(SEED)
     tangent = random_tangent(problem.sites, rng, even, len(problem.model.fields))
     step = min(STEP, problem.span / FEWEST_STEPS)
     return grow(problem, tangent[None], problem.span, even, step)
@@ -220,7 +221,7 @@ def check_breather(problem: Problem) -> xr.Dataset:
     described = {f"breather{name}": variable(*given, digits=6) for name, given in numbers.items()}
     axes = {"part": ["re", "im"], "component": list(problem.model.fields), "site": sites}
     found = xr.Dataset.from_dict(table(TITLE, axes, **described))
-    found["component"].attrs["long_name"] = integration_of(problem).words.component
+    found["component"].attrs["long_name"] = equations_of(problem).names.component
     return found
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 from latticode import Model, abs2, lap
-from latticode.simulation.integration import Solver
+from latticode.simulation.equations import CompiledMethod
 from latticode.simulation.problem import Problem, on_sites
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import TracedEquations
 
 EXTRA_TURN = 1e-3
 """Radians by which the fields are wrong per unit of time."""
@@ -15,11 +15,15 @@ def lattice() -> Model:
     return Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
 
 
-def problem(model: Model, **changes) -> Problem:
-    """Return a regular run of it."""
-    return Problem(
+def problem(equations: type[TracedEquations] = TracedEquations, **changes) -> Problem:
+    """Return a regular run of it, integrated by a class of equations."""
+
+    class Planted(Problem):
+        equations_class = equations
+
+    return Planted(
         **{
-            "model": model,
+            "model": lattice(),
             "parameters": {},
             "half_width": 6,
             "boundary": "free",
@@ -32,29 +36,31 @@ def problem(model: Model, **changes) -> Problem:
     )
 
 
-def with_wrong(names=("taylor",), model: Model | None = None, rate: float = EXTRA_TURN) -> Model:
-    """Return the lattice with wrong methods of these names, which turn the fields too fast."""
-    model = model or lattice()
-    right = integration_of(problem(model))
-    solvers = dict(right.solvers)
-    for name in names:
-        solvers[name] = turned(solvers[name], rate)
-    model.integration = right._replace(solvers=solvers)
-    return model
+def with_wrong(
+    *names: str, equations: type[TracedEquations] = TracedEquations, rate: float = EXTRA_TURN
+) -> type[TracedEquations]:
+    """Return equations whose methods of these names are wrong, and turn the fields too fast."""
+
+    class WrongEquations(equations):
+        def compiled(self, name):
+            compiled = super().compiled(name)
+            return turned(compiled, rate) if name in names else compiled
+
+    return WrongEquations
 
 
-def turned(solver: Solver, rate: float) -> Solver:
-    """Return a solver whose fields turn by `rate` a unit of time more than they should."""
+def turned(compiled: CompiledMethod, rate: float) -> CompiledMethod:
+    """Return a method whose fields turn by `rate` a unit of time more than they should."""
 
     def run(system, y, times, controls, work, record, stop):
-        outcome = solver.run(system, y, times, controls, work, record, stop)
+        outcome = compiled.run(system, y, times, controls, work, record, stop)
         y[0::2], y[1::2] = rotated(y[0::2], y[1::2], rate * times[-1])
         if record.every:
             kept = record.kept
             kept[0], kept[1] = rotated(kept[0], kept[1], rate * times[:: record.every])
         return outcome
 
-    return solver._replace(run=run)
+    return compiled._replace(run=run)
 
 
 def rotated(real, imaginary, angle):

@@ -27,17 +27,10 @@ from pydantic import (
 )
 
 from pendula.feasibility import find_fault, rate
-from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
+from pendula.models.equations import AMPLITUDES, METHODS_OF, PENDULA, Constants
+from pendula.problem import Problem
 
 from . import cost
-
-EXPLICIT = ("taylor", "dop853", "ode45")
-SOLVERS = {
-    AMPLITUDES: [*EXPLICIT, "crank_nicolson", "delfour_fortin_payre", "auto"],
-    PENDULA: [*EXPLICIT, "kahan_li", "auto"],
-}
-"""The solvers that take each of the paper's equations."""
-
 
 CONSTANTS = ("omega", "epsilon", "gamma", "mu")
 
@@ -87,7 +80,7 @@ class Case(cases.Case):
     @classmethod
     def solvers_taking(cls, model: str) -> list[str]:
         """Return the solvers that take the equations of this name."""
-        return SOLVERS[model]
+        return [*METHODS_OF[model], "auto"]
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:

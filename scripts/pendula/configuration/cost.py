@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from functools import partial
 
 from latticode.configuration import cost
-from latticode.configuration.cost import Cost, Demand
+from latticode.configuration.cost import Cost
+from latticode.integrators.method import Demand
+from latticode.integrators.methods import METHODS
 
 from pendula.feasibility import clock_of
 
@@ -37,7 +39,7 @@ def with_checks(problem: Mapping) -> Cost:
     checks = cost.runs_of_checks(problem)
     if problem.get("mu"):
         plain = {key: value for key, value in problem.items() if key not in ("mu", "model")}
-        solver = {"name": "taylor", "rtol": cost.TIGHTEST["taylor"]}
+        solver = {"name": "taylor", "rtol": METHODS["taylor"].tightest}
         checks = [*checks[:2], plain | {"solver": solver, "snapshot_every": 0}]
     return cost.of_checked(map(estimate, [problem, *checks]))
 

@@ -11,15 +11,14 @@ import sys
 
 import numpy as np
 from latticode.equations.ends import DIRICHLET, MIRROR
-from latticode.integrators import ode45
+from latticode.integrators.methods import METHODS
 from latticode.kernels.compiled import kernel
 from latticode.kernels.webassembly import WebAssemblyError, webassembly
+from latticode.simulation.lattice import aligned
 from latticode.simulation.observables import blank_record, observe_fields
 
 from pendula.models.amplitudes import Chain, energy_with_scratch, rates
-from pendula.models.solvers import SOLVERS
 
-ODE45 = SOLVERS["ode45"]
 ANY_PROCESSOR = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
 """Variables that have numba compile for the features that all processors of a family share."""
 
@@ -31,7 +30,8 @@ def observe_states(chain, y, i, record):
     record.energy[i] = energy_with_scratch(chain, y, record.scratch)
 
 
-solve_keeping_states = ode45.build(rates, observe_states)
+ODE45 = METHODS["ode45"]
+solve_keeping_states = ODE45.build(rates, observe_states)
 
 
 @kernel
@@ -46,7 +46,7 @@ def compile_to_webassembly() -> bytes:
     record = blank_record(2, 2, 2, 1)
     record = record._replace(kept=np.empty((2, *record.kept.shape)))
     controls, stop = (0.0,) * len(ODE45.controls), np.zeros(1, np.bool_)
-    work = ODE45.room_for(None, y)
+    work = aligned((ODE45.work_arrays(y.shape[1] - 2, in_tiles=False), *y.shape))
     return webassembly(run_keeping_states, chain, y, np.zeros(2), controls, work, record, stop)
 
 

@@ -1,13 +1,8 @@
-"""The coupled dNLS equations (4) of the paper on a finite chain, and their energy (8).
+"""Kernels of the coupled dNLS equations (4) of the paper on a finite chain, and their energy (8).
 
-    i dA_n/dtau = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n
-                  + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
-
-and the same with A and B exchanged. What stands here: the equations as a traced model, from which
-right-hand sides and power series follow, their mean over a step for `delfour_fortin_payre`, and the
-energy. A state has the rows Re A, Im A, Re B, Im B, or the first two alone where A = B (see
-`chain`). Whoever changes an order of operations here changes every result
-(tests/test_same_bits.py).
+From the traced model (`equations`) follow right-hand sides, power series, and the mean over a step
+for `delfour_fortin_payre`. A state has the rows Re A, Im A, Re B, Im B, or the first two alone
+where A = B (see `latticode.generation.chain`).
 """
 
 from typing import NamedTuple
@@ -15,10 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from latticode.equations.ends import DIRICHLET, PERIODIC
 from latticode.equations.graph import neg
-from latticode.equations.model import Model, Value, abs2, conj, lap
 from latticode.generation.chain import MIRROR, at_every_site, close, modulus2
+from latticode.generation.chain import can_be_tiled as can_be_tiled
 from latticode.generation.modules import load_function, load_rule, load_series
 from latticode.kernels.compiled import kernel
+from latticode.simulation.observables import observe_moduli
+
+from .equations import AMPLITUDE_MODEL, CONSERVING_MODEL
 
 
 class Chain(NamedTuple):
@@ -32,7 +30,7 @@ class Chain(NamedTuple):
 
 
 @kernel
-def chain_of_tile(chain, at_left_end, at_right_end):
+def system_of_tile(chain, at_left_end, at_right_end):
     """Return the chain of a tile, which ends as the whole chain does where it reaches an end.
 
     Elsewhere the kind of end does not matter: what is wrong there stays in the margin of the tile.
@@ -42,44 +40,16 @@ def chain_of_tile(chain, at_left_end, at_right_end):
     return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
 
 
-# --- The equations as a traced model, and what is generated from it -----------------------------
+# --- What is generated from the traced model -----------------------------------------------------
 
-
-def linear(p, u: Value, v: Value) -> Value:
-    """Return the linear terms of i dA_n/dtau, where u is A and v is B, or the other way round."""
-    return p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u))
-
-
-def i_dt(p, a: Value, b: Value) -> list[Value]:
-    """Return i dA_n/dtau and i dB_n/dtau."""
-    return [linear(p, u, v) + 0.5 * abs2(u) * u for u, v in ((a, b), (b, a))]
-
-
-def mean_i_dt(p, *fields: Value) -> list[Value]:
-    """Return the mean over a step from one pair of fields to a second; the third is their mean.
-
-    The linear terms act on the mean state, the cubic one is the mean of |A|^2 times the mean of A.
-    """
-    old, new, mean = fields[:2], fields[2:4], fields[4:]
-    return [0.0] * 4 + [
-        linear(p, u, v) + 0.5 * (0.5 * (abs2(first) + abs2(last))) * u
-        for first, last, u, v in zip(old, new, mean, mean[::-1], strict=True)
-    ]
-
-
-PARAMETERS = dict.fromkeys(Chain._fields[:3], 1.0)
-AMPLITUDES = Model(fields=("A", "B"), parameters=PARAMETERS, i_dt=i_dt, name="amplitudes")
-"""(4) as problems have it; `integrations` says how it is integrated."""
-MEANS = [f"{name}{i}" for i in range(3) for name in "AB"]
-CONSERVING = Model(fields=MEANS, parameters=PARAMETERS, i_dt=mean_i_dt)
-_re_rate, _im_rate = AMPLITUDES.rates[:2]
+_re_rate, _im_rate = AMPLITUDE_MODEL.rates[:2]
 field = load_function((neg(_im_rate), _re_rate))
 """The function (constants, seen) -> (Re F, Im F) for A, where i A' = F; for B with both exchanged.
 
 See `generated.load_function`; `seen` counts A as field 0 and B as field 1."""
-continue_series = load_series(AMPLITUDES).continue_in_waves
+continue_series = load_series(AMPLITUDE_MODEL).continue_in_waves
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
-write_rates = at_every_site(load_rule(AMPLITUDES.rates, "y"))
+write_rates = at_every_site(load_rule(AMPLITUDE_MODEL.rates, "y"))
 
 
 @kernel
@@ -89,7 +59,7 @@ def rates(chain, y, dy):
     write_rates(chain, (y,), dy)
 
 
-write_tangent_rates = at_every_site(load_rule(AMPLITUDES.tangent().rates[4:], "y", "w"))
+write_tangent_rates = at_every_site(load_rule(AMPLITUDE_MODEL.tangent().rates[4:], "y", "w"))
 
 
 @kernel
@@ -102,11 +72,11 @@ def tangent_rates(chain, y, w, dw):
     write_tangent_rates(chain, (y, w), dw)
 
 
-write_midpoint_rates = at_every_site(load_rule(CONSERVING.rates[8:], "old", "new", "mean"))
+write_mean_rates = at_every_site(load_rule(CONSERVING_MODEL.rates[8:], "old", "new", "mean"))
 
 
 @kernel
-def midpoint_rates(chain, old, new, middle, dy):
+def mean_rates(chain, old, new, middle, dy):
     """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
 
     See `mean_i_dt`; `middle` is left with the mean state. Then H(new) = H(old) exactly (Delfour,
@@ -116,7 +86,7 @@ def midpoint_rates(chain, old, new, middle, dy):
         for j in range(old.shape[1]):
             middle[row, j] = 0.5 * (old[row, j] + new[row, j])
     close(chain, middle)
-    write_midpoint_rates(chain, (old, new, middle), dy)
+    write_mean_rates(chain, (old, new, middle), dy)
 
 
 # --- The conserved energy -----------------------------------------------------------------------
@@ -189,3 +159,11 @@ def energies(chain, states, scratch, out):
     """Write H of each of `states` (count, row, column) to `out`; `scratch` is (2, column)."""
     for i in range(len(states)):
         out[i] = energy_with_scratch(chain, states[i], scratch)
+
+
+@kernel
+def observe(chain, y, i, record):
+    """Reduce the state `y` of (4) to the observables of output `i`, its energy among them."""
+    observe_moduli(chain, y, i, record)
+    if record.energy.size > 0:
+        record.energy[i] = energy_with_scratch(chain, y, record.scratch)

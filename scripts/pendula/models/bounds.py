@@ -23,7 +23,7 @@ import numpy as np
 from latticode.equations.ends import DIRICHLET, kind_of
 from latticode.numerics.elementary import exp, log
 
-from pendula.problem import Constants
+from .equations import Constants
 
 
 def with_positive_coupling(constants: Constants) -> Constants:

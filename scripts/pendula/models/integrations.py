@@ -4,101 +4,157 @@
 amplitudes, count the time t, and are shown as the angle to which they swing.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from latticode.datasets.registry import NAMES
 from latticode.numerics.elementary import complex_of, modulus
-from latticode.simulation.integration import Integration, Words
+from latticode.simulation.equations import CompiledMethod, Equations, ResultNames
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unfold, unpack
 from latticode.simulation.observables import blank_record
 
 from pendula import names  # noqa: F401, whose words stand below
 from pendula.feasibility import clock_of, rates_of
-from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 
-from . import amplitudes, pendula, pendula_solvers, solvers
 from .amplitudes import Chain
-from .pendula import angles_of, make_pendula, swings_of, times_of
+from .equations import AMPLITUDES, PENDULA, Constants
+from .pendula import Pendula, angles_of, make_pendula, swings_of, times_of
+from .solvers import SOLVERS
 
-# --- The amplitudes -----------------------------------------------------------------------------
 
-
-def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Chain:
+def make_chain(constants: Constants, boundary: str, cut: Reduction) -> Chain:
     """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
-    ends = choose_ends(boundary, reduction)
+    ends = choose_ends(boundary, cut)
     return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
 
 
-def _collect_amplitudes(
-    problem: Problem, record, y: np.ndarray, reduction: Reduction
-) -> dict[str, np.ndarray]:
-    found = {"energy": record.energy, "final": unpack(y, reduction)}
-    if record.kept.ndim == 3:
-        return {**found, "modulus": unfold(record.kept, reduction)}
-    state = np.array([unfold(part, reduction) for part in record.kept])
-    return {**found, "modulus": modulus(complex_of(*state)), "state": state}
+class PaperEquations(Equations):
+    """What both of the paper's equations share: their constants and their compiled methods."""
+
+    model_name: str
+
+    @property
+    def constants(self) -> Constants:
+        """The constants of (4)."""
+        return Constants.of(self.problem.parameters)
+
+    @property
+    def methods(self) -> Sequence[str]:
+        """The names of the methods that integrate the equations."""
+        return list(SOLVERS[self.model_name])
+
+    def compiled(self, name: str) -> CompiledMethod:
+        """Return the method of this name with the kernels of the equations."""
+        return SOLVERS[self.model_name][name]
 
 
-# --- The pendula --------------------------------------------------------------------------------
+class AmplitudeEquations(PaperEquations):
+    """A problem of (4), whose runs observe the energy (8)."""
+
+    model_name = AMPLITUDES
+    stores_final = False
+
+    @property
+    def names(self) -> ResultNames:
+        """What datasets call the results."""
+        return ResultNames(("A", "B"), title="Norms and energy", component=NAMES["component"])
+
+    def describe(self) -> dict[str, Any]:
+        """Return the constants, as attributes of a dataset."""
+        return dict(self.problem.parameters)
+
+    def rates(self, peak: float) -> dict[str, float]:
+        """Return bounds of the rates at which amplitudes of this size turn or grow, by key."""
+        return rates_of(self.constants, peak)
+
+    def system(self, cut: Reduction) -> Chain:
+        """Return the parameters of the kernels."""
+        return make_chain(self.constants, self.problem.boundary, cut)
+
+    def record(self, components: int, sites: int, times: int, every: int, energy: bool) -> Any:
+        """Return empty arrays for moduli, norms and energy at so many times."""
+        return blank_record(components, sites, times, every, energy)
+
+    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+        """Return energy, moduli or states, and final amplitudes of the whole chain."""
+        results = {"energy": record.energy, "final": unpack(y, cut)}
+        if record.kept.ndim == 3:
+            return {**results, "modulus": unfold(record.kept, cut)}
+        state = np.array([unfold(part, cut) for part in record.kept])
+        return {**results, "modulus": modulus(complex_of(*state)), "state": state}
 
 
-def _start_pendula(problem: Problem, reduction: Reduction) -> np.ndarray:
-    angles, velocities = angles_of(problem.amplitudes, problem.constants.omega, problem.mu)
-    return pack(complex_of(angles, velocities), reduction)
+class PendulumEquations(PaperEquations):
+    """A problem of (1), given in the amplitudes and the time tau of (4)."""
 
+    model_name = PENDULA
 
-def _collect_pendula(
-    problem: Problem, record, y: np.ndarray, reduction: Reduction
-) -> dict[str, np.ndarray]:
-    final = [unfold(y[part::2, 1:-1], reduction) for part in (0, 1)]
-    snapshots = np.array([unfold(part, reduction) for part in record.kept])
-    return {
-        "energy": record.energy,
-        # a snapshot finds all pendula at one phase of their swing: their angles alone would show it
-        "modulus": swings_of(*snapshots, problem.constants.omega, problem.mu),
-        "final": np.array(final),
-        "state": snapshots,
-    }
+    @property
+    def mu(self) -> float:
+        """The size of the angles."""
+        return self.problem.parameters["mu"]
 
+    @property
+    def names(self) -> ResultNames:
+        """What datasets call the results, which are angles in rad."""
+        return ResultNames(
+            ("x", "y"),
+            ("angle", "velocity"),
+            title="Norms of the angles",
+            units="rad",
+            norms=", of the angles",
+            component=NAMES["component"],
+            modulus=f"{NAMES['modulus']}: the angle to which a pendulum swings",
+            part=f"{NAMES['part']}, x + i x'",
+            final=f"{NAMES['final']}, as angle and velocity of a pendulum",
+            state=f"{NAMES['state']}, as angle and velocity of a pendulum",
+        )
 
-PARTS = ("angle", "velocity")
+    def describe(self) -> dict[str, Any]:
+        """Return the name of the model, the constants and mu, as attributes of a dataset."""
+        return {"model": PENDULA, **self.problem.parameters}
 
-amplitudes.AMPLITUDES.integration = Integration(
-    components=("A", "B"),
-    parts=("re", "im"),
-    solvers=solvers.SOLVERS,
-    system=lambda problem, cut: make_chain(problem.constants, problem.boundary, cut),
-    record=blank_record,
-    collect=_collect_amplitudes,
-    rates=lambda problem, peak: rates_of(problem.constants, peak),
-    describe=lambda problem: dict(problem.parameters),
-    words=Words("Norms and energy", component=NAMES["component"], keeps_final=False),
-)
-pendula.NEWTON.integration = Integration(
-    components=("x", "y"),
-    parts=PARTS,
-    solvers=pendula_solvers.SOLVERS,
-    system=lambda problem, cut: make_pendula(
-        problem.constants, problem.mu, choose_ends(problem.boundary, cut)
-    ),
-    start=_start_pendula,
-    times=lambda problem: times_of(problem.times, problem.mu),
-    slow=lambda problem, time: 0.5 * problem.mu * problem.mu * time,
-    # tolerances are those of the amplitudes, so that they mean the same at any mu
-    atol=lambda problem: 2.0 * problem.mu,
-    collect=_collect_pendula,
-    rates=lambda problem, peak: rates_of(problem.constants, peak, problem.mu),
-    clock=lambda problem: clock_of(problem.mu),
-    describe=lambda problem: {"model": PENDULA, **problem.parameters},
-    words=Words(
-        measured="Norms of the angles",
-        units="rad",
-        norms=", of the angles",
-        component=NAMES["component"],
-        modulus=f"{NAMES['modulus']}: the angle to which a pendulum swings",
-        part=f"{NAMES['part']}, x + i x'",
-        final=f"{NAMES['final']}, as angle and velocity of a pendulum",
-        state=f"{NAMES['state']}, as angle and velocity of a pendulum",
-    ),
-)
-NAMED = {AMPLITUDES: amplitudes.AMPLITUDES, PENDULA: pendula.NEWTON}
-"""The models by name."""
+    def rates(self, peak: float) -> dict[str, float]:
+        """Return bounds of the rates per unit of tau, for amplitudes of this size, by key."""
+        return rates_of(self.constants, peak, self.mu)
+
+    @property
+    def clock(self) -> float:
+        """How many units of t make one of tau."""
+        return clock_of(self.mu)
+
+    @property
+    def atol_scale(self) -> float:
+        """2 mu: a tolerance is that of the amplitudes, so that it means the same at any mu."""
+        return 2.0 * self.mu
+
+    def system(self, cut: Reduction) -> Pendula:
+        """Return the parameters of the kernels at time 0."""
+        return make_pendula(self.constants, self.mu, choose_ends(self.problem.boundary, cut))
+
+    def start(self, cut: Reduction) -> np.ndarray:
+        """Return angles and velocities at t = 0."""
+        angles, velocities = angles_of(self.problem.amplitudes, self.constants.omega, self.mu)
+        return pack(complex_of(angles, velocities), cut)
+
+    @property
+    def times(self) -> np.ndarray:
+        """The output times in t."""
+        return times_of(self.problem.times, self.mu)
+
+    def time_of_problem(self, time: float) -> float:
+        """Return tau at a time t."""
+        return 0.5 * self.mu * self.mu * time
+
+    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+        """Return swings, angles and velocities of the whole chain."""
+        snapshots = np.array([unfold(part, cut) for part in record.kept])
+        return {
+            "energy": record.energy,
+            # a snapshot finds all pendula at one phase of their swing, so angles alone would show
+            # the phase
+            "modulus": swings_of(*snapshots, self.constants.omega, self.mu),
+            "final": np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)]),
+            "state": snapshots,
+        }

@@ -1,10 +1,7 @@
-"""Newton's equations (1) of the pendula on a finite chain.
+"""Kernels of Newton's equations (1) of the pendula on a finite chain, and their drive.
 
-    x_n'' + sin x_n = C (x_{n+1} - 2 x_n + x_{n-1}) + D(t) (y_n - x_n),
-
-and the same with x and y exchanged, where C = epsilon mu^2, D(t) = 2 gamma mu^2 cos(2 omega t) and
-omega^2 = 1 + mu^2 Omega. Time is t, which is 2 tau / mu^2 (`times_of`). A state has the rows x, x',
-y, y', or the first two alone where x = y (see `chain`); x is an angle in rad.
+Time is t, which is 2 tau / mu^2 (`times_of`). A state has the rows x, x', y, y', or the first two
+alone where x = y (see `latticode.generation.chain`); x is an angle in rad.
 
 Data are amplitudes: x = 2 mu Re A and x' = -2 mu omega Im A at t = 0, the leading terms of (3).
 
@@ -18,15 +15,17 @@ from typing import NamedTuple
 
 import numpy as np
 from latticode.equations.ends import DIRICHLET
-from latticode.equations.graph import node
-from latticode.equations.model import Model, Value, cos, lap, sin, sqrt
 from latticode.generation.chain import at_every_site, close
+from latticode.generation.chain import can_be_tiled as can_be_tiled
 from latticode.generation.modules import load_rule, load_series
 from latticode.generation.toolbox import sine_and_cosine
 from latticode.integrators.taylor import ORDER, spare_start
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.numerics import elementary
 from latticode.numerics.elementary import SPLITTER, complex_of, modulus, product
+from latticode.simulation.observables import observe_angles
+
+from .equations import KERNEL_MODEL
 
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"
@@ -126,41 +125,19 @@ def at_time(pendula, t):
 
 
 @kernel
-def pendula_of_tile(pendula, at_left_end, at_right_end):
+def system_of_tile(pendula, at_left_end, at_right_end):
     """Return the pendula of a tile, which end as the whole chain does where it reaches an end."""
     coupling, clock, drive, quadrature, left, right = pendula
     left = left if at_left_end else DIRICHLET
     return Pendula(coupling, clock, drive, quadrature, left, right if at_right_end else DIRICHLET)
 
 
-# --- The equations as a traced model, and what is generated from it -----------------------------
+# --- What is generated from the traced model -----------------------------------------------------
 
-
-def accelerations(coupling: Value, drive: Value, x: Value, y: Value) -> list[Value]:
-    """Return the second derivatives of x and y, under C and D at one time."""
-    return [coupling * lap(u) + drive * (v - u) - sin(u) for u, v in ((x, y), (y, x))]
-
-
-def d2_dt2(p, x: Value, y: Value) -> list[Value]:
-    """Return the second derivatives of x and y by t, from the constants of (4) and mu."""
-    square = p.mu * p.mu
-    drive = cos(2.0 * sqrt(1.0 + square * p.omega) * p.t)
-    return accelerations(p.epsilon * square, 2.0 * p.gamma * square * drive, x, y)
-
-
-def driven(p, x: Value, y: Value) -> list[Value]:
-    """Return the same from C, with D a function of the time that `at_time` knows."""
-    return accelerations(p.coupling, Value(node("clock", "drive")), x, y)
-
-
-PARAMETERS = {"epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "mu": 0.1}
-NEWTON = Model(fields=("x", "y"), parameters=PARAMETERS, d2_dt2=d2_dt2, name="pendula")
-"""(1) as problems have it; `integrations` says how it is integrated."""
-EQUATIONS = Model(fields=("x", "y"), parameters={"coupling": 1.0}, d2_dt2=driven)
-"""(1) as kernels have it."""
-SERIES = load_series(EQUATIONS)
+SERIES = load_series(KERNEL_MODEL)
 WORK, continue_in_waves = SERIES.WORK, SERIES.continue_in_waves
-write_rates = at_every_site(load_rule(EQUATIONS.rates, "y"))
+observe = observe_angles
+write_rates = at_every_site(load_rule(KERNEL_MODEL.rates, "y"))
 
 
 @kernel

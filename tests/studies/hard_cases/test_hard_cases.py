@@ -5,7 +5,7 @@ from inspect import signature
 import numpy as np
 import pytest
 from helpers import chosen
-from pendula.models.solvers import SOLVERS
+from latticode.integrators.methods import NAMED
 from pendula.studies.hard_cases import errors
 from pendula.studies.hard_cases.outcomes import run_hard_case
 from pendula.studies.hard_cases.settings import ARGUMENTS, CONTROLS
@@ -37,7 +37,7 @@ def test_the_configuration_asks_for_the_arguments_of_each_measure(measure):
 
 @pytest.mark.parametrize("name", CONTROLS)
 def test_the_configuration_asks_for_the_controls_of_each_solver(name):
-    assert CONTROLS[name] == SOLVERS[name].controls
+    assert CONTROLS[name] == tuple(NAMED[name].controls)
 
 
 @pytest.mark.parametrize(

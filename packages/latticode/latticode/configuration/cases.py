@@ -23,14 +23,9 @@ from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
 from latticode.equations.model_file import at_middle, values_at
 from latticode.integrators.families import first_tolerance, instead_of_taylor, pair_of
-from latticode.simulation.feasibility import (
-    MOST_STEPS,
-    Obstacle,
-    find_fault,
-    rates_of,
-    solver_names,
-    why_no_series,
-)
+from latticode.integrators.method import Obstacle
+from latticode.integrators.methods import METHODS, methods_taking
+from latticode.simulation.feasibility import MOST_STEPS, find_fault, rates_of
 from latticode.simulation.problem import KEPT, Problem
 
 from . import cost
@@ -210,7 +205,7 @@ class Case(Model):
     @classmethod
     def solvers_taking(cls, model: Any) -> list[str]:
         """Return the solvers that take a model."""
-        return [*solver_names(model), "auto"]
+        return [*methods_taking(model), "auto"]
 
     @property
     def equations(self) -> str:
@@ -230,7 +225,7 @@ class Case(Model):
     @property
     def why_no_series(self) -> str:
         """Why the equations have no power series, in words; "" where they have."""
-        return why_no_series(self.model) if isinstance(self.model, Traced) else ""
+        return self.model.why_no_series if isinstance(self.model, Traced) else ""
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:
@@ -434,10 +429,10 @@ class Case(Model):
 
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a step that does not divide the time between two outputs."""
-        step = getattr(solver, "step", None)
-        if solver.name in cost.STEPPED:
+        step, method = getattr(solver, "step", None), METHODS.get(solver.name)
+        if method is None or not method.step_divides_outputs:
             return
-        if step is not None and not is_multiple(self.output_step, step):
+        if not is_multiple(self.output_step, step):
             near = _nearest_parts(self.output_step, step)
             text = f"{step:g} does not divide the output step of {self.output_step:g}"
             yield "solver.step", f"{text}; {near}"

@@ -11,50 +11,20 @@ from math import inf
 from typing import NamedTuple
 
 from latticode.equations.model import Model
-from latticode.integrators.families import TIGHTEST, first_tolerance, other_family, pair_of
-from latticode.simulation.feasibility import Obstacle, solver_names
+from latticode.integrators.families import first_tolerance, other_family, pair_of
+from latticode.integrators.method import Demand, Obstacle
+from latticode.integrators.methods import METHODS, methods_taking
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0
 """Seconds: a run that will take longer says so before it starts."""
 
 
-class Explicit(NamedTuple):
-    """Steps = per_angle * angle * tolerance ** (-1 / order), and the seconds that each takes."""
-
-    per_angle: float
-    order: float
-    seconds: float  # a step, whatever the chain
-    site_seconds: float  # a step and a pair of fields that is integrated
-    site_bytes: float  # of the state and of the method's arrays, a pair
-
-
-EXPLICIT = {
-    "ode45": Explicit(0.18, 5, 2e-7, 3.8e-8, 700),
-    "dop853": Explicit(0.11, 8, 1.2e-6, 7.5e-8, 800),
-    "taylor": Explicit(0.16, 15, 6e-7, 1.5e-7, 1400),
-}
-ITERATED = {"seconds": 7e-8, "site_seconds": 3.5e-9}
-"""Of a step of a scheme that is solved by iteration, beside its evaluations."""
-EVALUATED = {"seconds": 7e-8, "site_seconds": 5.5e-9}
-"""Of an evaluation of such a scheme."""
-ITERATED_BYTES = 1000.0
-STEPPED = {"kahan_li": (2e-6, 3e-7)}
-"""Methods of a fixed step that fit their steps between two outputs: the seconds that a step takes,
-whatever the chain, and those of a step and a pair of fields."""
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
 """Of an output: the state between two steps, its norms and its energy."""
 OUTPUT_BYTES, MODULUS_BYTES, STATE_BYTES, SITE_BYTES = 200.0, 40.0, 60.0, 200.0
 """Of an output, of a modulus that is kept alone or with the parts of its field, and of a site of
 the whole chain in complex numbers."""
-
-
-class Demand(NamedTuple):
-    """What decides the cost of a problem beyond the keys of its run."""
-
-    rate: float  # the fastest at which the data turn, per unit of time
-    pairs: float  # of fields that are integrated
-    clock: float = 1.0  # units of the equations' own time in one of the problem
 
 
 def span_of(problem: Mapping) -> float:
@@ -117,15 +87,13 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
             angle = needs.rate * span_of(problem)
             tolerance = first_tolerance(solver["error"], angle)
             solvers = [{"name": name, "rtol": tolerance} for name in pair_of(solvers_of(problem))]
-        method = EXPLICIT.get(solvers[0]["name"])
         outputs = span_of(problem) / problem["output_step"] + 1
         fields = len(next(iter(problem["initial"].values())))
         kept = STATE_BYTES if problem.get("keep") == "state" else MODULUS_BYTES
         snapshots = kept * fields * sites * (outputs / every) if every else 0.0
         seconds = sum(_solver_seconds(one, problem, needs, outputs) for one in solvers)
-        memory = (
-            method.site_bytes if method else ITERATED_BYTES
-        ) * needs.pairs + SITE_BYTES * sites
+        pair_bytes = METHODS[solvers[0]["name"]].cost.pair_bytes
+        memory = pair_bytes * needs.pairs + SITE_BYTES * sites
         return Cost(seconds, memory + OUTPUT_BYTES * outputs + snapshots)
     except (OverflowError, ZeroDivisionError):
         return Cost(inf, inf)
@@ -133,16 +101,9 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
 
 def _solver_seconds(solver: Mapping, problem: Mapping, needs: Demand, outputs: float) -> float:
     steps, evaluations = steps_of(solver, problem, needs)
-    pairs = needs.pairs
-    if solver["name"] in STEPPED:
-        each, each_pair = STEPPED[solver["name"]]
-        return outputs * OUTPUT["seconds"] + steps * (each + each_pair * pairs)
-    seconds = outputs * (OUTPUT["seconds"] + OUTPUT["site_seconds"] * pairs)
-    if solver["name"] in EXPLICIT:
-        method = EXPLICIT[solver["name"]]
-        return seconds + steps * (method.seconds + method.site_seconds * pairs)
-    seconds += steps * (ITERATED["seconds"] + ITERATED["site_seconds"] * pairs)
-    return seconds + evaluations * (EVALUATED["seconds"] + EVALUATED["site_seconds"] * pairs)
+    by_output = OUTPUT["seconds"] + OUTPUT["site_seconds"] * needs.pairs
+    in_steps = METHODS[solver["name"]].cost.seconds(steps, evaluations, needs.pairs)
+    return outputs * by_output + in_steps
 
 
 OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
@@ -153,7 +114,7 @@ def solvers_of(problem: Mapping) -> Collection[str]:
     """Return the solvers that take the equations of a problem, given as plain values."""
     model = problem.get("model")
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
-    return solver_names(model) if isinstance(model, Model) else TIGHTEST
+    return methods_taking(model) if isinstance(model, Model) else METHODS
 
 
 def runs_of_checks(problem: Mapping) -> list[Mapping]:
@@ -163,7 +124,7 @@ def runs_of_checks(problem: Mapping) -> list[Mapping]:
     twice the work.
     """
     other = other_family(problem["solver"]["name"], solvers_of(problem))
-    again = {**problem, "solver": {"name": other, "rtol": TIGHTEST[other]}}
+    again = {**problem, "solver": {"name": other, "rtol": METHODS[other].tightest}}
     plain = {**problem, "snapshot_every": 0}
     tangent = plain | {"solver": OF_TANGENTS, "output_step": span_of(problem)}
     return [problem, again, tangent, tangent]
@@ -202,28 +163,8 @@ def total(costs: Iterable[Cost]) -> Cost:
 
 def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
     """Return the steps of a run and, for a scheme that is solved by iteration, the evaluations."""
-    span, rate = span_of(problem), needs.rate
-    if solver["name"] in EXPLICIT:
-        method = EXPLICIT[solver["name"]]
-        tolerance = max(solver["rtol"], 1e-17) ** (-1.0 / method.order)
-        return max(1.0, method.per_angle * rate * span * tolerance), 0.0
-    if solver["name"] in STEPPED:
-        longest = min(solver["step"], problem["output_step"] * needs.clock)
-        return span * needs.clock / longest, 0.0
-    step = min(solver["step"], problem["output_step"])
-    while rate * step > 2.0:  # it is halved until the iteration contracts
-        step *= 0.5
-    return span / step, span / step * _iterations(rate * step, solver)
-
-
-def _iterations(angle: float, solver: Mapping) -> float:
-    """Return how often a step is iterated from a guess of the sixth order."""
-    error = max(1e-30, (0.5 * angle) ** 6)
-    count = 1.0
-    while error > solver["tolerance"] and count < solver["iterations"]:
-        error *= max(1e-3, min(0.9, 0.5 * angle))
-        count += 1.0
-    return count
+    cost = METHODS[solver["name"]].cost
+    return cost.steps(solver, needs, span_of(problem), problem["output_step"])
 
 
 ORDINARY = {

@@ -1,47 +1,40 @@
-"""The solvers' controls: what may stand below `solver` and `solvers`, and the defaults."""
+"""The solvers' controls: what may stand below `solver` and `solvers`, and the defaults.
 
+They follow from the methods of the library; see `latticode.integrators.method`.
+"""
+
+from functools import reduce
+from operator import or_
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, SerializerFunctionWrapHandler, ValidationError, model_serializer
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    create_model,
+    model_serializer,
+)
+
+from latticode.integrators.method import Control, Method
+from latticode.integrators.methods import METHODS
 
 from .values import Model, Positive, Whole
 
 FLAG = "by_default"
 DEFAULT = {"name": "taylor", FLAG: True}
 """The solver of a case that names none."""
-COARSEST = 0.1
-"""Largest tolerance of a step's error: the estimate of that error holds for small errors only."""
 
 
-class Ode45(Model):
-    """Dormand and Prince's method of order five with the step control of MATLAB's ode45."""
+class DefaultMethod(Model):
+    """The controls of the default method, with a flag where nobody named a solver.
 
-    name: Literal["ode45"] = "ode45"
-    rtol: Annotated[Positive, Field(ge=1e-13, le=COARSEST)] = 1e-7
-    atol: Positive = 1e-9
-
-
-class Dop853(Model):
-    """The explicit Runge-Kutta method of order eight, for accuracy."""
-
-    name: Literal["dop853"] = "dop853"
-    rtol: Annotated[Positive, Field(ge=1e-15, le=COARSEST)] = 1e-13
-    atol: Positive = 1e-13
-
-
-class Taylor(Model):
-    """The Taylor method, the default: at small errors the fastest."""
-
-    name: Literal["taylor"] = "taylor"
-    rtol: Annotated[Positive, Field(ge=1e-16, le=COARSEST)] = 1e-14
-    atol: Positive = 1e-14
-    by_default: bool = Field(False, repr=False)
-    """Whether nobody named a solver, so that `dop853` takes over where there is no series."""
+    The flag lets `dop853` take over where there is no power series.
+    """
 
     @model_serializer(mode="wrap")
-    def _named(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    def _without_flag(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         values = write(self)
-        return values if self.by_default else {k: one for k, one in values.items() if k != FLAG}
+        return values if values[FLAG] else {k: value for k, value in values.items() if k != FLAG}
 
 
 class Auto(Model):
@@ -51,52 +44,33 @@ class Auto(Model):
     error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
 
 
-class Iterated(Model):
-    """Controls of an implicit scheme that is solved by fixed-point iteration."""
-
-    step: Positive = 0.0025
-    tolerance: Annotated[Positive, Field(ge=1e-14, lt=1)] = 1e-13
-    iterations: Annotated[Whole, Field(ge=2, le=1000)] = 50
+def _field(control: Control) -> tuple[Any, Any]:
+    kind = Whole if control.whole else Positive
+    bounds = Field(ge=control.at_least, le=control.at_most, lt=control.below)
+    return Annotated[kind, bounds], control.default
 
 
-class CrankNicolson(Iterated):
-    """The trapezoidal rule."""
-
-    name: Literal["crank_nicolson"] = "crank_nicolson"
-
-
-class DelfourFortinPayre(Iterated):
-    """The variant of Crank-Nicolson that conserves an energy; for models that declare it."""
-
-    name: Literal["delfour_fortin_payre"] = "delfour_fortin_payre"
-
-
-class KahanLi(Model):
-    """Kahan and Li's symplectic composition of order eight, of second derivatives alone.
-
-    Its step is the longest, in the time of the equations.
-    """
-
-    name: Literal["kahan_li"] = "kahan_li"
-    step: Positive = 0.25
+def model_of_controls(method: Method) -> type[Model]:
+    """Return the model of a mapping with the name of a method and its controls."""
+    kind, is_default = type(method), method.name == DEFAULT["name"]
+    fields = {"name": (Literal[method.name], method.name)}
+    fields |= {key: _field(control) for key, control in method.controls.items()}
+    if is_default:
+        fields[FLAG] = (bool, Field(False, repr=False))
+    base = DefaultMethod if is_default else Model
+    return create_model(kind.__name__, __base__=base, __doc__=kind.__doc__, **fields)
 
 
-class Solvers(Model):
-    """The controls of each solver where a case names it without giving its own."""
-
-    ode45: Ode45 = Ode45()
-    crank_nicolson: CrankNicolson = CrankNicolson()
-    delfour_fortin_payre: DelfourFortinPayre = DelfourFortinPayre()
-    dop853: Dop853 = Dop853()
-    taylor: Taylor = Taylor()
-    auto: Auto = Auto()
-    kahan_li: KahanLi = KahanLi()
-
-
-Solver = Annotated[
-    Ode45 | CrankNicolson | DelfourFortinPayre | Dop853 | Taylor | Auto | KahanLi,
-    Field(discriminator="name"),
-]
+CONTROLS = {name: model_of_controls(method) for name, method in METHODS.items()} | {"auto": Auto}
+"""The models of all solvers by name."""
+Taylor, Dop853 = CONTROLS["taylor"], CONTROLS["dop853"]
+Solvers = create_model(
+    "Solvers",
+    __base__=Model,
+    __doc__="The controls of each solver where a case names it without giving its own.",
+    **{name: (controls, controls()) for name, controls in CONTROLS.items()},
+)
+Solver = Annotated[reduce(or_, CONTROLS.values()), Field(discriminator="name")]
 
 
 def with_controls(item: Any, shared: Any) -> Any:

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from latticode import __version__
+from latticode.integrators.methods import NAMED
 
 CONVENTIONS = "CF-1.11"
 MADE_BY = {"version": __version__, "history": f"computed by latticode {__version__}"}
@@ -53,15 +54,8 @@ ANGLES = ("linf", "l2", "modulus", "final", "state", "error")
 """Those that are angles in "rad" where pendula are followed."""
 
 
-SOLVER_NAMES = {
-    "ode45": "ode45",
-    "ode45_real": "ode45 (real)",
-    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
-    "delfour_fortin_payre": "Delfour\N{EN DASH}Fortin\N{EN DASH}Payre",
-    "dop853": "DOP853",
-    "taylor": "Taylor",
-    "auto": "two methods by error",
-    "kahan_li": "Kahan\N{EN DASH}Li",
+SOLVER_NAMES = {name: method.label for name, method in NAMED.items()} | {
+    "auto": "two methods by error"
 }
 """The solvers as figures and pages write them."""
 

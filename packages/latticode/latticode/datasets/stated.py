@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from latticode.simulation.problem import Problem, by_site, write_initial
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import equations_of
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
 """The attributes that name the function of a job, and the datasets that it has read."""
@@ -24,7 +24,7 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
     """Return the attributes that say what was solved, and by which controls."""
     about = {key: getattr(problem, key) for key in OF_A_PROBLEM}
     about |= {"start_time": problem.start_time} if problem.start_time else {}
-    about |= integration_of(problem).describe(problem)
+    about |= equations_of(problem).describe()
     return {
         "case": name,
         **{key: about[key] for key in sorted(about)},

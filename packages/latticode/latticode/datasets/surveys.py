@@ -11,7 +11,7 @@ from latticode.simulation.problem import Problem
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
 from latticode.simulation.survey_runs import runs_of_survey
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import equations_of
 
 from .netcdf import Variable
 from .registry import NAMES
@@ -67,8 +67,10 @@ def survey_contents(
     if survey.members:
         dimensions.append("member")
         variables["member"] = Variable(("member",), np.arange(survey.members.count))
-    model = integration_of(problem)
-    variables["component"] = Variable(("component",), list(model.components), model.words.component)
+    result_names = equations_of(problem).names
+    variables["component"] = Variable(
+        ("component",), list(result_names.components), result_names.component
+    )
     texts = {kind: values[kind] for kind in TEXTS if kind in values}
     for kind, found in texts.items():
         variables[kind] = Variable(tuple(dimensions), found, TEXTS[kind])
@@ -77,7 +79,7 @@ def survey_contents(
             continue
         more = found.ndim - len(dimensions)
         fields = ("component",) if kept in OF_FIELDS else tuple(f"{kept}_{n}" for n in range(more))
-        units = model.words.units if kept in OF_FIELDS else "1"
+        units = result_names.units if kept in OF_FIELDS else "1"
         variables[kept] = Variable((*dimensions, *fields), found, _long_name(kept), units)
     remarks, solver = texts.get("remark", np.array("")), problem.solver
     solver = instead_of_taylor(solver) if (remarks != "").all() else solver

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from latticode.simulation.integration import Words
+from latticode.simulation.equations import ResultNames
 from latticode.simulation.problem import Problem, name_window
 from latticode.simulation.simulate import Trajectory
 from latticode.simulation.sweep import STATISTICS
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import equations_of
 
 from .netcdf import Variable
 from .registry import NAMES
@@ -21,26 +21,25 @@ Contents = tuple[dict[str, Variable], dict[str, Any]]
 
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
     """Return the contents of the dataset on a run of `problem`."""
-    words = integration_of(problem).words
+    equations = equations_of(problem)
     variables = trajectory_variables(problem, trajectory)
-    if words.keeps_final:
+    if equations.stores_final:
         variables |= final_state(problem, trajectory)
     if trajectory.conserved:
         variables |= _conserved(trajectory)
     attributes = describe_run(name, problem, trajectory.solver)
-    title = f"{words.measured} of {name} against time, by {trajectory.solver['name']}"
+    title = f"{equations.names.title} of {name} against time, by {trajectory.solver['name']}"
     return variables, {"title": title, **attributes, **count_work(trajectory.outcome[-3:])}
 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
     """Return the norms, the energy if there is one, and what the run kept of its snapshots."""
-    model, every = integration_of(problem), len(trajectory.snapshot_tau)
-    words = model.words
+    names, every = equations_of(problem).names, len(trajectory.snapshot_tau)
     variables = {
         "tau": Variable(("tau",), trajectory.tau),
-        "component": Variable(("component",), list(model.components), words.component),
-        "linf": _norm("linf", ("component", "tau"), trajectory.linf, words),
-        "l2": _norm("l2", ("component", "tau"), trajectory.l2, words),
+        "component": Variable(("component",), list(names.components), names.component),
+        "linf": _norm("linf", ("component", "tau"), trajectory.linf, names),
+        "l2": _norm("l2", ("component", "tau"), trajectory.l2, names),
     }
     if trajectory.energy.size:
         variables["energy"] = Variable(("tau",), trajectory.energy)
@@ -49,18 +48,18 @@ def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, 
         variables |= {
             "site": _sites(trajectory.modulus.shape[1]),
             "snapshot_tau": Variable(("snapshot",), trajectory.snapshot_tau),
-            "modulus": Variable(grid, moduli, words.modulus, words.units),
+            "modulus": Variable(grid, moduli, names.modulus, names.units),
         }
     if every and problem.keep == "state":
         variables |= {
-            "part": Variable(("part",), list(model.parts), words.part),
-            "state": Variable(("part", *grid), trajectory.state, words.state, words.units),
+            "part": Variable(("part",), list(names.parts), names.part),
+            "state": Variable(("part", *grid), trajectory.state, names.state, names.units),
         }
     return variables
 
 
-def _norm(name: str, axes: tuple[str, ...], values: np.ndarray, words: Words) -> Variable:
-    return Variable(axes, values, words.norms and f"{NAMES[name]}{words.norms}", words.units)
+def _norm(name: str, axes: tuple[str, ...], values: np.ndarray, names: ResultNames) -> Variable:
+    return Variable(axes, values, names.norms and f"{NAMES[name]}{names.norms}", names.units)
 
 
 def _sites(count: int) -> Variable:
@@ -78,15 +77,14 @@ def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
 
 def final_state(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
     """Return the state at the end time: both parts of each field, (part, component, site)."""
-    model, final = integration_of(problem), trajectory.final
-    words = model.words
+    names, final = equations_of(problem).names, trajectory.final
     if final.ndim == 2:
         final = np.stack([final.real, final.imag])
     grid = ("part", "component", "site")
     return {
         "site": _sites(final.shape[-1]),
-        "part": Variable(("part",), list(model.parts), words.part),
-        "final": Variable(grid, final, words.final, words.units),
+        "part": Variable(("part",), list(names.parts), names.part),
+        "final": Variable(grid, final, names.final, names.units),
     }
 
 
@@ -98,14 +96,14 @@ def sweep_contents(
     sweep: Mapping[str, np.ndarray],
 ) -> Contents:
     """Return the contents of the dataset on a sweep of `problem` over half-widths."""
-    axes, model = ("half_width", "quantity", "statistic", "window"), integration_of(problem)
+    axes, names = ("half_width", "quantity", "statistic", "window"), equations_of(problem).names
     variables = {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
-        "quantity": Variable(("quantity",), [*model.components, "pair"]),
+        "quantity": Variable(("quantity",), [*names.components, "pair"]),
         "statistic": Variable(("statistic",), list(STATISTICS)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
-        "l2": _norm("l2", axes, sweep["l2"], model.words),
-        "linf": _norm("linf", axes, sweep["linf"], model.words),
+        "l2": _norm("l2", axes, sweep["l2"], names),
+        "linf": _norm("linf", axes, sweep["linf"], names),
     }
     attributes = describe_run(name, problem, problem.solver)
     del attributes["half_width"]

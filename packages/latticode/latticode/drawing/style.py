@@ -21,6 +21,7 @@ from matplotlib.patheffects import withStroke
 from latticode.datasets import complete_or_absent
 from latticode.datasets.digest import fingerprint
 from latticode.datasets.netcdf import save as save_dataset
+from latticode.integrators.methods import NAMED
 
 from .description import as_text, describe
 from .light_fonts import light_fonts
@@ -48,18 +49,10 @@ RED, BLUE = "#e8402f", "#123b8c"
 PALE = {RED: "#f0a79f", BLUE: "#9db2de"}
 """Colours of bands, and of curves that lie under others."""
 
-SOLVERS = {
-    "ode45": ("#111111", "o"),
-    "ode45_real": ("#8a8a8a", "P"),
-    "crank_nicolson": ("#e0a100", "s"),
-    "delfour_fortin_payre": ("#7a2e0e", "v"),
-    "dop853": ("#16876b", "^"),
-    "taylor": ("#7b4fa3", "D"),
-    "kahan_li": ("#c2558f", "X"),
-}
-"""The colour of each solver, and the mark that tells it apart in grey too."""
-MARKERS = {name: marker for name, (_, marker) in SOLVERS.items()}
-COLOURS = {name: colour for name, (colour, _) in SOLVERS.items()} | {"l2": RED, "linf": BLUE}
+LOOKS = {name: method.look or (f"C{i}", "o") for i, (name, method) in enumerate(NAMED.items())}
+"""The colour of each method, and the marker that distinguishes it in grey too."""
+MARKERS = {name: marker for name, (_, marker) in LOOKS.items()}
+COLOURS = {name: colour for name, (colour, _) in LOOKS.items()} | {"l2": RED, "linf": BLUE}
 
 
 def colour_of(field: int) -> str:

@@ -40,6 +40,7 @@ from .graph import (
     number,
     rebuilt,
     sub,
+    switches,
 )
 from .model_file import BEFORE, SEED, placed, run_file, same
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
@@ -93,13 +94,8 @@ class Model:
     for disorder). conserved(p, *fields) returns densities by name, whose sums over the chain are
     kept. `text` is the source, for datasets.
 
-    `integration` says how runs of the model differ from what follows from its trace (see
-    `latticode.simulation.integration`); nearly no model has one.
-
     Raises ModelError where the functions cannot be traced.
     """
-
-    integration: Any = None
 
     def __init__(
         self,
@@ -365,6 +361,20 @@ class Model:
         """Whether the equations depend on the time."""
         return bool(leaves_in(self.rates, "time"))
 
+    @cached_property
+    def why_no_series(self) -> str:
+        """Why there is no power series, in words to stand behind the model's name; "" if there is.
+
+        Where x passes zero, |x| = sqrt(x * x) of a real field has a kink, but its power series
+        continues as x or as -x.
+        """
+        if switches(self.rates):
+            return "has max, abs, sign or where, which have no power series where they switch"
+        roots = (entry for entry in in_order(self.rates) if entry.operation == "sqrt")
+        if any(root.level == MOTION and _is_sum_of_squares(*root.operands) for root in roots):
+            return "has a root of squares, such as |x|, which has no power series at 0"
+        return ""
+
     def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
         """Return a bound of the rates at which fields of the size `peak` turn or grow.
 
@@ -496,6 +506,20 @@ def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
     if kind == "fields" and not found:
         raise ModelError(f"{model}: fields is empty; give the name of a field, such as ('u',)")
     return found
+
+
+def _is_sum_of_squares(term: Node) -> bool:
+    match term.operation, *term.operands:
+        case "mul", a, b:
+            return a is b or any(
+                factor.level < MOTION and _is_sum_of_squares(square)
+                for factor, square in ((a, b), (b, a))
+            )
+        case "div", a, b:
+            return b.level < MOTION and _is_sum_of_squares(a)
+        case "add", a, b:
+            return _is_sum_of_squares(a) and _is_sum_of_squares(b)
+    return False
 
 
 def _vanishes(one: Node) -> bool:

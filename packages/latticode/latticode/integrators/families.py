@@ -1,9 +1,10 @@
-"""Two methods of different families, and how far their runs of one problem are apart.
+"""Two methods of different families, and the difference of their runs of one problem.
 
 A method that is compared with itself at another tolerance agrees with itself, right or wrong. So a
-run is judged by a method of another family: power series (`taylor`) by Runge-Kutta (`dop853`), and
-all others by one of these two. Series continue the traced equations by rules of their own, and a
-fault of these rules shows, because Runge-Kutta evaluates the equations themselves.
+run is judged by another method with error control, that of the highest order: power series
+(`taylor`) by Runge-Kutta (`dop853`), and all others by one of these two. Series continue the traced
+equations by rules of their own, and an error in these rules shows, because Runge-Kutta evaluates
+the equations themselves.
 
 Equations without a power series leave `dop853` and `ode45`. Both are embedded Runge-Kutta pairs;
 their coefficients, orders, error estimates and interpolation have nothing in common. The implicit
@@ -19,17 +20,23 @@ import numpy as np
 from latticode.measures.difference import field_difference, first_above, norm_difference
 from latticode.numerics.elementary import complex_of
 
-TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13, "ode45": 1e-12}
-"""The tolerances of a second run, by which the first is checked."""
+from .methods import METHODS
 
 
-def other_family(solver: str, known: Collection[str]) -> str:
-    """Return the method that judges a run by `solver`, of those `known` to take the equations."""
-    if solver in ("taylor", "auto"):
-        return "dop853"
-    if "taylor" in known:
-        return "taylor"
-    return "ode45" if solver == "dop853" else "dop853"
+def judges_among(names: Collection[str]) -> list[str]:
+    """Return those of the methods that control their error, of the highest order first."""
+    return [
+        name for name, method in METHODS.items() if name in names and method.tightest is not None
+    ]
+
+
+def other_family(solver: str, names: Collection[str]) -> str:
+    """Return the method that judges a run by `solver`, of `names`, which integrate the equations.
+
+    A run by "auto" is made by the first judge, and judged by the second.
+    """
+    judges = judges_among(names)
+    return judges[1] if solver == "auto" else next(name for name in judges if name != solver)
 
 
 COARSEST, FINEST, REFINEMENT = 1e-4, 1e-15, 0.1
@@ -38,15 +45,14 @@ MARGIN_OF_START, PER_RADIAN, MOST_ADDED = 20.0, 0.2, 1e4
 """Errors at the end of a run over the tolerance of a step: of any run, and of a radian more."""
 
 
-def pair_of(known: Collection[str]) -> tuple[str, str]:
+def pair_of(names: Collection[str]) -> tuple[str, ...]:
     """Return two methods of different families, the first of which makes the run of `auto`."""
-    first = "taylor" if "taylor" in known else "dop853"
-    return first, other_family(first, known)
+    return tuple(judges_among(names)[:2])
 
 
-def third_of(names: Collection[str]) -> str | None:
-    """Return the method that decides between two, None where none is left."""
-    return None if "ode45" in names else "ode45"
+def third_of(pair: Collection[str], names: Collection[str]) -> str | None:
+    """Return the method of `names` that decides between a pair, None where none is left."""
+    return next((name for name in judges_among(names) if name not in pair), None)
 
 
 def first_tolerance(error: float, angle: float) -> float:

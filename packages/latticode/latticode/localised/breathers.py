@@ -25,7 +25,7 @@ import numpy as np
 
 from latticode.numerics.elementary import square_modulus
 from latticode.simulation.problem import Problem
-from latticode.simulation.systems import find_reduction_of
+from latticode.simulation.traced import TracedEquations
 
 from .linearised import EVEN, ODD, linearise
 
@@ -154,7 +154,7 @@ def find_state(problem: Problem) -> State:
 
     Raises NoStateError, with the reason, where there is none.
     """
-    data, even = problem.amplitudes, find_reduction_of(problem).even
+    data, even = problem.amplitudes, TracedEquations(problem).find_reduction().even
     if problem.model.driven:
         raise NoStateError("the equations depend on the time")
     if not data.any():

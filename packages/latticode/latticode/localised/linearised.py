@@ -8,7 +8,7 @@ from latticode.equations.ends import ends_of
 from latticode.equations.graph import ZERO, Node, derivative, evaluate, leaves_in, number
 from latticode.equations.model import Model
 from latticode.simulation.problem import Problem
-from latticode.simulation.systems import PADDING, moved, parameters_of
+from latticode.simulation.traced import PADDING, moved, parameters_of
 
 EVEN, ODD = 1, -1
 

@@ -18,7 +18,7 @@ from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import Reduction, aligned, pack
 from latticode.simulation.problem import Problem, output_times
 from latticode.simulation.simulate import IntegrationError
-from latticode.simulation.systems import integration_of, make_system, site_dependent
+from latticode.simulation.traced import equations_of, make_system, site_dependent
 
 from .bundles import orthonormalise, size_of_solution
 
@@ -77,7 +77,7 @@ def grow(
         tangents = tangents.real
     model, at_rest = problem.model.tangent(), np.zeros((2 * tangents.shape[1], 1))
     system = make_system(problem.changed(model=model, initial=at_rest), cut)
-    start = integration_of(problem).start(problem, cut)
+    start = equations_of(problem).start(cut)
     bundle = np.concatenate([start, *(pack(one, cut) for one in tangents)])
     tau = output_times(end_time, step)
     times = problem.start_time + tau

@@ -108,6 +108,14 @@ class Problem:
         return replace(self, **changes, parameters=values)
 
     @property
+    def equations_class(self) -> type | None:
+        """The subclass of `Equations` by which it is integrated; None for that of its trace.
+
+        A program with kernels of its own overrides this: see `latticode.simulation.equations`.
+        """
+        return None
+
+    @property
     def sites(self) -> int:
         """The number N = 2M + 1 of sites in the chain."""
         return 2 * self.half_width + 1

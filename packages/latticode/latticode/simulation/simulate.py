@@ -1,6 +1,6 @@
 """From a problem to its trajectory: by one run, or by runs of two families that must agree."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -19,12 +19,12 @@ from latticode.integrators.families import (
     third_of,
 )
 
+from .equations import Equations, GaveUpError, IntegrationError
 from .feasibility import find_fault
-from .integration import GaveUpError, Integration, IntegrationError
 from .interrupts import interruptible
 from .lattice import Reduction, unfold
 from .problem import Problem
-from .systems import integration_of
+from .traced import equations_of
 
 SINGULAR = (
     ": a divisor, or the argument of a logarithm, a root or a power, is zero or negative at some"
@@ -91,18 +91,18 @@ def simulate(
 
 
 def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) -> Trajectory:
-    if reduction is None:
-        reduction = integration_of(problem).find_reduction(problem)
-    times, record, y, outcome = integrate(problem, reduction, energy)
-    both = Reduction(even=False, synchronised=reduction.synchronised)
+    equations = equations_of(problem)
+    cut = equations.find_reduction() if reduction is None else reduction
+    record, y, outcome = integrate(equations, cut, energy)
+    both = Reduction(even=False, synchronised=cut.synchronised)
     return Trajectory(
-        tau=times,
+        tau=problem.times,
         linf=unfold(record.linf, both),
         l2=unfold(record.l2, both),
         outcome=outcome,
-        solver={key: one for key, one in problem.solver.items() if key != "by_default"},
+        solver={key: value for key, value in problem.solver.items() if key != "by_default"},
         snapshot_tau=problem.times[problem.snapshot_outputs],
-        **integration_of(problem).collect(problem, record, y, reduction),
+        **equations.collect(record, y, cut),
     )
 
 
@@ -124,58 +124,59 @@ def remark_on_start(problem: Problem) -> str:
 
 
 def integrate(
-    problem: Problem, reduction: Reduction, energy: bool = True
-) -> tuple[np.ndarray, Any, np.ndarray, Outcome]:
-    """Return times, observables of the part that `reduction` leaves, its final state, the outcome.
+    equations: Equations, cut: Reduction, energy: bool = True
+) -> tuple[Any, np.ndarray, Outcome]:
+    """Return the observables of the part that `cut` leaves, its final state, and the outcome.
 
     Raises IntegrationError as `simulate` does.
     """
-    model = integration_of(problem)
-    obstacle = find_obstacle(problem, model)
+    problem = equations.problem
+    obstacle = find_obstacle(equations)
     if obstacle:
         raise _stopped(problem, 0.0, obstacle)
-    name = problem.solver["name"]
-    if name not in model.solvers:
-        known = ", ".join(model.solvers)
+    name, methods = problem.solver["name"], equations.methods
+    if name not in methods:
+        known = ", ".join(methods)
         raise IntegrationError(f"{name} does not take {problem.model.name}: these do: {known}")
-    method = model.solvers[name]
-    y = model.start(problem, reduction)
-    times = model.times(problem)
+    compiled = equations.compiled(name)
+    y, times, system = equations.start(cut), equations.times, equations.system(cut)
     size = y.shape[0] // 2, y.shape[1] - 2, len(times)
-    record = model.record(*size, problem.snapshot_every, energy)
+    record = equations.record(*size, problem.snapshot_every, energy)
     if problem.keep == "state" and record.kept.ndim == 3:
         record = record._replace(kept=np.empty((2, *record.kept.shape)))
-    scales = {"atol": model.atol(problem)}
-    controls = tuple(
-        float(problem.solver[name]) * scales.get(name, 1.0) for name in method.controls
-    )
-    system = model.system(problem, reduction)
-    work = method.room_for(system, y)
-    outcome = interruptible(method.run, system, y, times, controls, work, record)
+    controls = compiled.controls_of(problem.solver, equations.atol_scale)
+    work = compiled.work_for(system, y)
+    outcome = interruptible(compiled.run, system, y, times, controls, work, record)
     if outcome.status != DONE:
-        at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
-        why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
-        if outcome.status == STEP_TOO_SMALL and switches(problem.model.rates):
-            why += JUMPS
-        stopped = _stopped(problem, model.slow(problem, outcome.time), why)
-        if outcome.status not in (NOT_FINITE, STEP_TOO_SMALL):
-            raise stopped
-        by_name = name == "taylor" and not problem.solver.get("by_default")
-        raise GaveUpError(f"{stopped}{NEEDS_NO_SERIES * by_name}")
+        raise _gave_up(problem, equations.time_of_problem(outcome.time), outcome)
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
         if not np.isfinite(values).all():
             raise _stopped(problem, problem.end_time, "the state, its norms or its energy overflow")
-    return problem.times, record, y, outcome
+    return record, y, outcome
 
 
-def find_obstacle(problem: Problem, model: Integration) -> str | None:
+def _gave_up(problem: Problem, time: float, outcome: Outcome) -> IntegrationError:
+    """Return the error of a run that its solver did not bring to its end."""
+    at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
+    why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
+    if outcome.status == STEP_TOO_SMALL and switches(problem.model.rates):
+        why += JUMPS
+    stopped = _stopped(problem, time, why)
+    if outcome.status not in (NOT_FINITE, STEP_TOO_SMALL):
+        return stopped
+    by_name = problem.solver["name"] == "taylor" and not problem.solver.get("by_default")
+    return GaveUpError(f"{stopped}{NEEDS_NO_SERIES * by_name}")
+
+
+def find_obstacle(equations: Equations) -> str | None:
     """Return why a problem cannot be integrated, or None if it can."""
+    problem = equations.problem
     parts = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary ones
     peak = float(np.abs(parts).max(initial=0.0))  # NaN where there is one
-    numbers = {k: one for k, one in problem.parameters.items() if isinstance(one, int | float)}
-    rates, span = model.rates(problem, peak), float(problem.span)
-    found = find_fault(numbers, rates, peak, span, problem.solver, model.clock(problem))
-    return found and found[1]
+    numbers = {k: v for k, v in problem.parameters.items() if isinstance(v, int | float)}
+    rates, span = equations.rates(peak), float(problem.span)
+    obstacle = find_fault(numbers, rates, peak, span, problem.solver, equations.clock)
+    return obstacle and obstacle[1]
 
 
 def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
@@ -208,13 +209,13 @@ def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) 
     """
     every = problem.snapshot_every or max(1, (len(problem.times) - 1) // SNAPSHOTS)
     runs = _Runs(problem.changed(snapshot_every=every), problem.solver["error"], make)
-    names = pair_of(integration_of(problem).solvers)
+    methods = equations_of(problem).methods
     try:
-        found = runs.agreeing(names)
+        found = runs.agreeing(methods)
     except GaveUpError:
-        if names[0] != "taylor":
+        if "taylor" not in methods:
             raise
-        found = runs.agreeing(pair_of(("dop853", "ode45")))  # a power series ends on the way
+        found = runs.agreeing([name for name in methods if name != "taylor"])  # its series ended
     return found if problem.snapshot_every else without_snapshots(found)
 
 
@@ -234,8 +235,9 @@ class _Runs(NamedTuple):
         """Return how far two trajectories are apart."""
         return compare(one, other)
 
-    def agreeing(self, names: tuple[str, str]) -> Trajectory:
-        """Return the run of the first method that agrees with one of the second."""
+    def agreeing(self, methods: Sequence[str]) -> Trajectory:
+        """Return the run of the first of these methods that agrees with one of the second."""
+        names = pair_of(methods)
         tolerance, before = first_tolerance(self.error, angle_of(self.problem)), None
         while True:
             pair = tuple(self.by(name, tolerance) for name in names)
@@ -245,7 +247,7 @@ class _Runs(NamedTuple):
             if before:
                 moved = max(self.apart(*same).largest for same in zip(before, pair, strict=True))
                 if moved < ALIKE * between.largest:
-                    return self.supported(pair, between)
+                    return self.supported(pair, between, third_of(names, methods))
             if tolerance <= FINEST:
                 break
             before, tolerance = pair, next_tolerance(tolerance, self.error / between.largest)
@@ -262,14 +264,15 @@ class _Runs(NamedTuple):
         solver = {**one.solver, **found, "agrees_with": other.solver["name"], **more}
         return one._replace(solver=solver)
 
-    def supported(self, pair: tuple[Trajectory, ...], between: Agreement) -> Trajectory:
+    def supported(
+        self, pair: tuple[Trajectory, ...], between: Agreement, third: str | None
+    ) -> Trajectory:
         """Return which of two trajectories a third method supports.
 
         Each of the two methods agrees with itself and not with the other, so that one is wrong.
         """
         names = [one.solver["name"] for one in pair]
         differ = f"{names[0]} and {names[1]} differ by {between.largest:.1e} at any tolerance"
-        third = third_of(names)
         if third:
             tolerance = first_tolerance(0.1 * self.error, angle_of(self.problem))
             judge = self.by(third, tolerance)
@@ -288,7 +291,7 @@ class _Runs(NamedTuple):
 def angle_of(problem: Problem) -> float:
     """Return a bound of the angle in radians by which the data turn in a run."""
     peak = float(np.abs(np.ascontiguousarray(problem.initial).view(float)).max(initial=0.0))
-    return sum(integration_of(problem).rates(problem, peak).values()) * problem.span
+    return sum(equations_of(problem).rates(peak).values()) * problem.span
 
 
 def without_snapshots(run: Trajectory) -> Trajectory:

@@ -10,7 +10,7 @@ from latticode.simulation.problem import Problem
 
 from .runs import ManyRuns, Run, run_all
 from .simulate import Trajectory, simulate
-from .systems import site_dependent
+from .traced import site_dependent
 
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")

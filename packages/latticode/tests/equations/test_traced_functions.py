@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from latticode.equations.model import Model, ModelError, abs2, conj, cos, exp, lap, log, sin, sqrt
+from latticode.integrators.methods import methods_taking
 from latticode.simulation.simulate import IntegrationError, simulate
-from latticode.simulation.systems import solver_names
 from scipy.integrate import quad, solve_ivp
 from test_traced_models import TIGHT, beside, problem
 
@@ -79,7 +79,7 @@ def test_forces_and_velocities_equal_scipy(name, boundary):
 
     start = np.ravel([initial[0].real, initial[0].imag])
     expected = solve_ivp(slope, (0.0, 1.0), start, **TIGHT).y[:, -1].reshape(2, -1)
-    solvers = [name for name in solver_names(model) if name != "crank_nicolson"]
+    solvers = [name for name in methods_taking(model) if name != "crank_nicolson"]
     assert ("kahan_li" in solvers) == name.startswith("Toda")
     for solver in set(solvers) - {"ode45"}:  # it has the rates of dop853
         found = simulate(problem(model, initial, boundary, solver)).final[:, 0]

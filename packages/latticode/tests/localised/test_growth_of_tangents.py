@@ -8,7 +8,7 @@ from latticode.localised.tangents import grow, random_tangent
 from latticode.simulation.lattice import WHOLE, pack
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import IntegrationError, simulate
-from latticode.simulation.systems import make_system
+from latticode.simulation.traced import make_system
 
 COUPLED = Model(
     fields=("A", "B"),

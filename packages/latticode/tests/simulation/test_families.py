@@ -8,10 +8,10 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.trajectories import trajectory_contents
 from latticode.integrators.families import other_family
 from latticode.simulation import simulate as simulation
-from latticode.simulation.integration import IntegrationError
-from latticode.simulation.systems import integration_of
+from latticode.simulation.equations import IntegrationError
+from latticode.simulation.traced import TracedEquations
 from numpy_lattice import slope_of, solution, traced
-from planted import EXTRA_TURN, lattice, problem, with_wrong
+from planted import EXTRA_TURN, problem, with_wrong
 from scipy.integrate import solve_ivp
 
 AUTO = {"name": "auto", "error": 1e-9}
@@ -34,7 +34,7 @@ def true_final(one):
 
 
 def test_auto_leaves_a_taylor_method_whose_phases_alone_are_wrong():
-    one = problem(with_wrong(), solver=AUTO)
+    one = problem(with_wrong("taylor"), solver=AUTO)
     found = simulation.simulate(one)
     assert found.solver["name"] == "dop853" and found.solver["agrees_with"] == "ode45"
     assert "taylor and dop853 differ by 5" in found.solver["disagreement"]
@@ -43,24 +43,24 @@ def test_auto_leaves_a_taylor_method_whose_phases_alone_are_wrong():
 
 
 def test_auto_raises_where_no_third_method_can_decide():
-    one = problem(with_wrong(("dop853",), without_taylor(lattice())), solver=AUTO)
+    one = problem(with_wrong("dop853", equations=WithoutTaylor), solver=AUTO)
     with pytest.raises(IntegrationError, match=r"dop853 and ode45 differ by .* no third method"):
         simulation.simulate(one)
 
 
 def test_auto_raises_where_three_methods_follow_three_motions():
-    model = with_wrong(("ode45",), with_wrong(("taylor",)), rate=-EXTRA_TURN)
-    one = problem(model, solver=AUTO)
+    equations = with_wrong("ode45", equations=with_wrong("taylor"), rate=-EXTRA_TURN)
+    one = problem(equations, solver=AUTO)
     with pytest.raises(IntegrationError, match="and ode45 supports neither: ask for a larger"):
         simulation.simulate(one)
 
 
-def without_taylor(model):
-    """Return a model whose equations have no power series."""
-    right = integration_of(problem(model))
-    solvers = {name: one for name, one in right.solvers.items() if name != "taylor"}
-    model.integration = right._replace(solvers=solvers)
-    return model
+class WithoutTaylor(TracedEquations):
+    """Equations without a power series."""
+
+    @property
+    def methods(self):
+        return [name for name in super().methods if name != "taylor"]
 
 
 PHASES = Model(
@@ -101,7 +101,7 @@ def test_the_stated_error_bounds_that_of_functions_of_neighbours_next_to_ends(ra
     model = Model(fields=("a", "b"), parameters={}, i_dt=traced(text)["i_dt"], text=text)
     start = np.random.default_rng(1).normal(size=(2, 11, 2)) @ (0.4, 0.4j)
     solver = {"name": "auto", "error": 1e-8}
-    given = problem(model, half_width=5, boundary=boundary, initial=start, end_time=5.0,
+    given = problem(model=model, half_width=5, boundary=boundary, initial=start, end_time=5.0,
                     solver=solver)  # fmt: skip
     run = simulation.simulate(given)
     expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 5.0)
@@ -118,19 +118,19 @@ def dataset(one):
 
 
 def test_check_reports_phases_that_are_wrong_though_all_norms_are_right():
-    one = problem(with_wrong(), snapshot_every=5)
+    one = problem(with_wrong("taylor"), snapshot_every=5)
     found = run_again(one, dataset(one))
     assert float(found["difference"].max()) < 1e-11 and found.attrs["second_name"] == "dop853"
     expected = 2 * np.sin(0.5 * EXTRA_TURN * found["kept_tau"])
     scale = found["field_difference"] / expected.where(expected > 0)
     assert ((scale > 0.3) | scale.isnull()).all() and (scale.max() <= 1.001)
     assert float(found["largest_difference"]) == float(found["field_difference"].max())
-    slow = problem(with_wrong(), snapshot_every=20, end_time=30.0)
+    slow = problem(with_wrong("taylor"), snapshot_every=20, end_time=30.0)
     assert 10.0 <= float(run_again(slow, dataset(slow))["divergence_time"]) <= 24.0
 
 
 def test_check_judges_the_fields_of_the_run_that_it_is_given():
-    one = problem(lattice(), snapshot_every=10)
+    one = problem(snapshot_every=10)
     run = dataset(one)
     assert float(run_again(one, run)["largest_difference"]) < 1e-11
     run["final"] = -run["final"]

@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 from dimers import DIMERS, PAPER, SOLVERS, chain
+from latticode.integrators.methods import METHODS
 from latticode.integrators.taylor import ORDER
 from latticode.simulation import simulate as simulation
-from latticode.simulation.feasibility import SERIES_ORDER, find_fault, rates_of
-from latticode.simulation.systems import integration_of
+from latticode.simulation.feasibility import find_fault, rates_of
+from latticode.simulation.traced import equations_of
 from oracle import random_chain
 
 
 def find_obstacle(problem):
-    return simulation.find_obstacle(problem, integration_of(problem))
+    return simulation.find_obstacle(equations_of(problem))
 
 
 def obstacle(name="dop853", size=1.0, span=50.0, numbers=PAPER, **controls):
@@ -57,7 +58,7 @@ def test_what_cannot_be_integrated_is_refused_and_no_more(name, impossible, poss
 
 def test_power_series_beyond_the_doubles_are_refused():
     """Slowly or quickly, dop853 does it; taylor would take the whole run in one step."""
-    assert SERIES_ORDER == ORDER
+    assert METHODS["taylor"].order == ORDER
     slow, fast = (1e-25, 1e-25, 1e-25), (1e25, 1e25, 1e25)
     for numbers, span, size in ((slow, 1e25, 1e-20), (fast, 1e-25, 1.0)):
         tolerances = {"atol": 1e-12 * size}

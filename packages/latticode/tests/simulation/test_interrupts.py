@@ -18,9 +18,9 @@ from latticode.integrators import INTERRUPTED
 from latticode.localised import tangents
 from latticode.simulation import simulate as simulation
 from latticode.simulation.interrupts import interruptible
-from latticode.simulation.lattice import WHOLE, aligned, pack
+from latticode.simulation.lattice import WHOLE, pack
 from latticode.simulation.simulate import IntegrationError, simulate
-from latticode.simulation.systems import integration_of
+from latticode.simulation.traced import equations_of
 from oracle import random_chain
 from waiting import HANGS, wait_for
 
@@ -64,27 +64,27 @@ class LongRun:
 
     def __init__(self, name):
         problem = chain(random_chain(2000), (1e4, 1.0, 0.0))
-        integration = integration_of(problem)
-        self.method, self.outcomes = integration.solvers[name], []
+        equations = equations_of(problem)
+        self.compiled, self.outcomes = equations.compiled(name), []
         self.controls = SOLVERS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
         self.state = pack(problem.amplitudes, WHOLE)
-        self.record = integration.record(2, problem.sites, self.times.size, 0, False)
+        self.record = equations.record(2, problem.sites, self.times.size, 0, False)
         self.record.l2[:] = np.nan
-        self.system = integration.system(problem, WHOLE)
+        self.system = equations.system(WHOLE)
         self.kernel = self.call  # one object, so that a second run finds the first
         self.thread = None
 
     def start(self, outputs=4):
         """Begin the run up to some of its outputs and wait for it."""
-        controls = tuple(float(self.controls[key]) for key in self.method.controls)
-        work = aligned((self.method.work, *self.state.shape))
+        controls = self.compiled.controls_of(self.controls)
+        work = self.compiled.work_for(self.system, self.state)
         return interruptible(
             self.kernel, self.system, self.state, self.times[:outputs], controls, work, self.record
         )
 
     def call(self, *arguments):
         self.thread = threading.get_ident()
-        self.outcomes.append(self.method.run(*arguments))
+        self.outcomes.append(self.compiled.run(*arguments))
         return self.outcomes[-1]
 
     def is_under_way(self) -> bool:

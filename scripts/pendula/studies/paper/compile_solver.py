@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from latticode.datasets import complete_or_absent
+from latticode.integrators.methods import NAMED
 from latticode.kernels.sources import digest_of_code
 from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import simulate
@@ -17,7 +18,7 @@ changes asks for no compilation, and reruns nothing that does not use it."""
 
 def compile_solver(kernels: str, solver: str) -> None:
     """Run the solver over a short time, then record what it was compiled from."""
-    controls = {name: CONTROLS[name] for name in solvers.SOLVERS[solver].controls}
+    controls = {name: CONTROLS[name] for name in NAMED[solver].controls}
     problem = Problem(
         parameters={"epsilon": 1.0, "gamma": 1.0, "omega": 0.0},
         half_width=1,

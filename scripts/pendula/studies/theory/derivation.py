@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
-from pendula.models import pendula
+from pendula.models.equations import KERNEL_MODEL
 
 from .polynomials import (
     COSINE,
@@ -81,7 +81,7 @@ def accelerations(ends, x: np.ndarray, drive=DOUBLE) -> np.ndarray:
     """Return x'' and y'' of the traced equations (1) at the angles x and y, (component, site)."""
     state = np.stack([x, 0 * x], axis=1)
     constants = {"coupling": EPSILON * MU**2, "drive": 2 * GAMMA * MU**2 * drive}
-    return rates(ends, state, pendula.EQUATIONS, SINES, **constants)[:, 1]
+    return rates(ends, state, KERNEL_MODEL, SINES, **constants)[:, 1]
 
 
 def first_harmonic(ends, slow, drive=DOUBLE) -> list:

@@ -15,7 +15,7 @@ from latticode.equations.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbo
 from latticode.equations.graph import evaluate
 from latticode.equations.model import Model
 
-from pendula.models.amplitudes import AMPLITUDES
+from pendula.models.equations import AMPLITUDE_MODEL
 
 SITES = 3
 CONSTANTS = ("epsilon", "gamma", "omega")
@@ -54,7 +54,7 @@ def rational(x: float) -> fmpq:
 
 
 def rates(
-    ends: str, state=STATE, model: Model = AMPLITUDES, functions=None, **constants
+    ends: str, state=STATE, model: Model = AMPLITUDE_MODEL, functions=None, **constants
 ) -> np.ndarray:
     """Return the rates of a state, shaped alike, with other constants than their indeterminates.
 
@@ -79,7 +79,7 @@ def rates(
 def linear_rates(ends: str, state=STATE, at=None) -> np.ndarray:
     """Return the rates of (4), linearised at zero or `at` a state: its derivative along `state`."""
     both = np.concatenate([0 * state if at is None else at, state])
-    return rates(ends, both, AMPLITUDES.tangent())[len(state) :]
+    return rates(ends, both, AMPLITUDE_MODEL.tangent())[len(state) :]
 
 
 def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -18,7 +18,7 @@ from latticode.simulation.lattice import Reduction, pack
 from latticode.simulation.observables import Record, blank_state_record
 from latticode.simulation.problem import place
 from latticode.simulation.simulate import IntegrationError
-from latticode.simulation.systems import make_system, solvers_of
+from latticode.simulation.traced import TracedEquations
 
 from pendula.problem import Problem
 
@@ -65,14 +65,15 @@ def advance(
     solver = problem.solver
     if state.shape not in rooms:
         chain = problem.changed(half_width=width_of(state, even))
-        method = solvers_of(chain)[solver["name"]]
-        system = make_system(chain, Reduction(even, synchronised=False))
+        equations = TracedEquations(chain)
+        compiled = equations.compiled(solver["name"])
+        system = equations.system(Reduction(even, synchronised=False))
         rooms.clear()
-        rooms[state.shape] = method, system, method.room_for(system, state)
-    method, system, room = rooms[state.shape]
+        rooms[state.shape] = compiled, system, compiled.work_for(system, state)
+    compiled, system, room = rooms[state.shape]
     record = blank_state_record(2, state.shape[1] - 2, len(times), 1)
-    controls = tuple(float(solver[name]) for name in method.controls)
-    outcome = interruptible(method.run, system, state, times, controls, room, record)
+    controls = compiled.controls_of(solver)
+    outcome = interruptible(compiled.run, system, state, times, controls, room, record)
     if outcome.status != DONE:
         reason = FAULTS[outcome.status]
         raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {reason}")

@@ -1,0 +1,261 @@
+"""Runs of a traced model: its kernels, their parameters, and what a run returns."""
+
+import json
+from collections.abc import Iterable
+from functools import cache
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
+from latticode.equations.graph import evaluate
+from latticode.equations.model import Model
+from latticode.equations.model_file import values_at
+from latticode.generation.modules import conserved_text, load_text, module_text, parts_of_rates
+from latticode.generation.statements import Parts, parts_of
+from latticode.generation.toolbox import Sums, System
+from latticode.integrators.method import Method
+from latticode.integrators.methods import METHODS, NAMED, methods_taking
+from latticode.kernels.simd import LANES
+from latticode.numerics import elementary
+from latticode.numerics.elementary import complex_of, modulus
+
+from .equations import CompiledMethod, Equations, ResultNames
+from .feasibility import rates_of
+from .lattice import Reduction, choose_ends, find_reduction, unfold
+from .observables import blank_state_record
+from .problem import Problem
+
+PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
+"""How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
+HEAD_OF_RUNS = """
+from latticode.integrators.methods import NAMED
+from latticode.kernels.compiled import kernel
+"""
+RUN = """
+solve_{name} = NAMED["{name}"].build({rule}, {observe}{more})
+@kernel
+def run_{name}(system, y, times, controls, work, record, stop):
+    return solve_{name}(system, y, times, controls, work, record, stop)
+"""
+OBSERVERS = "from latticode.simulation.observables import observe_angles, observe_fields\n"
+TILES = ", can_be_tiled=can_be_tiled, system_of_tile=system_of_tile"
+
+
+def runs_text(methods: Iterable[Method], observe: str, driven: bool, in_tiles: bool = False) -> str:
+    """Return the text of compiled runs by all methods, `run_` and the name of the method.
+
+    The module has the function `observe` and the rules of the methods; also `at_time` if its
+    equations are `driven`, and `can_be_tiled` and `system_of_tile` where chains go in tiles.
+    """
+    texts = []
+    for method in methods:
+        more = ", at_time=at_time" * driven + TILES * (in_tiles and method.takes_tiles)
+        names = {"name": method.name, "rule": method.rule, "observe": observe, "more": more}
+        texts.append(RUN.format(**names))
+    return HEAD_OF_RUNS + "".join(texts)
+
+
+def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str, CompiledMethod]:
+    """Return the methods of these names with the kernels of the module `home`, by name.
+
+    The module has `observe`, the rules of the methods, `can_be_tiled`, `system_of_tile`, and where
+    it is `driven`, `at_time`. It has `WORK` where the number of work arrays of a power series is
+    not that of a model without clocks.
+    """
+    methods = [NAMED[name] for name in names]
+    text = f"from {home} import *\n" + runs_text(methods, "observe", driven, in_tiles=True)
+    runs = load_text(text)
+    work = getattr(runs, "WORK", 0)
+    return {
+        method.name: CompiledMethod(
+            method,
+            getattr(runs, f"run_{method.name}"),
+            work if method.rule == "continue_series" else 0,
+            in_tiles=True,
+        )
+        for method in methods
+    }
+
+
+@cache
+def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
+    """Return the generated module of a model some of whose parameters depend on the site.
+
+    No chain goes in tiles: their margins are made for equations that look one site far.
+    """
+    observe = "observe_angles" if model.real else "observe_fields"
+    text = module_text(model.rates, model.reach, site_dependent) + OBSERVERS
+    if model.conserved:
+        text, observe = text + conserved_text(model, site_dependent, observe), "observe"
+    methods = [METHODS[name] for name in methods_taking(model)]
+    return load_text(text + runs_text(methods, observe, model.driven))
+
+
+def parameters_of(problem: Problem) -> dict[str, float | np.ndarray]:
+    """Return the value of each parameter: a number, or an array (site,) of one for each site.
+
+    Raises ValueError with the name of one that has none.
+    """
+    found = {}
+    for name, given in {**problem.model.parameters, **problem.parameters}.items():
+        try:
+            value = values_at(given, problem.half_width)
+        except ValueError as error:
+            raise ValueError(f"parameter {name} {error}") from None
+        found[name] = value if np.ndim(value) == 0 else np.array(value)
+    return found
+
+
+def site_dependent(problem: Problem) -> frozenset[str]:
+    """Return the names of the parameters that depend on the site."""
+    return frozenset(name for name, value in parameters_of(problem).items() if np.ndim(value))
+
+
+def make_system(problem: Problem, reduction: Reduction) -> System:
+    """Return what the kernels of a model take for its parameters, at time 0."""
+    model = problem.model
+    sites = problem.half_width + 1 if reduction.even else problem.sites
+    parts = parts_of_rates(model.rates, site_dependent(problem))
+    constants, at_sites = _values(problem, parts)
+    wide = np.zeros((2 * len(model.fields), sites + 2 * model.reach))
+    clocks = (0.0,) * 2 * len(parts.clocks)
+    ends = choose_ends(problem.boundary, reduction)
+    return System(constants, clocks, at_sites, wide, _sums(problem), *ends)
+
+
+def _sums(problem: Problem) -> Sums:
+    """Return what the densities of a model are given: see Sums."""
+    model, reach = problem.model, problem.model.reach_of_densities
+    if not model.conserved:
+        return Sums((), *np.zeros((3, 1, 3)))
+    margin = reach if ends_of(problem.boundary).sees is None else 0
+    sites = problem.sites + 2 * margin
+    parts = parts_of(model.conserved.values(), site_dependent(problem))
+    constants, at_sites = _values(problem, parts, margin)
+    wide = np.zeros((2 * len(model.fields), sites + 2 * reach))
+    return Sums(constants, at_sites, wide, np.zeros((len(model.conserved), sites + 2)))
+
+
+def _values(
+    problem: Problem, parts: Parts, margin: int = 0
+) -> tuple[tuple[float, ...], np.ndarray]:
+    """Return constants, and what depends on the site, with so many sites more beyond each end."""
+    values = parameters_of(problem)
+
+    def leaf(one):
+        if one.operation == "number":
+            return one.operands[0]
+        name, by = one.operands
+        value = values[name]
+        return value if np.ndim(value) == 0 else moved(value, by, problem.boundary)
+
+    constants = tuple(map(float, evaluate(parts.constants, leaf, elementary)))
+    count = problem.sites + 2 * margin
+    at_sites = np.zeros((max(1, len(parts.at_sites)), count + 2 + 2 * LANES))
+    for row, value in enumerate(evaluate(parts.at_sites, leaf, elementary)):
+        at_sites[row, 1 : 1 + count] = np.pad(value, margin, "edge")
+    return constants, at_sites
+
+
+def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
+    """Return the values at the sites n + by; beyond an end that of the last site, or of a ring."""
+    places = np.arange(values.size) + by
+    if kind_of(boundary) in (PERIODIC, ANTIPERIODIC):
+        return values[places % values.size]
+    return values[np.clip(places, 0, values.size - 1)]
+
+
+NAMES_BY_FORM = {
+    "i_dt": ResultNames(()),
+    "dt": ResultNames(
+        (),
+        ("value",),
+        part="value of a field",
+        final="value of a field at the end time",
+        state="value of a field at the snapshots",
+    ),
+    "d2_dt2": ResultNames(
+        (),
+        ("value", "rate"),
+        part="value of a field, and its rate",
+        final="value of a field, and its rate, at the end time",
+        state="value of a field, and its rate, at the snapshots",
+    ),
+}
+"""Names of results by the function that gives the equations; the model names its fields."""
+
+
+class TracedEquations(Equations):
+    """A problem whose kernels, names and bounds all follow from the trace of its model."""
+
+    @property
+    def names(self) -> ResultNames:
+        """What datasets call the results."""
+        return NAMES_BY_FORM[self.problem.model.form]._replace(components=self.problem.model.fields)
+
+    @property
+    def methods(self) -> list[str]:
+        """The names of the methods that integrate the equations."""
+        return methods_taking(self.problem.model)
+
+    def describe(self) -> dict[str, Any]:
+        """Return the attributes of a dataset that say which equations were solved."""
+        problem = self.problem
+        return {
+            "parameters": json.dumps(parameters_of(problem), default=np.ndarray.tolist),
+            "model": problem.model.name,
+            "model_text": problem.model.text,
+        }
+
+    def rates(self, peak: float) -> dict[str, float]:
+        """Return bounds of the rates at which data of this size turn or grow, by their key."""
+        return rates_of(self.problem.model, self.problem.parameters, peak)
+
+    def find_reduction(self) -> Reduction:
+        """Return whether half of the chain has the bits of the whole.
+
+        It has where data, equations and parameters are the same with left and right exchanged.
+        """
+        problem = self.problem
+        symmetric = problem.model.even and not site_dependent(problem)
+        # the far half of an antiperiodic ring has the other sign
+        symmetric = symmetric and kind_of(problem.boundary) != ANTIPERIODIC
+        even = symmetric and problem.half_width >= 2 * problem.model.reach
+        return Reduction(even and find_reduction(problem.amplitudes).even, synchronised=False)
+
+    def compiled(self, name: str) -> CompiledMethod:
+        """Return the method of this name with the generated kernels of the model."""
+        kernels = kernels_of(self.problem.model, site_dependent(self.problem))
+        method = METHODS[name]
+        work = kernels.WORK if method.rule == "continue_series" else 0
+        return CompiledMethod(method, getattr(kernels, f"run_{name}"), work)
+
+    def system(self, cut: Reduction) -> System:
+        """Return the parameters of the kernels, at time 0."""
+        return make_system(self.problem, cut)
+
+    def record(self, components: int, sites: int, times: int, every: int, energy: bool) -> Any:
+        """Return empty arrays for what is observed at so many times."""
+        quantities = len(self.problem.model.conserved)
+        return blank_state_record(components, sites, times, every, quantities=quantities)
+
+    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+        """Return what a `Trajectory` holds of the whole chain, from record and final state."""
+        model, count = self.problem.model, len(self.names.parts)
+        parts = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
+        state = np.array([unfold(part, cut) for part in record.kept[:count]])
+        real = model.real
+        return {
+            "energy": record.energy,
+            "modulus": np.abs(state[0]) if real else modulus(complex_of(*state)),
+            "final": parts if real else complex_of(*parts),
+            "state": state,
+            "conserved": dict(zip(model.conserved, record.conserved, strict=True)),
+        }
+
+
+def equations_of(problem: Problem) -> Equations:
+    """Return how a problem is integrated: as its own class says, or as follows from its trace."""
+    return (problem.equations_class or TracedEquations)(problem)
