@@ -3,11 +3,12 @@
 import re
 from pathlib import Path
 
+import pytest
 from helpers import ROOT
 from operators import used_in
 from pendula.sources import SCRIPTS
 from pendula.studies import STUDIES
-from rooms import Rooms
+from rooms import Rooms, circles_in
 
 LIBRARY = SCRIPTS / "pendula"
 STOREYS = (
@@ -109,3 +110,9 @@ def test_dependencies_are_used_by_their_front_door():
     assert [str(path) for path in modules if HIDDEN.search(path.read_text())] == []
     assert HIDDEN.search("from numba.core.caching import _Cache")
     assert HIDDEN.search("    from snakemake.dag import DAG")
+
+
+@pytest.mark.parametrize("package", ["pendula", "replication"])
+def test_no_modules_import_each_other_in_a_circle(package):
+    """Imports inside functions count too."""
+    assert circles_in(SCRIPTS / package) == []

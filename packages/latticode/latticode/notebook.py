@@ -21,8 +21,8 @@ from latticode.checks import UNSTABLE_REST, check_run
 from latticode.configuration import cases, cost, values
 from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.initial import end_of_run
-from latticode.configuration.messages import in_words, load
-from latticode.configuration.schema import Limits
+from latticode.configuration.messages import in_words
+from latticode.configuration.schema import Configuration, Limits, load
 from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
 from latticode.datasets.netcdf import as_xarray
@@ -100,15 +100,15 @@ class Case(cases.Case):
         return type(self)(**{**known, **keys})
 
 
-def made(initialise: Callable, keys: dict, **place) -> None:
-    """Make a case of its keys, and say in words what is wrong with them.
+def made(initialise: Callable, keys: dict, root: type[Configuration] = Configuration) -> None:
+    """Make a case of its keys, which belong to a configuration of the type `root`.
 
-    `place` is what `in_words` takes beside.
+    Raises ConfigurationError with all that is wrong with them.
     """
     try:
         initialise(**with_controls({"solver": DEFAULT, **keys}, {}))
     except ValidationError as error:
-        raise in_words(error, "the case", ("cases", "case"), **place) from None
+        raise in_words(error, "the case", root, ("cases", "case")) from None
 
 
 def _limits(hours: float | None, gigabytes: float | None) -> dict[str, float]:
@@ -126,7 +126,7 @@ def _affordable(case: cases.Case, given: Mapping[str, float]) -> None:
     try:
         limits = Limits(**given)
     except ValidationError as error:
-        raise in_words(error, "the limit") from None
+        raise in_words(error, "the limit", Limits) from None
     # The second problem chooses the times of its snapshots, which needs a run that is not too long.
     for problem in (case.problem, case.shown_problem):
         found = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)

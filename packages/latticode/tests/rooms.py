@@ -1,5 +1,6 @@
 """Which rooms of a package import from which."""
 
+import ast
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -48,3 +49,63 @@ def imports_of(package: Path, module: Path) -> list[Path]:
     """Return the modules of a package that one of them imports, and the packages around them."""
     files = sources._imports_of(package / module)
     return [file.relative_to(package) for file in files if file.is_relative_to(package)]
+
+
+# --- Circles of imports ---------------------------------------------------------------------------
+
+
+def modules_imported(package: Path, file: Path) -> set[str]:
+    """Return the modules of a package that a file imports, by their dotted names inside it.
+
+    Imports inside functions count. What a package's own `__init__` gives counts as this package.
+    """
+    inside = file.relative_to(package).parent.parts
+    names = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            home = (package.name, *inside)[: len(inside) + 2 - node.level] if node.level else ()
+            base = ".".join([*home, *([node.module] if node.module else [])])
+            names |= {base, *(f"{base}.{alias.name}" for alias in node.names)}
+    own = f"{package.name}."
+    parts = (name.removeprefix(own) for name in names if name.startswith(own))
+    return {name for name in parts if _is_module(package, name)}
+
+
+def _is_module(package: Path, name: str) -> bool:
+    place = package.joinpath(*name.split("."))
+    return place.with_suffix(".py").exists() or (place / "__init__.py").exists()
+
+
+def graph_of(package: Path) -> dict[str, set[str]]:
+    """Return the modules of a package, each with those that it imports, by dotted names.
+
+    A package of a package stands for its `__init__`; that of the whole package is left out.
+    """
+    graph = {}
+    for file in sorted(package.rglob("*.py")):
+        parts = file.relative_to(package).with_suffix("").parts
+        name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+        if name:
+            graph[name] = modules_imported(package, file) - {name}
+    return graph
+
+
+def circles_in(package: Path) -> list[list[str]]:
+    """Return the groups of modules of a package that import each other in a circle."""
+    graph = graph_of(package)
+
+    def reached(start: str) -> set[str]:
+        seen, waiting = set(), [start]
+        while waiting:
+            for name in graph.get(waiting.pop(), ()):
+                if name not in seen:
+                    seen.add(name)
+                    waiting.append(name)
+        return seen
+
+    reach = {name: reached(name) for name in graph}
+    on_circle = sorted(name for name in graph if name in reach[name])
+    groups = {tuple(b for b in on_circle if b in reach[a] and a in reach[b]) for a in on_circle}
+    return sorted(map(list, groups))

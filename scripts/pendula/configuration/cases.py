@@ -12,6 +12,7 @@ from latticode.configuration.cases import Initial
 from latticode.configuration.cost import Cost
 from latticode.configuration.files import OF_MODELS
 from latticode.configuration.messages import lines_of
+from latticode.configuration.schema import Configuration
 from latticode.configuration.solvers import FLAG, Solver, Taylor
 from latticode.configuration.values import Number, Positive, faults
 from latticode.equations.model import Model
@@ -168,7 +169,7 @@ def _validated(value: Any, handler) -> cases.Case:
     try:
         return kind.model_validate(value)
     except ValidationError as error:  # of keys that are no keys of the paper's cases
-        lines = lines_of(error, ("cases", "case"))
+        lines = lines_of(error, Configuration, ("cases", "case"))
         raise faults([line.partition(": ")[::2] for line in lines]) from None
 
 

@@ -7,7 +7,6 @@ from typing import get_args
 from pydantic import BaseModel, ValidationError
 
 from .files import ConfigurationError, list_faults
-from .schema import Configuration
 from .solvers import Solvers
 from .values import LONGEST_SHOWN, shown
 
@@ -45,27 +44,14 @@ WORDS = {
 }
 
 
-def load(raw: dict) -> Configuration:
-    """Return the validated configuration, or raise ConfigurationError with every fault."""
-    try:
-        return Configuration.model_validate(raw)
-    except ValidationError as error:
-        raise in_words(error, "the configuration") from None
-
-
 def in_words(
-    error: ValidationError,
-    what: str,
-    place: tuple = (),
-    root: type[BaseModel] = Configuration,
+    error: ValidationError, what: str, root: type[BaseModel], place: tuple = ()
 ) -> ConfigurationError:
     """Return the error that lists every fault of `what`, which stands at `place` in a `root`."""
-    return list_faults(lines_of(error, place, root), what)
+    return list_faults(lines_of(error, root, place), what)
 
 
-def lines_of(
-    error: ValidationError, place: tuple = (), root: type[BaseModel] = Configuration
-) -> list[str]:
+def lines_of(error: ValidationError, root: type[BaseModel], place: tuple = ()) -> list[str]:
     """Return each fault in words, behind its path from `place` on, where all stands in a `root`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import prod
 from typing import Annotated, Any, ClassVar
 
-from pydantic import Field, SerializeAsAny, model_validator
+from pydantic import Field, SerializeAsAny, ValidationError, model_validator
 
 from latticode.integrators.families import remark_on
 from latticode.simulation.problem import name_window
@@ -17,6 +17,7 @@ from latticode.simulation.problem import name_window
 from . import cost
 from .cases import Case, is_multiple
 from .cost import Cost
+from .messages import in_words
 from .solvers import DEFAULT, Solver, Solvers, with_controls
 from .surveys import Survey
 from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
@@ -303,3 +304,11 @@ class Configuration(Model):
 
     def _by(self, solver: str | None) -> dict:
         return {} if solver is None else {"solver": getattr(self.solvers, solver).model_dump()}
+
+
+def load(raw: dict) -> Configuration:
+    """Return the validated configuration, or raise ConfigurationError with every fault."""
+    try:
+        return Configuration.model_validate(raw)
+    except ValidationError as error:
+        raise in_words(error, "the configuration", Configuration) from None

@@ -34,7 +34,9 @@ class DefaultMethod(Model):
     @model_serializer(mode="wrap")
     def _without_flag(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         values = write(self)
-        return values if values[FLAG] else {k: value for k, value in values.items() if k != FLAG}
+        return (
+            values if values.get(FLAG) else {k: value for k, value in values.items() if k != FLAG}
+        )
 
 
 class Auto(Model):

@@ -11,6 +11,7 @@ from latticode.simulation import survey
 from latticode.simulation.ensembles import PERTURBATIONS
 
 from .cases import Case
+from .messages import lines_of
 from .values import (
     Complex,
     Count,
@@ -146,10 +147,8 @@ class Survey(Model):
             try:
                 case.at(point)
             except ValidationError as error:
-                from .messages import in_words  # which knows all sections, this one too
-
                 at = ", ".join(f"{name} = {value:g}" for name, value in point.items())
-                lines = str(in_words(error, "")).splitlines()[1:]
+                lines = lines_of(error, type(case))
                 return [("axes", f"at {at}, {line.strip()}") for line in lines]
         span = min(self._columns().get("end_time", [case.end_time]))
         if self.window and self.window[1] > span + 1e-9:

@@ -115,6 +115,9 @@ class Method:
     tightest: ClassVar[float | None] = None
     step_divides_outputs: ClassVar[bool] = False
     """Whether its `step` must divide the time between two outputs."""
+    continues_exactly: ClassVar[bool] = False
+    """Whether a run that starts where another ended has the bits of one run: steps end at outputs,
+    and begin with nothing but the state."""
     takes_tiles: ClassVar[bool] = False
     """Whether `build` takes `can_be_tiled` and `system_of_tile`: see `dop853`."""
     look: ClassVar[tuple[str, str] | None] = None

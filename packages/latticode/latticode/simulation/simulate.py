@@ -18,6 +18,7 @@ from latticode.integrators.families import (
     pair_of,
     third_of,
 )
+from latticode.integrators.methods import NAMED
 
 from .equations import Equations, GaveUpError, IntegrationError
 from .feasibility import find_fault
@@ -106,16 +107,11 @@ def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) 
     )
 
 
-SAME_STEPS = ("kahan_li",)
-"""Solvers whose steps are those of one run where a run goes on from another: they end at outputs,
-and begin with nothing but the state."""
-
-
 def remark_on_start(problem: Problem) -> str:
     """Return a sentence on a run that starts late and has other bits than one run; else nothing."""
-    if not problem.start_time or problem.solver["name"] in SAME_STEPS:
+    same = [name for name in equations_of(problem).methods if NAMED[name].continues_exactly]
+    if not problem.start_time or problem.solver["name"] in same:
         return ""
-    same = [name for name in SAME_STEPS if name in integration_of(problem).solvers]
     to_the_bit = f"; {same[0]} goes on with the same bits" if same else ""
     return (
         f"the run starts at {problem.start_time:g}, where its steps begin anew: it agrees with one"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from latticode import Case, ConfigurationError, Model, ModelError, abs2, lap, simulate, sweep
 from latticode.configuration.files import gather
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from latticode.simulation.problem import Problem
 
 DAMPED = """from latticode import abs2, lap

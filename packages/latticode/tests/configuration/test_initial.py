@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from latticode import Case, ConfigurationError, Model, abs2, check, lap, save, simulate, sin, sweep
 from latticode.configuration.files import gather
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate as integrate
 from scipy.integrate import solve_ivp

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from latticode import notebook
 from latticode.configuration.files import ConfigurationError
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from latticode.datasets.surveys import make_survey
 from latticode.equations.model import Model, abs2, lap
 from latticode.simulation.problem import Problem

@@ -5,7 +5,7 @@ import pytest
 from latticode import Case, ConfigurationError, Model, abs2, check, lap, simulate, survey
 from latticode.checks import UNSTABLE_REST
 from latticode.configuration.files import gather
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from latticode.simulation.problem import Problem
 from scipy.integrate import solve_ivp
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from latticode import Case, Model, abs2, check, lap, simulate, sqrt, survey, sweep
 from latticode.configuration.files import ConfigurationError
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from latticode.simulation.simulate import IntegrationError
 from scipy.integrate import solve_ivp
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from latticode import Case, ConfigurationError, Model, abs2, draw_spacetime, lap, simulate, survey
 from latticode.configuration.files import gather
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from latticode.datasets.trajectories import trajectory_contents
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate as integrate

@@ -15,6 +15,7 @@ class KahanLi(Method):
     name, label, order = "kahan_li", "Kahan\N{EN DASH}Li", 8
     controls = {"step": Control(0.25)}
     cost = FixedStepCost(step_seconds=2e-6, pair_seconds=3e-7)
+    continues_exactly = True
     look = ("#c2558f", "X")
 
     def integrates(self, model: Model) -> bool:
