@@ -208,7 +208,7 @@ def check_breather(problem: Problem) -> xr.Dataset:
     growth, multipliers = found.real.max(), np.exp(period * found)
     frequencies = "its distance from the frequencies of linear waves"
     edge = "its largest value far from the centre, over that at the centre"
-    modes, sites = ("part", "mode"), np.arange(sizes.size) - problem.half_width
+    modes, sites = ("part", "mode"), np.array(problem.site_numbers)
     numbers = {
         "_frequency": (state.frequency, (), "frequency lambda of a localised state"),
         "_gap": (np.abs(waves).min(), (), frequencies),

@@ -65,6 +65,7 @@ class Case(cases.Case):
         `initial`). Of a field with d2_dt2 the imaginary part is the rate.
     start_time: the time at the start, of a drive p.t too. 0, or the end of the run in `initial`.
     half_width: M; the chain has the 2M + 1 sites -M..M. 30.
+    sites: N, in place of half_width; the chain has the N sites 0..N-1.
     boundary: "dirichlet" (zero beyond the ends), "free" (a mirror beyond the last site: to second
         neighbours it adds a bond between the last two sites), "periodic" or "antiperiodic".
     end_time, output_step: observables are kept at every step. 50 and 0.025.
@@ -94,10 +95,13 @@ class Case(cases.Case):
 
     def changed(self, **keys) -> "Case":
         """Return the case with other values under `keys`, checked anew."""
-        known = self.model_dump()
+        values = self.model_dump()
         if end_of_run(keys.get("initial")) is not None:
-            del known["start_time"]  # that of the run
-        return type(self)(**{**known, **keys})
+            del values["start_time"]  # that of the run
+        for key, other in (("sites", "half_width"), ("half_width", "sites")):
+            if keys.get(key) is not None and other in values:  # one length replaces the other
+                values[other] = None
+        return type(self)(**{**values, **keys})
 
 
 def made(initialise: Callable, keys: dict, root: type[Configuration] = Configuration) -> None:

@@ -26,12 +26,12 @@ class Drawn:
     form: str  # the name of the function that gives its equations
     parameters: dict
     boundary: str
-    half_width: int
+    sites: range
     start: np.ndarray  # complex, (field, site): real of dt, with imaginary velocities of d2_dt2
     end_time: float = 1.0
 
     def __str__(self):
-        return f"{self.text}\n{self.boundary}, half-width {self.half_width}"
+        return f"{self.text}\n{self.boundary}, sites {self.sites}"
 
     @cached_property
     def case(self):
@@ -39,11 +39,15 @@ class Drawn:
         made = traced(self.text)
         functions = {self.form: made[self.form]}
         model = Model(fields=self.fields, parameters=self.parameters, **functions)
-        sites = range(-self.half_width, self.half_width + 1)
+        first, last = self.sites[0], self.sites[-1]
+        length = {"sites": last + 1} if first == 0 else {"half_width": last}
         return Case(
-            model=model, half_width=self.half_width, boundary=self.boundary,
-            initial=dict(zip(sites, self.start.T.tolist(), strict=True)), end_time=self.end_time,
-        )  # fmt: skip
+            model=model,
+            **length,
+            boundary=self.boundary,
+            initial=dict(zip(self.sites, self.start.T.tolist(), strict=True)),
+            end_time=self.end_time,
+        )
 
     def follow(self, perturbation=0.0):
         """Return the state at the end, laid out as `start`, by NumPy and SciPy alone."""
@@ -182,13 +186,15 @@ def drawn(seed, attempt=0):
     rates = ",\n        ".join(map(rate, names))
     text = f"def {form}({arguments}):\n    return (\n        {rates},\n    )\n"
     half_width = int(max(reach, 2 * reach * symmetric) + rng.integers(0, 6))
-    sites = 2 * half_width + 1
-    start = rng.normal(size=(len(names), sites, 2)) @ (0.3, 0.3j)
+    sites = range(-half_width, half_width + 1)
+    if rng.random() < 0.4:
+        sites = range(len(sites) + int(rng.integers(2)))
+    start = rng.normal(size=(len(names), len(sites), 2)) @ (0.3, 0.3j)
     if kind in ("phases", "real"):
         start = start.real + 0j
     if symmetric:
         start = start + start[:, ::-1]
-    parameters = {**PARAMETERS, "V": rng.uniform(-1.0, 1.0, sites)}
+    parameters = {**PARAMETERS, "V": rng.uniform(-1.0, 1.0, len(sites))}
     boundary = str(rng.choice(ENDS))
-    model = Drawn(text, names, form, parameters, boundary, half_width, start)
+    model = Drawn(text, names, form, parameters, boundary, sites, start)
     return model if model.follow() is not None else drawn(seed, attempt + 1)

@@ -53,6 +53,7 @@ class Case(cases.Case):
     mu: Positive | None = None
     keep: Literal[KEPT] = "moduli"
     parameters: Annotated[dict, Field(exclude=True, max_length=0)] = {}
+    sites: Annotated[None, Field(exclude=True)] = None
 
     @model_validator(mode="before")
     @classmethod
@@ -60,6 +61,9 @@ class Case(cases.Case):
         if isinstance(raw, dict) and "parameters" in raw:
             text = "belong to a model of your own; give omega, epsilon and gamma as they are"
             raise faults([("parameters", text)])
+        if isinstance(raw, dict) and raw.get("sites") is not None:
+            text = "has no meaning: the paper's chains have the sites -M..M; give half_width: M"
+            raise faults([("sites", text)])
         return raw
 
     @field_validator("solver")

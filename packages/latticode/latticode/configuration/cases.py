@@ -21,7 +21,7 @@ from pydantic import (
 from latticode.equations.ends import ENDS
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
-from latticode.equations.model_file import at_middle, values_at
+from latticode.equations.model_file import at_middle, chain_sites, values_at
 from latticode.integrators.families import first_tolerance, instead_of_taylor, pair_of
 from latticode.integrators.method import Obstacle
 from latticode.integrators.methods import METHODS, methods_taking
@@ -34,6 +34,7 @@ from .initial import BySite, end_of_run, fields_on, read_initial
 from .solvers import DEFAULT, FLAG, Solver, Solvers, Taylor
 from .values import (
     Complex,
+    Count,
     Distinct,
     Model,
     Natural,
@@ -148,7 +149,8 @@ class Case(Model):
     """What its plain values make."""
     model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
     parameters: dict[str, Any] = {}
-    half_width: Natural = 30
+    half_width: Natural | None = 30
+    sites: Count | None = None
     boundary: Literal[tuple(ENDS)] = "dirichlet"
     initial: Initial
     start_time: Time = 0.0
@@ -168,6 +170,19 @@ class Case(Model):
         start = end_of_run(raw.get("initial"))
         return raw if start is None else {**raw, "start_time": start}
 
+    @model_validator(mode="before")
+    @classmethod
+    def _one_length(cls, given: Any) -> Any:
+        """Leave `half_width` out where the chain has a number of `sites`; refuse both."""
+        if not isinstance(given, Mapping) or given.get("sites") is None:
+            if isinstance(given, Mapping) and given.get("half_width", 0) is None:
+                raise faults([("half_width", "is empty; give half_width or sites")])
+            return given
+        if given.get("half_width") is not None:
+            text = "is given beside half_width; sites: 32 has the sites 0..31, half_width: 16 has"
+            raise faults([("sites", f"{text} -16..16: leave one of them out")])
+        return {**given, "half_width": None}
+
     @field_validator("solver", mode="before")
     @classmethod
     def _known(cls, given: Any, info: ValidationInfo) -> Any:
@@ -185,17 +200,17 @@ class Case(Model):
 
     # --- What the model decides
 
-    def data_on(self, half_width: int) -> BySite:
+    def data_on(self, sites: range) -> BySite:
         """Return the initial data {site: a value for each field} on a chain.
 
         Raises ValueError where an array or a function has no values for its sites.
         """
-        return fields_on(self.initial, self.fields, range(-half_width, half_width + 1))
+        return fields_on(self.initial, self.fields, sites)
 
     @property
     def data(self) -> BySite:
         """The initial data {site: a value for each field}."""
-        return self.data_on(self.half_width)
+        return self.data_on(self.chain)
 
     @property
     def span(self) -> float:
@@ -218,6 +233,11 @@ class Case(Model):
         return self.model.fields
 
     @property
+    def chain(self) -> range:
+        """The sites of the chain: 0..sites - 1, or -M..M."""
+        return chain_sites(self.half_width, self.sites)
+
+    @property
     def solver_names(self) -> list[str]:
         """The solvers that take the equations."""
         return self.solvers_taking(self.model)
@@ -234,23 +254,25 @@ class Case(Model):
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
         known = self.model.parameters
-        if self.half_width < min(self.model.farthest, self.model.reach):
-            reach = self.model.reach
-            far = f"{reach} site{'s' * (reach > 1)} along the chain"
-            yield "half_width", f"is {self.half_width}; the equations look {far}"
+        reach = self.model.reach
+        far = f"the equations look {reach} site{'s' * (reach > 1)} along the chain"
+        if self.sites is not None and self.sites < self.model.farthest:
+            yield "sites", f"is {self.sites}; {far}"
+        elif self.sites is None and self.half_width < min(self.model.farthest, reach):
+            yield "half_width", f"is {self.half_width}; {far}"
         for name in self.parameters.keys() - known.keys():
             near = difflib.get_close_matches(name, known, 1)
             hint = (
                 f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known) or 'none'}"
             )
             yield f"parameters.{name}", f"is no parameter of {self.model.name}; {hint}"
-        yield from self.faults_of_parameters(self.half_width)
+        yield from self.faults_of_parameters(self.chain)
 
-    def faults_of_parameters(self, half_width: int) -> Iterator[tuple[str, str]]:
+    def faults_of_parameters(self, sites: range) -> Iterator[tuple[str, str]]:
         """Yield the fault of each parameter that has no values on the sites of such a chain."""
         for name, value in self._given().items():
             try:
-                values_at(value, half_width)
+                values_at(value, sites)
             except ValueError as error:
                 where = "" if name in self.parameters else f" (the default in {self.model.name})"
                 yield f"parameters.{name}", f"{error}{where}"
@@ -262,34 +284,41 @@ class Case(Model):
         function gives for them.
         """
         longest, found = max(half_widths), []
-        for name, text in self.faults_of_parameters(longest):
+        for name, text in self.faults_of_parameters(chain_sites(longest)):
             found.append(name)
             yield name, f"on the longest chain: {text}"
         for name, value in self._given().items():
             if callable(value) and f"parameters.{name}" not in found:
-                whole = values_at(value, longest)
-                if any(at_middle(whole, m) != values_at(value, m) for m in half_widths):
+                longest_values = values_at(value, chain_sites(longest))
+                if any(
+                    at_middle(longest_values, m) != values_at(value, chain_sites(m))
+                    for m in half_widths
+                ):
                     text = "is a function with other values at the same sites of a longer chain"
                     yield f"parameters.{name}", f"{text}; let them follow from the site alone"
 
     def _given(self) -> dict[str, Any]:
         return {k: self.parameters.get(k, one) for k, one in self.model.parameters.items()}
 
-    def _values(self, half_width: int) -> dict[str, float | list[float]]:
-        return {name: values_at(value, half_width) for name, value in self._given().items()}
+    def _values(self, sites: range) -> dict[str, float | list[float]]:
+        return {name: values_at(value, sites) for name, value in self._given().items()}
 
     def values_by_half_width(self, half_widths: list[int]) -> dict[int, dict[str, Any]]:
         """Return the values of the parameters that are functions of the sites, by half-width."""
         functions = {name: value for name, value in self._given().items() if callable(value)}
         if not functions:
             return {}
-        return {m: {k: values_at(one, m) for k, one in functions.items()} for m in half_widths}
+        chains = {m: chain_sites(m) for m in half_widths}
+        return {
+            m: {name: values_at(value, sites) for name, value in functions.items()}
+            for m, sites in chains.items()
+        }
 
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
         """Return what keeps data of the size `peak` from being followed, and how fast they turn."""
-        values = self._values(self.half_width)
+        values = self._values(self.chain)
         found = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
         return found, self.model.rate(values, peak)
 
@@ -299,7 +328,7 @@ class Case(Model):
         Each parameter is what it is on the sites of the chain, so that a job depends on the values.
         """
         found = self._plain(**changes)
-        values = self._values(found["half_width"])
+        values = self._values(chain_sites(found["half_width"], found.get("site_count")))
         return {**found, "model": self.model.plain, "parameters": values}
 
     def cost(self, problem: Mapping) -> Cost:
@@ -329,6 +358,8 @@ class Case(Model):
                 site, place = map(int, name.split(".")[1:])
                 initial[site][place] = value
             elif name in ("half_width", "end_time"):
+                if name == "half_width":
+                    changes["sites"] = None
                 changes[name] = value
             else:
                 changes |= self._varied(name, value)
@@ -347,7 +378,7 @@ class Case(Model):
         return self
 
     def _faults_of_initial(self) -> Iterator[tuple[str, str]]:
-        count, m = len(self.fields), self.half_width
+        count = len(self.fields)
         try:
             _ = self.data
         except ValueError as error:
@@ -359,10 +390,10 @@ class Case(Model):
                 has = f"{len(values)} value{'s' * (len(values) != 1)}"
                 yield "initial", f"site {site} has {has}; give {count}, [{names}]"
         yield from self._needless_imaginary_parts()
-        outside = [site for site in self.data if abs(site) > m]
+        outside = [site for site in self.data if site not in self.chain]
         if outside:
-            text = f"site {outside[0]} lies outside the chain, whose sites run from -{m} to {m}"
-            yield "initial", text
+            ends = f"from {self.chain[0]} to {self.chain[-1]}"
+            yield "initial", f"site {outside[0]} lies outside the chain, whose sites run {ends}"
 
     def _needless_imaginary_parts(self) -> Iterator[tuple[str, str]]:
         """Yield an imaginary part that no equation reads or changes, and that norms would count."""
@@ -467,8 +498,10 @@ class Case(Model):
 
     def _plain(self, **changes) -> dict:
         values = {**self.model_dump(), **changes}
+        count = values.pop("sites", None)
+        counted = {} if count is None else {"site_count": count}
         if "initial" not in changes:
-            values["initial"] = self.data_on(values["half_width"])
+            values["initial"] = self.data_on(chain_sites(values["half_width"], count))
         snapshots, times = values.pop("snapshot_step"), values.pop("times")
         every = round(snapshots / values["output_step"]) if snapshots else 0
         since = [time - values["start_time"] for time in times or []]
@@ -477,7 +510,7 @@ class Case(Model):
             every = gcd(*chosen) or 1
         solver = self._solver_of_run(values["solver"])
         snapshots = {"snapshot_every": every, "snapshots_at": chosen}
-        return {**values, "solver": solver, **snapshots}
+        return {**values, "solver": solver, **snapshots, **counted}
 
     def _solver_of_run(self, solver: dict) -> dict:
         """Return the controls of the solver that runs the case.
@@ -496,7 +529,7 @@ class Case(Model):
         if self.keep == "norms":
             return {**problem, "snapshot_every": 0, "snapshots_at": []}
         every = problem["snapshot_every"] or choose_every(
-            round(cost.span_of(problem) / problem["output_step"]), 2 * problem["half_width"] + 1
+            round(cost.span_of(problem) / problem["output_step"]), len(self.chain)
         )
         return {**problem, "snapshot_every": every}
 

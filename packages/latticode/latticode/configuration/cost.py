@@ -70,8 +70,15 @@ def demand(problem: Mapping) -> Demand:
         peak *= 0.5**0.5  # of both parts of a complex field, whose squares add up to its own
     alike = model.even and not any(isinstance(one, list) for one in problem["parameters"].values())
     even = alike and all(initial.get(-site) == values for site, values in initial.items())
-    sites = problem["half_width"] + 1 if even else 2 * problem["half_width"] + 1
+    even = even and problem.get("site_count") is None
+    sites = problem["half_width"] + 1 if even else _sites_of(problem)
     return Demand(model.rate(problem["parameters"], peak), 0.5 * len(model.fields) * sites)
+
+
+def _sites_of(problem: Mapping) -> float:
+    """Return how many sites the chain of a problem has; the paper's may have a fraction more."""
+    count = problem.get("site_count")
+    return 2 * problem["half_width"] + 1 if count is None else count
 
 
 def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
@@ -81,7 +88,7 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
     """
     solver, every = problem["solver"], problem["snapshot_every"]
     try:
-        needs, sites = measure(problem), 2 * problem["half_width"] + 1
+        needs, sites = measure(problem), _sites_of(problem)
         solvers = [solver]
         if solver["name"] == "auto":
             angle = needs.rate * span_of(problem)
@@ -169,6 +176,7 @@ def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, f
 
 ORDINARY = {
     "half_width": {"half_width": 30},
+    "sites": {"half_width": 30, "site_count": None},
     "output_step": {"output_step": 0.025},
     "end_time": {"start_time": 0.0, "end_time": 50.0},
     "snapshot_step": {"snapshot_every": 0},

@@ -12,8 +12,7 @@ from .values import LONGEST_SHOWN, shown
 
 SOLVERS = tuple(Solvers.model_fields)
 HINTS = {
-    "N": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",
-    "sites": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",
+    "N": "the chain has N = 2 half_width + 1 sites: give half_width, or sites in your own models",
     "M": "the half-width M is called half_width",
     "tau": "the end of the run is called end_time",
 }

@@ -11,6 +11,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, SerializeAsAny, ValidationError, model_validator
 
+from latticode.equations.model_file import chain_sites
 from latticode.integrators.families import remark_on
 from latticode.simulation.problem import name_window
 
@@ -160,8 +161,11 @@ class Configuration(Model):
         if sweep.case not in self.cases:
             return list(self.absent("cases", "case", [sweep.case]))
         case, found = self.cases[sweep.case], []
+        if case.sites is not None:
+            text = "has a number of sites; give it half_width, which a sweep changes"
+            return [("case", f"{sweep.case!r} {text}")]
         try:
-            data = case.data_on(max(sweep.half_widths))
+            data = case.data_on(chain_sites(max(sweep.half_widths)))
         except ValueError as error:
             return [("half_widths", f"case {sweep.case!r}: initial {error}")]
         reach, shortest = max(map(abs, data)), min(sweep.half_widths)

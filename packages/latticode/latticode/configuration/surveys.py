@@ -132,6 +132,8 @@ class Survey(Model):
         for key, names in (("axes", self.axes), ("together", self.together)):
             for name in names:
                 text = survey.fault_of_axis(name, case.varied, case.data, len(case.fields))
+                if name == "half_width" and case.sites is not None:
+                    text = "half_width: the case has a number of sites; give it half_width instead"
                 found += [(key, text)] if text else []
         twice = {name for name in [*self.axes, *self.together] if name in self.keep}
         found += [

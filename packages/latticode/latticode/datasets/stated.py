@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from latticode.simulation.problem import Problem, by_site, write_initial
+from latticode.simulation.problem import Problem, write_initial
 from latticode.simulation.traced import equations_of
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
@@ -23,12 +23,15 @@ OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_e
 def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
     """Return the attributes that say what was solved, and by which controls."""
     about = {key: getattr(problem, key) for key in OF_A_PROBLEM}
+    if problem.site_count is not None:
+        del about["half_width"]
+        about["sites"] = problem.site_count
     about |= {"start_time": problem.start_time} if problem.start_time else {}
     about |= equations_of(problem).describe()
     return {
         "case": name,
         **{key: about[key] for key in sorted(about)},
-        "initial": write_initial(by_site(problem.initial)),
+        "initial": write_initial(problem.data_by_site),
         "solver": solver["name"],
         **{f"solver_{key}": solver[key] for key in solver if key not in ("name", "by_default")},
     }

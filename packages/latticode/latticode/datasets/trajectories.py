@@ -46,7 +46,7 @@ def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, 
     if every:
         grid, moduli = ("component", "site", "snapshot"), trajectory.modulus.astype(np.float32)
         variables |= {
-            "site": _sites(trajectory.modulus.shape[1]),
+            "site": _sites(problem, trajectory.modulus.shape[1]),
             "snapshot_tau": Variable(("snapshot",), trajectory.snapshot_tau),
             "modulus": Variable(grid, moduli, names.modulus, names.units),
         }
@@ -62,8 +62,9 @@ def _norm(name: str, axes: tuple[str, ...], values: np.ndarray, names: ResultNam
     return Variable(axes, values, names.norms and f"{NAMES[name]}{names.norms}", names.units)
 
 
-def _sites(count: int) -> Variable:
-    return Variable(("site",), np.arange(-(count // 2), count // 2 + 1))
+def _sites(problem: Problem, count: int) -> Variable:
+    first = 0 if problem.site_count is not None else -(count // 2)
+    return Variable(("site",), np.arange(first, first + count))
 
 
 def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
@@ -82,7 +83,7 @@ def final_state(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]
         final = np.stack([final.real, final.imag])
     grid = ("part", "component", "site")
     return {
-        "site": _sites(final.shape[-1]),
+        "site": _sites(problem, final.shape[-1]),
         "part": Variable(("part",), list(names.parts), names.part),
         "final": Variable(grid, final, names.final, names.units),
     }

@@ -64,13 +64,17 @@ def placed(error: BaseException, place: str, text: str, name: str) -> str:
     return f"{name}, line {at}: {what}\n    {(line or '').strip()}"
 
 
-def values_at(given: Any, half_width: int) -> float | list[float]:
-    """Return a parameter as a number, or as a list of one for each site -M..M.
+def chain_sites(half_width: int | None, site_count: int | None = None) -> range:
+    """Return the sites of a chain: 0 to site_count - 1 where there is a count, else -M..M."""
+    return range(-half_width, half_width + 1) if site_count is None else range(site_count)
+
+
+def values_at(given: Any, sites: range) -> float | list[float]:
+    """Return a parameter as a number, or as a list of one for each of the sites of a chain.
 
     `given` is a number, a list or an array of one for each site, or a function of the array of
     sites that returns either. Raises ValueError with what is wrong, to stand behind its name.
     """
-    sites = range(-half_width, half_width + 1)
     if callable(given):
         given = call_on_sites(given, np.array(sites))
     values = _as_array(given)

@@ -25,7 +25,7 @@ def linearise(
     this weight: at 0 sites are independent.
     """
     model, values = problem.model, parameters_of(problem)
-    places = _places(model.reach, problem.boundary, problem.half_width, parity)
+    places = _places(model.reach, problem.boundary, problem.sites, parity)
     parts = state.reshape(len(model.rates), -1)
     rows, sites = parts.shape
 
@@ -62,12 +62,12 @@ def linearise(
 
 
 @lru_cache
-def _places(reach: int, boundary: str, half_width: int, parity: int | None) -> np.ndarray:
+def _places(reach: int, boundary: str, sites: int, parity: int | None) -> np.ndarray:
     """Return which site stands at each one, from the first but `reach` to the last and `reach`.
 
     Below it stand its factor in the state, 0 where a site is at rest, and that in a perturbation.
     """
-    ends, sites = ends_of(boundary), 2 * half_width + 1
+    ends, half_width = ends_of(boundary), sites // 2
     seen = np.pad(np.arange(sites) + 1, reach, PADDING[ends.sees]) - 1
     factor = np.full(seen.size, ends.factor)
     factor[reach:-reach] = 1.0

@@ -36,7 +36,7 @@ def growth_at_rest(problem: Problem, still: np.ndarray) -> tuple[np.ndarray, flo
     sizes = np.abs(modes[:, growing]).reshape(len(problem.model.rates), resting.sum(), -1)
     sizes = sizes.max(axis=0)  # (site, mode)
     present = (sizes > PRESENT * sizes.max(axis=0)).any(axis=1)
-    sites = np.flatnonzero(resting)[present] - problem.half_width
+    sites = np.array(problem.site_numbers)[resting][present]
     return sites, float(exponents.real.max())
 
 

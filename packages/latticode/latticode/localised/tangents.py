@@ -75,7 +75,8 @@ def grow(
     cut, count = Reduction(even, synchronised=False), len(tangents)
     if problem.model.form == "dt":  # the second row of a field is zero
         tangents = tangents.real
-    model, at_rest = problem.model.tangent(), np.zeros((2 * tangents.shape[1], 1))
+    at_rest = np.zeros((2 * tangents.shape[1], problem.initial.shape[1]))
+    model = problem.model.tangent()
     system = make_system(problem.changed(model=model, initial=at_rest), cut)
     start = equations_of(problem).start(cut)
     bundle = np.concatenate([start, *(pack(one, cut) for one in tangents)])

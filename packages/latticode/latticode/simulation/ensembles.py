@@ -31,6 +31,20 @@ def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator)
     return wider + size * scale * complex_normal(rng, wider.shape)
 
 
+def perturb_each(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
+    """Return data (field, N) on the sites 0..N-1, each times 1 + size (x + iy) of its own."""
+    return product(initial, 1.0 + size * complex_normal(rng, initial.shape))
+
+
+def perturbed(
+    problem: Problem, initial: np.ndarray, size: float, rng: np.random.Generator, kind: str
+) -> np.ndarray:
+    """Return data of a problem as a member of an ensemble has them."""
+    # a chain of the sites 0..N-1 has no middle to be even about
+    perturbation = PERTURBATIONS[kind] if problem.site_count is None else perturb_each
+    return perturbation(initial, size, rng)
+
+
 PERTURBATIONS = {"even": perturb, "uneven": perturb_unevenly}
 """The kinds of ensembles. The solution of even data is even, and its ensemble is that of even runs;
 an ordinary solver loses evenness by rounding, and what it draws is one of the uneven runs."""
@@ -40,5 +54,6 @@ def draw_members(
     problem: Problem, size: float, members: int, seed: int | list[int], kind: str = "even"
 ) -> list[Problem]:
     """Return as many copies of `problem` with perturbed data; `seed` is that of NumPy."""
-    rng, perturbed = np.random.default_rng(seed), PERTURBATIONS[kind]
-    return [problem.changed(initial=perturbed(problem.initial, size, rng)) for _ in range(members)]
+    rng = np.random.default_rng(seed)
+    drawn = (perturbed(problem, problem.initial, size, rng, kind) for _ in range(members))
+    return [problem.changed(initial=initial) for initial in drawn]

@@ -78,6 +78,8 @@ def sums_over_chain(chain, a, b):
         for n in range(1, reach + 1):
             right, left = centre + n, centre - n
             of_a, of_b = of_a + (a[right] + a[left]), of_b + (b[right] + b[left])
+        if a.size % 2 == 0:  # of an even number of sites the last has no partner
+            of_a, of_b = of_a + a[a.size - 2], of_b + b[a.size - 2]
     return of_a, of_b
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from latticode.equations.ends import ends_of
 from latticode.equations.model import Model
-from latticode.equations.model_file import at_middle
+from latticode.equations.model_file import at_middle, chain_sites
 
 KEPT = ("norms", "moduli", "state")
 """What datasets may have of the snapshots: nothing, moduli in single precision, or beside them the
@@ -29,9 +29,11 @@ class Problem:
     `parameters` are those of the model, where they differ from its own values. `initial` is
     complex, of shape (component, 2r + 1): the fields on the sites -r..r at the start; all sites
     beyond are at rest. `half_width` is M, the chain has the sites -M..M; None stands for an
-    infinite chain. The run starts at `start_time`. `snapshot_every` keeps each component at every
-    site at each so many outputs; 0 keeps none. `snapshots_at` are numbers of outputs: of those that
-    are kept, these alone. `keep` is a name of KEPT: what datasets have of the snapshots.
+    infinite chain. Where there is a `site_count` N, the chain has the sites 0..N-1 instead, and
+    `initial` has the shape (component, N). The run starts at `start_time`. `snapshot_every` keeps
+    each component at every site at each so many outputs; 0 keeps none. `snapshots_at` are numbers
+    of outputs: of those that are kept, these alone. `keep` is a name of KEPT: what datasets have of
+    the snapshots.
 
     Raises ValueError where data lie outside the chain, or there are no such ends.
     """
@@ -48,15 +50,18 @@ class Problem:
     start_time: float = 0.0
     snapshots_at: tuple[int, ...] = ()
     keep: str = "moduli"
+    site_count: int | None = None
 
     def __post_init__(self):
         ends_of(self.boundary)
         initial, fields = np.array(self.initial, complex), self.model.fields
-        if initial.ndim != 2 or len(initial) != len(fields) or initial.shape[1] % 2 == 0:
-            what = " and ".join(fields)
-            raise ValueError(f"data of {what} on an odd number of sites, not {initial.shape}")
-        if self.half_width is not None:
+        wanted = "an odd number of sites" if self.site_count is None else f"{self.site_count} sites"
+        if initial.ndim != 2 or len(initial) != len(fields) or not self._fits(initial.shape[1]):
+            raise ValueError(f"data of {' and '.join(fields)} on {wanted}, not {initial.shape}")
+        if self.half_width is not None and self.site_count is None:
             require_inside(initial.shape[1] // 2, self.half_width)
+        if self.model.form == "dt":
+            initial = initial.real + 0j
         initial.flags.writeable = False
         if self.keep not in KEPT:
             raise ValueError(f"keep is {self.keep!r}; give one of {', '.join(KEPT)}")
@@ -65,12 +70,16 @@ class Problem:
         object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
         object.__setattr__(self, "solver", MappingProxyType(dict(self.solver)))
 
+    def _fits(self, columns: int) -> bool:
+        """Return whether data may have so many columns."""
+        return columns % 2 == 1 if self.site_count is None else columns == self.site_count
+
     @classmethod
     def of(cls, values: Mapping) -> Self:
         """Return the problem that a mapping of plain values describes (see `plain`)."""
         model = values["model"]
         model = model if isinstance(model, Model) else Model.of_plain(model)
-        initial = on_sites(values["initial"], len(model.fields))
+        initial = on_sites(values["initial"], len(model.fields), values.get("site_count"))
         return cls(**{**values, "initial": initial, "model": model})
 
     def plain(self) -> dict[str, Any]:
@@ -78,10 +87,12 @@ class Problem:
 
         The model is its graph, so that no job runs its code again.
         """
+        counted = {} if self.site_count is None else {"site_count": self.site_count}
         return {
             "half_width": self.half_width,
+            **counted,
             "boundary": self.boundary,
-            "initial": by_site(self.initial),
+            "initial": self.data_by_site,
             "end_time": self.end_time,
             "output_step": self.output_step,
             "solver": dict(self.solver),
@@ -116,13 +127,30 @@ class Problem:
         return None
 
     @property
+    def site_numbers(self) -> range:
+        """The sites of the chain: -M..M, or 0..N-1."""
+        return chain_sites(self.half_width, self.site_count)
+
+    @property
     def sites(self) -> int:
-        """The number N = 2M + 1 of sites in the chain."""
-        return 2 * self.half_width + 1
+        """The number N of sites in the chain."""
+        return len(self.site_numbers)
+
+    @property
+    def first_site_of_data(self) -> int:
+        """The site of the first column of `initial`."""
+        return 0 if self.site_count is not None else -(self.initial.shape[1] // 2)
+
+    @property
+    def data_by_site(self) -> dict[int, tuple[complex, ...]]:
+        """The fields {site: (A, B)} at the start, the sites at rest left out."""
+        return by_site(self.initial, self.first_site_of_data)
 
     @property
     def amplitudes(self) -> np.ndarray:
         """The fields on the whole chain at the start, complex of shape (component, N)."""
+        if self.site_count is not None:
+            return self.initial
         return place(self.initial, self.half_width)
 
     @property
@@ -172,24 +200,33 @@ def require_inside(site: int, half_width: int) -> None:
         raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
 
 
-def on_sites(initial: Mapping[int, tuple[complex, ...]], fields: int = 2) -> np.ndarray:
-    """Return data {site: (A, B)} as an array of (field, 2r + 1) amplitudes on the sites -r..r."""
-    reach = max(map(abs, initial), default=0)
-    amplitudes = np.zeros((fields, 2 * reach + 1), complex)
+def on_sites(
+    initial: Mapping[int, tuple[complex, ...]], fields: int = 2, site_count: int | None = None
+) -> np.ndarray:
+    """Return data {site: (A, B)} as an array of (field, 2r + 1) amplitudes on the sites -r..r.
+
+    Where there is a `site_count` N, they are (field, N) on the sites 0..N-1.
+    """
+    sites = chain_sites(max(map(abs, initial), default=0), site_count)
+    amplitudes = np.zeros((fields, len(sites)), complex)
     for site, pair in initial.items():
-        amplitudes[:, reach + site] = pair
+        amplitudes[:, sites.index(site)] = pair
     return amplitudes
 
 
-def by_site(amplitudes: np.ndarray) -> dict[int, tuple[complex, complex]]:
-    """Return amplitudes (2, 2r + 1) as {site: (A, B)}, the sites at rest left out.
+def by_site(
+    amplitudes: np.ndarray, first_site: int | None = None
+) -> dict[int, tuple[complex, ...]]:
+    """Return amplitudes (field, 2r + 1) as {site: (A, B)}, the sites at rest left out.
 
-    Where all are at rest the central site stands for them.
+    Where all are at rest the central site stands for them. The first column is that of
+    `first_site`, or else of -r.
     """
     reach = amplitudes.shape[1] // 2
+    first = -reach if first_site is None else first_site
     moving = np.flatnonzero((amplitudes != 0).any(axis=0))
     columns = moving if moving.size else [reach]
-    return {int(j) - reach: tuple(map(complex, amplitudes[:, j])) for j in columns}
+    return {int(j) + first: tuple(map(complex, amplitudes[:, j])) for j in columns}
 
 
 def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:

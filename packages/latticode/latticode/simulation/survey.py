@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .ensembles import PERTURBATIONS
+from .ensembles import perturbed
 from .problem import Problem
 
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")
@@ -91,13 +91,13 @@ class Surveyed(Sequence):
             if name.startswith("initial."):
                 initial = np.array(self.problem.initial) if initial is None else initial
                 site, field = map(int, name.split(".")[1:])
-                initial[field, initial.shape[1] // 2 + site] = value
+                initial[field, site - self.problem.first_site_of_data] = value
             else:
                 changes[name] = value
         if members := self.survey.members:
             data = self.problem.initial if initial is None else initial
             rng = np.random.default_rng([members.seed, number])
-            initial = PERTURBATIONS[members.kind](data, members.size, rng)
+            initial = perturbed(self.problem, data, members.size, rng, members.kind)
         return self.problem.changed(**changes, **({} if initial is None else {"initial": initial}))
 
 

@@ -101,7 +101,7 @@ def parameters_of(problem: Problem) -> dict[str, float | np.ndarray]:
     found = {}
     for name, given in {**problem.model.parameters, **problem.parameters}.items():
         try:
-            value = values_at(given, problem.half_width)
+            value = values_at(given, problem.site_numbers)
         except ValueError as error:
             raise ValueError(f"parameter {name} {error}") from None
         found[name] = value if np.ndim(value) == 0 else np.array(value)
@@ -219,6 +219,8 @@ class TracedEquations(Equations):
         It has where data, equations and parameters are the same with left and right exchanged.
         """
         problem = self.problem
+        if problem.site_count is not None:  # no site is the middle of the chain 0..N-1
+            return Reduction(even=False, synchronised=False)
         symmetric = problem.model.even and not site_dependent(problem)
         # the far half of an antiperiodic ring has the other sign
         symmetric = symmetric and kind_of(problem.boundary) != ANTIPERIODIC
