@@ -7,7 +7,6 @@ min_version("9.20")
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/settings.smk"
 include: "workflow/rules/base.smk"
 
 
@@ -69,7 +68,7 @@ rule all:
         DATASETS,
         datasets("trajectories", *OWN_CASES),
         datasets("sweeps", *OWN_SWEEPS),
-        [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
+        figure_files(*(f"<results>/figures/{name}" for name in FIGURES)),
         "<results>/claims.json",
         expand("<results>/tables/{name}.md", name=["claims", "claims_figures"]),
         *("<results>/report.html", "<results>/live.html"),
@@ -82,14 +81,14 @@ rule all:
 rule paper:
     "Figs 1 to 6 of the paper, and a table of the claims on them: results/tables/claims_figures.md"
     input:
-        [file for n in range(1, 7) for file in files_of(f"<results>/figures/fig{n}")],
+        figure_files(*(f"<results>/figures/{name}" for name in PAPER_FIGURES)),
         "<results>/tables/claims_figures.md",
 
 
 rule figures:
     "All figures, each as PNG and PDF with the data that it shows"
     input:
-        [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
+        figure_files(*(f"<results>/figures/{name}" for name in FIGURES)),
 
 
 rule theory:
@@ -114,9 +113,9 @@ include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/speed.smk"
 
 
-# What README.md names and no rule is called: those figures, longer studies, cases and sweeps
+# Targets in README.md that have no rule of their own: some figures, longer studies, cases and sweeps
 NAMED = {
-    name: (text, files_of(f"<results>/figures/{name}")) for name, text in MADE_TOGETHER.items()
+    name: (text, figure_files(f"<results>/figures/{name}")) for name, text in MADE_TOGETHER.items()
 }
 LONGER_STUDIES = {
     "fates": "The map of fates on a fine grid, which takes minutes",
@@ -128,7 +127,7 @@ OTHER_CHOICES = {  # what these print is measured again with other choices
 }
 for name, text in LONGER_STUDIES.items():
     figure = name if name in FIGURES else f"pendula_{name}"
-    files = [*files_of(f"<results>/long/figures/{figure}"), *OTHER_CHOICES[name]]
+    files = [*figure_files(f"<results>/long/figures/{figure}"), *OTHER_CHOICES[name]]
     NAMED[name] = f"{text}: results/long/figures/", files
 NAMED["sensitivity"] = (
     "Share of a perturbed ensemble that spreads, with many members: results/long/breathers/",
@@ -138,6 +137,28 @@ NAMED["transition"] = (
     "The transition at Omega = 0 by two clocks, with many members: results/long/chaos/",
     datasets("long/chaos", "lifetimes"),
 )
+OF_MANY_RUNS = {  # datasets whose rules have a wildcard for chunks, so that no rule can be a target
+    "measure_ensembles": (
+        "Chaotic sweeps from data that differ in their last digits",
+        "checks/ensembles",
+    ),
+    "measure_second_solver": (
+        "A chaotic sweep by the paper's second solver, and by that of the ensembles",
+        "checks/second_solver",
+    ),
+    "measure_members": ("Ensembles of every case", "checks/members"),
+    "measure_lifetimes": (
+        "When the chain turns chaotic, and how long its centre stays excited",
+        "checks/lifetimes",
+    ),
+    "solve_transverse": (
+        "The growth of a small A + B where A = -B, and the second front that follows",
+        "long/unbounded/transverse",
+    ),
+    "follow_noise": ("The second front where noise sets A + B going", "long/unbounded/noise"),
+}
+for name, (text, dataset) in OF_MANY_RUNS.items():
+    NAMED[name] = f"{text}: results/{dataset}.nc", [f"<results>/{dataset}.nc"]
 for case in PAPER_CASES:
     runs = [f"{case}.{solver}" for solver in ALL_SOLVERS]
     NAMED[case] = f"The case {case} by every solver", datasets("trajectories", case, *runs)
@@ -172,16 +193,16 @@ for target in workflow.rules:
 
 
 onstart:
-    refuse_folders_that_are_read_only()
+    REFUSALS.refuse_read_only_results()
     if workflow.executor_plugin.name == "slurm":
-        refuse_what_slurm_never_starts()
+        REFUSALS.refuse_endless_requests()
 
 
-# Said when Snakemake has ended, below its own last lines
+# Printed when Snakemake has ended, below its own last lines
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
-        tell_faults()
+        report_comparison()
 
 
 onerror:
-    atexit.register(print, what_failed(), file=sys.stderr)
+    atexit.register(print, failures_in_words(), file=sys.stderr)

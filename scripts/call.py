@@ -1,12 +1,13 @@
-"""A Snakemake job that calls a function of the library with the paths of its inputs and outputs."""
+"""A Snakemake job that calls a function with the paths of its inputs and outputs."""
 
-from job import arguments, called, run
+from pendula.contract.arguments import function_of, load_arguments
+from pendula.contract.log import run
 
 
 def call(snakemake) -> None:
     """Call the function that `params.call` names; it reads and writes its files itself."""
-    (function,) = called(snakemake)
-    function(**arguments(snakemake), **dict(snakemake.output.items()))
+    function = function_of(snakemake.params.call)
+    function(**load_arguments(function, snakemake, {}).values)
 
 
 if __name__ == "__main__":

@@ -1,118 +1,96 @@
-"""A Snakemake job that computes datasets: its function is given what it takes, and returns them."""
+"""A Snakemake job that computes datasets: it calls a function, and writes what this returns."""
 
-from collections.abc import Mapping, Sequence
-from inspect import isgenerator, signature
-from pathlib import Path
+from pendula.contract.log import Progress, run  # first: its hook logs an import that fails
+
+# isort: split
+
+import re
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import pendula.names  # noqa: F401, so that datasets have the paper's words
-from job import arguments, called, datasets_in, name_of, run, step
 from latticode.datasets.netcdf import Variable, read, save, write
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
 from latticode.datasets.trajectories import Contents
+from latticode.simulation import problem
 from latticode.simulation.runs import ManyRuns, joined, run_part
-from pendula.problem import Problem, by_name
+from pendula.contract.arguments import Arguments, function_of, load_arguments
+from pendula.problem import Problem
+from xarray import Dataset
 
-STEPS = 20
-"""How often the log of a job that makes many runs says how many are done."""
+KINDS = {Dataset: read, Problem: Problem.of, problem.Problem: Problem.of}
+"""How arguments are made of paths and of plain values, by the annotation of the parameter."""
 
 
-def make(snakemake) -> None:
-    """Write what the function that `params.call` names returns, or all that it yields.
+def compute(snakemake) -> None:
+    """Write what the function that `params.call` names returns, or each dataset that it yields.
 
     This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. Each
-    dataset states what the function was given, where the function does not state it already. A
-    function that takes `step` is told by it how to say how far it is.
+    dataset records the arguments of the function as attributes, unless the function has recorded
+    them itself.
 
-    The runs of `ManyRuns` are all made here, or read from the input `chunks`. A job with the
-    parameter `chunk`, such as [2, 8], makes and writes every eighth run from number 2 on.
+    A study may return `ManyRuns`. The job makes them all, or reads them from `input.chunks`; a job
+    with the wildcard `chunk`, such as ".parts/2-of-8", makes and writes every eighth of them.
     """
-    (function,) = called(snakemake)
-    files = {name: datasets_in(value) for name, value in arguments(snakemake).items()}
-    given = {name: taken(name, value) for name, value in arguments(snakemake).items()}
-    plain = {name: value for name, value in given.items() if not files[name]}
-    names = [name_of(path) for paths in files.values() for path in paths]
-    if "step" in signature(function).parameters:
-        given.setdefault("step", step)
-    made = function(**given)
-    if isinstance(made, ManyRuns):
-        if chunk := snakemake.params.get("chunk"):
-            retained = run_part(made.problems, made.retain, *chunk, report_progress)
-            return write(snakemake.output[0], *chunk_contents(retained))
-        made = made.conclude(retained_of(made, snakemake.input.get("chunks")))
-    for path, contents in zip(snakemake.output, made if isgenerator(made) else [made], strict=True):
-        told = of_output(path, plain)
-        if isinstance(contents, tuple):
-            variables, attributes = contents
-            said = stated(told, variables, names, function)
-            write(path, variables, said | own(attributes))
-        else:
-            said = stated(told, map(str, contents.variables), names, function)
-            save(path, contents.assign_attrs({**contents.attrs, **(said | own(contents.attrs))}))
+    function = function_of(snakemake.params.call)
+    arguments = load_arguments(function, snakemake, KINDS)
+    result = function(**arguments.values)
+    if isinstance(result, ManyRuns):
+        if chunk := snakemake.wildcards.get("chunk"):
+            return write_chunk(snakemake.output[0], result, chunk)
+        result = result.conclude(retained_of(result, snakemake.input.get("chunks")))
+    results = [result] if len(snakemake.output) == 1 else result
+    for path, contents in zip(snakemake.output, results, strict=True):
+        save_with_provenance(path, contents, function, arguments)
 
 
-def report_progress(done: int, count: int) -> None:
-    """Log how many runs are done, STEPS times in all."""
-    if done % max(1, count // STEPS) == 0:
-        step(f"{done} of {count} runs done")
+def save_with_provenance(
+    path: str, contents: Dataset | Contents, function: Callable, arguments: Arguments
+) -> None:
+    """Write a dataset with attributes that say which function computed it, from what."""
+    names = [name for names in arguments.sources.values() for name in names]
+    if isinstance(contents, tuple):
+        variables, attributes = contents
+        provenance = stated(arguments.settings, variables, names, function)
+        write(path, variables, provenance | without_provenance(attributes))
+    else:
+        variables = map(str, contents.variables)
+        provenance = stated(arguments.settings, variables, names, function)
+        attributes = {**contents.attrs, **provenance, **without_provenance(contents.attrs)}
+        save(path, contents.assign_attrs(attributes))
+
+
+def without_provenance(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return attributes without those on computation, which may be copied from another dataset."""
+    of_others = (COMPUTED_BY, COMPUTED_FROM)
+    return {key: value for key, value in attributes.items() if key not in of_others}
 
 
 def retained_of(runs: ManyRuns, files: Sequence[str] | None) -> dict[str, np.ndarray]:
     """Return what is retained of all runs: read from files of chunks, or made if there are none."""
     if files:
-        return joined(map(arrays_of, files))
-    return run_part(runs.problems, runs.retain, progress=report_progress)
+        return joined(map(arrays_in, files))
+    return run_part(runs.problems, runs.retain, progress=Progress())
 
 
-def chunk_contents(found: Mapping[str, np.ndarray]) -> Contents:
-    """Return the contents of the dataset of a chunk of the runs."""
+def write_chunk(path: str, runs: ManyRuns, chunk: str) -> None:
+    """Make the runs of one chunk, such as ".parts/2-of-8", and write what is retained of them."""
+    number, count = map(int, re.findall(r"\d+", chunk))
+    retained = run_part(runs.problems, runs.retain, number - 1, count, Progress())
     variables = {
         name: Variable(
             ("run", *(f"{name}_{axis}" for axis in range(1, values.ndim))), values, "of each run"
         )
-        for name, values in found.items()
+        for name, values in retained.items()
     }
-    return variables, {"title": "A part of many runs"}
+    write(path, variables, {"title": "A part of many runs"})
 
 
-def arrays_of(path: str) -> dict[str, np.ndarray]:
-    """Return what the dataset of a chunk holds."""
-    return {str(name): one.values for name, one in read(path).data_vars.items()}
-
-
-def own(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return attributes without what a copy of those of another dataset would say of its making."""
-    return {key: one for key, one in attributes.items() if key not in (COMPUTED_BY, COMPUTED_FROM)}
-
-
-def of_output(path: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the arguments, of a table by the names of the outputs only the entry of this one."""
-    found = {}
-    for name, value in given.items():
-        names = value if isinstance(value, Mapping) else ()
-        own = [key for key in names if path.endswith(f"/{key}.nc")]
-        entry = value[max(own, key=len)] if own else value
-        found |= entry if own and isinstance(entry, Mapping) else {name: entry}
-    return found
-
-
-def taken(name: str, value: Any) -> Any:
-    """Return what the function is given for an input or a parameter.
-
-    The path of a dataset becomes the dataset, and many paths a mapping of datasets by name. Plain
-    values that describe a problem become a Problem.
-    """
-    if isinstance(value, str) and datasets_in(value):
-        return read(value)
-    if datasets_in(value):
-        return {Path(path).stem: read(path) for path in datasets_in(value)}
-    if name.endswith("problem"):
-        return Problem.of(value)
-    if name.endswith("problems"):
-        return by_name(value) if isinstance(value, dict) else [Problem.of(one) for one in value]
-    return value
+def arrays_in(path: str) -> dict[str, np.ndarray]:
+    """Return what the dataset of a chunk holds, by name."""
+    return {str(name): array.values for name, array in read(path).data_vars.items()}
 
 
 if __name__ == "__main__":
-    run(make, snakemake)  # noqa: F821
+    run(compute, snakemake)  # noqa: F821

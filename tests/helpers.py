@@ -31,7 +31,8 @@ def skip(reason: str, way: str) -> NoReturn:
 
 def python_path(project: Path = ROOT) -> str:
     """Return the folders in which Python finds the packages of a copy of the project."""
-    return os.pathsep.join(str(project / place) for place in ("packages/latticode", "scripts"))
+    places = "packages/latticode", "scripts", ""
+    return os.pathsep.join(str(project / place) for place in places)
 
 
 def package(module: str, install: str) -> ModuleType:
@@ -55,6 +56,7 @@ def snakemake(
     configuration = project / "config/quick.yaml"
     if settings is not None:
         (configuration := directory / "mine.yaml").write_text(yaml.safe_dump(settings))
+    variables = {"PYTHONPATH": python_path(project)} | variables
     return run_ready(command_of(project, directory, configuration, *arguments), **variables)
 
 

@@ -12,6 +12,7 @@ from rooms import Rooms, circles_in
 
 LIBRARY = SCRIPTS / "pendula"
 STOREYS = (
+    ("workflow",),
     ("live",),
     ("notebook",),
     ("article", "own_cases"),
@@ -21,6 +22,7 @@ STOREYS = (
     ("many_cases", "varied"),
     ("configuration",),
     ("models", "feasibility", "problem", "names"),
+    ("contract",),
     ("sources",),
 )
 """The rooms from the top down: an import points down, or stays in its room."""

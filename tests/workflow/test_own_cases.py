@@ -73,29 +73,38 @@ def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, chan
     changed["cases"]["sea"]["omega"] = 0.5
     changed["cases"]["fig5"]["omega"] = 7.5
     assert planned(ROOT, made, "own", settings=changed) == {
-        "trajectory": 2, "own_checks": 2, "own_figures": 2, "sweep": 1, "own_sweep_figure": 1,
-        "own_table": 3, "own": 1,
-    }  # fmt: skip
+        "trajectory": 2,
+        "own_checks": 2,
+        "own_norms": 2,
+        "own_spacetime": 2,
+        "sweep": 1,
+        "own_sweep_figure": 1,
+        "own_table": 3,
+        "own": 1,
+    }
 
 
 def test_a_lost_part_is_made_again_alone(made, changed):
-    """A survey has no more parts than runs, and as many as are there if none are asked for.
+    """A survey has no more chunks than runs, whether or not it gives their number.
 
     tests/studies/test_parts.py shows that the number of parts changes no bit.
     """
     assert len([*made.glob("results/surveys/map.parts/*-of-3.nc")]) == 3
-    for name in ("map.nc", "map.parts/0-of-3.nc"):
+    for name in ("map.nc", "map.parts/1-of-3.nc"):
         (made / "results/surveys" / name).unlink()
     del changed["surveys"]["map"]["chunks"]
     again = planned(ROOT, made, "results/surveys/map.nc", settings=changed)
-    assert again == {"part": 1, "survey": 1}
+    assert again == {"survey": 2}  # the chunk, and the survey of all chunks
 
 
 def test_chunks_split_the_runs_of_a_study_into_jobs(tmp_path):
     """The references in multiprecision are made where they are asked for by name."""
     datasets = {"fates": 1, "sensitivity": 1, "unbounded": 10, "fig5_left": 2}
-    jobs = planned(ROOT, tmp_path, *datasets, "reference", "--config", "chunks=8")
-    assert jobs["part"] == 8 * sum(datasets.values())
+    jobs = planned(ROOT, tmp_path, *datasets, "reference", "--set-scatter", "runs=8")
+    rules = {"map_fates", "measure_sensitivity", "spread", "spread_again"}
+    rules |= {"run_transverse", "run_noise", "sweep", "sweep_by_second_solver"}
+    count = sum(datasets.values())
+    assert sum(jobs.get(rule, 0) for rule in rules) == 8 * count + count
     assert jobs["reference_case"] == 6
 
 

@@ -10,7 +10,7 @@ from helpers import change, edit, planned
 
 SIMULATIONS = {"trajectory", "measure_solvers", "sweep", "sweep_by_second_solver"}
 MEASURES = {
-    *("measure_lyapunov", "measure_ensembles", "measure_lifetimes", "measure_members"),
+    *("measure_lyapunov", "run_ensembles", "run_lifetimes", "run_members"),
 }
 
 

@@ -7,7 +7,7 @@ import yaml
 from helpers import ROOT, package, planned, run_ready
 from pendula.configuration.cases import Case
 from pendula.configuration.cost import estimate
-from requests_of_slurm import never_started
+from pendula.workflow.slurm_requests import requests_above_limits
 
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/profile.yaml").read_text())
 THIS_MACHINE = {"cores", "scheduler", "executor", "forked-modules"}
@@ -36,7 +36,7 @@ def test_what_fails_for_a_reason_is_not_tried_twice_but_what_lost_its_node_is():
 PLANNED = """
 include: "{project}/Snakefile"
 for case in ("short", "long"):
-    cost = asked(lambda wildcards: SETTINGS.cost_of(wildcards))
+    cost = resources_for(lambda wildcards: SETTINGS.cost_of(wildcards))
     print("asks", *(cost[name](case, attempt) for attempt in (1, 2) for name in cost))
 for rule in ("trajectory", "trajectory_by_solver", "sweep", "sweep_by_second_solver", "own_checks"):
     print("of", rule, *sorted({{"mem_mb", "runtime"}} & set(workflow.get_rule(rule).resources)))
@@ -101,12 +101,14 @@ SINFO = "short*|2:00:00\nlong|2-00:00:30\nfree|infinite\nshort*|2:00:00\nbrief|3
 )
 def test_a_request_above_the_limit_of_its_partitions_is_told(partitions, minutes, limit):
     """Slurm would let such a job wait for ever, and Snakemake for the job."""
-    said = never_started([("fates", partitions, 1), ("fates", partitions, minutes)], SINFO)
-    assert len(said) == (limit is not None)
-    if said:
-        assert f"fates asks for {minutes} minutes" in said[0] and f"allows {limit:g}," in said[0]
-        assert f"the partition {partitions or 'that is the default'} of Slurm" in said[0]
-    assert never_started([("fates", partitions, minutes)], "") == []  # where sinfo says nothing
+    requests = [("fates", partitions, 1), ("fates", partitions, minutes)]
+    reasons = requests_above_limits(requests, SINFO)
+    assert len(reasons) == (limit is not None)
+    if reasons:
+        assert f"fates requests {minutes} minutes" in reasons[0]
+        assert f"allows only {limit:g}, so the job would never start" in reasons[0]
+        assert f"Slurm's {partitions or 'default'} partition" in reasons[0]
+    assert requests_above_limits(requests, "") == []  # where sinfo prints nothing
 
 
 def test_the_lines_that_a_user_uncomments_leave_a_profile():

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 from helpers import ROOT, edit, skip, snakemake
-from reasons import NO_LOG, WORDLESS, why_jobs_failed
+from pendula.workflow.failures import NO_LOG, NO_REASON, causes_of_failures
 
 TARGETS = "results/pendula/threshold.nc", "fig1", "results/kernels/dop853.txt"
 
@@ -13,8 +13,8 @@ def test_an_import_that_fails_and_a_signal_are_told_and_the_rest_is_made(clone, 
     edit(clone / "scripts/dataset.py", "from latticode.datasets.netcdf", "import absent\nfrom p")
     edit(
         clone / "scripts/figure.py",
-        "    files = {",
-        "    import os; os.kill(os.getpid(), 9)\n    files = {",
+        "    gather = gather_for",
+        "    import os; os.kill(os.getpid(), 9)\n    gather = gather_for",
     )
     folder = tmp_path / "folder"
     folder.mkdir()
@@ -26,13 +26,13 @@ def test_an_import_that_fails_and_a_signal_are_told_and_the_rest_is_made(clone, 
     assert log.read_text().startswith(f"failed: {said}\nTraceback")
     assert (folder / TARGETS[-1]).exists()
     assert any("killed by SIGKILL: the system does this if memory" in line for line in last), last
-    assert WORDLESS not in result.stderr
+    assert NO_REASON not in result.stderr
 
 
 @pytest.mark.parametrize("quiet", ["--quiet=rules", "--quiet=all"])
 def test_a_run_that_was_told_to_be_quiet_ends_with_the_reason_too(clone, tmp_path, quiet):
     """Snakemake then leaves the errors of jobs out of its own log, and all else by `all`."""
-    edit(clone / "scripts/figure.py", "    files = {", "    1 / 0\n    files = {")
+    edit(clone / "scripts/figure.py", "    gather = ", "    1 / 0\n    gather = ")
     (folder := tmp_path / "folder").mkdir()
     result = snakemake(clone, folder, quiet, "fig1")
     log = folder / "results/logs/figures/fig1.log"
@@ -44,9 +44,9 @@ def test_a_run_that_was_told_to_be_quiet_ends_with_the_reason_too(clone, tmp_pat
 
 
 def test_a_call_that_is_rejected_gives_its_reason_by_quiet_all_too(tmp_path):
-    result = snakemake(ROOT, tmp_path, "--quiet=all", "--config", "chunks=x")
+    result = snakemake(ROOT, tmp_path, "--quiet=all", "--config", "bits=x")
     assert result.returncode == 1
-    assert result.stderr.count("chunks=x: give a whole number of jobs") == 1
+    assert result.stderr.count("bits=x: the only value is bits=any") == 1
 
 
 @pytest.fixture
@@ -64,12 +64,12 @@ FILL = """    import contextlib
     with contextlib.suppress(OSError), open("fill", "wb", buffering=0) as fill:
         while fill.write(bytes(512)):
             pass
-    files = {"""
+    gather = gather_for"""
 
 
 def test_a_disk_that_is_full_is_the_reason(clone, small_disk):
     """Not even a line of a log fits on it then, of the job or of Snakemake."""
-    edit(clone / "scripts/figure.py", "    files = {", FILL)
+    edit(clone / "scripts/figure.py", "    gather = gather_for", FILL)
     result = snakemake(clone, small_disk, "fig1", "results/kernels/dop853.txt")
     assert result.returncode == 1
     assert "No space left on device (is the disk full? " in result.stderr
@@ -125,6 +125,6 @@ REASONS = [
 def test_the_reason_of_a_job_of_slurm(tmp_path, state, own, screen, says):
     (tmp_path / "own.log").write_text(own)
     (tmp_path / "slurm.log").write_text(screen)
-    ((reason, more),) = why_jobs_failed(SLURM.format(state=state, folder=tmp_path))
+    ((reason, more),) = causes_of_failures(SLURM.format(state=state, folder=tmp_path))
     assert says in reason
     assert more == str(tmp_path / ("own.log" if own or not screen else "slurm.log"))

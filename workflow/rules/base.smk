@@ -1,6 +1,11 @@
-# What jobs share. A rule of a study is one of these with its name, what it takes and what it calls:
-# `made` is its place below the results, which names its output and its log too. No file has the name
-# that these three ask for, so that none is a target.
+# What jobs share. A rule of a study is one of these with its name, its inputs and what it calls. `made` is its
+# path below results/, from which its output and log are named. In these three base rules the pattern matches no
+# file name, so that none can be run as a target.
+#
+# Named inputs and parameters are the arguments of the function, which its annotations make datasets and problems
+# (scripts/pendula/contract/arguments.py). An input without a name, such as a kernel, is waited for. No arguments are
+# `call` (the function, with a hash of its code), `code` (a hash of the script), `unlike_paper` of a figure, and
+# among inputs `chunks`, into which the runs of a study are split.
 
 
 rule job:
@@ -14,7 +19,7 @@ rule job:
     conda:
         environment("pinned")
     params:
-        code=digest("call.py"),
+        code=script_digest("call.py"),
     message:
         "Writing {output}"
     script:
@@ -32,7 +37,7 @@ rule dataset:
     conda:
         environment("pinned")
     params:
-        code=digest("dataset.py"),
+        code=script_digest("dataset.py"),
     message:
         "Computing {output}"
     script:
@@ -42,36 +47,18 @@ rule dataset:
 rule figure:
     "Base of a job that draws a figure: gather_... returns what draw_... draws"
     output:
-        figure_files("<results>/<made>"),
+        figure_outputs("<results>/<made>"),
     log:
         "<logs>/<made>.log",
     pathvars:
         made="{made,(?!)}",
-    priority: -1  # after datasets, of which the last are followed by claims, one after the other
+    priority: -1  # datasets first: the last ones are followed by claims, which run one after another
     conda:
         environment("pinned")
     params:
-        code=digest("figure.py"),
-        differs=differs_of,
+        code=script_digest("figure.py"),
+        unlike_paper=differs_of,
     message:
         "Drawing {output[0]}"
     script:
         "../../scripts/figure.py"
-
-
-# Many runs are made in parts if --config chunks= asks for it: by jobs that fill the cores here and the nodes
-# of a cluster. A part that is there is not made again; the number of parts changes no bit.
-
-
-use rule dataset as part with:
-    "A part of the runs of a dataset: results/{whole}.parts/{part}-of-{parts}.nc"
-    input:
-        kernels=lambda wildcards: given_to(wildcards.whole)[1],
-    pathvars:
-        made="{whole}.parts/{part,[0-9]+}-of-{parts,[0-9]+}",
-    resources:
-        **asked(cost_of_part),
-    params:
-        call=lambda wildcards: given_to(wildcards.whole)[0]["call"],
-        given=lambda wildcards: given_to(wildcards.whole)[0],
-        chunk=lambda wildcards: [int(wildcards.part), int(wildcards.parts)],

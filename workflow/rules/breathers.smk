@@ -1,6 +1,6 @@
 # Breathers: states that stay at one pair, what becomes of data there, and which of them spread.
 BREATHERS = SETTINGS.breathers
-FINE_MAPS = committed(fine="tests/baseline/quoted/breathers.nc")
+FINE_MAPS = committed("tests/baseline/quoted/breathers.nc")
 FATES = BREATHERS.fates
 RUN_OF_FATES = {
     **values_of(FATES, "tolerance", "half_width", "end_time"),
@@ -32,29 +32,29 @@ use rule dataset as periodic_breathers with:
 use rule dataset as measure_sensitivity with:
     "Share of runs that spread, by the size of a random change of the data"
     input:
-        kernels=kernels("taylor"),
-        chunks=parts_of("{size}breathers/sensitivity"),
+        kernels("taylor"),
+        chunks=chunks_of("{size}breathers/sensitivity"),
     pathvars:
-        made="<size>breathers/sensitivity",
+        made="<size>breathers/sensitivity<chunk>",
     resources:
-        **asked(cost_of_study),
+        **resources_for(cost_of_study),
     params:
         **values_of(BREATHERS.sensitivity, "sizes", "seed"),
+        **by_size(BREATHERS.sensitivity, "members"),
         call=function("pendula.studies.breathers.sensitivity.sensitivity_contents"),
         name=BREATHERS.sensitivity.case,
         problem=run_of(**values_of(BREATHERS.sensitivity, "case", "tolerance", "end_time")),
-        given=sized(BREATHERS.sensitivity, "members"),
 
 
 use rule dataset as map_fates with:
     "What becomes of data on one pair: they disperse, stay, move or spread"
     input:
-        kernels=kernels("taylor"),
-        chunks=parts_of("{size}breathers/fates"),
+        kernels("taylor"),
+        chunks=chunks_of("{size}breathers/fates"),
     pathvars:
-        made="<size>breathers/fates",
+        made="<size>breathers/fates<chunk>",
     resources:
-        **asked(cost_of_study),
+        **resources_for(cost_of_study),
     params:
         call=function("pendula.studies.breathers.fates.map_fates"),
         problems={
@@ -66,17 +66,17 @@ use rule dataset as map_fates with:
             )
             for omega in FATES.omegas
         },
-        amplitudes=lambda wildcards: FATES.amplitudes(of_size(FATES, wildcards).points),
+        amplitudes=lambda wildcards: FATES.amplitudes(section_of_size(FATES, wildcards).points),
 
 
 use rule dataset as vary_areas with:
     "The parts of the map of fates at Omega = -4, with each choice changed"
     input:
-        kernels=kernels("taylor"),
+        kernels("taylor"),
     pathvars:
         made="long/breathers/areas",
     resources:
-        **asked(lambda _: LONG),
+        **resources_for(long_study),
     params:
         call=function("pendula.studies.breathers.other_choices.vary_areas"),
         problem=run_of("fig3_large", **values_of(BREATHERS, "epsilon", "gamma"), **RUN_OF_FATES),
@@ -88,11 +88,11 @@ use rule dataset as vary_areas with:
 use rule dataset as vary_shares with:
     "Share of runs that spread, with each choice changed"
     input:
-        kernels=kernels("taylor"),
+        kernels("taylor"),
     pathvars:
         made="long/breathers/shares",
     resources:
-        **asked(lambda _: LONG),
+        **resources_for(long_study),
     params:
         **values_of(BREATHERS.sensitivity, "sizes"),
         **values_of(BREATHERS.sensitivity.long),
@@ -109,7 +109,7 @@ use rule dataset as vary_least_power with:
     pathvars:
         made="long/breathers/least_power",
     resources:
-        **asked(lambda _: LONG),
+        **resources_for(long_study),
     params:
         **values_of(BREATHERS.periodic.long, "frequencies", "variations"),
         call=function("pendula.studies.breathers.other_choices.vary_least_power"),
@@ -129,11 +129,11 @@ use rule figure as draw_fates with:
     params:
         call=function("pendula.studies.breathers.figures.draw_fates"),
         # the maps of `snakemake fates` as they are committed, for all but these themselves
-        committed=lambda wildcards: {} if wildcards.size else FINE_MAPS,
+        fine=lambda wildcards: None if wildcards.size else FINE_MAPS,
 
 
 rule breathers:
     "States that stay at one pair, and which data stay or spread: datasets and a figure"
     input:
         datasets=datasets("breathers", "steady", "periodic", "sensitivity", "fates"),
-        figures=files_of("<results>/figures/fates"),
+        figures=figure_files("<results>/figures/fates"),

@@ -10,63 +10,66 @@ SPECTRUM = LYAPUNOV.spectrum
 use rule dataset as measure_lyapunov with:
     "Lyapunov exponents of every case, and all of them on short chains"
     input:
-        kernels=kernels("dop853"),
+        kernels("dop853"),
     pathvars:
         made="checks/lyapunov",
     params:
         **values_of(LYAPUNOV, "span", "members", "size", "seed"),
         call=function("pendula.studies.chaos.lyapunov.measure_lyapunov"),
-        problems=followed(PAPER_CASES, LYAPUNOV.tolerance, "dop853"),
-        short_problems=followed(
+        problems=SETTINGS.runs_of_cases(PAPER_CASES, LYAPUNOV.tolerance, "dop853"),
+        short_problems=SETTINGS.runs_of_cases(
             SPECTRUM.cases,
             SPECTRUM.tolerance,
             "dop853",
             half_width=SPECTRUM.half_width,
-            end_time=SPECTRUM.lengths * longest(SPECTRUM.cases),
+            end_time=SPECTRUM.lengths * SETTINGS.latest_end(SPECTRUM.cases),
         ),
-        undriven_end=SPECTRUM.undriven_lengths * longest(SPECTRUM.cases),
+        undriven_end=SPECTRUM.undriven_lengths * SETTINGS.latest_end(SPECTRUM.cases),
 
 
-use rule dataset as measure_ensembles with:
+use rule dataset as run_ensembles with:
     "Chaotic sweeps from data that differ in their last digits"
     input:
-        kernels=kernels("taylor"),
-        chunks=parts_of("checks/ensembles"),
+        kernels("taylor"),
+        chunks=chunks_of("checks/ensembles"),
     pathvars:
-        made="checks/ensembles",
+        made="checks/ensembles<chunk>",
     params:
         **values_of(ENSEMBLES, "size", "seed"),
         call=function("pendula.studies.chaos.ensembles.measure_ensembles"),
-        swept={name: {**member_of(name), **dict(one)} for name, one in ENSEMBLES.sweeps.items()},
+        swept={
+            sweep: {**SETTINGS.chaos.member_of(SETTINGS, sweep), **dict(ensemble)}
+            for sweep, ensemble in ENSEMBLES.sweeps.items()
+        },
 
 
-use rule dataset as measure_second_solver with:
+use rule dataset as run_second_solver with:
     "A chaotic sweep by the paper's second solver with two steps, and by the solver of the ensembles"
     input:
-        kernels=kernels("taylor", "crank_nicolson"),
-        chunks=parts_of("checks/second_solver"),
+        kernels("taylor", "crank_nicolson"),
+        chunks=chunks_of("checks/second_solver"),
     pathvars:
-        made="checks/second_solver",
+        made="checks/second_solver<chunk>",
     params:
         **values_of(SECOND, "half_widths", "members", "first_members", "seed"),
         call=function("pendula.studies.chaos.ensembles.measure_second_solver"),
-        first=member_of(SECOND.sweep)["problem"],
-        second=by_second_solver(SECOND.sweep),
-        windows=member_of(SECOND.sweep)["windows"],
+        first=SETTINGS.chaos.member_of(SETTINGS, SECOND.sweep)["problem"],
+        second=SETTINGS.chaos.by_second_solver(SETTINGS, SECOND.sweep),
+        windows=SETTINGS.chaos.member_of(SETTINGS, SECOND.sweep)["windows"],
         size=ENSEMBLES.size,
 
 
-use rule dataset as measure_members with:
+use rule dataset as run_members with:
     "Ensembles of every case: bands of its norms, and the numbers that sentences of the paper are about"
     input:
-        kernels=kernels("taylor"),
-        chunks=parts_of("checks/members"),
+        kernels("taylor"),
+        chunks=chunks_of("checks/members"),
     pathvars:
-        made="checks/members",
+        made="checks/members<chunk>",
     params:
         **values_of(MEMBERS, "windows", "members", "size", "seed"),
         call=function("pendula.studies.chaos.members.member_numbers"),
-        problems=followed(
+        problems=SETTINGS.runs_of_cases(
             PAPER_CASES,
             MEMBERS.tolerance,
             end_time=max(end for _, end in MEMBERS.windows),
@@ -75,13 +78,13 @@ use rule dataset as measure_members with:
         ),
 
 
-use rule dataset as measure_lifetimes with:
+use rule dataset as run_lifetimes with:
     "Ensembles that show when the chain turns chaotic and how long its centre stays excited"
     input:
-        kernels=kernels("taylor"),
-        chunks=parts_of("checks/lifetimes"),
+        kernels("taylor"),
+        chunks=chunks_of("checks/lifetimes"),
     pathvars:
-        made="checks/lifetimes",
+        made="checks/lifetimes<chunk>",
     params:
         **values_of(LIFETIMES, *STARTS, *CLOCKS, "members"),
         call=function("pendula.studies.chaos.lifetimes.measure_lifetimes"),
@@ -91,11 +94,11 @@ use rule dataset as measure_lifetimes with:
 use rule dataset as vary_lifetimes with:
     "The same times with many members, and again with each choice changed"
     input:
-        kernels=kernels("taylor"),
+        kernels("taylor"),
     pathvars:
         made="long/chaos/lifetimes",
     resources:
-        **asked(lambda _: LONG),
+        **resources_for(long_study),
     params:
         **values_of(LIFETIMES, *STARTS),
         **values_of(LIFETIMES.long),

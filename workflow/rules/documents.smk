@@ -1,7 +1,6 @@
 # The report, a page that runs the paper's solver in a browser, the article, and everything in one file to
 # deposit. The archive is not part of the full run. Unpacked elsewhere, it holds finished results:
 # `snakemake -n` has nothing to do there, `snakemake figures` draws them anew.
-from importlib.metadata import version
 
 
 use rule job as report with:
@@ -22,7 +21,7 @@ use rule job as report with:
 use rule job as live with:
     "results/live.html: a page that integrates the cases of Figs 2 to 4, and compares their bits"
     input:
-        runs=runs_by("ode45"),
+        runs=runs_by(SETTINGS, "ode45"),
         trust="<results>/checks/trust.nc",
     output:
         html="<results>/live.html",
@@ -46,13 +45,15 @@ use rule job as article with:
     pathvars:
         made="article",
     params:
-        call=function("pendula.article.write.write_article"),
-        committed=committed(committed_results=QUOTED),
-        digests=[version(name) for name in ("typst", "pypandoc_binary")],
+        call=function(
+            "pendula.article.write.write_article",
+            also=[version(name) for name in ("typst", "pypandoc_binary")],
+        ),
+        committed_results=[committed(path) for path in QUOTED],
         differs=DIFFERS,
 
 
-ARCHIVE = f"<results>/archive/pendula-{__version__}.tar.gz"
+ARCHIVE = f"<results>/archive/pendula-{pendula.__version__}.tar.gz"
 
 
 use rule job as archive with:
@@ -65,7 +66,9 @@ use rule job as archive with:
     pathvars:
         made="archive",
     params:
-        call=function("replication.archive.pack.pack_results"),
+        call=lambda wildcards: function(
+            "replication.archive.pack.pack_results",
+            also=[digest_of(PROJECT / name) for name in code_files(PROJECT)],
+        ),
         made_by=lambda wildcards: code_of_jobs(),
-        digests=lambda wildcards: {name: digest_of(PROJECT / name) for name in code_files(PROJECT)},
         configuration=lambda wildcards: config,

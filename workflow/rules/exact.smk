@@ -19,8 +19,10 @@ use rule dataset as certify_curve with:
     params:
         call=function("pendula.studies.certified.contents.curve_contents"),
         name="{case}",
-        problem=lambda wildcards: certified_problem(wildcards.case),
-        given=lambda wildcards: CERTIFIED.frames.get(wildcards.case, CERTIFIED.default_frames).model_dump(),
+        problem=lambda wildcards: stopping(CERTIFIED.problem)(SETTINGS, wildcards.case),
+        bits=lambda wildcards: CERTIFIED.frames_of(wildcards.case).bits,
+        order=lambda wildcards: CERTIFIED.frames_of(wildcards.case).order,
+        outputs_per_frame=lambda wildcards: CERTIFIED.frames_of(wildcards.case).outputs_per_frame,
 
 
 use rule dataset as prove_breathers with:
@@ -35,7 +37,7 @@ use rule dataset as prove_breathers with:
 use rule dataset as hard_cases with:
     "Hard cases: the error of each solver, or why it rejects the run"
     input:
-        kernels=kernels(*ALL_SOLVERS),
+        kernels(*ALL_SOLVERS),
     pathvars:
         made="checks/hard_cases",
     params:
@@ -56,10 +58,10 @@ use rule dataset as reference_case with:
     conda:
         environment("reference")
     resources:
-        **asked(lambda wildcards: LONG),
+        **resources_for(long_study),
     params:
         call=function("pendula.studies.reference.verified_run.reference_contents"),
         name="{case}",
-        problem=lambda wildcards: reference_problem(wildcards.case),
+        problem=lambda wildcards: SETTINGS.reference.problem(SETTINGS, wildcards.case),
         snapshots=SETTINGS.reference.snapshots,
         bits=lambda wildcards: SETTINGS.reference.bits[wildcards.case],

@@ -1,12 +1,12 @@
-# What a run made against the accepted baseline, which is tests/baseline unless --config baseline=FOLDER.
-# Neither rule has an output, so that Snakemake runs them whenever they are asked for. The end of the run
-# tells the faults: Snakemake would print an error of its own about a job that nobody called.
+# A run against the accepted baseline, which is tests/baseline unless --config baseline=FOLDER. Neither rule has an
+# output, so that each call runs it. Failures are reported at the end of the run: if the job failed, Snakemake
+# would add an error message about that job.
 
 
 use rule job as figure_diff with:
     "Datasets, figures and words against the accepted ones; fails with one line for each that differs"
     input:
-        results=everything(),
+        results=files_of_full_run(),
     output:
         [],
     pathvars:
@@ -14,9 +14,9 @@ use rule job as figure_diff with:
     params:
         call=function("pendula.jobs.compare.compare_results"),
         made=lambda wildcards, input: os.path.commonpath(input.results),
-        baseline=baseline_told_at_the_end,
-        configuration=plain(SETTINGS),
-        any_bits=OPTIONS["bits"] == "any",
+        baseline=baseline_unless_no_hooks,
+        configuration=without_limits(SETTINGS),
+        any_bits=OPTIONS.any_bits,
         html=PAGE,
         verdict=VERDICT,
     message:
@@ -26,7 +26,7 @@ use rule job as figure_diff with:
 use rule job as accept_figures with:
     'Takes this run as the baseline, or the files in --config accept="fig3 checks/chart"'
     input:
-        results=accepted_files,
+        results=files_to_accept,
     output:
         [],
     pathvars:
@@ -34,8 +34,8 @@ use rule job as accept_figures with:
     params:
         call=function("replication.figure_diff.acceptance.accept_results"),
         made="results",
-        words=ACCEPTED,
+        words=OPTIONS.accept,
         baseline=BASELINE,
-        configuration=plain(SETTINGS),
+        configuration=without_limits(SETTINGS),
     message:
         "Taking datasets, figures and words as the baseline"

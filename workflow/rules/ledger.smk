@@ -1,49 +1,32 @@
-# The ledger of the paper's claims. Each part is decided as soon as its datasets are there, and then the
-# parts are joined: so an edit decides again only what rests on it.
-RESTS_ON = {  # by part: the datasets that its claims rest on
-    "figures": [*TRAJECTORIES, *SWEEPS, *checks("not_shown")],
-    "solvers": [
-        *(*datasets("sweeps", "fig5_left", "fig6_left", "fig6_right"), *SECOND_SWEEPS),
-        *checks("cases", "lyapunov", "second_solver", "members", "solvers"),
-    ],
-    "theory": checks("lyapunov", "identities", *THEORY_CHECKS),
-    "chaos": [
-        *datasets("sweeps", "fig6_left", "fig6_right"),
-        *(*datasets("trajectories", "fig3_large"), *datasets("breathers", "sensitivity")),
-        *checks("ensembles", "members", "lifetimes"),
-    ],
-    "breathers": rules.breathers.input.datasets,
-    "newton": rules.newton.input.datasets,
-    "unbounded": [
-        *datasets("breathers", "sensitivity"),
-        *datasets("unbounded", *SETTINGS.unbounded.names, "thermal"),
-    ],
-    "certified": [*checks("trust"), *datasets("certified", "breathers")],
-}
-DECIDED_IN = {part: [f"{part}/claims"] for part in RESTS_ON} | {
-    "figures": ["paper/claims_norms", "paper/claims_sweeps"],
-    "solvers": ["paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"],
-    "pendula": ["newton/claims"],
-}
+# The ledger of the paper's claims. Each part is decided once its datasets exist, then the parts are joined, so that an
+# edit re-decides only the parts that depend on it.
+CLAIM_MODULES = parts_of_ledger()
 DECIDING = {
-    part: function("replication.ledger.decide.decide_claims", parts=modules)
-    for part, modules in DECIDED_IN.items()
+    part: function("replication.ledger.decide.decide_claims", modules=modules_of(modules))
+    for part, modules in CLAIM_MODULES.items()
 }
+
+
+def datasets_of_part(wildcards):
+    """Return the datasets that the claims of a part of the ledger need."""
+    _, digest = DECIDING[wildcards.part]
+    names = datasets_of_claims(CLAIM_MODULES[wildcards.part], digest)
+    return [f"<results>/{name}.nc" for name in names]
 
 
 use rule job as decide_claims with:
     "A part of the ledger: its claims with their verdicts"
     input:
-        datasets=lambda wildcards: RESTS_ON[wildcards.part],
+        datasets=datasets_of_part,
     output:
         part="<results>/claims/{part}.json",
     pathvars:
         made="claims/{part}",
     wildcard_constraints:
-        part=one_of(RESTS_ON),
+        part=any_of(CLAIM_MODULES),
     params:
         call=lambda wildcards: DECIDING[wildcards.part],
-        modules=lambda wildcards: DECIDED_IN[wildcards.part],
+        modules=lambda wildcards: CLAIM_MODULES[wildcards.part],
         names=lambda wildcards, input: list(map(name_of, input.datasets)),
         differs=lambda wildcards, input: concerning(DIFFERS, map(name_of, input.datasets)),
     message:
@@ -53,7 +36,7 @@ use rule job as decide_claims with:
 use rule job as claims with:
     "The ledger: each claim with its verdict, in results/claims.json and results/tables/claims.md"
     input:
-        parts=expand("<results>/claims/{part}.json", part=RESTS_ON),
+        parts=expand("<results>/claims/{part}.json", part=CLAIM_MODULES),
     output:
         ledger="<results>/claims.json",
         table="<results>/tables/claims.md",

@@ -20,7 +20,7 @@ use rule dataset as measure_remainder with:
     params:
         call=function("pendula.studies.newton.remainder.remainder_contents"),
         mus=REMAINDER.mus,
-        problems=followed(
+        problems=SETTINGS.runs_of_cases(
             PAPER_CASES, **values_of(REMAINDER, "tolerance", "end_time", "output_step")
         ),
 
@@ -28,30 +28,30 @@ use rule dataset as measure_remainder with:
 use rule dataset as measure_over_the_top with:
     "When pendula go over the top, and with what chance"
     input:
-        kernels=kernels("taylor"),
-        chunks=parts_of("{size}pendula/over_the_top"),
+        kernels("taylor"),
+        chunks=chunks_of("{size}pendula/over_the_top"),
     pathvars:
-        made="<size>pendula/over_the_top",
+        made="<size>pendula/over_the_top<chunk>",
     resources:
-        **asked(cost_of_study),
+        **resources_for(cost_of_study),
     params:
         **values_of(OVER_THE_TOP, "size", "seed", "settled"),
+        **by_size(OVER_THE_TOP, "mus", "members"),
         call=function("pendula.studies.newton.over_the_top.measure_over_the_top"),
         problem=lambda wildcards: run_of(
             **values_of(OVER_THE_TOP, "case", "tolerance"),
-            **values_of(of_size(OVER_THE_TOP, wildcards), "end_time"),
+            **values_of(section_of_size(OVER_THE_TOP, wildcards), "end_time"),
         ),
-        given=sized(OVER_THE_TOP, "mus", "members"),
 
 
 use rule dataset as vary_over_the_top with:
     "The numbers of pendula over the top that the article prints, with each choice changed"
     input:
-        kernels=kernels("taylor"),
+        kernels("taylor"),
     pathvars:
         made="long/pendula/varied",
     resources:
-        **asked(lambda _: LONG),
+        **resources_for(long_study),
     params:
         **values_of(OVER_THE_TOP.long),
         call=function("pendula.studies.newton.over_the_top.vary_over_the_top"),

@@ -5,12 +5,12 @@
 use rule dataset as own_checks with:
     "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case), "taylor", "dop853"),
+        lambda wildcards: kernels_for(SETTINGS.problem(wildcards.case), "taylor", "dop853"),
         run="<results>/trajectories/{case}.nc",
     pathvars:
         made="own/cases/<own_case>.checks",
     resources:
-        **asked(
+        **resources_for(
             lambda wildcards: SETTINGS.takes(wildcards.case)[1](
                 SETTINGS.shown_problem(wildcards.case)
             )
@@ -20,20 +20,25 @@ use rule dataset as own_checks with:
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
 
 
-use rule figure as own_figures with:
-    "The figures of a case of your own: results/own/cases/{case}.png"
+use rule figure as own_norms with:
+    "The norms of a case of your own: results/own/cases/{case}.png"
     input:
         run="<results>/trajectories/{case}.nc",
         checks="<results>/own/cases/{case}.checks.nc",
-    output:
-        figure_files("<results>/own/cases/<own_case>"),
-        figure_files("<results>/own/cases/<own_case>.spacetime"),
     pathvars:
         made="own/cases/<own_case>",
     params:
-        call=function(
-            "pendula.own_cases.figures.draw_norms", "pendula.own_cases.figures.draw_spacetime"
-        ),
+        call=function("pendula.own_cases.figures.draw_norms"),
+
+
+use rule figure as own_spacetime with:
+    "Where the chain of a case of your own moves: results/own/cases/{case}.spacetime.png"
+    input:
+        run="<results>/trajectories/{case}.nc",
+    pathvars:
+        made="own/cases/<own_case>.spacetime",
+    params:
+        call=function("pendula.own_cases.figures.draw_spacetime"),
 
 
 use rule figure as own_breather with:
@@ -54,7 +59,8 @@ use rule figure as own_sweep_figure with:
         made="own/sweeps/<own_sweep>",
     params:
         call=function("pendula.own_cases.figures.draw_sweep"),
-        given=lambda wildcards: drawn_windows(wildcards.sweep),
+        max_window=lambda wildcards: SETTINGS.drawn_windows(wildcards.sweep)["text_window"],
+        mean_window=lambda wildcards: SETTINGS.drawn_windows(wildcards.sweep)["caption_window"],
 
 
 use rule job as own_table with:
@@ -72,7 +78,7 @@ use rule job as own_table with:
 use rule job as own with:
     "A report of the cases and sweeps in your --configfile: results/own_report.html"
     input:
-        files=some_own_files,
+        files=lambda wildcards: stopping(own_files)(SETTINGS),
     output:
         html="<results>/own_report.html",
     pathvars:
@@ -87,12 +93,14 @@ use rule job as own with:
 use rule dataset as survey with:
     "A survey of your own: results/surveys/{survey}.nc"
     input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.surveyed_problem(wildcards.survey)),
-        chunks=parts_of("surveys/{survey}"),
+        lambda wildcards: kernels_for(SETTINGS.surveyed_problem(wildcards.survey)),
+        chunks=chunks_of("surveys/{survey}", process_of_survey("{survey}")),
     pathvars:
-        made="surveys/<own_survey>",
+        made="surveys/<own_survey><chunk>",
     resources:
-        **asked(lambda wildcards: SETTINGS.cost_of_survey(wildcards.survey)),
+        **resources_for(
+            lambda wildcards: SETTINGS.cost_of_survey(wildcards.survey, chunks_in(wildcards.chunk))
+        ),
     params:
         call=function("latticode.datasets.surveys.make_survey"),
         name="{survey}",

@@ -6,7 +6,7 @@ use rule job as compile_solver with:
     output:
         kernels="<results>/<made>.txt",
     pathvars:
-        made=f"kernels/{{solver,{one_of(COMPILED)}}}",
+        made=f"kernels/{{solver,{any_of(COMPILED)}}}",
     priority: 1
     params:
         call=function("pendula.studies.paper.compile_solver.compile_solver"),
@@ -16,11 +16,11 @@ use rule job as compile_solver with:
 use rule dataset as trajectory with:
     "A case by its own solver: results/trajectories/{case}.nc"
     input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case)),
+        lambda wildcards: kernels_for(SETTINGS.problem(wildcards.case)),
     pathvars:
         made="trajectories/<any_case>",
     resources:
-        **asked(lambda wildcards: SETTINGS.cost_of(wildcards.case)),
+        **resources_for(lambda wildcards: SETTINGS.cost_of(wildcards.case)),
     params:
         call=function("pendula.studies.paper.runs.run_case"),
         name="{case}",
@@ -30,11 +30,11 @@ use rule dataset as trajectory with:
 use rule trajectory as trajectory_by_solver with:
     "A case by another solver than its own: results/trajectories/{case}.{solver}.nc"
     input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case), wildcards.solver),
+        lambda wildcards: kernels_for(SETTINGS.problem(wildcards.case), wildcards.solver),
     pathvars:
         made="trajectories/<any_case>.<any_solver>",
     resources:
-        **asked(lambda wildcards: SETTINGS.cost_of(*wildcards)),
+        **resources_for(lambda wildcards: SETTINGS.cost_of(*wildcards)),
     params:
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case, wildcards.solver),
 
@@ -42,12 +42,12 @@ use rule trajectory as trajectory_by_solver with:
 use rule dataset as sweep with:
     "A sweep by its own solver: results/sweeps/{sweep}.nc"
     input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.swept_problem(wildcards.sweep)),
-        chunks=parts_of("sweeps/{sweep}"),
+        lambda wildcards: kernels_for(SETTINGS.swept_problem(wildcards.sweep)),
+        chunks=chunks_of("sweeps/{sweep}"),
     pathvars:
-        made="sweeps/<any_sweep>",
+        made="sweeps/<any_sweep><chunk>",
     resources:
-        **asked(lambda wildcards: SETTINGS.cost_of_sweep(wildcards.sweep)),
+        **resources_for(lambda wildcards: SETTINGS.cost_of_sweep(wildcards.sweep)),
     params:
         call=function("pendula.studies.paper.runs.run_sweep"),
         name="{sweep}",
@@ -60,10 +60,10 @@ use rule dataset as sweep with:
 use rule sweep as sweep_by_second_solver with:
     "A sweep of the paper by its second solver: results/sweeps/{sweep}.crank_nicolson.nc"
     input:
-        kernels=kernels("crank_nicolson"),
-        chunks=parts_of("sweeps/{sweep}.crank_nicolson"),
+        kernels("crank_nicolson"),
+        chunks=chunks_of("sweeps/{sweep}.crank_nicolson"),
     pathvars:
-        made="sweeps/<paper_sweep>.crank_nicolson",
+        made="sweeps/<paper_sweep>.crank_nicolson<chunk>",
     params:
         problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson"),
 
@@ -86,8 +86,8 @@ use rule figure as norms_in_time with:
         made="figures/fig{n,[234]}",
     params:
         call=function("pendula.studies.paper.figures.draw_norms"),
-        committed=lambda wildcards: committed(
-            references=references(f"fig{wildcards.n}_small", f"fig{wildcards.n}_large")
+        references=lambda wildcards: references(
+            f"fig{wildcards.n}_small", f"fig{wildcards.n}_large"
         ),
 
 
@@ -112,14 +112,19 @@ use rule figure as norms_by_half_width with:
         made="figures/fig{n,[56]}",
     params:
         call=function("pendula.studies.paper.figures.draw_sweeps"),
-        given=lambda wildcards: drawn_windows(f"fig{wildcards.n}_left"),
+        text_window=lambda wildcards: SETTINGS.drawn_windows(f"fig{wildcards.n}_left")[
+            "text_window"
+        ],
+        caption_window=lambda wildcards: SETTINGS.drawn_windows(f"fig{wildcards.n}_left")[
+            "caption_window"
+        ],
         norms=lambda wildcards: {"5": ["l2", "linf"], "6": ["l2"]}[wildcards.n],
 
 
 use rule dataset as measure_solvers with:
     "How each solver conserves the energy, how the paper's two differ, and until when to trust each"
     input:
-        kernels=kernels(*(name for name in COMPILED if name != "dop853")),
+        kernels(*(name for name in COMPILED if name != "dop853")),
     output:
         checks("solvers", "trust"),
     pathvars:
@@ -134,10 +139,8 @@ use rule dataset as measure_solvers with:
             if name != "dop853"
         },
         others=[case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.ode45"])],
-        committed=committed(
-            references=references(*PAPER_CASES),
-            proofs=[f"tests/baseline/proofs/{case}.nc" for case in PAPER_CASES],
-        ),
+        references=references(*PAPER_CASES),
+        proofs=[committed(f"tests/baseline/proofs/{case}.nc") for case in PAPER_CASES],
 
 
 use rule figure as energy_drift with:

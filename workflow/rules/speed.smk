@@ -11,13 +11,13 @@ rule speed:
 use rule dataset as work_precision with:
     "Part of speed: every solver and installed peer on the cases of the paper, timed"
     input:
-        kernels=kernels(*ALL_SOLVERS),
+        kernels(*ALL_SOLVERS),
     pathvars:
         made="speed/work_precision",
     threads: workflow.cores
     params:
         call=function("benchmarks.jobs.measure_work_precision"),
-        committed=committed(references=references(*PAPER_CASES)),
+        references=references(*PAPER_CASES),
         problems={case: SETTINGS.problem(case) for case in PAPER_CASES},
 
 
@@ -34,7 +34,7 @@ use rule dataset as speed_pendula with:
 use rule dataset as cost with:
     "Part of speed: longer and longer chains, timed"
     input:
-        kernels=kernels("dop853", "taylor"),
+        kernels("dop853", "taylor"),
     pathvars:
         made="speed/cost",
     threads: workflow.cores
@@ -47,7 +47,7 @@ use rule figure as speed_figure with:
     input:
         measured="<results>/speed/work_precision.nc",
     pathvars:
-        made=f"figures/speed_{{regime,{one_of(REGIMES)}}}",
+        made=f"figures/speed_{{regime,{any_of(REGIMES)}}}",
     params:
         call=function("benchmarks.figures.draw_work_precision"),
         regime="{regime}",
@@ -61,7 +61,9 @@ use rule job as reproduction with:
         made="speed/reproduction",
     threads: workflow.cores
     params:
-        call=function("benchmarks.reproduction.measure_reproduction"),
-        digests=function("pendula.studies.paper.runs.run_case"),
+        call=function(
+            "benchmarks.reproduction.measure_reproduction",
+            modules=["pendula.studies.paper.runs"],
+        ),
     message:
         "Running the whole reproduction twice, in a copy of the project"

@@ -12,7 +12,7 @@ use rule dataset as prove_identities with:
 use rule dataset as check_theory with:
     "Lemmas 1 and 2, the sharpness of Theorems 1 to 3, errors of their proofs, and a sweep that the paper does not show"
     input:
-        kernels=kernels("taylor", "dop853"),
+        kernels("taylor", "dop853"),
     output:
         checks(*THEORY_CHECKS),
     pathvars:
@@ -39,8 +39,8 @@ use rule figure as stability_chart with:
         made="figures/stability_chart",
     params:
         call=function("pendula.studies.theory.figures.draw_chart"),
-        points=points_of_cases(),
-        of_paper=points_are_the_papers(),
+        points=SETTINGS.points_of_cases(),
+        of_paper=not constants_differ(DIFFERS, PAPER_CASES),
 
 
 use rule figure as bounds with:

@@ -3,7 +3,6 @@
 from pendula.studies.unbounded.settings import GROWTH_CASES
 
 UNBOUNDED = SETTINGS.unbounded
-VARIED = "levels", "edges"
 
 
 rule unbounded:
@@ -16,11 +15,11 @@ rule unbounded:
 use rule dataset as spread with:
     "An ensemble on the infinite chain: results/unbounded/{study}.nc"
     input:
-        chunks=parts_of("{size}unbounded/{study}"),
+        chunks=chunks_of("{size}unbounded/{study}"),
     pathvars:
-        made=f"<size>unbounded/{{study,{one_of(UNBOUNDED.names)}}}",
+        made=f"<size>unbounded/{{study,{any_of(UNBOUNDED.names)}}}<chunk>",
     resources:
-        **asked(cost_of_study),
+        **resources_for(cost_of_study),
     params:
         **values_of(UNBOUNDED, "perturbation", "seed"),
         call=function("pendula.studies.unbounded.long_runs.spread_case"),
@@ -28,22 +27,26 @@ use rule dataset as spread with:
         problems=lambda wildcards: UNBOUNDED.problems(
             SETTINGS.problem(UNBOUNDED.case_of(wildcards.study)),
             wildcards.study,
-            of_size(UNBOUNDED, wildcards),
+            section_of_size(UNBOUNDED, wildcards),
         ),
-        rest=lambda wildcards: of_size(UNBOUNDED, wildcards).rest,
-        members=lambda wildcards: of_size(UNBOUNDED, wildcards).runs[wildcards.study].members,
-        given=lambda wildcards: values_of(UNBOUNDED.long, *VARIED) if wildcards.size else {},
+        rest=lambda wildcards: section_of_size(UNBOUNDED, wildcards).rest,
+        members=lambda wildcards: section_of_size(UNBOUNDED, wildcards)
+        .runs[wildcards.study]
+        .members,
+        levels=lambda wildcards: UNBOUNDED.long.levels if wildcards.size else None,
+        edges=lambda wildcards: UNBOUNDED.long.edges if wildcards.size else None,
 
 
 use rule spread as spread_again with:
     "The long study with a coarser tolerance: results/long/coarse/unbounded/{study}.nc"
     input:
-        chunks=parts_of("long/coarse/unbounded/{study}"),
+        chunks=chunks_of("long/coarse/unbounded/{study}"),
     pathvars:
-        made="long/coarse/unbounded/{study,omegas|fig3_large}",
+        made="long/coarse/unbounded/{study,omegas|fig3_large}<chunk>",
     resources:
-        **asked(lambda wildcards: LONG),
+        **resources_for(long_study),
     params:
+        **values_of(UNBOUNDED.long, "levels", "edges"),
         problems=lambda wildcards: UNBOUNDED.problems(
             SETTINGS.problem(UNBOUNDED.case_of(wildcards.study)),
             wildcards.study,
@@ -51,17 +54,16 @@ use rule spread as spread_again with:
         ),
         rest=UNBOUNDED.long.rest,
         members=lambda wildcards: UNBOUNDED.long.runs[wildcards.study].members,
-        given=values_of(UNBOUNDED.long, *VARIED),
 
 
-use rule dataset as solve_transverse with:
+use rule dataset as run_transverse with:
     "The growth of a small A + B where A = -B, and the speed of the second front that follows"
     input:
-        chunks=parts_of("long/unbounded/transverse"),
+        chunks=chunks_of("long/unbounded/transverse"),
     pathvars:
-        made="long/unbounded/transverse",
+        made="long/unbounded/transverse<chunk>",
     resources:
-        **asked(lambda wildcards: LONG),
+        **resources_for(long_study),
     params:
         **values_of(UNBOUNDED.long.transverse, "members", "tolerances", "perturbations"),
         call=function("pendula.studies.unbounded.transverse.solve_transverse"),
@@ -74,14 +76,14 @@ use rule dataset as solve_transverse with:
         seed=UNBOUNDED.seed,
 
 
-use rule dataset as follow_noise with:
+use rule dataset as run_noise with:
     "The second front where noise sets A + B going"
     input:
-        chunks=parts_of("long/unbounded/noise"),
+        chunks=chunks_of("long/unbounded/noise"),
     pathvars:
-        made="long/unbounded/noise",
+        made="long/unbounded/noise<chunk>",
     resources:
-        **asked(lambda wildcards: LONG),
+        **resources_for(long_study),
     params:
         **values_of(UNBOUNDED.long.noise, "members", "tolerances"),
         **values_of(UNBOUNDED, "perturbation", "seed"),
@@ -153,4 +155,4 @@ use rule figure as draw_fronts with:
     params:
         call=function("pendula.studies.unbounded.figures.draw_fronts"),
         # the numbers of `snakemake unbounded` as they are committed, predicted speeds among them
-        committed=committed(long="tests/baseline/quoted/unbounded.nc"),
+        long=committed("tests/baseline/quoted/unbounded.nc"),

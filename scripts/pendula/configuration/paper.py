@@ -91,6 +91,12 @@ def _short(value: Any) -> str:
     return "0" if str(value) == "0j" else str(value).removesuffix("+0j")
 
 
+def constants_differ(differs: Differences, cases: Iterable[str]) -> bool:
+    """Return whether a case has other constants of (4) than in the paper."""
+    constants = ("epsilon", "gamma", "omega")
+    return any(f"cases.{case}.{key}" in differs for case in cases for key in constants)
+
+
 def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -> str:
     """Return why datasets are not about the paper's cases; an empty text where they are.
 

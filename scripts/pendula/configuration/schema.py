@@ -1,12 +1,13 @@
 """The configuration of cases and sweeps, as the studies of the paper ask for them."""
 
-from collections.abc import Callable, Mapping
-from typing import Annotated, ClassVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import Annotated, Any, ClassVar
 
 from latticode.configuration import cost, schema
 from latticode.configuration.cost import Cost
 from latticode.configuration.schema import Faults
 from latticode.configuration.values import Name
+from latticode.simulation.problem import name_window
 from pydantic import Field
 
 from pendula.problem import AMPLITUDES
@@ -55,6 +56,27 @@ class Configuration(schema.Configuration):
         """Return a case as a study runs it, as plain values of a Problem."""
         controls = {"name": solver, "rtol": tolerance, "atol": tolerance}
         return {**self.problem(case), "solver": controls, "snapshot_every": 0, **changes}
+
+    def runs_of_cases(
+        self, cases: Iterable[str], tolerance: float, solver: str = "taylor", **changes: Any
+    ) -> dict[str, dict]:
+        """Return cases as a study runs them, by name, as plain values of Problems."""
+        return {case: self.run_of(case, tolerance, solver, **changes) for case in cases}
+
+    def latest_end(self, cases: Iterable[str]) -> float:
+        """Return the latest end time of cases."""
+        return max(self.cases[case].end_time for case in cases)
+
+    def drawn_windows(self, sweep: str) -> dict[str, str]:
+        """Return the names of the windows whose maximum and mean the figure of a sweep shows."""
+        drawn = self.sweeps[sweep].drawn
+        return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
+
+    def points_of_cases(self) -> list[tuple[float, float]]:
+        """Return (Omega, gamma) of the cases of Figs 2 to 4 in units of epsilon, each once."""
+        problems = [self.problem(case) for case in PAPER_CASES]
+        coupled = [problem for problem in problems if problem["epsilon"]]
+        return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in coupled})
 
     def faults_of_runs(self, runs: Runs) -> Faults:
         """Yield the key of runs of a study that no solver can follow, or that take too much."""

@@ -131,7 +131,7 @@ def _about(name: str, members: dict[str, Path]) -> dict:
     path, data = members[name], Path(name).with_suffix(".nc").as_posix()
     facts = {"name": path.name, "encodingFormat": FORMATS.get(path.suffix, "text/plain")}
     if path.suffix == ".nc":
-        facts["description"] = read(path).title
+        facts["description"] = read(path).attrs["title"]
     elif data in members:
         facts["isBasedOn"] = {"@id": quote(data)}
     return facts

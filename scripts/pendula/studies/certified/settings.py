@@ -2,6 +2,7 @@
 
 from typing import Annotated
 
+from latticode.configuration.files import ConfigurationError
 from latticode.configuration.values import (
     Count,
     Model,
@@ -15,6 +16,7 @@ from pydantic import Field
 
 from pendula.configuration.schema import Configuration, Faults
 from pendula.models.pairs import FAMILIES, pair
+from pendula.problem import AMPLITUDES
 
 # Precision of a curve of integers, and how often its error bound changes frames.
 Frames = model(
@@ -59,6 +61,30 @@ class Settings(Model):
     frames: dict[Name, Frames]  # by case
     default_frames: Frames  # of cases that `frames` does not list
     breathers: Breathers
+
+    def frames_of(self, case: str) -> Model:
+        """Return how the curve of a case is made."""
+        return self.frames.get(case, self.default_frames)
+
+    def problem(self, settings: Configuration, case: str) -> dict:
+        """Return a case as plain values of a Problem whose curve is given, so that no solver runs.
+
+        Raises ConfigurationError for a case whose curve no proof takes.
+        """
+        from pendula.problem import Problem  # here and below: only a certified curve needs kernels
+
+        from .fixed_point import NotEvenError, make_half_chain
+
+        plain = settings.problem(case, snapshot_step=None)
+        if plain.get("model", AMPLITUDES) != AMPLITUDES:
+            text = "proofs are of curves of the amplitudes, equations (4)"
+            raise ConfigurationError(f"cases.{case}.model: {text}")
+        problem = {**plain, "solver": {"name": "polynomials"}}
+        try:
+            make_half_chain(Problem.of(problem), 1)
+        except NotEvenError as error:
+            raise ConfigurationError(f"cases.{case}: {error}") from None
+        return problem
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield faults of missing cases, and of states that do not exist."""

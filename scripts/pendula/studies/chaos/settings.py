@@ -135,6 +135,28 @@ class Settings(Model):
                 yield from settings.faults_of_runs(runs)
             yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
 
+    def member_of(self, settings: Configuration, sweep: str) -> dict:
+        """Return what a member of a sweep's ensemble runs, to the end of the drawn windows.
+
+        These are plain values of a problem, and the windows.
+        """
+        drawn = settings.sweeps[sweep].drawn
+        windows = [list(window) for window in (drawn.max, drawn.mean)]
+        times = {
+            "output_step": self.ensembles.output_step,
+            "end_time": max(end for _, end in windows),
+        }
+        case, tolerance = settings.sweeps[sweep].case, self.ensembles.tolerance
+        return {"problem": settings.run_of(case, tolerance, **times), "windows": windows}
+
+    def by_second_solver(self, settings: Configuration, sweep: str) -> list[dict]:
+        """Return a sweep's problems by the paper's second solver, by its step and a coarse one."""
+        problem = settings.swept_problem(sweep, "crank_nicolson")
+        end_time = self.member_of(settings, sweep)["problem"]["end_time"]
+        problem |= {"end_time": end_time, "snapshot_every": 0}
+        steps = steps_beside(problem["solver"]["step"], problem["output_step"])
+        return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
+
     def shorter_chains(self, settings: Configuration, case: str) -> dict[str, int]:
         """Return the least half-width on which each ensemble integrates a case, by its key."""
         spectrum = self.lyapunov.spectrum

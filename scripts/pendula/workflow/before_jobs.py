@@ -4,8 +4,9 @@ The process that jobs are forked from imports this: see profiles/default/profile
 """
 
 import numba
-import pendula.studies.paper.compile_solver  # noqa: F401, what the first jobs do
 import xarray
+
+import pendula.studies.paper.compile_solver  # noqa: F401, what the first jobs do
 
 numba.njit("float64(float64)")(lambda x: x)  # numba gathers the functions that it knows
 xarray.backends.list_engines()

@@ -1,0 +1,167 @@
+"""The function that a rule calls, and its arguments: the named inputs and parameters of the rule.
+
+A rule writes `call=function("package.module.name")`. Each of its named inputs and parameters is an
+argument, and the annotation in the function's signature decides what the function gets:
+
+| annotation | the rule gives | the function gets |
+| --- | --- | --- |
+| `Dataset` | the path of a dataset | the dataset |
+| `Problem` | plain values of a problem | the problem |
+| a list, sequence or collection of these | a list | a list |
+| a mapping to these | paths, or values by name | a dictionary, of datasets by their stems |
+| anything else | a path or plain values | the same |
+
+An input without a name is waited for and is no argument. None and an empty list of files are left
+out where the function has a default.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from difflib import get_close_matches
+from importlib import import_module
+from inspect import Parameter, signature
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+from pendula.sources import SCRIPTS
+
+OF_THE_JOB = ("call", "code", "chunks", "unlike_paper")
+"""Names in a rule that are not arguments: the function, a hash of the script, the files of chunks
+into which a study of many runs is split, and for figures where the configuration differs from the
+paper's."""
+
+
+class RuleError(Exception):
+    """A rule and the function that it calls do not fit each other."""
+
+
+class Arguments(NamedTuple):
+    """The arguments of a job's function by name, and the names of the datasets that were read."""
+
+    values: dict[str, Any]
+    sources: dict[str, list[str]]
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The arguments that are no datasets."""
+        return {name: value for name, value in self.values.items() if name not in self.sources}
+
+
+def function_of(call: list[str]) -> Callable:
+    """Return the function that a rule calls; `call` is its dotted name and a hash of its code."""
+    module, _, name = call[0].rpartition(".")
+    return getattr(import_module(module), name)
+
+
+def load_arguments(function: Callable, job: Any, kinds: Mapping[type, Callable]) -> Arguments:
+    """Return the arguments of `function` from the named inputs, outputs and parameters of a job.
+
+    `kinds` gives for a type of annotation what makes it of a path or of plain values. Outputs are
+    arguments where they have names. Raises RuleError if a name is unknown, missing or given twice.
+    """
+    given = _named(function, job)
+    hints = get_type_hints(function)
+    values, sources = {}, {}
+    for name, value in given.items():
+        container, kind = _kind_of(hints.get(name))
+        located = locate(value)
+        values[name] = _load(located, container, kinds[kind]) if kind in kinds else located
+        if kind in kinds and (paths := _paths_in(located)):
+            sources[name] = [name_of(path) for path in paths]
+    return Arguments(values, sources)
+
+
+def _named(function: Callable, job: Any) -> dict[str, Any]:
+    """Return the values of a rule by the names of the function's parameters, after a check."""
+    parameters = signature(function).parameters
+    places = [dict(place.items()) for place in (job.input, job.params, job.output)]
+    given: dict[str, Any] = {}
+    for place in places:
+        for name, value in place.items():
+            if name in OF_THE_JOB:
+                continue
+            if name in given:
+                raise RuleError(f"{_rule(job)} gives {name!r} twice, as an input and a parameter")
+            if not (_is_left_out(value) and _has_default(parameters.get(name))):
+                given[name] = value
+    check_names(function, given, _rule(job))
+    return given
+
+
+def check_names(function: Callable, names: Iterable[str], rule: str) -> None:
+    """Raise RuleError unless `names` are parameters of `function`, and all that it requires."""
+    parameters = signature(function).parameters
+    called = f"{function.__module__}.{function.__name__}"
+    takes = f"it takes {', '.join(parameters)}" if parameters else "it takes none"
+    for name in names:
+        if name not in parameters:
+            near = get_close_matches(name, parameters, 1)
+            meant = f"; did you mean {near[0]!r}?" if near else ""
+            raise RuleError(f"{rule}: {called} has no parameter {name!r}{meant} ({takes})")
+    required = [name for name, parameter in parameters.items() if not _has_default(parameter)]
+    if missing := [name for name in required if name not in names]:
+        raise RuleError(f"{rule} does not give {', '.join(missing)}, which {called} needs")
+
+
+def _is_left_out(value: Any) -> bool:
+    return value is None or value == []
+
+
+def _has_default(parameter: Parameter | None) -> bool:
+    return parameter is not None and parameter.default is not Parameter.empty
+
+
+def _rule(job: Any) -> str:
+    return f"rule {job.rule}"
+
+
+def _kind_of(hint: Any) -> tuple[str, Any]:
+    """Return how values of an annotation are held ("one", "list" or "mapping"), and their type."""
+    if get_origin(hint) in (Union, UnionType):
+        hint = next(part for part in get_args(hint) if part is not NoneType)
+    origin, inner = get_origin(hint), get_args(hint)
+    if not isinstance(origin, type) or not inner:
+        return "one", hint
+    if issubclass(origin, Mapping):
+        return "mapping", inner[1]
+    return "list", inner[0]
+
+
+def _load(value: Any, container: str, make: Callable) -> Any:
+    """Return what `make` returns of each value, in a container."""
+    if value is None or container == "one":
+        return value if value is None else make(value)
+    if isinstance(value, Mapping):
+        return {name: make(entry) for name, entry in value.items()}
+    entries = value if isinstance(value, list) else [value]
+    if container == "mapping":
+        return {Path(path).stem: make(path) for path in entries}
+    return [make(entry) for entry in entries]
+
+
+def _paths_in(value: Any) -> list[str]:
+    """Return the paths that an argument consists of; none if it is plain values."""
+    entries = value if isinstance(value, list) else [value]
+    return entries if all(isinstance(entry, str) for entry in entries) else []
+
+
+COMMITTED = "committed"
+"""Key of the path of a file of the project, in a parameter that has its digest too."""
+
+
+def locate(value: Any) -> Any:
+    """Return a value of a rule with the absolute paths of the project's files in place of entries.
+
+    A rule names a file of the project by `committed`, with its digest.
+    """
+    if isinstance(value, Mapping) and COMMITTED in value:
+        return str(SCRIPTS.parent / value[COMMITTED])
+    return [locate(entry) for entry in value] if isinstance(value, list) else value
+
+
+def name_of(path: str) -> str:
+    """Return the name of a dataset: its path below the folder of results, or the project's."""
+    place = Path(path).with_suffix("")
+    if place.is_relative_to(SCRIPTS.parent):
+        return place.relative_to(SCRIPTS.parent).as_posix()
+    return Path(*place.parts[1:]).as_posix()

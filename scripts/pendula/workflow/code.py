@@ -1,0 +1,47 @@
+"""Hashes of the code and of the files that jobs rest on, as parameters of their rules.
+
+Snakemake does not see a change in a module that a script imports. So a rule has a hash of all code
+that its function imports among its parameters.
+"""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from latticode.kernels.sources import digest_of, digest_of_code, files_of_module, modules_of
+
+from pendula.contract.arguments import COMMITTED
+from pendula.sources import SCRIPTS
+
+PROJECT = SCRIPTS.parent
+_called: set[tuple[Path, ...]] = set()
+
+
+def script_digest(name: str) -> str:
+    """Return a hash of a script in scripts/ with all that it imports."""
+    return digest_of_code(SCRIPTS / name)
+
+
+def function(name: str, *, modules: Iterable[str] = (), also: Iterable[str] = ()) -> list[str]:
+    """Return the dotted name of a function, and a hash of all code that it rests on.
+
+    `modules` are others that it imports by their names, and `also` is more that reruns the job if
+    it changes, such as versions of packages.
+    """
+    names = [name.rpartition(".")[0], *modules]
+    files = tuple(file for module in names for file in files_of_module(module))
+    _called.add(files)
+    return [name, digest_of_code(*files), *also]
+
+
+def code_of_jobs() -> list[str]:
+    """Return the paths, in the project, of all modules that the functions of rules rest on."""
+    modules = {module for files in _called for module in modules_of(*files)}
+    return sorted(module.relative_to(PROJECT).as_posix() for module in modules)
+
+
+def committed(path: str) -> dict[str, str]:
+    """Return a file of the project as a parameter: its path in the project, and a digest.
+
+    As an input it would have another path in each copy of the project, and the job would run again.
+    """
+    return {COMMITTED: path, "sha256": digest_of(PROJECT / path)}

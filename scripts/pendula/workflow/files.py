@@ -1,0 +1,148 @@
+"""Names of the files that rules make and take."""
+
+from collections.abc import Callable, Iterable, Mapping
+from math import prod
+from typing import Any
+
+from latticode.configuration.files import ConfigurationError
+
+from pendula.configuration.paper import Differences, concerning
+from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS, Configuration
+from pendula.contract.arguments import name_of
+from pendula.problem import MODELS
+
+FIGURE_KINDS = ("png", "pdf", "nc", "json")
+"""Endings of the files of a figure: two pictures, the data that they show, and a description."""
+
+PAPER_FIGURES = ("fig1", "fig2", "fig3", "fig4", "fig5", "fig6")
+"""The rendered figures of the paper."""
+
+
+def datasets(folder: str, *names: str) -> list[str]:
+    """Return the paths of datasets in a folder of the results."""
+    return [f"<results>/{folder}/{name}.nc" for name in names]
+
+
+def checks(*names: str) -> list[str]:
+    """Return the paths of datasets in results/checks."""
+    return datasets("checks", *names)
+
+
+def figure_files(*stems: str) -> list[str]:
+    """Return all files of figures, given by their paths without ending."""
+    return [f"{stem}.{kind}" for stem in stems for kind in FIGURE_KINDS]
+
+
+def kernels(*solvers: str) -> list[str]:
+    """Return the records of compiled solvers that a job waits for; "auto" takes one of two."""
+    pairs = [["taylor", "dop853"] if solver == "auto" else [solver] for solver in solvers]
+    return [f"<results>/kernels/{name}.txt" for pair in pairs for name in pair]
+
+
+def kernels_for(problem: Mapping, *solvers: str) -> list[str]:
+    """Return the records that a run of this problem waits for, by its own solver or by `solvers`.
+
+    Solvers of other equations than (4) are compiled by the first job that needs them.
+    """
+    return [] if "model" in problem else kernels(*solvers or [problem["solver"]["name"]])
+
+
+def any_of(names: Iterable[str]) -> str:
+    """Return a regular expression that matches these names alone, and nothing if there are none."""
+    return "|".join(names) or "(?!)"
+
+
+CHUNK = r"(\.parts/\d+-of-\d+)?"
+"""What stands behind the name of a study in the name of one of its chunks."""
+
+
+def chunks_of(gather: Any, pattern: str, process: str = "runs") -> Callable:
+    """Return an input function: the chunks of a study's runs, none if they are made in one job.
+
+    `pattern` is the path of the dataset below results/ without its ending. `gather` is Snakemake's
+    object, and `process` one of the workflow's `scattergather`. Both may have wildcards.
+    """
+
+    def files(wildcards: Any) -> list[str]:
+        values = dict(wildcards.items())
+        if values["chunk"]:  # a chunk itself
+            return []
+        stem = f"<results>/{pattern.format(**values)}.parts"
+        chunks = getattr(gather, process.format(**values))(f"{stem}/{{scatteritem}}.nc")
+        return chunks if len(chunks) > 1 else []
+
+    return files
+
+
+def chunks_in(chunk: str) -> int:
+    """Return the number of chunks of a study from the wildcard of one, such as ".parts/2-of-8"."""
+    return int(chunk.rpartition("-of-")[2] or 1)
+
+
+CHUNKS_OF_A_SURVEY = 8
+"""Number of chunks of a survey that gives none: their jobs fill the cores of most machines."""
+
+
+def chunks_of_surveys(surveys: Mapping[str, Any], overwritten: Mapping[str, int]) -> dict[str, int]:
+    """Return the number of chunks of each survey, by the name of its scattergather process.
+
+    It is the survey's own, else that of `--set-scatter runs=`, and at most its number of runs.
+    """
+    default = overwritten.get("runs", CHUNKS_OF_A_SURVEY)
+    return {
+        process_of_survey(name): min(prod(survey.plan.shape), survey.chunks or default)
+        for name, survey in surveys.items()
+    }
+
+
+def process_of_survey(name: str) -> str:
+    """Return the name of the scattergather process of a survey; `name` may be a wildcard."""
+    return f"survey_{name}"
+
+
+def runs_by(settings: Configuration, solver: str) -> list[str]:
+    """Return the trajectories of all cases of the paper by a solver, most cases' own."""
+
+    def run_by(case: str) -> str:
+        own = settings.problem(case)["solver"] == settings.problem(case, solver)["solver"]
+        return case if own else f"{case}.{solver}"
+
+    return datasets("trajectories", *map(run_by, PAPER_CASES))
+
+
+def own_files(settings: Configuration) -> list[str]:
+    """Return every figure, table and dataset of a user's cases, sweeps and surveys.
+
+    Raises ConfigurationError if there are none.
+    """
+    cases = [case for case in settings.cases if case not in PAPER_CASES]
+    sweeps = [sweep for sweep in settings.sweeps if sweep not in PAPER_SWEEPS]
+    made = {"trajectories": cases, "sweeps": sweeps, "surveys": settings.surveys}
+    if not any(made.values()):
+        raise ConfigurationError(
+            "the configuration has no case, sweep or survey of your own: give some by "
+            "--configfile, as docs/own_cases.md shows"
+        )
+    places = [f"{folder}/{name}" for folder, names in made.items() for name in names]
+    of_models = [case for case in cases if settings.cases[case].model not in MODELS]
+    figures = [f"cases/{case}{part}" for case in cases for part in ("", ".spacetime")]
+    figures += [f"cases/{case}.breather" for case in of_models]
+    figures += [place for place in places if not place.startswith("trajectories/")]
+    return [
+        *(f"<results>/{place}.nc" for place in places),
+        *(f"<results>/own/tables/{place}.csv" for place in places),
+        *(f"<results>/own/cases/{case}.checks.nc" for case in cases),
+        *figure_files(*(f"<results>/own/{figure}" for figure in figures)),
+    ]
+
+
+def differs_of(differs: Differences, wildcards: Any, input: Iterable[str]) -> list[str]:
+    """Return sentences on where a figure shows another configuration than the paper's.
+
+    Of the datasets of many cases it shows those of its trajectories and sweeps, if it has such.
+    """
+    names = [name_of(path) for path in input if path.endswith(".nc")]
+    names = [name for name in names if not name.startswith(("long/", "own/"))]
+    parts = [name.split("/", 1) for name in names]
+    shown = [name for folder, name in parts if folder in ("trajectories", "sweeps")]
+    return list(concerning(differs, names, shown).values())

@@ -1,0 +1,65 @@
+"""The parts of the ledger: which modules of claims each has, and which datasets decide them."""
+
+import json
+import os
+from contextlib import suppress
+from pathlib import Path
+
+from latticode.kernels.cache import kept_in
+
+from pendula.studies import STUDIES, files_with_prefix
+
+PAPER = "paper"
+ON_FIGURES = ("claims_norms", "claims_sweeps")
+"""Modules of the study `paper` with the claims on Figs 2 to 6, which `snakemake paper` decides."""
+CLAIMS = "claims"
+
+
+def parts_of_ledger() -> dict[str, list[str]]:
+    """Return by part the beginnings of the names of its modules of claims, as in "theory/claims".
+
+    Each study with claims is a part, but for `paper`, which has two: its claims on the figures, and
+    all others. So each module of a study whose name begins with "claims" is in a part.
+    """
+    parts: dict[str, list[str]] = {"figures": [], "solvers": []}
+    for path in files_with_prefix(f"{PAPER}/{CLAIMS}"):
+        part = "figures" if path.stem in ON_FIGURES else "solvers"
+        parts[part].append(f"{PAPER}/{path.stem}")
+    for study in STUDIES:
+        if study != PAPER and files_with_prefix(f"{study}/{CLAIMS}"):
+            parts[study] = [f"{study}/{CLAIMS}"]
+    return parts
+
+
+def modules_of(beginnings: list[str]) -> list[str]:
+    """Return the dotted names of all modules of claims whose names begin so."""
+    paths = (path for beginning in beginnings for path in files_with_prefix(beginning))
+    return [f"pendula.studies.{path.parent.name}.{path.stem}" for path in paths]
+
+
+def datasets_of_claims(modules: list[str], digest: str) -> list[str]:
+    """Return the names of all datasets that the claims of these modules read.
+
+    To import the claims takes longer than to read all rules, so the names are kept in the folder
+    of compiled kernels, by the digest of the modules' code.
+    """
+    folder = kept_in()
+    kept = folder and folder / CLAIMS / f"{digest[:32]}.json"
+    if kept:
+        with suppress(OSError, ValueError):
+            return json.loads(kept.read_text(encoding="utf-8"))
+    from replication.ledger.verdicts import needed  # here: it imports all that claims compute with
+
+    names = needed(*modules)
+    if kept:
+        with suppress(OSError):
+            _write_whole(kept, json.dumps(names))
+    return names
+
+
+def _write_whole(path: Path, text: str) -> None:
+    """Write a file that no other process sees half written."""
+    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    partial = path.with_suffix(f".{os.getpid()}")
+    partial.write_text(text, encoding="utf-8")
+    partial.replace(path)

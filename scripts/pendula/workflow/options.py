@@ -1,0 +1,58 @@
+"""The configuration of a call of Snakemake, and the options that belong to this call alone."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from latticode.configuration.files import ConfigurationError, gather, read_entries
+
+from pendula.configuration.messages import STUDIES
+
+NAMES = ("baseline", "bits", "accept")
+"""Options of a call, given by --config alone: in a file they would send results elsewhere."""
+
+
+class Options(NamedTuple):
+    """The baseline to compare with, whether numbers suffice, and what of a run to accept."""
+
+    baseline: str | None
+    any_bits: bool
+    accept: list[str]
+
+
+def take_options(config: dict[str, Any], given: Mapping[str, Any]) -> Options:
+    """Return the options in `given`, the values of --config, and remove them from `config`.
+
+    Raises ConfigurationError for a value that an option cannot have.
+    """
+    for name in NAMES:
+        config.pop(name, None)
+    baseline, bits, accept = (given.get(name) for name in NAMES)
+    if not isinstance(baseline, str | None):
+        text = "give the path of a folder, as in baseline=./7"
+        raise ConfigurationError(f"--config baseline={baseline}: {text}")
+    if bits not in (None, "any"):
+        raise ConfigurationError(
+            f"--config bits={bits}: the only value is bits=any: compare numbers where bits differ. "
+            "By default such files fail in the accepted environment"
+        )
+    if "chunks" in given:
+        text = "the number of chunks is an option of Snakemake now"
+        raise ConfigurationError(f"--config chunks={given['chunks']}: {text}: --set-scatter runs=8")
+    return Options(baseline, bits == "any", str(accept or "").split())
+
+
+def project_files(project: Path) -> list[str]:
+    """Return the paths of the project's configuration, the file of each study last."""
+    return [f"{project}/config/{name}.yaml" for name in ("config", *STUDIES)]
+
+
+def read_configuration(project: Path, files: Iterable[str], entries: Iterable[str]) -> dict:
+    """Return the project's files, then --configfile, then --config, each overriding those before.
+
+    `entries` are the words after --config. We read them here, not with `configfile:`, because
+    Snakemake gives no line number for invalid YAML, silently takes the last of two duplicate keys,
+    reads 010 as ten, and merges initial data.
+    """
+    own = read_entries(entry for entry in entries if entry.partition("=")[0] not in NAMES)
+    return gather([*project_files(project), *files], own)

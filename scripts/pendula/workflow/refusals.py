@@ -1,0 +1,115 @@
+"""What stops a call of Snakemake before its first job, each with its reason and the way out."""
+
+import os
+import sys
+from collections.abc import Callable, Iterable
+from functools import wraps
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Any, NoReturn
+
+from latticode.configuration.files import ConfigurationError
+from snakemake.logging import logger
+from snakemake.settings.enums import Quietness
+
+from .slurm_requests import partitions_of_slurm, requests_above_limits
+
+BYTES_OF_METADATA = 100_000
+"""Snakemake's records of a run take at least this."""
+
+
+class Refusals:
+    """Refuses calls of a workflow: each method logs a reason and ends the process with status 1."""
+
+    def __init__(self, workflow: Any):
+        self.workflow = workflow
+
+    def stop(self, reason: Any) -> NoReturn:
+        """Log the reason and exit with status 1.
+
+        For an exception Snakemake would also print where in the rules it was raised.
+        """
+        if Quietness.ALL in self.workflow.output_settings.quiet:  # which hides errors too
+            print(reason, file=sys.stderr)
+        logger.error(str(reason))
+        raise SystemExit(1)
+
+    def stopping(self, function: Callable) -> Callable:
+        """Return a function that stops with the reason where `function` finds a user's error."""
+
+        @wraps(function)
+        def checked(*arguments: Any, **settings: Any) -> Any:
+            try:
+                return function(*arguments, **settings)
+            except ConfigurationError as error:
+                self.stop(error)
+
+        return checked
+
+    def refuse_other_copies(self, project: Path, package: Any) -> None:
+        """Stop if the installed packages are those of another copy of the project."""
+        installed = Path(package.__file__).resolve()
+        if not installed.is_relative_to(project.resolve()):
+            self.stop(
+                f"Python imports the code of {installed.parents[2]}, not that of this copy of the "
+                f"project: install this one by `pip install -e {project}`, in its own environment"
+            )
+
+    def refuse_storage(self) -> None:
+        """Stop for a default storage, where Snakemake 9.27 applies no pathvars of single rules."""
+        if provider := self.workflow.storage_settings.default_storage_provider:
+            self.stop(
+                f"--default-storage-provider {provider} does not work here, since Snakemake does "
+                "not apply the pathvars of single rules there. Leave it out, and copy results/ to "
+                "the storage afterwards"
+            )
+
+    def refuse_read_only_folder(self) -> None:
+        """Stop if Snakemake cannot write its records in the working directory."""
+        for folder in filter(os.path.exists, (".", ".snakemake")):
+            if not os.access(folder, os.W_OK):
+                self.stop(
+                    f"{os.path.abspath(folder)} is read-only, but Snakemake writes its metadata "
+                    "there even in a dry run: pass a writable folder with --directory"
+                )
+
+    def refuse_full_disk(self) -> None:
+        """Stop a run if the disk of the working directory has no room for Snakemake's records."""
+        if not self.workflow.is_main_process or self.workflow.dryrun:
+            return
+        try:
+            with TemporaryFile(dir=".") as probe:
+                probe.write(bytes(BYTES_OF_METADATA))
+                probe.flush()
+        except OSError as error:
+            folder = os.path.abspath(".")
+            self.stop(f"{folder} takes no files ({error.strerror}): make room, and run again")
+
+    def refuse_read_only_results(self) -> None:
+        """Stop before the first job if a file of the run would lie in a read-only folder."""
+        jobs = list(self.workflow.dag.needrun_jobs())
+        files = (file for job in jobs for file in (*job.output, *job.log))
+        for folder in read_only_folders(files):
+            self.stop(f"{folder} is read-only: make it writable, or name another by --directory")
+
+    def refuse_endless_requests(self) -> None:
+        """Stop before the first job if Slurm would keep one in its queue for ever."""
+        settings = self.workflow.executor_settings
+        if os.environ.get("SNAKEMAKE_SLURM_PARTITIONS") or settings.partition_config:
+            return  # the plugin chooses partitions
+        requests = [
+            (job.rule.name, job.resources.get("slurm_partition"), job.resources.get("runtime"))
+            for job in self.workflow.dag.needrun_jobs()
+        ]
+        if reasons := requests_above_limits(requests, partitions_of_slurm()):
+            self.stop("\n".join(reasons))
+
+
+def read_only_folders(files: Iterable[str]) -> list[Path]:
+    """Return the existing folders, nearest to each of `files`, in which nobody may write."""
+    parents = {Path(file).absolute().parent for file in files}
+    existing = {
+        next(folder for folder in (parent, *parent.parents) if folder.exists())
+        for parent in parents
+    }
+    return sorted(folder for folder in existing if not os.access(folder, os.W_OK))

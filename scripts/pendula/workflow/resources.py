@@ -1,0 +1,36 @@
+"""What a job requests from a cluster: memory and time, from the estimate of its cost."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from latticode.configuration.cost import Cost
+
+START_MB, START_MINUTES = 1000, 15
+"""Memory and time that Python, imports and a compilation take."""
+SAFETY = 5
+"""Estimates are within a factor of three, and a node may be slower."""
+SHORT, HOUR = Cost(0.0, 0.0), Cost(3600 / SAFETY, 0.0)
+"""Costs at which a job requests no more than the start, and an hour more."""
+
+
+def cost_of_study(wildcards: Any) -> Cost:
+    """Return the cost of a study that has the wildcard `size`: an hour for the longer one."""
+    return HOUR if wildcards.size else SHORT
+
+
+def resources_for(cost_of: Callable[[Any], Cost]) -> dict[str, Callable]:
+    """Return the resources of a job whose run is estimated to take `cost_of(wildcards)`."""
+
+    def memory(wildcards: Any, attempt: int) -> int:
+        return attempt * (START_MB + math.ceil(2e-6 * cost_of(wildcards).memory))
+
+    def minutes(wildcards: Any, attempt: int) -> int:
+        return attempt * (START_MINUTES + math.ceil(SAFETY * cost_of(wildcards).seconds / 60))
+
+    return {"mem_mb": memory, "runtime": minutes}
+
+
+def long_study(*_: Any) -> Cost:
+    """Return the cost of a longer study."""
+    return HOUR

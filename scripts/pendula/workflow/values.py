@@ -1,0 +1,36 @@
+"""The configuration as plain values, which the parameters of rules are."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from latticode.configuration.values import Model, Steps
+
+
+def values_of(section: Model, *names: str) -> dict[str, Any]:
+    """Return the settings of these names as plain values, or all but those of a longer study."""
+    plain = section.model_dump()
+    chosen = names or [name for name in plain if name != "long"]
+    settings = {name: getattr(section, name) for name in chosen}
+    return {
+        name: setting.values if isinstance(setting, Steps) else plain[name]
+        for name, setting in settings.items()
+    }
+
+
+def section_of_size(section: Model, wildcards: Any) -> Model:
+    """Return what a section says of the longer study, if the wildcard `size` asks for it."""
+    return section.long if wildcards.size else getattr(section, "short", section)
+
+
+def by_size(section: Model, *names: str) -> dict[str, Callable]:
+    """Return a function of the wildcards for each setting, since a longer study has others."""
+
+    def of_size(name: str) -> Callable:
+        return lambda wildcards: values_of(section_of_size(section, wildcards), name)[name]
+
+    return {name: of_size(name) for name in names}
+
+
+def without_solver(problem: Mapping) -> dict[str, Any]:
+    """Return plain values of a problem but for its solver."""
+    return {key: value for key, value in problem.items() if key != "solver"}
