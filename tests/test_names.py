@@ -17,12 +17,7 @@ VAGUE = frozenset(WORDS.split())
 PERCENT = 1.0
 """In five codebases of this field these words are 0.0 to 0.3 % of the names."""
 
-ROOMS = (
-    "scripts/pendula/studies/certified",
-    "scripts/pendula/studies/hard_cases",
-    "scripts/pendula/studies/newton",
-    "scripts/pendula/studies/reference",
-)
+ROOMS = ("scripts/pendula/studies",)
 """Folders and modules that are held to it."""
 
 EXCEPTIONS: dict[tuple[str, str], str] = {}

@@ -138,7 +138,7 @@ use rule dataset as measure_solvers with:
             for name in ALL_SOLVERS
             if name != "dop853"
         },
-        others=[case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.ode45"])],
+        user_cases=[case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.ode45"])],
         references=references(*PAPER_CASES),
         proofs=[committed(f"tests/baseline/proofs/{case}.nc") for case in PAPER_CASES],
 

@@ -29,7 +29,7 @@ use rule dataset as spread with:
             wildcards.study,
             section_of_size(UNBOUNDED, wildcards),
         ),
-        rest=lambda wildcards: section_of_size(UNBOUNDED, wildcards).rest,
+        rest_threshold=lambda wildcards: section_of_size(UNBOUNDED, wildcards).rest_threshold,
         members=lambda wildcards: section_of_size(UNBOUNDED, wildcards)
         .runs[wildcards.study]
         .members,
@@ -52,7 +52,7 @@ use rule spread as spread_again with:
             wildcards.study,
             UNBOUNDED.long.made_coarsely,
         ),
-        rest=UNBOUNDED.long.rest,
+        rest_threshold=UNBOUNDED.long.rest_threshold,
         members=lambda wildcards: UNBOUNDED.long.runs[wildcards.study].members,
 
 
@@ -72,7 +72,7 @@ use rule dataset as run_transverse with:
             UNBOUNDED.omegas.values,
             UNBOUNDED.long.transverse.end_times(UNBOUNDED.omegas.values),
         ),
-        rest=UNBOUNDED.long.rest,
+        rest_threshold=UNBOUNDED.long.rest_threshold,
         seed=UNBOUNDED.seed,
 
 
@@ -94,7 +94,7 @@ use rule dataset as run_noise with:
             UNBOUNDED.long.noise.end_times,
         ),
         noises=UNBOUNDED.long.noise.sizes,
-        rest=UNBOUNDED.long.rest,
+        rest_threshold=UNBOUNDED.long.rest_threshold,
 
 
 use rule dataset as vary_numbers with:

@@ -29,6 +29,8 @@ class Configuration(schema.Configuration):
         "pendula": "newton",
         "certified.own": "default_frames",
         "certified.breathers.wrong": "control_omegas",
+        "unbounded.short.rest": "rest_threshold",
+        "unbounded.long.rest": "rest_threshold",
     }
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:

@@ -3,7 +3,7 @@
 import numpy as np
 from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, Problem
-from pendula.studies.breathers.periodic import Breather, find
+from pendula.studies.breathers.periodic import Breather, find_breather
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
@@ -12,7 +12,7 @@ ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
 
 def at_twelve(constants: Constants, family: str, half_width: int) -> Breather:
     """Return the breather of a family at the frequency 12."""
-    return find(family, constants, 12.0, half_width)
+    return find_breather(family, constants, 12.0, half_width)
 
 
 def unfolded(data: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ import pytest
 from on_breathers import ABOVE, BELOW, run_from, unfolded
 from pendula.problem import Constants
 from pendula.studies.breathers import multipliers
-from pendula.studies.breathers.periodic import FAMILIES, find, shoot, single_site
+from pendula.studies.breathers.periodic import FAMILIES, find_breather, shoot, single_site
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -28,7 +28,7 @@ def test_multipliers_are_those_of_the_nonlinear_flow(family, parity):
         moved = (ends[0] - ends[1])[:, m + first :] / 2e-6
         columns.append([moved.real, moved.imag])
     values = np.linalg.eigvals(np.reshape(columns, (len(columns), -1)).T)
-    nu = multipliers.traces(breather, parity)
+    nu = multipliers.half_traces(breather, parity)
     assert 2 * len(nu) == len(values)
     for mu in (nu + np.sqrt(nu**2 - 1.0))[nu != 1.0]:
         assert np.abs(values - mu**2).min() < 1e-6 * abs(mu**2)
@@ -45,7 +45,7 @@ def test_multipliers_are_those_of_the_nonlinear_flow(family, parity):
     ],
 )
 def test_growth_of_traces(nu, rate):
-    assert multipliers.growth_of_traces(2.0, np.array(nu)) == pytest.approx(rate)
+    assert multipliers.growth_rate_of_traces(2.0, np.array(nu)) == pytest.approx(rate)
 
 
 @pytest.mark.parametrize(
@@ -59,5 +59,5 @@ def test_growth_of_traces(nu, rate):
 )
 def test_a_breather_has_one_verdict_on_two_chains(constants, family, frequency, stable):
     for half_width in (20, 40):
-        one = find(family, constants, frequency, half_width)
-        assert (multipliers.growth(one) == 0.0) is stable
+        one = find_breather(family, constants, frequency, half_width)
+        assert (multipliers.growth_rate(one) == 0.0) is stable

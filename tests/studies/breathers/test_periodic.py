@@ -5,10 +5,10 @@ import pytest
 from on_breathers import ABOVE, BELOW, at_twelve, run_from, unfolded
 from oracle import slope
 from pendula.problem import Constants
-from pendula.studies.breathers.multipliers import growth
+from pendula.studies.breathers.multipliers import growth_rate
 from pendula.studies.breathers.periodic import (
     FAMILIES,
-    find,
+    find_breather,
     find_soliton,
     highest_wave,
     least_power,
@@ -57,7 +57,7 @@ def test_a_breather_is_periodic_by_the_taylor_method_and_has_its_symmetry(consta
     ],
 )
 def test_where_a_family_has_no_breather(constants, family, frequency):
-    assert find(family, constants, frequency, 40) is None
+    assert find_breather(family, constants, frequency, 40) is None
 
 
 @pytest.mark.parametrize(("omega", "highest"), [(-4.0, 8.0), (8.0, 8.0), (1.0, 3.0)])
@@ -67,7 +67,7 @@ def test_the_highest_linear_wave(omega, highest):
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_end_of_the_chain_does_not_matter_where_tails_are_longest(family):
-    short, long = (find(family, BELOW, 8.5, half_width) for half_width in (24, 40))
+    short, long = (find_breather(family, BELOW, 8.5, half_width) for half_width in (24, 40))
     off = np.abs(short.data - long.data[:, :25])
     assert off[:, 0].max() < 1e-12 and off.max() < 1e-6
     assert least_power(short) == pytest.approx(least_power(long), rel=1e-10)
@@ -109,4 +109,4 @@ def test_a_difference_of_a_and_b_grows_on_a_soliton_at_the_rate_of_its_multiplie
     a, b = run.y.reshape(2, -1, 3)
     apart = np.sqrt((np.abs(a - b) ** 2).sum(axis=0))
     rate = np.log(apart[2] / apart[1]) / period
-    assert growth(soliton) == pytest.approx(rate, rel=0.01)
+    assert growth_rate(soliton) == pytest.approx(rate, rel=0.01)

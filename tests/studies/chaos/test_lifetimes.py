@@ -47,7 +47,7 @@ def test_a_life_is_the_same_in_pieces_as_in_one_run():
     """The window ends before the life does, which a second piece follows."""
     case = problem(a0=5.0)
     whole = simulate(case.changed(snapshot_every=1))
-    first = np.flatnonzero(lifetimes.shares_alike(whole.modulus))[0]
+    first = np.flatnonzero(lifetimes.centre_is_average(whole.modulus))[0]
     time = lifetimes.follow(case, (3.0, 4.0), 0.5)["life"]
     assert time == pytest.approx(whole.tau[first]) and 4.0 < time < 14.0
 
@@ -68,9 +68,9 @@ def test_in_a_stable_case_nothing_is_outlived():
 def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
     modulus = np.ones((2, 5, 3))
     modulus[:, 2] = [1.5, 1.0, 0.5]
-    assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]
-    assert lifetimes.shares_alike(modulus, 2.0).tolist() == [True, True, True]
-    assert lifetimes.shares_alike(modulus, 0.5).tolist() == [False, False, True]
+    assert lifetimes.centre_is_average(modulus).tolist() == [False, True, True]
+    assert lifetimes.centre_is_average(modulus, 2.0).tolist() == [True, True, True]
+    assert lifetimes.centre_is_average(modulus, 0.5).tolist() == [False, False, True]
 
 
 def test_limits_are_medians_of_times_and_means_of_the_rest():

@@ -18,7 +18,7 @@ def test_the_spectrum_is_that_of_a_hamiltonian_flow():
     np.testing.assert_allclose(whole.log_growth.sum(axis=0), 0.0, atol=1e-5)
     rates = mean_rate(whole.tau, whole.log_growth, 50.0)
     np.testing.assert_allclose(rates, -rates[::-1], atol=0.05)
-    found, errors = lyapunov.spectrum(problem, 200.0, SEED)
+    found, errors = lyapunov.measure_spectrum(problem, 200.0, SEED)
     assert (errors > 0).all() and found[5] < 0.05
     np.testing.assert_allclose(found, rates, atol=0.3)
 

@@ -8,7 +8,7 @@ from oracle import random_chain
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
     GUARD,
-    in_pieces,
+    integrate_intervals,
     run_long,
     widen,
 )
@@ -34,7 +34,7 @@ def test_the_norms_of_a_regular_case_are_those_of_a_long_chain(changes):
     np.testing.assert_allclose(one["tau"], whole.tau, rtol=1e-14)
     np.testing.assert_allclose(one["l2"], np.hypot(*whole.l2), rtol=1e-12)
     np.testing.assert_allclose(one["linf"], whole.linf.max(axis=0), atol=1e-12)
-    *_, (*_, sites) = in_pieces(in_sums(endless), REST)
+    *_, (*_, sites) = integrate_intervals(in_sums(endless), REST)
     rows = turned(sites)
     amplitudes, right = rows[0::2] + 1j * rows[1::2], whole.final[:, 150:]
     shared = min(amplitudes.shape[1], right.shape[1])

@@ -46,25 +46,25 @@ def at_omega(dataset, omega: float):
 )
 def steady_unstable(steady) -> Finding:
     """Require a growing perturbation of each family."""
-    here = at_omega(steady, OF_FIG_3)
-    if here[["power", "growth"]].isnull().to_dataarray().any():
+    states = at_omega(steady, OF_FIG_3)
+    if states[["power", "growth"]].isnull().to_dataarray().any():
         raise UndecidableError("a state without known growth rates may be stable")
     measured = {
-        "families": here.sizes["family"],
-        "least_growth": here["growth"].min(),
-        "least_power": here["power"].min(),
-        "largest_power": here["power"].max(),
+        "families": states.sizes["family"],
+        "least_growth": states["growth"].min(),
+        "least_power": states["power"].min(),
+        "largest_power": states["power"].max(),
     }
     criterion = AllOf(AtLeast(1, "families"), Above(0.0, "least_growth", says="least growth rate"))
     return judge(measured, criterion)
 
 
-def known(periodic):
+def breathers_of_fig3(periodic):
     """Return breathers at Omega of Fig 3; raise UndecidableError if some are unknown."""
-    here = at_omega(periodic, OF_FIG_3)
-    if here[["power", "growth"]].isnull().to_dataarray().any():
+    breathers = at_omega(periodic, OF_FIG_3)
+    if breathers[["power", "growth"]].isnull().to_dataarray().any():
         raise UndecidableError("some breathers, or their growth rates, are unknown")
-    return here
+    return breathers
 
 
 @claim(
@@ -76,19 +76,19 @@ def known(periodic):
 )
 def periodic_stable(periodic) -> Finding:
     """Decide by the two families that are not on A = B."""
-    here = known(periodic).sel(family=["A only", "A = -B"])
+    breathers = breathers_of_fig3(periodic).sel(family=["A only", "A = -B"])
     measured = {
-        "breathers": here["growth"].size,
-        "lowest_frequency": here["frequency"].min(),
-        "highest_frequency": here["frequency"].max(),
-        "largest_growth": here["growth"].max(),
+        "breathers": breathers["growth"].size,
+        "lowest_frequency": breathers["frequency"].min(),
+        "highest_frequency": breathers["frequency"].max(),
+        "largest_growth": breathers["growth"].max(),
     }
     criterion = AllOf(
         AtLeast(1, "breathers"),
-        Above(float(here["highest_wave"]), "lowest_frequency", says="lowest frequency of any"),
+        Above(float(breathers["highest_wave"]), "lowest_frequency", says="lowest frequency of any"),
         AtMost(0.0, "largest_growth", says="largest growth rate"),
     )
-    return judge(measured, criterion, f"tested at {here.sizes['frequency']} frequencies")
+    return judge(measured, criterion, f"tested at {breathers.sizes['frequency']} frequencies")
 
 
 @claim(
@@ -134,11 +134,11 @@ def solitons_unstable(periodic) -> Finding:
 )
 def data_below_breathers(periodic) -> Finding:
     """So they cannot end as one of these unless the drive feeds them."""
-    here = known(periodic)
-    stable = here["least_power"].where(here["growth"] == 0.0)
+    breathers = breathers_of_fig3(periodic)
+    stable = breathers["least_power"].where(breathers["growth"] == 0.0)
     measured = {"least_of_a_period": stable.min(), "data": DATA_POWER}
-    says = "least P of a stable breather within a period, over all frequencies and families"
-    return judge(measured, Above(DATA_POWER, "least_of_a_period", says=says))
+    label = "least P of a stable breather within a period, over all frequencies and families"
+    return judge(measured, Above(DATA_POWER, "least_of_a_period", says=label))
 
 
 @claim(
@@ -161,10 +161,10 @@ def spreading_is_an_accident(sensitivity) -> Finding:
         "of_large": sensitivity["share"].values[large].max(),
         "members": float(sensitivity.attrs["members"]),
     }
-    said = "confidence limit of the share that spreads"
+    label = "confidence limit of the share that spreads"
     criterion = AllOf(
-        Above(MAJORITY, "small_at_least", says=f"lower {said}, perturbed by up to 1e-6"),
-        Below(MAJORITY, "large_at_most", says=f"upper {said}, perturbed by 1e-2 and more"),
+        Above(MAJORITY, "small_at_least", says=f"lower {label}, perturbed by up to 1e-6"),
+        Below(MAJORITY, "large_at_most", says=f"upper {label}, perturbed by 1e-2 and more"),
     )
     spread = measured["of_large"]
     some = f"{100 * spread:.2g} % of the runs perturbed by 1e-2 and more spread too"

@@ -17,13 +17,13 @@ from pendula.problem import Constants
 
 from . import multipliers, periodic
 
-PARTS = Variable(("part",), ["re", "im"])
+RE_IM = Variable(("part",), ["re", "im"])
 DIGITS, GROWTH_DIGITS = 10, 7
 """Significant digits of states, and of rates, which come from roots of eigenvalues."""
 RATE = "largest rate of growth of a perturbation"
 
 
-def kept(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
+def rounded_variable(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
     """Return a variable rounded to so many significant digits. NaN stands where there is none."""
     attributes = {"significant_digits": digits, **missing("there is no such state")}
     return Variable(dimensions, rounded(values, digits), words, attributes=attributes)
@@ -41,21 +41,27 @@ def steady_contents(
             continue
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         problem, state = localised(family, constants, half_width)
-        parts = state.parts(problem)
-        amplitude[(..., *at)], power[at] = parts[:, :, half_width].T, np.sum(parts**2)
+        amplitudes = state.parts(problem)
+        amplitude[(..., *at)], power[at] = amplitudes[:, :, half_width].T, np.sum(amplitudes**2)
         rates[at] = max(0.0, float(exponents(problem, state).real.max()))
     over = ("family", "omega")
     variables = {
-        "part": PARTS,
+        "part": RE_IM,
         "component": COMPONENTS,
-        "family": Variable(("family",), [one.name for one in FAMILIES], "family of steady states"),
+        "family": Variable(
+            ("family",),
+            [family_of_pairs.name for family_of_pairs in FAMILIES],
+            "family of steady states",
+        ),
         "omega": Variable(("omega",), np.array(omegas, dtype=float), attributes=FEW_CHOICES),
-        "amplitude": kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
-        "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
-        "growth": kept(over, rates, RATE, GROWTH_DIGITS),
+        "amplitude": rounded_variable(
+            ("part", "component", *over), amplitude, "amplitude on a site, site 0"
+        ),
+        "power": rounded_variable(over, power, "power P, the sum of |A|^2 + |B|^2"),
+        "growth": rounded_variable(over, rates, RATE, GROWTH_DIGITS),
     }
-    about = {"epsilon": epsilon, "gamma": gamma, "residual": TOLERANCE, **REGULAR}
-    return variables, {"title": "Steady states localised at one pair", **about}
+    attributes = {"epsilon": epsilon, "gamma": gamma, "residual": TOLERANCE, **REGULAR}
+    return variables, {"title": "Steady states localised at one pair", **attributes}
 
 
 def periodic_contents(
@@ -73,16 +79,20 @@ def periodic_contents(
     shape = (len(periodic.FAMILIES), len(omegas), len(frequencies))
     amplitude, power = (np.full((2, *shape), np.nan) for _ in range(2))
     least, rates = (np.full(shape, np.nan) for _ in range(2))
-    given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
+    constants_by_omega = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
     for at in np.ndindex(shape):
-        family, constants, frequency = periodic.FAMILIES[at[0]], given[at[1]], frequencies[at[2]]
-        if (one := periodic.find(family, constants, frequency, half_width)) is None:
+        family, constants, frequency = (
+            periodic.FAMILIES[at[0]],
+            constants_by_omega[at[1]],
+            frequencies[at[2]],
+        )
+        if (breather := periodic.find_breather(family, constants, frequency, half_width)) is None:
             continue
         amplitude[(slice(None), *at)], power[(slice(None), *at)] = (
-            one.data[:, 0],
-            periodic.power(one.data),
+            breather.data[:, 0],
+            periodic.power(breather.data),
         )
-        least[at], rates[at] = periodic.least_power(one), multipliers.growth(one)
+        least[at], rates[at] = periodic.least_power(breather), multipliers.growth_rate(breather)
     over = ("family", "omega", "frequency")
     largest = "power P of each component, the largest of a period"
     variables = {
@@ -93,19 +103,23 @@ def periodic_contents(
             ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
         ),
         "highest_wave": Variable(
-            ("omega",), list(map(periodic.highest_wave, given)), "highest frequency of linear waves"
+            ("omega",),
+            list(map(periodic.highest_wave, constants_by_omega)),
+            "highest frequency of linear waves",
         ),
-        "amplitude": kept(
+        "amplitude": rounded_variable(
             ("component", *over), amplitude, "amplitude on a site, site 0, when both are real"
         ),
-        "power": kept(("component", *over), power, largest),
-        "least_power": kept(over, least, "power P of both components, the least of a period"),
-        "growth": kept(over, rates, RATE, GROWTH_DIGITS),
+        "power": rounded_variable(("component", *over), power, largest),
+        "least_power": rounded_variable(
+            over, least, "power P of both components, the least of a period"
+        ),
+        "growth": rounded_variable(over, rates, RATE, GROWTH_DIGITS),
         **soliton_variables(epsilon, gamma, **solitons),
     }
-    about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
-    about |= REGULAR
-    return variables, {"title": "Periodic breathers localised at one pair", **about}
+    attributes = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
+    attributes |= REGULAR
+    return variables, {"title": "Periodic breathers localised at one pair", **attributes}
 
 
 def soliton_variables(
@@ -123,7 +137,7 @@ def soliton_variables(
     powers, rates = np.empty((2, len(half_widths), len(frequencies)))
     for at in np.ndindex(rates.shape):
         soliton = periodic.find_soliton(constants, frequencies[at[1]], half_widths[at[0]])
-        powers[at], rates[at] = periodic.power(soliton.data).sum(), multipliers.growth(soliton)
+        powers[at], rates[at] = periodic.power(soliton.data).sum(), multipliers.growth_rate(soliton)
     over = ("soliton_half_width", "soliton_frequency")
     return {
         "soliton_half_width": Variable(
@@ -132,6 +146,6 @@ def soliton_variables(
         "soliton_frequency": Variable(
             over[1:], np.array(frequencies, float), f"frequency of the soliton at Omega = {omega:g}"
         ),
-        "soliton_power": kept(over[1:], powers[-1], "power P of the soliton A = B"),
-        "soliton_growth": kept(over, rates, RATE, GROWTH_DIGITS),
+        "soliton_power": rounded_variable(over[1:], powers[-1], "power P of the soliton A = B"),
+        "soliton_growth": rounded_variable(over, rates, RATE, GROWTH_DIGITS),
     }

@@ -128,21 +128,21 @@ def map_fates(
     rows, columns = np.tril_indices(len(amplitudes))
     data = np.array(amplitudes)[np.stack([rows, columns], -1)]
     survey = Survey({"omega": list(problems), "initial.0.0, initial.0.1": data})
-    (one, *_) = problems.values()
-    runs = Surveyed(one.changed(initial=np.ones((2, 1))), survey)
+    (first, *_) = problems.values()
+    runs = Surveyed(first.changed(initial=np.ones((2, 1))), survey)
 
     def conclude(retained: Mapping[str, np.ndarray]) -> Contents:
-        return _map_of(problems, amplitudes, retained["fate"].reshape(survey.shape))
+        return _map_contents(problems, amplitudes, retained["fate"].reshape(survey.shape))
 
     return ManyRuns(runs, partial(keep_fate, majority=majority), conclude)
 
 
-def _map_of(
+def _map_contents(
     problems: Mapping[float, Problem], amplitudes: Sequence[float], fates: np.ndarray
 ) -> Contents:
     """Return the contents of the dataset of the fates (omega, data) of one half of the map."""
     rows, columns = np.tril_indices(len(amplitudes))
-    (one, *_) = problems.values()
+    (first, *_) = problems.values()
     mapped = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=np.int8)
     mapped[:, rows, columns] = mapped[:, columns, rows] = fates
     flags = {"flag_values": np.arange(len(FATES), dtype=np.int8), "flag_meanings": " ".join(FATES)}
@@ -153,6 +153,8 @@ def _map_of(
         "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
         "fate": Variable(("omega", "a0", "b0"), mapped, "fate of the data", attributes=flags),
     }
-    about = describe_run("pairs", one, one.solver)
-    about = {key: value for key, value in about.items() if key not in ("omega", "initial", "case")}
-    return variables, about | {"title": "What becomes of data on one pair"}
+    attributes = describe_run("pairs", first, first.solver)
+    attributes = {
+        key: value for key, value in attributes.items() if key not in ("omega", "initial", "case")
+    }
+    return variables, attributes | {"title": "What becomes of data on one pair"}

@@ -37,12 +37,12 @@ FATES_CAPTION = (
 
 def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Dataset:
     """Return the map as it is drawn: that of `fine` if this is of the same runs."""
-    shown, omegas = fates, fates["omega"].values
+    fate_map, omegas = fates, fates["omega"].values
     known = fine is not None and np.isin(omegas, fine["omega"].values).all()
     if known and all(fates.attrs[name] == fine.attrs[name] for name in SAME_RUNS):
-        shown = fine.sel(omega=omegas)
+        fate_map = fine.sel(omega=omegas)
     caption = FATES_CAPTION.format(end=f"{float(fates.attrs['end_time']):g}")
-    return shown[["fate"]].assign_attrs(caption=caption, **chaotic_along("omega"))
+    return fate_map[["fate"]].assign_attrs(caption=caption, **chaotic_along("omega"))
 
 
 @style.styled
@@ -54,12 +54,12 @@ def draw_fates(data: xr.Dataset) -> Figure:
         _draw_map(axes, data["fate"].sel(omega=omega))
         axes.set_title(rf"({letter}) $\Omega = {omega:g}$", loc="left")
     row[0].set_ylabel("$B_0$")
-    shown = [
+    patches = [
         Patch(facecolor=COLOURS(kind), edgecolor="0.5", label=KINDS[kind])
         for kind in np.unique(data["fate"])
     ]
     paper = Line2D([], [], ls="none", label="initial conditions of Figs 2 to 4", **MARK)
-    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5, columnspacing=1.2)
+    figure.legend(handles=[*patches, paper], loc="outside upper center", ncols=5, columnspacing=1.2)
     return figure
 
 
@@ -80,6 +80,6 @@ def _draw_map(axes: Axes, fates: xr.DataArray) -> None:
         aspect="auto",
         interpolation="none",
     )
-    for one in OF_PAPER:
-        axes.plot(*one, clip_on=False, **MARK)
+    for point in OF_PAPER:
+        axes.plot(*point, clip_on=False, **MARK)
     axes.set(xlabel="$A_0$", xlim=ends[:2], ylim=ends[2:])

@@ -22,7 +22,7 @@ import numpy as np
 from latticode.numerics.elementary import log
 
 from .periodic import Breather, exchange_sign, real_data
-from .quarter_period import STEPS, flow
+from .quarter_period import STEPS, integrate_bundle
 
 PARITIES = ("even", "odd")
 NOISE = 1e-5
@@ -31,45 +31,45 @@ waves of nearly equal nu. A perturbation would grow at this rate by a tenth unti
 slowest that was seen grows at 0.03."""
 
 
-def traces(breather: Breather, parity: str) -> np.ndarray:
+def half_traces(breather: Breather, parity: str) -> np.ndarray:
     """Return nu of all even or odd perturbations, complex.
 
     Where A = B or A = -B, perturbations with b = a and with b = -a do not mix.
     """
     sites, first = breather.data.shape[1], PARITIES.index(parity)
-    alike = exchange_sign(breather.data) != 0
-    directions, nothing = _directions(sites, first, alike), np.empty((0, 4, sites))
+    is_symmetric = exchange_sign(breather.data) != 0
+    directions, nothing = _directions(sites, first, is_symmetric), np.empty((0, 4, sites))
     bundle = (nothing, directions) if first else (directions, nothing)
     state = real_data(breather.data)
-    ends = flow(breather.constants, state, *bundle, breather.quarter, STEPS)[1:]
+    ends = integrate_bundle(breather.constants, state, *bundle, breather.quarter, STEPS)[1:]
     ends = ends[:, :, first:].reshape(2, -1, 2, 2, sites - first)  # (part, start, A or B, part, n)
-    if alike:
+    if is_symmetric:
         ends = np.concatenate([ends, ends[:, :, ::-1]], axis=1)
     _, s, q, _ = ends.transpose(0, 3, 2, 4, 1).reshape(4, -1, ends.shape[1])
     # a site beside the centre stands for its mirror image too
     weights = np.tile([1.0] * (1 - first) + [2.0] * (sites - 1), 2)[:, None]
     a = np.eye(len(s)) + 2.0 * (q.T @ (weights * s)) / weights
     n = len(a) // 2
-    parts = [a[:n, :n] + sign * a[:n, n:] for sign in (1.0, -1.0)] if alike else [a]
-    found = np.concatenate([-np.linalg.eigvals(part).astype(complex) for part in parts])
+    blocks = [a[:n, :n] + sign * a[:n, n:] for sign in (1.0, -1.0)] if is_symmetric else [a]
+    nu = np.concatenate([-np.linalg.eigvals(block).astype(complex) for block in blocks])
     if parity == "even":  # the shift along the solution
-        found[np.argmin(np.abs(found - 1.0))] = 1.0
-    return found
+        nu[np.argmin(np.abs(nu - 1.0))] = 1.0
+    return nu
 
 
-def _directions(sites: int, first: int, alike: bool) -> np.ndarray:
+def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
     """Return unit perturbations on the sites `first`..M: of real parts, then of imaginary ones.
 
-    Those of B are left out where A and B are `alike`.
+    Those of B are left out where A and B are `is_symmetric`.
     """
-    units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - alike, first:]
+    units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - is_symmetric, first:]
     units = units.reshape(-1, 2, sites)
-    found = np.zeros((2, len(units), 4, sites))
-    found[0][:, ::2] = found[1][:, 1::2] = units
-    return found.reshape(-1, 4, sites)
+    directions = np.zeros((2, len(units), 4, sites))
+    directions[0][:, ::2] = directions[1][:, 1::2] = units
+    return directions.reshape(-1, 4, sites)
 
 
-def growth_of_traces(frequency: float, nu: np.ndarray) -> float:
+def growth_rate_of_traces(frequency: float, nu: np.ndarray) -> float:
     """Return the rate per unit of tau at which the fastest perturbation grows; 0 if none does.
 
     A negative frequency is that of the same motion with time reversed, which grows as fast.
@@ -80,6 +80,9 @@ def growth_of_traces(frequency: float, nu: np.ndarray) -> float:
     return rate if rate > NOISE else 0.0
 
 
-def growth(breather: Breather) -> float:
+def growth_rate(breather: Breather) -> float:
     """Return the rate at which the worst perturbation of a breather grows; 0 if none does."""
-    return max(growth_of_traces(breather.frequency, traces(breather, one)) for one in PARITIES)
+    return max(
+        growth_rate_of_traces(breather.frequency, half_traces(breather, parity))
+        for parity in PARITIES
+    )

@@ -11,7 +11,7 @@ from pendula.problem import Constants, Problem
 from pendula.varied import Printed, as_dataset, vary, vary_several
 
 from .fates import FATES, map_fates
-from .periodic import find, power, quarter_later
+from .periodic import find_breather, power, quarter_later
 from .sensitivity import sensitivity_contents
 
 
@@ -39,10 +39,10 @@ def vary_areas(
     """
 
     def measure(majority, stride, **settings):
-        kept = amplitudes[:: int(stride)]
+        grid = amplitudes[:: int(stride)]
         changed = {problem.constants.omega: with_choices(problem, **settings)}
-        fates = map_fates(changed, kept, majority=majority).make()[0]["fate"].values[0]
-        half = fates[np.tril_indices(len(kept), -1)]
+        fates = map_fates(changed, grid, majority=majority).make()[0]["fate"].values[0]
+        half = fates[np.tril_indices(len(grid), -1)]
         counts = [int((half == place).sum()) for place in range(len(FATES))]
         return Limits(*np.transpose([share_limits(count, half.size) for count in counts]))
 
@@ -66,8 +66,8 @@ def vary_shares(
     def measure(majority, seed, **settings):
         changed = with_choices(problem, **settings)
         study = sensitivity_contents(name, changed, sizes, members, int(seed), majority=majority)
-        found = as_xarray(*study.make())
-        return Limits(*(found[f"share{end}"].values for end in ("", "_low", "_high")))
+        data = as_xarray(*study.make())
+        return Limits(*(data[f"share{end}"].values for end in ("", "_low", "_high")))
 
     share = vary(measure, choices_of(chosen, variations))
     by_size = (
@@ -98,7 +98,9 @@ def vary_least_power(
         scan = np.arange(frequencies[0], frequencies[1] + 0.5 * frequency_step, frequency_step)
         powers = []
         for frequency in scan:
-            breather = find("A only", Constants(**constants), float(frequency), int(half_width))
+            breather = find_breather(
+                "A only", Constants(**constants), float(frequency), int(half_width)
+            )
             late = quarter_later(breather, int(steps))[0, 1::2]
             powers.append(float(power(late).sum()))
         least = int(np.argmin(powers))
@@ -112,7 +114,7 @@ def vary_least_power(
         "least_power": "least P of the breathers in which A swings more than B, within a period",
         "least_frequency": "frequency of the breather with the least P",
     }
-    printed = {name: Printed((), one, words[name]) for name, one in numbers.items()}
+    printed = {name: Printed((), number, words[name]) for name, number in numbers.items()}
     return as_dataset(printed, {}).assign_attrs(
         title="The least P of breathers, with other choices"
     )

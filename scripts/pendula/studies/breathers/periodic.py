@@ -35,7 +35,7 @@ from pendula.models.pairs import FAMILIES as PAIRS
 from pendula.models.steady import localised
 from pendula.problem import Constants
 
-from .quarter_period import FINE_STEPS, STEPS, flow
+from .quarter_period import FINE_STEPS, STEPS, integrate_bundle
 
 FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
@@ -65,7 +65,9 @@ def highest_wave(constants: Constants) -> float:
     return max(abs(constants.omega - 4.0 * constants.epsilon), abs(constants.omega))
 
 
-def find(family: str, constants: Constants, frequency: float, half_width: int) -> Breather | None:
+def find_breather(
+    family: str, constants: Constants, frequency: float, half_width: int
+) -> Breather | None:
     """Return the breather of a family, or None where it has none above the linear waves.
 
     "A only" can end there, where it has become A = B.
@@ -74,12 +76,12 @@ def find(family: str, constants: Constants, frequency: float, half_width: int) -
         return None
     start = single_site(constants, frequency, family, half_width)
     try:
-        found = shoot(constants, frequency, start)
+        breather = shoot(constants, frequency, start)
     except NoStateError:
         return None
-    a, b = found.data
+    a, b = breather.data
     ended = family == "A only" and np.abs(a - b).max() < EQUAL * np.abs(a).max()
-    return None if ended else found
+    return None if ended else breather
 
 
 def find_soliton(constants: Constants, frequency: float, half_width: int) -> Breather:
@@ -135,8 +137,10 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
             return guess
         if not largest < 10.0:
             break
-        wanted = miss.ravel()[: sites * (1 if symmetry else 2)]
-        step = -times(np.linalg.inv(_matrix(guess, symmetry)), wanted).reshape(-1, sites)
+        equations = miss.ravel()[: sites * (1 if symmetry else 2)]
+        step = -times(np.linalg.inv(_derivative_of_miss(guess, symmetry)), equations).reshape(
+            -1, sites
+        )
         data = data + (np.concatenate([step, symmetry * step]) if symmetry else step)
     raise NoStateError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
 
@@ -149,15 +153,15 @@ def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = N
     nothing = np.empty((0, 4, breather.data.shape[1]))
     evens = nothing if changes is None else real_data(changes)
     state = real_data(breather.data)
-    return flow(breather.constants, state, evens, nothing, breather.quarter, steps)
+    return integrate_bundle(breather.constants, state, evens, nothing, breather.quarter, steps)
 
 
-def _matrix(guess: Breather, symmetry: int) -> np.ndarray:
+def _derivative_of_miss(guess: Breather, symmetry: int) -> np.ndarray:
     """Return the derivative of the miss by the data; of A alone if A = B or A = -B."""
     sites = guess.data.shape[1]
-    one = np.eye(sites)
+    unit = np.eye(sites)
     both = np.eye(2 * sites).reshape(-1, 2, sites)
-    changes = np.stack([one, symmetry * one], axis=1) if symmetry else both
+    changes = np.stack([unit, symmetry * unit], axis=1) if symmetry else both
     ends = quarter_later(guess, STEPS, changes)
     return ends[1:, ::2].reshape(len(changes), -1)[:, : len(changes)].T
 

@@ -43,7 +43,7 @@ def parity_rates(chain, bundle, even, slopes):
 
 
 @kernel
-def carry(chain, bundle, even, duration, steps, work):
+def advance_bundle(chain, bundle, even, duration, steps, work):
     """Carry a bundle over `duration` in equal steps; `work` holds SLOPES + 1 bundles."""
     h = duration / steps
     y, k, w = bundle.reshape(-1), work[:SLOPES].reshape(SLOPES, -1), work[SLOPES]
@@ -56,7 +56,7 @@ def carry(chain, bundle, even, duration, steps, work):
         copy(w, bundle)
 
 
-def flow(
+def integrate_bundle(
     constants: Constants,
     state: np.ndarray,
     evens: np.ndarray,
@@ -71,11 +71,11 @@ def flow(
     has all of them in this order, (1 + vectors, 4, M + 1).
     """
     chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
-    given = np.concatenate([state[None], evens, odds])
-    bundle = aligned((ROWS * len(given), given.shape[2] + 2))
+    states = np.concatenate([state[None], evens, odds])
+    bundle = aligned((ROWS * len(states), states.shape[2] + 2))
     bundle[:] = 0.0
-    bundle[:, 1:-1] = given.reshape(-1, given.shape[2])
+    bundle[:, 1:-1] = states.reshape(-1, states.shape[2])
     work = aligned((SLOPES + 1, *bundle.shape))
     work[:] = 0.0
-    carry(chain, bundle, len(evens), duration, steps, work)
-    return bundle[:, 1:-1].reshape(given.shape).copy()
+    advance_bundle(chain, bundle, len(evens), duration, steps, work)
+    return bundle[:, 1:-1].reshape(states.shape).copy()

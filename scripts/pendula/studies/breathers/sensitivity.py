@@ -34,16 +34,16 @@ def sensitivity_contents(
     # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
     drawn = [
-        one
+        member
         for number, size in enumerate(sizes)
-        for one in draw_members(at_the_end_alone, size, members, [seed, number])
+        for member in draw_members(at_the_end_alone, size, members, [seed, number])
     ]
-    about = describe_run(name, problem, problem.solver) | {"members": members, "seed": seed}
-    about |= CHAOTIC
+    attributes = describe_run(name, problem, problem.solver) | {"members": members, "seed": seed}
+    attributes |= CHAOTIC
     title = f"Which data close to those of {name} spread"
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:
-        return _shares_of(sizes, members, retained["fate"]), {"title": title, **about}
+        return _shares_of(sizes, members, retained["fate"]), {"title": title, **attributes}
 
     return ManyRuns(drawn, partial(keep_fate, majority=majority), conclude)
 
@@ -52,10 +52,10 @@ def _shares_of(sizes: Sequence[float], members: int, fates: np.ndarray) -> dict[
     """Return the share of the fates (run,) that spread, with its confidence limits, by size."""
     spread = (fates == SPREADS).reshape(len(sizes), members).sum(axis=1)
     share = Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
-    by_size, said = ("size",), "share of runs that spread"
+    by_size, label = ("size",), "share of runs that spread"
     return {
         "size": Variable(by_size, np.array(sizes), "size of a random change of the data, relative"),
-        "share": Variable(by_size, share.value, said),
-        "share_low": Variable(by_size, share.low, f"{said}, lower confidence limit"),
-        "share_high": Variable(by_size, share.high, f"{said}, upper confidence limit"),
+        "share": Variable(by_size, share.value, label),
+        "share_low": Variable(by_size, share.low, f"{label}, lower confidence limit"),
+        "share_high": Variable(by_size, share.high, f"{label}, upper confidence limit"),
     }

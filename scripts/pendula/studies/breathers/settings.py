@@ -76,7 +76,7 @@ class Fates(Model):
     def amplitudes(self, points: int) -> list[float]:
         """Return the middles of so many equal parts of what is below the largest amplitude."""
         middles = (np.arange(points) + 0.5) / points
-        return [float(f"{one:.12g}") for one in self.largest * middles]
+        return [float(f"{amplitude:.12g}") for amplitude in self.largest * middles]
 
 
 class Settings(Model):
@@ -103,15 +103,17 @@ class Settings(Model):
 
     def runs_of(self, settings: Configuration) -> Iterator[Runs]:
         """Yield the runs of the ensembles by size, and those of the smallest and largest fates."""
-        given, fates = self.sensitivity, self.fates
-        run = settings.run_of(given.case, given.tolerance, end_time=given.end_time)
+        sensitivity, fates = self.sensitivity, self.fates
+        run = settings.run_of(
+            sensitivity.case, sensitivity.tolerance, end_time=sensitivity.end_time
+        )
         yield Runs(
             "sensitivity.members",
             "sensitivity.tolerance",
             [run],
-            given.members * len(given.sizes),
+            sensitivity.members * len(sensitivity.sizes),
             "sensitivity.sizes",
-            max(given.sizes),
+            max(sensitivity.sizes),
         )
         chain = {"half_width": fates.half_width, "epsilon": self.epsilon, "gamma": self.gamma}
         times = {"end_time": fates.end_time, "output_step": fates.end_time}

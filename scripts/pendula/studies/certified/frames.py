@@ -112,7 +112,7 @@ class CertifiedCurve(NamedTuple):
 
     @property
     def bound(self) -> np.ndarray:
-        """The bound of the distance of the states, (time,): the sum of contributions, rounded up."""
+        """The bound of the l2 error, (time,): the sum of contributions, rounded up."""
         return UP * np.sum(self.contributions, axis=0)
 
 
@@ -368,7 +368,7 @@ def compute_norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sum_pairwise(values: np.ndarray) -> np.ndarray:
-    """Return the sum over the first axis by halves, so that each term is rounded only a few times."""
+    """Return the sum over the first axis by halves, with few roundings of each term."""
     while len(values) > 1:
         half = (len(values) + 1) // 2
         second_half = values[half:]

@@ -62,15 +62,15 @@ def members_of(members, case: str):
     return members.sel(case=case)
 
 
-def limits(members, case: str, reduce: Callable, *given) -> Limits:
+def mean_limits_of(members, case: str, reduce: Callable, *arguments) -> Limits:
     """Return the limits of the mean over the members of a case.
 
-    `reduce` makes one number of each member from the dataset of the case and what is `given`.
+    `reduce` makes one number of each member from the dataset of the case and what is `arguments`.
     """
-    return mean_limits(reduce(members_of(members, case), *given), LEVEL.value)
+    return mean_limits(reduce(members_of(members, case), *arguments), LEVEL.value)
 
 
-def largest(limit: Limits) -> float:
+def largest_limit(limit: Limits) -> float:
     """Return the size of the limit that is further from zero."""
     return max(abs(limit.low), abs(limit.high))
 
@@ -119,22 +119,22 @@ def wrong_case(right: str, wrong: str) -> Control:
 # --- Fig 3, lower ---------------------------------------------------------------------------------
 
 
-def fig3(says: str, *wrongs: str) -> Callable:
+def fig3(statement: str, *wrongs: str) -> Callable:
     """Return the decorator of a claim, whose controls are members of these other cases.
 
     It needs the shares of runs that spread as well, and they must not spread by data far away.
     """
     place, needs = "Section 5, Fig 3 lower, in ensembles", (*NEEDS, SENSITIVITY)
     controls = (*(wrong_case("fig3_large", wrong) for wrong in wrongs), FAR_AS_NEAR)
-    return claim(place, says, needs, controls, ("fig3_large",))
+    return claim(place, statement, needs, controls, ("fig3_large",))
 
 
 @fig3("As a result, the l2 norm of the solution grows.", "fig3_small")
 def ensemble_fig3_grows(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
-    grown = limits(members, "fig3_large", over_start, "l2")
-    says = f"lower confidence limit of the mean l2 on {LATER} over its initial value"
-    return near.judge({"growth": grown.value, "low": grown.low}, Above(FACTOR, "low", says=says))
+    grown = mean_limits_of(members, "fig3_large", over_start, "l2")
+    label = f"lower confidence limit of the mean l2 on {LATER} over its initial value"
+    return near.judge({"growth": grown.value, "low": grown.low}, Above(FACTOR, "low", says=label))
 
 
 @fig3(
@@ -145,12 +145,12 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
 
     def excited(case):
         amplitudes = pendula(case)
-        others = np.delete(amplitudes, amplitudes.shape[2] // 2, axis=2)
-        return (others > float(case["linf_start"]) / MUCH.value).sum(axis=(1, 2))
+        neighbours = np.delete(amplitudes, amplitudes.shape[2] // 2, axis=2)
+        return (neighbours > float(case["linf_start"]) / MUCH.value).sum(axis=(1, 2))
 
-    low = limits(members, "fig3_large", excited).low
-    says = f"lower confidence limit of the number of other pendula above A_0 / 3 on {LATER}"
-    return near.judge({"low": low}, Above(SEVERAL, "low", says=says))
+    low = mean_limits_of(members, "fig3_large", excited).low
+    label = f"lower confidence limit of the number of other pendula above A_0 / 3 on {LATER}"
+    return near.judge({"low": low}, Above(SEVERAL, "low", says=label))
 
 
 @fig3("The A and B modes mix up.", "fig2_large", "fig2_small")
@@ -163,22 +163,24 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
     def correlation(case):
         return case["norm_correlation"].sel(window=LATER).values
 
-    ratios = limits(members, "fig3_large", ratio)
+    ratios = mean_limits_of(members, "fig3_large", ratio)
     measured = {"ratio_low": ratios.low, "ratio_high": ratios.high}
-    alike = WithinFactor(FACTOR, *measured, says="confidence interval of l2 of A over that of B")
-    measured["correlation_low"] = limits(members, "fig3_large", correlation).low
-    says = "lower confidence limit of the correlation of |A|^2 and |B|^2"
-    return near.judge(measured, alike, Above(ANTICORRELATED, "correlation_low", says=says))
+    is_comparable = WithinFactor(
+        FACTOR, *measured, says="confidence interval of l2 of A over that of B"
+    )
+    measured["correlation_low"] = mean_limits_of(members, "fig3_large", correlation).low
+    label = "lower confidence limit of the correlation of |A|^2 and |B|^2"
+    return near.judge(measured, is_comparable, Above(ANTICORRELATED, "correlation_low", says=label))
 
 
 @fig3("The l-infinity norm stays at its initial level.", "fig4_small", "fig2_small")
 def ensemble_fig3_maximum(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
-    found = limits(members, "fig3_large", over_start, "linf")
-    measured = {"ratio": found.value, "low": found.low, "high": found.high}
-    rises = f"it rises by at least {found.low - 1.0:.0%}" if found.low > 1.0 else ""
-    says = f"confidence interval of the mean l-infinity norm on {LATER} over its initial value"
-    return near.judge(measured, WithinFactor(FACTOR, "low", "high", says=says), caveat=rises)
+    ratio = mean_limits_of(members, "fig3_large", over_start, "linf")
+    measured = {"ratio": ratio.value, "low": ratio.low, "high": ratio.high}
+    rises = f"it rises by at least {ratio.low - 1.0:.0%}" if ratio.low > 1.0 else ""
+    label = f"confidence interval of the mean l-infinity norm on {LATER} over its initial value"
+    return near.judge(measured, WithinFactor(FACTOR, "low", "high", says=label), caveat=rises)
 
 
 # --- Fig 4 ----------------------------------------------------------------------------------------
@@ -189,7 +191,7 @@ fig4 = partial(claim, "Section 5, Fig 4, in ensembles", needs=NEEDS, on=BOTH)
 
 def lows(members, name: str, reduce: Callable) -> dict[str, float]:
     """Return the lower limits of both panels of Fig 4, as measured numbers."""
-    return {f"{case}_{name}_low": limits(members, case, reduce).low for case in BOTH}
+    return {f"{case}_{name}_low": mean_limits_of(members, case, reduce).low for case in BOTH}
 
 
 @fig4(
@@ -198,8 +200,11 @@ def lows(members, name: str, reduce: Callable) -> dict[str, float]:
     controls=(wrong_case("fig4_small", "fig3_small"), wrong_case("fig4_large", "fig2_large")),
 )
 def ensemble_fig4_settles(members) -> Finding:
-    changes = {f"{case}_change": largest(limits(members, case, change, "linf")) for case in BOTH}
-    grown = {"growth_low": limits(members, "fig4_small", over_start, "linf").low}
+    changes = {
+        f"{case}_change": largest_limit(mean_limits_of(members, case, change, "linf"))
+        for case in BOTH
+    }
+    grown = {"growth_low": mean_limits_of(members, "fig4_small", over_start, "linf").low}
     over = lows(members, "l2_over_linf", lambda case: level(case, "l2") / level(case, "linf"))
     criterion = AllOf(
         Below(CHANGE, *changes, says=f"upper confidence limit of the change to {LATER}"),
@@ -224,8 +229,8 @@ def ensemble_fig4_many(members) -> Finding:
         return ((amplitudes > centre / FACTOR.value) & large).mean(axis=(1, 2))
 
     measured = lows(members, "share", share)
-    says = "lower confidence limit of the share above half of the centre and A_0 / 3"
-    return judge(measured, Above(MANY, *measured, says=says))
+    label = "lower confidence limit of the share above half of the centre and A_0 / 3"
+    return judge(measured, Above(MANY, *measured, says=label))
 
 
 @fig4(
@@ -244,15 +249,15 @@ def ensemble_fig4_alike(members) -> Finding:
     """Each panel shows one run, so that a difference is seen where it is wider than their band."""
     upper, lower = (members_of(members, case) for case in BOTH)
     small, large = (level(case, "l2") for case in (upper, lower))
-    apart = difference_limits(large / large.mean(), small / large.mean(), LEVEL.value)
+    difference = difference_limits(large / large.mean(), small / large.mean(), LEVEL.value)
     band = float(lower["relative_width"])
-    measured = {"difference": apart.value, "over_band": largest(apart) / band}
+    measured = {"difference": difference.value, "over_band": largest_limit(difference) / band}
     caveat = (
-        f"the means differ by {abs(apart.value):.1%} on {LATER}, and single runs scatter by"
+        f"the means differ by {abs(difference.value):.1%} on {LATER}, and single runs scatter by"
         f" {band:.1%} (standard deviation)"
     )
-    says = f"confidence limit of the difference of mean l2 on {LATER}, over the scatter of runs"
-    return judge(measured, Below(BAND, "over_band", says=says), caveat)
+    label = f"confidence limit of the difference of mean l2 on {LATER}, over the scatter of runs"
+    return judge(measured, Below(BAND, "over_band", says=label), caveat)
 
 
 # --- The abstract ---------------------------------------------------------------------------------
@@ -276,8 +281,8 @@ def ensemble_equilibrium(members) -> Finding:
         return np.square(change(case, "l2") + 1.0) - 1.0
 
     measured = {
-        "least_low": limits(members, "fig4_small", least).low,
-        "change": largest(limits(members, "fig4_small", power_change)),
+        "least_low": mean_limits_of(members, "fig4_small", least).low,
+        "change": largest_limit(mean_limits_of(members, "fig4_small", power_change)),
     }
     everywhere = Above(
         FACTOR,
@@ -337,8 +342,8 @@ def excited_centre(lifetimes, share: Limits) -> str:
     excited = a0[share.low > FACTOR.value / pairs]
     if not excited.size:
         return ""
-    kept = share.value[np.isin(a0, excited)]
+    shares = share.value[np.isin(a0, excited)]
     return (
         f"from A_0 = {excited.min():g} on the central pair stays excited inside the chaotic chain:"
-        f" it holds {kept.min():.1%} to {kept.max():.1%} of P, the average pair {1 / pairs:.1%}"
+        f" it holds {shares.min():.1%} to {shares.max():.1%} of P, the average pair {1 / pairs:.1%}"
     )

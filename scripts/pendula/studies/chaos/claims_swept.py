@@ -76,9 +76,11 @@ class Means(NamedTuple):
 
     def over(self, below: slice, above: slice, confidence: float | None = None) -> Limits:
         """Return the mean over some half-widths over that of others, `above` / `below`."""
-        value = [self.mean[part].mean() for part in (below, above)]
-        errors = [self.error[part] for part in (below, above)]
-        error = [np.sqrt((one**2).sum()) / len(one) for one in errors]
+        value = [self.mean[half_widths].mean() for half_widths in (below, above)]
+        errors = [self.error[half_widths] for half_widths in (below, above)]
+        error = [
+            np.sqrt((standard_errors**2).sum()) / len(standard_errors) for standard_errors in errors
+        ]
         return ratio_limits(value, error, self.members, confidence or LEVEL.value)
 
     @property
@@ -97,11 +99,11 @@ def means_of(ensembles, sweep: str, norm: str = "l2", reading: str = "text") -> 
     """Return the means of the norm of the pair by a reading; by the text these are of maxima."""
     if sweep not in ensembles["sweep"].values:
         raise UndecidableError(f"there is no ensemble of {sweep}")
-    kept = ensembles.sel(sweep=sweep, reading=reading).dropna("half_width", subset=["l2_mean"])
-    if kept.sizes["half_width"] < FEWEST:
+    norms = ensembles.sel(sweep=sweep, reading=reading).dropna("half_width", subset=["l2_mean"])
+    if norms.sizes["half_width"] < FEWEST:
         raise UndecidableError(f"the ensemble has fewer than {FEWEST} half-widths")
-    values = (kept[name].values for name in ("half_width", f"{norm}_mean", f"{norm}_error"))
-    return Means(*values, int(kept["swept_members"]))
+    values = (norms[name].values for name in ("half_width", f"{norm}_mean", f"{norm}_error"))
+    return Means(*values, int(norms["swept_members"]))
 
 
 # --- Wrong cases ----------------------------------------------------------------------------------
@@ -141,15 +143,15 @@ fig5 = partial(claim, "Section 5, Fig 5 right, in ensembles", needs=NEEDS, on=("
     controls=(flat("fig5_right"),),
 )
 def ensemble_fig5_grows(ensembles) -> Finding:
-    found = means_of(ensembles, "fig5_right")
-    apart = student(2 * (found.members - 1), LEVEL.value)
-    noise = apart * np.sqrt(found.error[1:] ** 2 + found.error[:-1] ** 2)
-    growth, last = found.over(slice(1), slice(-1, None)), found.last_growth()
+    means = means_of(ensembles, "fig5_right")
+    quantile = student(2 * (means.members - 1), LEVEL.value)
+    noise = quantile * np.sqrt(means.error[1:] ** 2 + means.error[:-1] ** 2)
+    growth, last = means.over(slice(1), slice(-1, None)), means.last_growth()
     measured = {
         "growth": growth.value,
         "growth_low": growth.low,
-        "rising": np.mean(np.diff(found.mean) > noise),
-        "largest_at": found.half_width[found.largest_before],
+        "rising": np.mean(np.diff(means.mean) > noise),
+        "largest_at": means.half_width[means.largest_before],
     }
     criterion = AllOf(
         Above(FACTOR, "growth_low", says="lower confidence limit of longest over shortest chain"),
@@ -164,21 +166,21 @@ STILL_GROWS = Above(
 )
 
 
-def last_growth_of(found: Means) -> dict[str, float]:
+def last_growth_of(means: Means) -> dict[str, float]:
     """Return what is measured of the growth to the longest chain."""
-    last = found.last_growth()
+    last = means.last_growth()
     return {
         "last_growth": last.value,
         "last_growth_low": last.low,
-        "longest": found.half_width[-1],
-        "largest_at": found.half_width[found.largest_before],
+        "longest": means.half_width[-1],
+        "largest_at": means.half_width[means.largest_before],
     }
 
 
-def no_growth(found: Means) -> str:
+def explain_no_growth(means: Means) -> str:
     """Return in words what a sweep shows that levels off."""
-    last, longest = found.last_growth(), found.half_width[-1]
-    largest = found.half_width[found.largest_before]
+    last, longest = means.last_growth(), means.half_width[-1]
+    largest = means.half_width[means.largest_before]
     return (
         f"the ensemble mean at M = {longest:g} is {last.value:.2f} times the largest of shorter"
         f" chains, at M = {largest:g}: the front does not reach the ends of long chains within the"
@@ -200,16 +202,16 @@ def no_growth(found: Means) -> str:
 )
 def ensemble_fig5_conjecture(ensembles) -> Finding:
     """Ask that the norm still grows on the longest chains."""
-    found = means_of(ensembles, "fig5_right")
-    measured = {"growth_low": found.over(slice(1), slice(-1, None)).low, **last_growth_of(found)}
-    says = "lower confidence limit of longest over shortest chain"
-    grows, fails = Above(1.0, "growth_low", says=says), ""
+    means = means_of(ensembles, "fig5_right")
+    measured = {"growth_low": means.over(slice(1), slice(-1, None)).low, **last_growth_of(means)}
+    label = "lower confidence limit of longest over shortest chain"
+    grows, fails = Above(1.0, "growth_low", says=label), ""
     if grows.holds(measured):
         fails = (
-            f"growth with M is no growth in time: {no_growth(found)}; whether the norm grows in"
-            " time is decided on the infinite chain"
+            f"growth with M is no growth in time: {explain_no_growth(means)}; whether the norm"
+            " grows in time is decided on the infinite chain"
         )
-    caveat = f"in a fixed time window, and on chains up to M = {found.half_width[-1]:.0f}"
+    caveat = f"in a fixed time window, and on chains up to M = {means.half_width[-1]:.0f}"
     return judge(measured, AllOf(grows, STILL_GROWS), caveat, fails)
 
 
@@ -221,12 +223,12 @@ def ensemble_fig5_conjecture(ensembles) -> Finding:
 )
 def ensemble_fig5_maximum(ensembles) -> Finding:
     """Ask whether long chains have the level of short ones: single means are too uncertain."""
-    found = means_of(ensembles, "fig5_right", "linf")
-    half = len(found.mean) // 2
-    ratio = found.over(slice(half), slice(half, None))
-    says = "confidence interval of the mean on long chains over that on short ones"
+    means = means_of(ensembles, "fig5_right", "linf")
+    half = len(means.mean) // 2
+    ratio = means.over(slice(half), slice(half, None))
+    label = "confidence interval of the mean on long chains over that on short ones"
     return judge(
-        {"low": ratio.low, "high": ratio.high}, Near(1.0, CHANGE, "low", "high", says=says)
+        {"low": ratio.low, "high": ratio.high}, Near(1.0, CHANGE, "low", "high", says=label)
     )
 
 
@@ -234,14 +236,17 @@ def ensemble_fig5_maximum(ensembles) -> Finding:
 
 
 def fig6(
-    says: str, *others: str, wrong: Control, place: str = "Section 5, Fig 6 right, in ensembles"
+    statement: str,
+    *more_needs: str,
+    wrong: Control,
+    place: str = "Section 5, Fig 6 right, in ensembles",
 ) -> Callable:
     """Return the decorator of a claim that needs the shares of runs that spread as well.
 
     Its controls are `wrong`, and shares that do not spread close to the data.
     """
     controls = (wrong, FAR_AS_NEAR)
-    return claim(place, says, (*NEEDS, SENSITIVITY, *others), controls, ("fig6_right",))
+    return claim(place, statement, (*NEEDS, SENSITIVITY, *more_needs), controls, ("fig6_right",))
 
 
 @fig6(
@@ -250,16 +255,16 @@ def fig6(
 )
 def ensemble_fig6_grows(ensembles, sensitivity) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
-    found = means_of(ensembles, "fig6_right")
-    ratio, peak = found.over(slice(1), slice(1, None)), int(np.argmax(found.mean))
-    measured = {"ratio": ratio.value, "low": ratio.low, "peak_at": found.half_width[peak]}
-    back = found.over(slice(peak, peak + 1), slice(-3, None)).value
+    means = means_of(ensembles, "fig6_right")
+    ratio, peak = means.over(slice(1), slice(1, None)), int(np.argmax(means.mean))
+    measured = {"ratio": ratio.value, "low": ratio.low, "peak_at": means.half_width[peak]}
+    back = means.over(slice(peak, peak + 1), slice(-3, None)).value
     caveat = (
         f"up to M = {measured['peak_at']:.0f}; on the three longest chains it is {back:.2f} of the"
         " peak"
     )
-    says = "lower confidence limit of the mean on all longer chains over that on the shortest"
-    return near.judge(measured, Above(1.0, "low", says=says), caveat=caveat)
+    label = "lower confidence limit of the mean on all longer chains over that on the shortest"
+    return near.judge(measured, Above(1.0, "low", says=label), caveat=caveat)
 
 
 @claim(
@@ -279,12 +284,12 @@ def ensemble_fig6_grows(ensembles, sensitivity) -> Finding:
 )
 def ensemble_fig6_diverges(ensembles) -> Finding:
     """Ask that the norm still grows on the longest chains."""
-    found = means_of(ensembles, "fig6_right")
+    means = means_of(ensembles, "fig6_right")
     fails = (
         "no sweep over a fixed time window can show it, however long its chains:"
-        f" {no_growth(found)}; the paper does not give its largest M"
+        f" {explain_no_growth(means)}; the paper does not give its largest M"
     )
-    return judge(last_growth_of(found), STILL_GROWS, fails=fails)
+    return judge(last_growth_of(means), STILL_GROWS, fails=fails)
 
 
 @fig6(
@@ -295,11 +300,11 @@ def ensemble_fig6_diverges(ensembles) -> Finding:
 def ensemble_fig6_not_technical(ensembles, sensitivity, run) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
     c_0 = theorem_2_constants(Constants.of(run.attrs))[1]
-    found = means_of(ensembles, "fig6_right")
-    low = np.square(found.mean[-1] - found.off[-1]) / total_power(run)[0]
+    means = means_of(ensembles, "fig6_right")
+    low = np.square(means.mean[-1] - means.off[-1]) / total_power(run)[0]
     fixed = "a fixed time window cannot show growth without bound"
-    says = "lower confidence limit of the largest P over its initial value"
-    return near.judge({"low": low, "C_0": c_0}, Above(c_0, "low", says=says), caveat=fixed)
+    label = "lower confidence limit of the largest P over its initial value"
+    return near.judge({"low": low, "C_0": c_0}, Above(c_0, "low", says=label), caveat=fixed)
 
 
 @fig6(
@@ -310,10 +315,10 @@ def ensemble_fig6_not_technical(ensembles, sensitivity, run) -> Finding:
 )
 def ensemble_fig6_time(ensembles, sensitivity, run) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
-    found = means_of(ensembles, "fig6_right")
-    measured = {"low": (found.mean - found.off).min() / np.sqrt(total_power(run)[0])}
-    says = "lower confidence limit of l2 over its initial value, at every M"
-    return near.judge(measured, Above(FACTOR, "low", says=says))
+    means = means_of(ensembles, "fig6_right")
+    measured = {"low": (means.mean - means.off).min() / np.sqrt(total_power(run)[0])}
+    label = "lower confidence limit of l2 over its initial value, at every M"
+    return near.judge(measured, Above(FACTOR, "low", says=label))
 
 
 @claim(
@@ -330,16 +335,16 @@ def ensemble_fig6_time(ensembles, sensitivity, run) -> Finding:
 )
 def fig6_caption(left, ensembles) -> Finding:
     """Ask by which reading the text holds: l2 constant on the left, and growing on the right."""
-    measured, found = {}, {}
-    for reading, one in READINGS_6.items():
+    measured, criteria = {}, {}
+    for reading, quantity in READINGS_6.items():
         right = means_of(ensembles, "fig6_right", "l2", reading)
-        measured[f"range_by_{reading}"] = relative_range(swept(left, "l2", *one)[1])
+        measured[f"range_by_{reading}"] = relative_range(swept(left, "l2", *quantity)[1])
         measured[f"low_by_{reading}"] = right.over(slice(1), slice(1, None)).low
-        found[reading] = AllOf(
+        criteria[reading] = AllOf(
             Below(CONSTANT, f"range_by_{reading}", says="range on the left over its mean"),
             Above(1.0, f"low_by_{reading}", says="lower confidence limit of growth on the right"),
         )
-    if found["text"].holds(measured) == found["caption"].holds(measured):
+    if criteria["text"].holds(measured) == criteria["caption"].holds(measured):
         why = "the text is right on the figure by both readings or by neither"
-        return undecided(measured, why, AllOf(*found.values()))
-    return judge(measured, found["caption"])
+        return undecided(measured, why, AllOf(*criteria.values()))
+    return judge(measured, criteria["caption"])

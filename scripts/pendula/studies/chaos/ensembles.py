@@ -39,15 +39,15 @@ def draw_swept(
     Each half-width has draws of its own. The same data would give the same motion on all chains
     that are too long for the front, so that their means would not be independent of each other.
     """
-    own = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
-    return [m for one, seeds in own for m in draw_members(one, size, members, seeds)]
+    chains = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
+    return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
 
 
 def read_norms(problem: Problem, windows) -> dict[str, np.ndarray]:
     """Return both READINGS of the pair's norms of a run, each over its own of the `windows`."""
-    found, pair = windowed(simulate(problem, energy=False), windows), QUANTITIES.index("pair")
+    norms, pair = windowed(simulate(problem, energy=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]
-    return {norm: found[norm][pair, places, range(len(places))] for norm in NORMS}
+    return {name: norms[name][pair, places, range(len(places))] for name in NORMS}
 
 
 def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> ManyRuns:
@@ -58,31 +58,35 @@ def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> M
     `swept` gives by sweep its problem as plain values, half-widths, members at each of them, and
     the windows of the READINGS.
     """
-    own = by_name({name: one["problem"] for name, one in swept.items()})
+    problem_of = by_name({name: sweep["problem"] for name, sweep in swept.items()})
     windows = {
-        member: one["windows"]
-        for name, one in swept.items()
-        for member in draw_swept(own[name], one["half_widths"], size, one["members"], seed)
+        member: sweep["windows"]
+        for name, sweep in swept.items()
+        for member in draw_swept(
+            problem_of[name], sweep["half_widths"], size, sweep["members"], seed
+        )
     }
     return ManyRuns(
         list(windows),
-        lambda one: read_norms(one, windows[one]),
-        lambda norms: _ensembles_of(norms, own, swept).assign_attrs(perturbation=size),
+        lambda member: read_norms(member, windows[member]),
+        lambda norms: _ensembles_dataset(norms, problem_of, swept).assign_attrs(perturbation=size),
     )
 
 
-def _ensembles_of(
-    found: Mapping[str, np.ndarray], own: Mapping[str, Problem], swept: Mapping[str, Mapping]
+def _ensembles_dataset(
+    norms: Mapping[str, np.ndarray], problem_of: Mapping[str, Problem], swept: Mapping[str, Mapping]
 ) -> xr.Dataset:
     """Return the dataset of the norms of all runs, sweep by sweep."""
-    done, parts = 0, []
-    for one in swept.values():
-        shape = len(one["half_widths"]), one["members"]
-        kept = slice(done, done := done + shape[0] * shape[1])
-        parts.append(_moments({norm: found[norm][kept].reshape(*shape, -1) for norm in NORMS}, one))
-    described = as_xarray(*describe_cases(own)).rename(case="sweep")
+    done, moments_by_sweep = 0, []
+    for sweep in swept.values():
+        shape = len(sweep["half_widths"]), sweep["members"]
+        runs = slice(done, done := done + shape[0] * shape[1])
+        moments_by_sweep.append(
+            _moments({norm: norms[norm][runs].reshape(*shape, -1) for norm in NORMS}, sweep)
+        )
+    described = as_xarray(*describe_cases(problem_of)).rename(case="sweep")
     described["sweep"].attrs["long_name"] = NAMES["sweep"]
-    data = xr.merge([described, xr.concat(parts, described["sweep"], join="outer")])
+    data = xr.merge([described, xr.concat(moments_by_sweep, described["sweep"], join="outer")])
     title = "Ensembles of the chaotic sweeps, from almost equal data"
     return data.assign_attrs({**described.attrs, "title": title})
 
@@ -108,36 +112,36 @@ def measure_second_solver(
         draw_swept(Problem.of(problem), half_widths, size, count, seed + number)
         for number, (problem, count) in enumerate(zip([first, *second], sizes, strict=True))
     ]
-    about = {"perturbation": size, "seed": seed, "window": name_window(windows[0])}
+    attributes = {"perturbation": size, "seed": seed, "window": name_window(windows[0])}
 
     def conclude(norms: Mapping[str, np.ndarray]) -> xr.Dataset:
-        values = np.split(norms["l2"][:, 0], np.cumsum([len(part) for part in drawn])[:-1])
-        data = _second_solver_of(values, half_widths, second)
+        values = np.split(norms["l2"][:, 0], np.cumsum([len(ensemble) for ensemble in drawn])[:-1])
+        data = _second_solver_dataset(values, half_widths, second)
         _, shared = describe_cases({"sweep": Problem.of(first)})
         title = "A chaotic sweep by the paper's second solver, from almost equal data"
-        return data.assign_attrs({**shared, **about, "title": title, **CHAOTIC})
+        return data.assign_attrs({**shared, **attributes, "title": title, **CHAOTIC})
 
     return ManyRuns(
-        [member for part in drawn for member in part],
-        lambda one: read_norms(one, windows),
+        [member for ensemble in drawn for member in ensemble],
+        lambda member: read_norms(member, windows),
         conclude,
     )
 
 
-def _second_solver_of(
+def _second_solver_dataset(
     values: Sequence[np.ndarray], half_widths: Sequence[int], second: Sequence[Mapping]
 ) -> xr.Dataset:
     """Return the maxima of l2 by both solvers, from those of the runs of each problem."""
-    of_first, *of_second = (part.reshape(len(half_widths), -1) for part in values)
-    says = f"{NAMES['l2']} of the pair, largest over the window"
+    of_first, *of_second = (maxima.reshape(len(half_widths), -1) for maxima in values)
+    long_name = f"{NAMES['l2']} of the pair, largest over the window"
     steps = [problem["solver"]["step"] for problem in second]
     return xr.Dataset(
         {
-            "first_l2": (("half_width", "first_member"), of_first, {"long_name": says}),
+            "first_l2": (("half_width", "first_member"), of_first, {"long_name": long_name}),
             "l2": (
                 ("solver_step", "half_width", "member"),
                 np.array(of_second),
-                {"long_name": f"{says}, by the second solver"},
+                {"long_name": f"{long_name}, by the second solver"},
             ),
         },
         {
@@ -151,9 +155,9 @@ def _second_solver_of(
     )
 
 
-def _moments(norms: Mapping[str, np.ndarray], about: Mapping) -> xr.Dataset:
+def _moments(norms: Mapping[str, np.ndarray], sweep: Mapping) -> xr.Dataset:
     """Return the MOMENTS of the norms (half-width, member, reading) of one sweep."""
-    data = xr.Dataset(coords={"reading": list(READINGS), "half_width": about["half_widths"]})
+    data = xr.Dataset(coords={"reading": list(READINGS), "half_width": sweep["half_widths"]})
     for norm, values in norms.items():
         for key, moment in moments(values.swapaxes(0, 1)).items():
             attributes = {
@@ -162,5 +166,5 @@ def _moments(norms: Mapping[str, np.ndarray], about: Mapping) -> xr.Dataset:
                 **(SCATTERED if key != "mean" else {}),
             }
             data[f"{norm}_{key}"] = ("half_width", "reading"), moment, attributes
-    says = {"long_name": "members at each half-width"}
-    return data.assign(swept_members=((), about["members"], says))
+    members_attributes = {"long_name": "members at each half-width"}
+    return data.assign(swept_members=((), sweep["members"], members_attributes))

@@ -37,7 +37,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
     such upper limits, so that the figure has the same curves whether there are any.
     """
     names, end = [*CLOCKS, "centre_share"], float(lifetimes.attrs["end_time"])
-    shown, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
+    drawn, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
     for name in names:
         has_ended = limits[name].value < end
         rows = dict(zip(WORDS, limits[name], strict=True))
@@ -50,14 +50,22 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
             rows |= {"high": np.where(is_open, rows["middle"], rows["high"])}
         for word, values in rows.items():
             meaning = (WORDS | {"later": LATER, "open": OPEN})[word]
-            about = {"long_name": f"{meaning} {name.replace('_', ' ')}"}
-            row = "start_amplitude", np.minimum(values, end), about
-            shown = shown.assign({f"{name}_{word}": row})
-    said = ("omega", "members", "ratio", "end_time", "window_start", "window_end", "perturbation")
-    numbers = {name: f"{float(lifetimes.attrs[name]):g}" for name in said}
+            attributes = {"long_name": f"{meaning} {name.replace('_', ' ')}"}
+            row = "start_amplitude", np.minimum(values, end), attributes
+            drawn = drawn.assign({f"{name}_{word}": row})
+    names_in_caption = (
+        "omega",
+        "members",
+        "ratio",
+        "end_time",
+        "window_start",
+        "window_end",
+        "perturbation",
+    )
+    numbers = {name: f"{float(lifetimes.attrs[name]):g}" for name in names_in_caption}
     pairs = 2 * int(lifetimes.attrs["half_width"]) + 1
-    shown = shown.assign(pairs=((), pairs, {"long_name": "number of pairs"}))
-    return shown.assign_attrs(caption=CAPTION.format(**numbers))
+    drawn = drawn.assign(pairs=((), pairs, {"long_name": "number of pairs"}))
+    return drawn.assign_attrs(caption=CAPTION.format(**numbers))
 
 
 @style.styled
@@ -71,8 +79,8 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
         colour, _, aside = CLOCKS[name]
         a0, later = data["start_amplitude"].values + aside, data[f"{name}_later"].values
         open_marks = {"markerfacecolor": "white", "markersize": 4.5}
-        said = "median after the runs" if name == "life" else None
-        left.plot(a0, later, "^", color=colour, label=said, **open_marks)
+        label_of_open = "median after the runs" if name == "life" else None
+        left.plot(a0, later, "^", color=colour, label=label_of_open, **open_marks)
     left.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
     left.set(yscale="log", ylabel=r"time $\tau$", ymargin=0.08)
     _draw_runs(right, data, "centre_share", style.RED, "s", 0.0)
@@ -105,8 +113,8 @@ def _draw_runs(
     """Draw the runs of one number as small marks, and their middle with its limits."""
     a0 = data["start_amplitude"].values + aside
     runs = data[name].transpose("start_amplitude", "member").values
-    said = f"single runs, {label}" if label else None
-    axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label=said)
+    label_of_runs = f"single runs, {label}" if label else None
+    axes.plot(a0, runs, ".", color=style.PALE[colour], markersize=2.5, label=label_of_runs)
     middle, low, high = (data[f"{name}_{word}"].values for word in WORDS)
     axes.errorbar(
         a0,

@@ -39,10 +39,10 @@ def follow(
     """
     first = simulate(problem.changed(end_time=window[1], snapshot_every=1), energy=False)
     numbers = in_window(first, window, level)
-    ended = np.flatnonzero(shares_alike(first.modulus, multiple))
+    ended = np.flatnonzero(centre_is_average(first.modulus, multiple))
     if ended.size:
         return numbers | {"life": float(first.tau[ended[0]])}
-    life = later_life(problem, first, window[1], multiple)
+    life = measure_later_life(problem, first, window[1], multiple)
     return numbers | {"life": life}
 
 
@@ -59,22 +59,22 @@ def in_window(run: Trajectory, window: Sequence[float], level: float) -> dict[st
     }
 
 
-def later_life(problem: Problem, run: Trajectory, start: float, multiple: float) -> float:
+def measure_later_life(problem: Problem, run: Trajectory, start: float, multiple: float) -> float:
     """Return when the centre first holds its share of P after `start`, where `run` has ended."""
     remaining = problem.end_time - start
     if remaining <= 0.0:
         return np.inf
     spans = max(1, round(remaining / SPAN))
-    piece = problem.changed(end_time=remaining / spans, snapshot_every=1)
+    span = problem.changed(end_time=remaining / spans, snapshot_every=1)
     for done in range(spans):
-        run = simulate(piece.changed(initial=run.final), energy=False)
-        ended = np.flatnonzero(shares_alike(run.modulus, multiple))
+        run = simulate(span.changed(initial=run.final), energy=False)
+        ended = np.flatnonzero(centre_is_average(run.modulus, multiple))
         if ended.size:
-            return float(start + done * piece.end_time + run.tau[ended[0]])
+            return float(start + done * span.end_time + run.tau[ended[0]])
     return np.inf
 
 
-def shares_alike(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
+def centre_is_average(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
     """Return whether the central pair holds at most `multiple` / N of P, (time,).
 
     `modulus` is (component, site, time), with an odd number N of sites.
@@ -97,14 +97,17 @@ def measure_lifetimes(
     """Return the runs that give NUMBERS of members from each A_0, with B_0 = `ratio` A_0."""
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
-    about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "ratio": ratio}
-    about |= {"perturbation": size, "members": members, "seed": seed}
-    about |= {"window_start": window[0], "window_end": window[1], "level": level}
-    about |= {"multiple": multiple}
+    attributes_of_study = {
+        "initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair",
+        "ratio": ratio,
+    }
+    attributes_of_study |= {"perturbation": size, "members": members, "seed": seed}
+    attributes_of_study |= {"window_start": window[0], "window_end": window[1], "level": level}
+    attributes_of_study |= {"multiple": multiple}
 
     def conclude(numbers: Mapping[str, np.ndarray]) -> Contents:
         variables, attributes = _lifetimes_of(problem, amplitudes, members, numbers)
-        return variables, attributes | about
+        return variables, attributes | attributes_of_study
 
     return ManyRuns(drawn, partial(follow, window=window, level=level, multiple=multiple), conclude)
 
@@ -143,11 +146,11 @@ def vary_lifetimes(
         return limits_of(as_xarray(*runs.make()))
 
     choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
-    over, about = ("start_amplitude",), {"long_name": "initial amplitude A_0"}
+    over, attributes = ("start_amplitude",), {"long_name": "initial amplitude A_0"}
     printed = {
         name: Printed(over, number, f"{'median' if name in TIMES else 'mean'} of the {name}")
         for name, number in vary_several(measure, choices).items()
     }
-    data = as_dataset(printed, {"start_amplitude": (over, np.array(amplitudes, float), about)})
+    data = as_dataset(printed, {"start_amplitude": (over, np.array(amplitudes, float), attributes)})
     ends = {"members": members, "end_time": problem.end_time}
     return data.assign_attrs(title="The transition at Omega = 0, with other choices", **ends)

@@ -27,11 +27,11 @@ def follow_members(
     problem: Problem, end_time: float, members: int, size: float, seed: int
 ) -> list[Growth]:
     """Carry a random tangent vector along each of `members` runs from perturbed data."""
-    tolerance, found = problem.solver["rtol"], []
+    tolerance, growths = problem.solver["rtol"], []
     for number, member in enumerate(draw_members(problem, size, members, seed)):
         tangent = random_tangent(problem.sites, np.random.default_rng([seed, number]))
-        found.append(grow(member, tangent[None], end_time, step=STEP, tolerance=tolerance))
-    return found
+        growths.append(grow(member, tangent[None], end_time, step=STEP, tolerance=tolerance))
+    return growths
 
 
 def largest_exponents(
@@ -42,30 +42,30 @@ def largest_exponents(
     `problems` are given by case, and integrated at the tolerance of their solver to its end.
     """
     start, end_time = span
-    runs = [follow_members(one, end_time, members, size, seed) for one in problems.values()]
+    runs = [follow_members(problem, end_time, members, size, seed) for problem in problems.values()]
     tau = runs[0][0].tau
-    growth = np.array([[run.log_growth[0] for run in some] for some in runs])
-    l2 = np.array([[run.size for run in some] for some in runs])
-    rates = [mean_limits(mean_rate(tau, one, start)) for one in growth]
+    growth = np.array([[run.log_growth[0] for run in members_of_case] for members_of_case in runs])
+    l2 = np.array([[run.size for run in members_of_case] for members_of_case in runs])
+    rates = [mean_limits(mean_rate(tau, log_growth, start)) for log_growth in growth]
     described, shared = describe_cases(problems)
-    says, over = "largest exponent of Lyapunov on the span, per unit of tau", ("case",)
+    long_name, over = "largest exponent of Lyapunov on the span, per unit of tau", ("case",)
     variables = {
         **described,
-        "exponent": Variable(over, [one.value for one in rates], says),
-        "exponent_low": Variable(over, [one.low for one in rates], f"{says}, lower limit"),
-        "exponent_high": Variable(over, [one.high for one in rates], f"{says}, upper limit"),
+        "exponent": Variable(over, [rate.value for rate in rates], long_name),
+        "exponent_low": Variable(over, [rate.low for rate in rates], f"{long_name}, lower limit"),
+        "exponent_high": Variable(over, [rate.high for rate in rates], f"{long_name}, upper limit"),
         "chaotic": Variable(
             over,
             is_chaotic(tau, growth, l2).any(axis=1).astype(int),
             "one where tangent vectors grow exponentially",
         ),
     }
-    about = {"start": start, "end_time": end_time, "perturbation": size}
-    about |= {"members": members, "seed": seed}
-    return variables, {"title": "Lyapunov exponents of the cases", **shared, **about}
+    attributes = {"start": start, "end_time": end_time, "perturbation": size}
+    attributes |= {"members": members, "seed": seed}
+    return variables, {"title": "Lyapunov exponents of the cases", **shared, **attributes}
 
 
-def spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+def measure_spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """Return all exponents of a chain in order, and half of the confidence interval of each.
 
     Rates are over the last three quarters of time, their errors from PARTS of it. The upper half
@@ -96,9 +96,12 @@ def measure_lyapunov(
     integral. `seed` draws perturbations and tangent vectors.
     """
     variables, attributes = largest_exponents(problems, span, members, size, seed)
-    driven = [spectrum(one, one.end_time, seed) for one in short_problems.values()]
+    driven = [
+        measure_spectrum(problem, problem.end_time, seed) for problem in short_problems.values()
+    ]
     undriven = [
-        spectrum(one.changed(gamma=0.0), undriven_end, seed) for one in short_problems.values()
+        measure_spectrum(problem.changed(gamma=0.0), undriven_end, seed)
+        for problem in short_problems.values()
     ]
     sites = next(iter(short_problems.values())).sites
     by_index, words = ("spectrum_case", "index"), "all Lyapunov exponents of a short chain"
@@ -106,8 +109,11 @@ def measure_lyapunov(
         "spectrum_case": Variable(("spectrum_case",), list(short_problems), "case, on that chain"),
         "index": Variable(("index",), np.arange(1, 1 + 4 * sites), "number of the exponent"),
     }
-    for name, found, of in (("", driven, words), ("_undriven", undriven, f"{words} at gamma = 0")):
-        rates, errors = map(np.array, zip(*found, strict=True))
+    for name, exponents, of in (
+        ("", driven, words),
+        ("_undriven", undriven, f"{words} at gamma = 0"),
+    ):
+        rates, errors = map(np.array, zip(*exponents, strict=True))
         half = f"{of}: half of the confidence interval"
         regular = REGULAR if name else {}
         variables[f"exponents{name}"] = Variable(

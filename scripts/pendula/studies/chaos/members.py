@@ -50,14 +50,14 @@ def reduce_run(problem: Problem, windows: list[Window], reach: int) -> dict[str,
     run = simulate(problem, energy=False)
     inside = [(run.tau >= start) & (run.tau <= end) for start, end in windows]
     l2, linf, squares = pair_l2(run), pair_linf(run), run.modulus**2
-    rms = np.sqrt([squares[..., kept].mean(axis=-1) for kept in inside])
+    rms = np.sqrt([squares[..., window].mean(axis=-1) for window in inside])
     beyond = (reach - problem.half_width,) * 2
     return {
         "l2": l2,
         "linf": linf,
-        "l2_level": np.stack([l2[:, kept].mean(axis=1) for kept in inside], axis=-1),
-        "linf_level": np.stack([linf[:, kept].mean(axis=1) for kept in inside], axis=-1),
-        "norm_correlation": np.array([correlation(*run.l2[:, kept] ** 2) for kept in inside]),
+        "l2_level": np.stack([l2[:, window].mean(axis=1) for window in inside], axis=-1),
+        "linf_level": np.stack([linf[:, window].mean(axis=1) for window in inside], axis=-1),
+        "norm_correlation": np.array([correlation(*run.l2[:, window] ** 2) for window in inside]),
         "rms": np.pad(rms, ((0, 0), (0, 0), beyond), constant_values=np.nan),
     }
 
@@ -78,26 +78,30 @@ def member_numbers(
 
     `problems` are given by case, and keep all moduli; the sites are those of the longest chain.
     """
-    reach = max(one.half_width for one in problems.values())
-    drawn = [m for one in problems.values() for m in draw_members(one, size, members, seed)]
-    about = {"perturbation": size, "members": members, "seed": seed}
+    reach = max(problem.half_width for problem in problems.values())
+    drawn = [m for problem in problems.values() for m in draw_members(problem, size, members, seed)]
+    attributes_of_study = {"perturbation": size, "members": members, "seed": seed}
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:
-        found = shaped(retained, (len(problems), members))
-        variables, attributes = _numbers_of(problems, windows, reach, found)
-        return variables, {**attributes, **about, "band_share": QUANTILES[-1] - QUANTILES[0]}
+        numbers = shaped(retained, (len(problems), members))
+        variables, attributes = _members_contents(problems, windows, reach, numbers)
+        return variables, {
+            **attributes,
+            **attributes_of_study,
+            "band_share": QUANTILES[-1] - QUANTILES[0],
+        }
 
     return ManyRuns(drawn, partial(reduce_run, windows=windows, reach=reach), conclude)
 
 
-def _numbers_of(
-    problems: dict[str, Problem], windows: list[Window], reach: int, found: dict[str, np.ndarray]
+def _members_contents(
+    problems: dict[str, Problem], windows: list[Window], reach: int, numbers: dict[str, np.ndarray]
 ) -> Contents:
     """Return the contents of the dataset of what `reduce_run` returns, each (case, member, ...)."""
     tau = next(iter(problems.values())).times
     squares = [square_modulus(problem.initial) for problem in problems.values()]
-    l2, linf = (np.sqrt([reduce(one) for one in squares]) for reduce in (np.sum, np.max))
-    late = found["l2"][:, :, PAIR, tau >= windows[-1][0]]
+    l2, linf = (np.sqrt([reduce(square) for square in squares]) for reduce in (np.sum, np.max))
+    late = numbers["l2"][:, :, PAIR, tau >= windows[-1][0]]
     width = "standard deviation of the pair's l2 norm over the members, relative to its mean"
     described, shared = describe_cases(problems)
     variables = {
@@ -117,14 +121,14 @@ def _numbers_of(
     for name in ("l2", "linf"):
         variables[name] = Variable(
             ("case", "quantile", "component", "tau"),
-            np.array([bands(runs[:, :PAIR], QUANTILES) for runs in found[name]]),
+            np.array([bands(runs[:, :PAIR], QUANTILES) for runs in numbers[name]]),
             f"{NAMES[name]}, quantiles over the ensemble",
         )
-    for name, (rest, long_name) in REDUCED.items():
-        values = found[name].astype(np.float32) if name == "rms" else found[name]
+    for name, (dimensions, long_name) in REDUCED.items():
+        values = numbers[name].astype(np.float32) if name == "rms" else numbers[name]
         attributes = ATTRIBUTES.get(name, {})
         variables[name] = Variable(
-            ("case", "member", *rest), values, long_name, attributes=attributes
+            ("case", "member", *dimensions), values, long_name, attributes=attributes
         )
     title = "Ensembles of every case, from almost equal data"
     return variables, {"title": title, **shared}

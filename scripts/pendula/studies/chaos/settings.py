@@ -123,7 +123,7 @@ class Settings(Model):
             *settings.absent("cases", "lifetimes.case", [self.lifetimes.case]),
         ]
         yield from absent
-        windows = {f"members.windows.{i}": one for i, one in enumerate(self.members.windows)}
+        windows = {f"members.windows.{i}": window for i, window in enumerate(self.members.windows)}
         windows |= {"lyapunov.span": self.lyapunov.span, "lifetimes.window": self.lifetimes.window}
         for key, (start, end) in windows.items():
             if not 0 <= start < end:
@@ -160,14 +160,14 @@ class Settings(Model):
     def shorter_chains(self, settings: Configuration, case: str) -> dict[str, int]:
         """Return the least half-width on which each ensemble integrates a case, by its key."""
         spectrum = self.lyapunov.spectrum
-        found = {"lyapunov.spectrum": spectrum.half_width} if case in spectrum.cases else {}
+        half_widths = {"lyapunov.spectrum": spectrum.half_width} if case in spectrum.cases else {}
         for name, swept in self.ensembles.sweeps.items():
             if name in settings.sweeps and settings.sweeps[name].case == case:
-                found[f"ensembles.sweeps.{name}"] = min(swept.half_widths)
+                half_widths[f"ensembles.sweeps.{name}"] = min(swept.half_widths)
         swept = self.second_solver
         if swept.sweep in settings.sweeps and settings.sweeps[swept.sweep].case == case:
-            found["second_solver.half_widths"] = min(swept.half_widths)
-        return found
+            half_widths["second_solver.half_widths"] = min(swept.half_widths)
+        return half_widths
 
     def runs_of(self, settings: Configuration) -> Iterator[Runs]:
         """Yield the runs of each ensemble. A tangent vector costs as much as its trajectory."""
@@ -185,19 +185,19 @@ class Settings(Model):
             "lyapunov.size",
             followed.size,
         )
-        for name, one in self.ensembles.sweeps.items():
+        for name, sweep in self.ensembles.sweeps.items():
             key = f"ensembles.sweeps.{name}.members"
-            yield self._swept(settings, key, name, one.half_widths, one.members)
+            yield self._swept(settings, key, name, sweep.half_widths, sweep.members)
         second = self.second_solver
         members = second.first_members + 2 * second.members
         key = "second_solver.first_members"
         yield self._swept(settings, key, second.sweep, second.half_widths, members)
-        given = self.members
-        ends = {"end_time": max(end for _, end in given.windows)}
-        chosen = {**ends, "output_step": given.output_step, "snapshot_every": 1}
-        runs = [settings.run_of(case, given.tolerance, **chosen) for case in paper]
-        every = "members.members", "members.tolerance", runs, given.members
-        yield Runs(*every, "members.size", given.size)
+        ensembles = self.members
+        ends = {"end_time": max(end for _, end in ensembles.windows)}
+        chosen = {**ends, "output_step": ensembles.output_step, "snapshot_every": 1}
+        runs = [settings.run_of(case, ensembles.tolerance, **chosen) for case in paper]
+        every = "members.members", "members.tolerance", runs, ensembles.members
+        yield Runs(*every, "members.size", ensembles.size)
         yield self._lives(settings)
 
     def _swept(self, settings, key: str, name: str, half_widths, members: int) -> Runs:
@@ -213,23 +213,27 @@ class Settings(Model):
 
     def _lives(self, settings: Configuration) -> Runs:
         """Return the runs from each amplitude, whose number of looks is that of its outputs."""
-        given = self.lifetimes
-        times = {"end_time": given.end_time, "output_step": given.output_step}
+        lifetimes = self.lifetimes
+        times = {"end_time": lifetimes.end_time, "output_step": lifetimes.output_step}
         runs = [
-            settings.run_of(given.case, given.tolerance, **times, initial={0: (a, given.ratio * a)})
-            for a in given.amplitudes
+            settings.run_of(
+                lifetimes.case, lifetimes.tolerance, **times, initial={0: (a, lifetimes.ratio * a)}
+            )
+            for a in lifetimes.amplitudes
         ]
-        larger = "ratio" if given.ratio > 1.0 else "amplitudes"  # of A_0 and B_0
+        larger = "ratio" if lifetimes.ratio > 1.0 else "amplitudes"  # of A_0 and B_0
         short = max(map(estimate, runs)).seconds < 60.0
-        many = "members" if short else "ratio" if given.ratio > 1.0 else "end_time"
+        many = "members" if short else "ratio" if lifetimes.ratio > 1.0 else "end_time"
         keys = f"lifetimes.{many}", f"lifetimes.{larger}"
-        return Runs(*keys, runs, given.members, "lifetimes.size", given.size)
+        return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
     def _spectra(self, settings: Configuration) -> list[Cost]:
         """Return what exponents of short chains take: half as many tangent vectors as numbers."""
-        given, found = self.lyapunov.spectrum, []
-        for case in given.cases:
-            one = estimate(settings.problem(case, half_width=given.half_width))
-            vectors = 2 * (2 * given.half_width + 1) * (given.lengths + given.undriven_lengths)
-            found.append(Cost(vectors * one.seconds, one.memory))
-        return found
+        spectrum, costs = self.lyapunov.spectrum, []
+        for case in spectrum.cases:
+            cost = estimate(settings.problem(case, half_width=spectrum.half_width))
+            vectors = (
+                2 * (2 * spectrum.half_width + 1) * (spectrum.lengths + spectrum.undriven_lengths)
+            )
+            costs.append(Cost(vectors * cost.seconds, cost.memory))
+        return costs

@@ -37,22 +37,22 @@ def gather() -> xr.Dataset:
     link = ("link", "pendulum", "point", "axis")
     return xr.Dataset(
         {
-            "string": (("offset", "end", "axis"), strings, _about("ends of a common string")),
-            "pivot": (hung, pivots, _about("point from which a pendulum hangs")),
-            "bob": (hung, hang(turned), _about("bob of a pendulum")),
-            "rest": (hung, hang(0 * turned), _about("bob of a pendulum at rest")),
-            "spring": (link, pivots[:-1, :, None] + _coil(), _about("torsional spring")),
+            "string": (("offset", "end", "axis"), strings, _long_name("ends of a common string")),
+            "pivot": (hung, pivots, _long_name("point from which a pendulum hangs")),
+            "bob": (hung, hang(turned), _long_name("bob of a pendulum")),
+            "rest": (hung, hang(0 * turned), _long_name("bob of a pendulum at rest")),
+            "spring": (link, pivots[:-1, :, None] + _coil(), _long_name("torsional spring")),
         },
         {
-            "offset": ("offset", offsets, _about("place in the chain relative to n")),
-            "pendulum": ("pendulum", ["x", "y"], _about("pendulum of the pair")),
-            "axis": ("axis", ["across", "up"], _about("direction on the page")),
+            "offset": ("offset", offsets, _long_name("place in the chain relative to n")),
+            "pendulum": ("pendulum", ["x", "y"], _long_name("pendulum of the pair")),
+            "axis": ("axis", ["across", "up"], _long_name("direction on the page")),
         },
         {"caption": CAPTION, **REGULAR},
     )
 
 
-def _about(title: str) -> dict[str, str]:
+def _long_name(title: str) -> dict[str, str]:
     return {"long_name": title}
 
 
@@ -96,13 +96,15 @@ def _draw_row(axes: Axes, row: xr.Dataset) -> None:
     pendulum = str(row["pendulum"].values)
     for spring in row["spring"].values:
         axes.plot(*spring.T, color="0.35", linewidth=0.8)
-    for offset, one in row.groupby("offset"):
-        pivot, bob, rest = (one[name].values.squeeze() for name in ("pivot", "bob", "rest"))
-        axes.plot(*np.stack([pivot, rest]).T, color="0.5", linewidth=0.7, dashes=(3, 2))
+    for offset, pendulum_data in row.groupby("offset"):
+        pivot, bob, rest_position = (
+            pendulum_data[name].values.squeeze() for name in ("pivot", "bob", "rest")
+        )
+        axes.plot(*np.stack([pivot, rest_position]).T, color="0.5", linewidth=0.7, dashes=(3, 2))
         axes.plot(*np.stack([pivot, bob]).T, color=COLOURS[pendulum], linewidth=1.5)
         axes.plot(*bob, "o", color=COLOURS[pendulum], markersize=9, markeredgecolor="black")
         axes.plot(*pivot, "o", color="black", markersize=2.5)
         name = f"${pendulum}_{{n{offset:+d}}}$" if offset else f"${pendulum}_n$"
         # on the side to which the pendulum is turned, away from its dashed place of rest
-        side, ha = (1, "left") if bob[0] >= rest[0] else (-1, "right")
+        side, ha = (1, "left") if bob[0] >= rest_position[0] else (-1, "right")
         axes.annotate(name, bob, (7 * side, 0), textcoords="offset points", ha=ha, va="center")

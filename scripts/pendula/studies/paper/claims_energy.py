@@ -32,27 +32,31 @@ def drifts(solvers, size: str) -> Finding:
     if (end := float(solvers["tau"][-1])) < EARLIEST:
         raise UndecidableError(f"the runs end at tau = {end:g}, before {EARLIEST:g}")
     allowed, measured, by_case = ORDER.value * STATED_DRIFT[size], {}, {}
-    for (unknowns, solver), of in product(UNKNOWNS.items(), solvers["of"].values):
-        read = solvers["largest_drift"].sel(solver=solver, of=of)
+    for (unknowns, solver), reading in product(UNKNOWNS.items(), solvers["of"].values):
+        read = solvers["largest_drift"].sel(solver=solver, of=reading)
         for case in (name for name in map(str, solvers["case"].values) if name.endswith(size)):
             # names leave out the reading of the figures
-            words = (word for word in (unknowns, of) if word not in ("complex", "absolute"))
+            words = (word for word in (unknowns, reading) if word not in ("complex", "absolute"))
             name = "_".join([case, *words])
             measured[name] = float(read.sel(case=case))
             by_case.setdefault(case, []).append(measured[name] <= allowed)
-    beyond = [case for case, kept in by_case.items() if not any(kept)]
-    open_ = [case for case, kept in by_case.items() if any(kept) and not all(kept)]
+    beyond = [case for case, within_order in by_case.items() if not any(within_order)]
+    open_ = [
+        case
+        for case, within_order in by_case.items()
+        if any(within_order) and not all(within_order)
+    ]
     each = "absolute or relative, with complex or real unknowns"
     words = [f"it is larger in {', '.join(beyond)} ({each})"] if beyond else []
     words += [f"the definition decides in {', '.join(open_)}"] if open_ else []
-    said = f"the drift may be {ORDER.value:g} times the stated one; {', and '.join(words)}"
-    about = "largest drift of H, for each kind of drift and of unknowns"
+    caveat = f"the drift may be {ORDER.value:g} times the stated one; {', and '.join(words)}"
+    label = "largest drift of H, for each kind of drift and of unknowns"
     if (open_ and not beyond) or np.isnan([*measured.values()]).any():
         relative = [name for name in measured if name.endswith("relative")]
         largest = max(measured, key=measured.get)
         either = AllOf(AtMost(allowed, *relative), Above(allowed, largest))
-        return undecided(measured, said, either)
-    return judge(measured, AtMost(allowed, *measured, says=about), fails=said)
+        return undecided(measured, caveat, either)
+    return judge(measured, AtMost(allowed, *measured, says=label), fails=caveat)
 
 
 def as_by(solver: str) -> dict:

@@ -40,7 +40,9 @@ SECTION = 5
 HALF = Cutoff(0.5, '"decreases": to less than half')
 MOST = Cutoff(0.5, '"excites others": most of P is on other sites')
 ANTICORRELATED = Cutoff(-0.8, '"oscillates between": |A|^2 falls where |B|^2 rises', -1.0)
-KEPT = Cutoff(0.75, '"effectively separated": A keeps three quarters of its maximum', 1.0)
+RETAINED_MAXIMUM = Cutoff(
+    0.75, '"effectively separated": A keeps three quarters of its maximum', 1.0
+)
 FOLDED = Cutoff(1.0 / 3.0, '"is unstable": amplitudes grow by e within tau = 3')
 NORMS = ("l2", "linf")
 AT_STABLE_REST = ("fig2_small", "fig2_large", "fig3_small", "fig3_large")
@@ -155,17 +157,21 @@ def fig2_separate(large) -> Finding:
     }
     small = 1.0 / MUCH.value
     criterion = AllOf(
-        Above(KEPT, "smallest_A_kept", says="least l-infinity norm of A over its initial value"),
+        Above(
+            RETAINED_MAXIMUM,
+            "smallest_A_kept",
+            says="least l-infinity norm of A over its initial value",
+        ),
         Below(small, "B_over_A", says="l2 norm of B over that of A"),
         Below(small, "all_other_A", says="l2 of all other A_n over A_0"),
     )
     return judge(measured, criterion)
 
 
-def growing_as(run, other):
+def with_growth_of(run, growing):
     """Return a run whose norms grow as those of another one, from the same initial norm."""
-    to_start = np.sqrt(total_power(run)[0] / total_power(other)[0])
-    return take_from("l2", "linf")(run, other.assign({n: to_start * other[n] for n in NORMS}))
+    to_start = np.sqrt(total_power(run)[0] / total_power(growing)[0])
+    return take_from("l2", "linf")(run, growing.assign({n: to_start * growing[n] for n in NORMS}))
 
 
 @claim(
@@ -180,7 +186,7 @@ def growing_as(run, other):
         ),
         Control(
             "norms of the small case at Omega = -4 that grow as those of the large one",
-            {"fig3_small": ("fig3_large", growing_as)},
+            {"fig3_small": ("fig3_large", with_growth_of)},
         ),
     ),
 )
@@ -204,11 +210,11 @@ def stable_oscillations(*trajectories) -> Finding:
     criterion = WithinFactor(
         FACTOR, "least", "largest", says="l2 over its initial value where a theorem covers the case"
     )
-    others = {case: ratio.max() for case, ratio in grown.items() if case not in covered}
-    measured |= {f"largest_{case}": ratio for case, ratio in others.items()}
+    uncovered = {case: ratio.max() for case, ratio in grown.items() if case not in covered}
+    measured |= {f"largest_{case}": ratio for case, ratio in uncovered.items()}
     left = ", ".join(
         f"{case}, whose l2 norm grows to {ratio:.2g} times its initial value"
-        for case, ratio in others.items()
+        for case, ratio in uncovered.items()
         if ratio >= FACTOR.value
     )
     caveat = f"rest is stable in {left}, too: no theorem covers this case" if left else ""
@@ -272,5 +278,5 @@ def fig4_unstable(small) -> Finding:
         raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]
     measured = {"mean_rate": 0.5 * log(growth) / UNSTABLE}
-    says = f"mean growth rate up to tau = {UNSTABLE:g}"
-    return judge(measured, Above(FOLDED, "mean_rate", says=says))
+    label = f"mean growth rate up to tau = {UNSTABLE:g}"
+    return judge(measured, Above(FOLDED, "mean_rate", says=label))

@@ -27,8 +27,8 @@ def stable_is_regular(lyapunov, cases) -> Finding:
         "others": (~covered).sum(),
         "regular_among_them": (~grown & ~covered).sum(),
     }
-    says = "chaotic cases to which Theorem 1 or 2 applies, and regular ones to which neither does"
-    criterion = AtMost(0, "chaotic_among_them", "regular_among_them", says=says)
+    label = "chaotic cases to which Theorem 1 or 2 applies, and regular ones to which neither does"
+    criterion = AtMost(0, "chaotic_among_them", "regular_among_them", says=label)
     at_rest = gamma_0(cases["omega"].values, EPSILON) > GAMMA
     names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
     caveat = f"{names} is chaotic though its chain at rest is stable" if names else ""

@@ -96,16 +96,18 @@ def second_solver(solvers, lyapunov, members) -> Finding:
             " deviations",
         ),
     )
-    said = [
-        f"{case} differs visibly from tau = {since[case]:.3g} on, by up to {whole:.2g} with the"
-        f" assumed step and {half:.2g} with half of it"
-        for case, (whole, half) in zip(map(str, steady["case"].values), steady.values, strict=True)
-        if whole > SEEN.value
+    caveats = [
+        f"{case} differs visibly from tau = {since[case]:.3g} on, by up to {full_step:.2g} with the"
+        f" assumed step and {half_step:.2g} with half of it"
+        for case, (full_step, half_step) in zip(
+            map(str, steady["case"].values), steady.values, strict=True
+        )
+        if full_step > SEEN.value
     ]
     if drawn:
         parted = ", ".join(f"{case} from tau = {since[case]:.3g} on" for case in drawn)
-        said.append(f"chaotic cases become other members of the same ensembles: {parted}")
-    return judge(measured, criterion, "; ".join(said))
+        caveats.append(f"chaotic cases become other members of the same ensembles: {parted}")
+    return judge(measured, criterion, "; ".join(caveats))
 
 
 # --- Figs 5 and 6 ---------------------------------------------------------------------------------
@@ -137,8 +139,10 @@ def first_as_second(right):
     """Return the ensembles with runs of the first solver in place of those of the second."""
     drawn = right["first_l2"].isel(first_member=slice(right.sizes["member"]))
     drawn = drawn.rename(first_member="member").broadcast_like(right["l2"])
-    rest = right["first_l2"].isel(first_member=slice(right.sizes["member"], None))
-    return right.drop_vars("first_l2").assign(l2=drawn.transpose(*right["l2"].dims), first_l2=rest)
+    remaining = right["first_l2"].isel(first_member=slice(right.sizes["member"], None))
+    return right.drop_vars("first_l2").assign(
+        l2=drawn.transpose(*right["l2"].dims), first_l2=remaining
+    )
 
 
 def coarse_alone(right):
@@ -178,9 +182,9 @@ def second_solver_sweeps(left_5, left_6, second_5, second_6, right) -> Finding:
         "coarse_share_inside": shares[-1],
     }
     regular = Below(SEEN, "fig5_left", "fig6_left", says="largest difference of a regular sweep")
-    says = "share of runs within the range of the first solver in Fig 6, right, at every M"
-    alike = Above(MAJORITY, "share_inside", "coarse_share_inside", says=says)
-    if regular.holds(measured) and len(alike.failing(measured)) == 1:
+    label = "share of runs within the range of the first solver in Fig 6, right, at every M"
+    same_range = Above(MAJORITY, "share_inside", "coarse_share_inside", says=label)
+    if regular.holds(measured) and len(same_range.failing(measured)) == 1:
         fine, coarse = right["solver_step"].values[[0, -1]]
         because = (
             "the paper gives no step: in Fig 6, right, at least"
@@ -188,5 +192,5 @@ def second_solver_sweeps(left_5, left_6, second_5, second_6, right) -> Finding:
             f" of {right.sizes['first_member']} runs of the first at every M with a step of"
             f" {fine:g}, and at some M {measured['coarse_share_inside']:.0%} with {coarse:g}"
         )
-        return undecided(measured, because, AllOf(regular, alike))
-    return judge(measured, AllOf(regular, alike), "Fig 5, right, is not compared")
+        return undecided(measured, because, AllOf(regular, same_range))
+    return judge(measured, AllOf(regular, same_range), "Fig 5, right, is not compared")

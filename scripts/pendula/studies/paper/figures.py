@@ -68,24 +68,24 @@ def gather_norms(
     A trajectory whose parameters are not those of its reference stands alone: there the norms of
     the reference are NaN. With `ensembles` the bands of the cases are beside them as well.
     """
-    cases = [_beside(run, true) for run, true in zip(runs, references, strict=True)]
-    parts, band = PARTS_CAPTION, ""
+    cases = [_with_reference(run, true) for run, true in zip(runs, references, strict=True)]
+    divergence_text, band = PARTS_CAPTION, ""
     if ensembles is not None:
         cases = [case.assign(_bands(case, ensembles)) for case in cases]
         band = BAND_CAPTION.format(_share(ensembles))
-    caption = NORMS_CAPTION + (parts + band) * any(map(strips.diverges, cases))
+    caption = NORMS_CAPTION + (divergence_text + band) * any(map(strips.diverges, cases))
     data = mark(style.join(cases, SIZES, "initial_size", KEPT), REGULAR, "omega")
     return data.assign_attrs(caption=caption)
 
 
-def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
+def _with_reference(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
     drawn, true = run[["linf", "l2"]], at_times(reference, run["tau"])
     known = is_of_same_case(run, reference)
     for name in NORMS:
         long_name = f"true {reference[name].attrs['long_name']}, in multiprecision"
         drawn[f"true_{name}"] = true[name].where(known).assign_attrs(long_name=long_name, **REGULAR)
-    apart = difference(run, reference) if known else xr.full_like(run["tau"], np.nan)
-    drawn["divergence_time"] = divergence_time(apart)
+    error = difference(run, reference) if known else xr.full_like(run["tau"], np.nan)
+    drawn["divergence_time"] = divergence_time(error)
     drawn["solver"] = (), run.attrs["solver"]
     return drawn
 
@@ -116,9 +116,9 @@ def draw_norms(data: xr.Dataset) -> Figure:
     for case, grid in zip(cases, drawn, strict=True):
         for axes in grid[0]:
             axes.set_title(name_case(case), loc="left")
-    parts = any(strips.diverges(case) for case in cases)
+    any_diverges = any(strips.diverges(case) for case in cases)
     under = any(strip.under for case in cases for strip in _strips(case))
-    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "", under)
+    strips.name_legend(figure, data["component"].values, DIVERGED if any_diverges else "", under)
     return figure
 
 
@@ -126,12 +126,12 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
     if case["true_l2"].notnull().any() and not strips.diverges(case):
         return [Strip("", run, under="true_")]
-    found = [Strip("", run)]
+    strips_of_case = [Strip("", run)]
     if "band_l2" in case:
-        found.append(
+        strips_of_case.append(
             Strip("band_", f"{int(case['members'])} perturbed runs: median, {_share(case)}")
         )
-    return found
+    return strips_of_case
 
 
 def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
@@ -281,10 +281,10 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
     if case["horizon"].isnull().all():
         axes.text(0.5, 0.5, UNKNOWN, ha="center", transform=axes.transAxes)
     for solver in case["solver"].values:
-        one = case.sel(solver=solver)
-        curve, look = panels.positive(one["largest_so_far"]), _look(solver)
+        errors = case.sel(solver=solver)
+        curve, look = panels.positive(errors["largest_so_far"]), _look(solver)
         axes.plot(curve["tau"], curve, markevery=[], label=SOLVER_NAMES[solver], **look)
-        point = float(one["horizon"]), visible
+        point = float(errors["horizon"]), visible
         if at_end := not np.isfinite(point[0]) and curve.size > 0:
             last = round(0.95 * curve.size) - 1
             point = float(curve["tau"][last]), float(curve[last])

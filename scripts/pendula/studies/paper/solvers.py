@@ -79,48 +79,59 @@ def measure_solvers(
     cases: Mapping[str, Mapping],
     solvers: Mapping[str, Mapping],
     references: Mapping[str, xr.Dataset],
-    others: Collection[str] = (),
+    user_cases: Collection[str] = (),
     proofs: Mapping[str, xr.Dataset] = {},
 ) -> Iterator[xr.Dataset]:
     """Yield how the solvers keep the energy and differ, then until when each can be trusted.
 
     `cases` are plain problems without a solver, and `solvers` the controls of each. For the cases
-    `others`, which are not the paper's, the paper states no drift.
+    `user_cases`, which are not the paper's, the paper states no drift.
     """
     runs = {name: run_by_all(name, case, solvers) for name, case in cases.items()}
-    yield compare_solvers(runs, others)
+    yield compare_solvers(runs, user_cases)
     yield trust_solvers(runs, references, proofs)
 
 
 def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict[str, xr.Dataset]:
     """Return a case by each solver, by ode45 with real unknowns, and by half the second's step."""
     first, second = solvers[FIRST], solvers[SECOND]
-    others = {
+    variants = {
         UNKNOWNS["real"]: {**first, "name": UNKNOWNS["real"]},
         HALVED: {**second, "step": 0.5 * second["step"]},
     }
-    found = {}
-    for label, solver in {**solvers, **others}.items():
+    trajectories = {}
+    for label, solver in {**solvers, **variants}.items():
         problem = Problem.of({**case, "solver": solver, "snapshot_every": 0})
-        found[label] = as_xarray(*trajectory_contents(name, problem, simulate(problem)))
-    return found
+        trajectories[label] = as_xarray(*trajectory_contents(name, problem, simulate(problem)))
+    return trajectories
 
 
 def compare_solvers(
-    runs: Mapping[str, Mapping[str, xr.Dataset]], others: Collection[str] = ()
+    runs: Mapping[str, Mapping[str, xr.Dataset]], user_cases: Collection[str] = ()
 ) -> xr.Dataset:
     """Return how each solver keeps the energy and how the second solver differs, see COMPARED."""
-    found = []
+    comparisons = []
     for case, by_solver in runs.items():
-        stated = np.nan if case in others else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
-        found.append(xr.merge([_drifts(by_solver, stated), _second(by_solver), _about(by_solver)]))
+        stated = np.nan if case in user_cases else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
+        comparisons.append(
+            xr.merge(
+                [
+                    _drifts(by_solver, stated),
+                    _second_solver_differences(by_solver),
+                    _case_variables(by_solver),
+                ]
+            )
+        )
     title = "The paper's solvers: drift of the energy, and agreement"
-    return _described(_stack(found, runs).assign(visible=VISIBLE), COMPARED, runs, title)
+    return _described(_stack(comparisons, runs).assign(visible=VISIBLE), COMPARED, runs, title)
 
 
 def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
     runs = {name: run for name, run in runs.items() if name != HALVED}
-    run, values = runs[FIRST], np.array([drift(one["energy"]) for one in runs.values()])
+    run, values = (
+        runs[FIRST],
+        np.array([drift(trajectory["energy"]) for trajectory in runs.values()]),
+    )
     largest = values.max(axis=1)
     both = np.stack([largest, largest / abs(float(run["energy"][0]))], axis=1)
     return xr.Dataset(
@@ -133,14 +144,20 @@ def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
     )
 
 
-def _second(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
+def _second_solver_differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """Return how the second solver differs from the first, by its step, and the pair's l2 norm."""
-    apart = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
+    differences = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
     run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
     return xr.Dataset(
         {
-            "second_difference": ("second_step", [float(one.max()) for one in apart]),
-            "second_divergence": ("second_step", [float(divergence_time(one)) for one in apart]),
+            "second_difference": (
+                "second_step",
+                [float(difference_in_time.max()) for difference_in_time in differences],
+            ),
+            "second_divergence": (
+                "second_step",
+                [float(divergence_time(difference_in_time)) for difference_in_time in differences],
+            ),
             "second_l2": ("tau", np.sqrt(total_power(run))),
         },
         {"tau": run["tau"], "second_step": steps},
@@ -157,11 +174,11 @@ def trust_solvers(
     A run that does not solve its reference's problem has no horizon: there it is NaN. `proofs`
     holds computed curves with a proven bound, which counts where it is of the run's problem.
     """
-    found = [
+    errors = [
         _trust_case(by_solver, references[case], proofs.get(case))
         for case, by_solver in runs.items()
     ]
-    data = _stack(found, runs).assign(visible=VISIBLE)
+    data = _stack(errors, runs).assign(visible=VISIBLE)
     title = "Until when each solver's norms are those of the reference"
     return _described(data, TRUSTED, runs, title)
 
@@ -176,14 +193,14 @@ def _trust_case(
         else difference(run, run) * np.nan
         for run in runs.values()
     ]
-    apart = xr.concat(errors, xr.Variable("solver", list(runs)))
+    error = xr.concat(errors, xr.Variable("solver", list(runs)))
     run = next(iter(runs.values()))
-    found = apart.to_dataset().assign(
-        horizon=divergence_time(apart),
-        known_until=known_until(apart),
+    horizons = error.to_dataset().assign(
+        horizon=divergence_time(error),
+        known_until=known_until(error),
         **_proven(run, reference, proved),
     )
-    return xr.merge([found, _about(runs)])
+    return xr.merge([horizons, _case_variables(runs)])
 
 
 def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
@@ -193,8 +210,8 @@ def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -
     right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)
 
     def distance(late: int) -> float:
-        apart = abs(proved[list(NORMS)].shift(tau=late) - right) / proved["bound"]
-        return float(apart.to_dataarray().max())
+        ratio = abs(proved[list(NORMS)].shift(tau=late) - right) / proved["bound"]
+        return float(ratio.to_dataarray().max())
 
     return {
         "l2_bound": float(proved["bound"].max()),
@@ -203,14 +220,14 @@ def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -
     }
 
 
-def _about(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    about = next(iter(runs.values())).attrs
-    return xr.Dataset({"omega": float(about["omega"]), "initial": str(about["initial"])})
+def _case_variables(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    attributes = next(iter(runs.values())).attrs
+    return xr.Dataset({"omega": float(attributes["omega"]), "initial": str(attributes["initial"])})
 
 
-def _stack(parts: list[xr.Dataset], cases: Collection[str]) -> xr.Dataset:
+def _stack(by_case: list[xr.Dataset], cases: Collection[str]) -> xr.Dataset:
     """Return the parts along the cases."""
-    return xr.concat(parts, xr.Variable("case", list(cases)), join="outer")
+    return xr.concat(by_case, xr.Variable("case", list(cases)), join="outer")
 
 
 def _described(data: xr.Dataset, names: Mapping, runs: Mapping, title: str) -> xr.Dataset:

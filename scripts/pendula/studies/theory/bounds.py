@@ -22,7 +22,7 @@ NUMBERS = {
     "theorem_3": ("C_N of Theorem 3", None),
 }
 """The numbers of a trajectory, each with its long name and its tolerance."""
-GIVEN = ("start", "theorem_1", "theorem_2", "widened", "theorem_3")
+PRINTED_NUMBERS = ("start", "theorem_1", "theorem_2", "widened", "theorem_3")
 """Those that follow from the initial conditions."""
 
 
@@ -35,21 +35,21 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
     bounds = find_bounds(energy, start, sites, constants, boundary)
     ratio = float(observed / min(bounds.values()))
     region = proven_region(energy, start, constants, boundary)
-    found = {"region": region, "start": start, "observed": float(observed), "ratio": ratio}
-    return found | bounds
+    numbers = {"region": region, "start": start, "observed": float(observed), "ratio": ratio}
+    return numbers | bounds
 
 
 def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
     """Set each of the paper's trajectories (by the name of its case) beside its bounds."""
-    about = [one.attrs for one in trajectories.values()]
+    attributes = [trajectory.attrs for trajectory in trajectories.values()]
     return tabulate(
         "The paper's cases beside the bounds of its theorems",
         {"case": list(trajectories)},
         map(case_numbers, trajectories.values()),
         NUMBERS,
-        omega=variable([float(one["omega"]) for one in about], ("case",), "detuning Omega"),
+        omega=variable([float(case["omega"]) for case in attributes], ("case",), "detuning Omega"),
         initial=variable(
-            [str(one["initial"]) for one in about], ("case",), "initial {site: [A, B]}"
+            [str(case["initial"]) for case in attributes], ("case",), "initial {site: [A, B]}"
         ),
     )
 
@@ -58,4 +58,4 @@ def check_observed(trajectories: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """Return the check of the paper's cases, and print whether it holds."""
     check = check_cases(trajectories)
     print(describe("cases", check))
-    return mark(xr.Dataset.from_dict(check), REGULAR, "omega", *GIVEN)
+    return mark(xr.Dataset.from_dict(check), REGULAR, "omega", *PRINTED_NUMBERS)

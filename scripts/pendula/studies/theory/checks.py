@@ -26,14 +26,14 @@ def check_not_shown() -> dict:
         trajectory = run(constants, ENDS, data, WINDOW[1], outputs, solver=SOLVER)
         inside = trajectory.tau >= WINDOW[0]
         peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))
-    found = table(
+    checked = table(
         f"Largest l2 on [{WINDOW[0]:g}, {WINDOW[1]:g}] at Omega = {OMEGA:g}, small data",
         {"half_width": HALF_WIDTHS},
         l2=variable(peaks, ("half_width",), "l2 norm over the chain, largest in the window"),
     )
-    found["attrs"] |= {**vars(constants), **controls_of(SOLVER), "end_time": WINDOW[1]}
-    found["attrs"] |= {"boundary": ENDS, "initial": write_initial({0: PAIR})}
-    return found
+    checked["attrs"] |= {**vars(constants), **controls_of(SOLVER), "end_time": WINDOW[1]}
+    checked["attrs"] |= {"boundary": ENDS, "initial": write_initial({0: PAIR})}
+    return checked
 
 
 CHECKS = {

@@ -16,7 +16,7 @@ RESOLVED = Cutoff(
     "bounded oscillations change a slope by up to 6 / tau in the second half of a run",
 )
 HALF = Cutoff(0.5, "instability means growth at half of the predicted rate or faster")
-TOLD = Cutoff(0.05, "exponents are measured to one decimal")
+RESOLVED_EXPONENT = Cutoff(0.05, "exponents are measured to one decimal")
 
 
 @by_algebra(
@@ -43,10 +43,10 @@ def dispersion():
 def stable_below(chart) -> Finding:
     """Ask above gamma_0 for half of the rate that N sites have, where time resolves that."""
     below, above = (chart["gamma"] < chart["gamma_0"]), (chart["gamma"] > chart["gamma_0"])
-    told = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
+    is_resolved = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
     measured = {
         "fastest": chart["measured"].where(below).max(),
-        "slowest": (chart["measured"] / chart["finite_rate"].where(told)).min(),
+        "slowest": (chart["measured"] / chart["finite_rate"].where(is_resolved)).min(),
         "cells_below": below.sum(),
         "cells_above": above.sum(),
     }
@@ -73,8 +73,8 @@ def unstable_band(chart) -> Finding:
         f"on the infinite chain; on {int(chart['sites'])} sites drives below {largest:.2g} leave "
         "some Omega of the band stable"
     )
-    says = "slowest growth within the band"
-    return judge({"slowest": slowest}, Above(RESOLVED, "slowest", says=says), caveat)
+    label = "slowest growth within the band"
+    return judge({"slowest": slowest}, Above(RESOLVED, "slowest", says=label), caveat)
 
 
 @claim(
@@ -90,8 +90,8 @@ def sharp_threshold(check) -> Finding:
     steps = log(excess.isel(sites=0) / excess.isel(sites=-1)) / log(sites[-1] / sites[0])
     measured = {"order": steps.min(), "excess_of_the_longest": excess.isel(sites=-1).max()}
     caveat = "on the infinite chain; on N sites the threshold is higher by O(1 / (N + 1)^2)"
-    says = "order in 1 / (N + 1) of the threshold of N sites minus gamma_0"
-    return judge(measured, AtLeast(1.0, "order", says=says), caveat)
+    label = "order in 1 / (N + 1) of the threshold of N sites minus gamma_0"
+    return judge(measured, AtLeast(1.0, "order", says=label), caveat)
 
 
 @claim(
@@ -103,8 +103,8 @@ def sharp_threshold(check) -> Finding:
 )
 def unstable_waves(check) -> Finding:
     edge = abs(check["leading_wave"] - np.pi * (check["omega"] > 0.0)).max(skipna=False)
-    says = "distance of the leading wave from its edge"
-    return judge({"from_its_edge": edge}, Below(0.5 * np.pi, "from_its_edge", says=says))
+    label = "distance of the leading wave from its edge"
+    return judge({"from_its_edge": edge}, Below(0.5 * np.pi, "from_its_edge", says=label))
 
 
 @claim(
@@ -117,5 +117,5 @@ def unstable_waves(check) -> Finding:
 def threshold_growth(threshold) -> Finding:
     measured = {"wave_exponent": threshold["wave_exponent"].max(skipna=False)}
     caveat = "on N sites at their own threshold: at gamma_0, which is lower, none grows"
-    criterion = Near(1.0, TOLD, "wave_exponent", says="exponent of tau of a wave")
+    criterion = Near(1.0, RESOLVED_EXPONENT, "wave_exponent", says="exponent of tau of a wave")
     return judge(measured, criterion, caveat)

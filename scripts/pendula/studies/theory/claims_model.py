@@ -25,7 +25,7 @@ IDENTITIES = checks("identities")
 
 
 def by_algebra(
-    place: str, says: str, twins: Mapping[str, str], kind=Kind.IDENTITY, caveat=""
+    place: str, statement: str, twins: Mapping[str, str], kind=Kind.IDENTITY, caveat=""
 ) -> Callable:
     """Return a decorator: the claim holds if nothing is left of the statements in `twins`.
 
@@ -40,7 +40,7 @@ def by_algebra(
             return judge(left, nothing_left(left), caveat)
 
         controls = tuple(twin(name, wrong) for name, wrong in twins.items())
-        return claim(place, says, IDENTITIES, controls, kind=kind)(decide)
+        return claim(place, statement, IDENTITIES, controls, kind=kind)(decide)
 
     return declare
 
@@ -56,15 +56,15 @@ def nothing_left(left: Mapping[str, float]) -> AtMost:
     return AtMost(0, *left, says="terms left of the identity")
 
 
-def twin(name: str, says: str) -> Control:
+def twin(name: str, description: str) -> Control:
     """Return the control that has the wrong twin in the place of the statement of this name."""
 
     def wrong(identities):
-        here = identities["identity"] == name
-        terms = identities["terms"].where(~here, identities["twin_terms"])
+        is_named = identities["identity"] == name
+        terms = identities["terms"].where(~is_named, identities["twin_terms"])
         return identities.assign(terms=terms)
 
-    return Control(says, {IDENTITIES[0]: wrong})
+    return Control(description, {IDENTITIES[0]: wrong})
 
 
 @by_algebra(
@@ -121,11 +121,11 @@ def one_integral(lyapunov) -> Finding:
     pairs = 0.5 * (size <= wider * error).sum("index")
     # those that lie nearer to zero than exponents to each other
     between = 2.0 * size.max("index") / size.sizes["index"]
-    told = 0.5 * (size + wider * error < between).sum("index")
+    vanishing = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
-    measured["most_resolved_pairs"] = told.max()
-    says = "vanishing pairs of Lyapunov exponents in every spectrum"
-    one_pair = AtLeast(1.0, "fewest_pairs", says=says), AtMost(1.0, "most_pairs", says=says)
+    measured["most_resolved_pairs"] = vanishing.max()
+    label = "vanishing pairs of Lyapunov exponents in every spectrum"
+    one_pair = AtLeast(1.0, "fewest_pairs", says=label), AtMost(1.0, "most_pairs", says=label)
     if measured["most_resolved_pairs"] <= 1.0 < measured["most_pairs"]:
         many = ", ".join(map(str, pairs["spectrum_case"].values[pairs.values > 1.0]))
         return undecided(

@@ -29,7 +29,7 @@ IN_PROPORTION = Cutoff(0.5, '"grows with N": the exponent of N is nearer to 1 th
 SHARP = Cutoff(0.9, '"sharp": at least 90 % of the bound is reached', ideal=1.0)
 ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
 ONE_SOLUTION = Cutoff(1e-9, "a thousand times the tolerance of the second solver")
-TOLD = Cutoff(0.05, "orders are measured to one decimal")
+RESOLVED_ORDER = Cutoff(0.05, "orders are measured to one decimal")
 
 
 @by_algebra(
@@ -153,7 +153,7 @@ def continuous_dependence(identities, well_posed) -> Finding:
         "largest_order": order.max(),
     }
     orders = Near(
-        1.0, TOLD, "least_order", "largest_order", says="order of a distance in the first"
+        1.0, RESOLVED_ORDER, "least_order", "largest_order", says="order of a distance in the first"
     )
     criterion = AllOf(nothing_left(left), AtMost(1.0, "rate", says=RATE), orders)
     caveat = f"{beyond_runs(well_posed, 'close_time')}, where the rate bounds the distance"
@@ -267,8 +267,8 @@ def bootstrap(check) -> Finding:
         f"{allowed:.3g}: the proof assumes the bound P <= C_0 delta that it is to prove; the "
         "theorem stands, because P is continuous in time and starts below the barrier"
     )
-    says = "largest P that the proof's inequalities allow"
-    return judge(measured, AtMost(allowed, "largest_power", says=says), fails=fails)
+    label = "largest P that the proof's inequalities allow"
+    return judge(measured, AtMost(allowed, "largest_power", says=label), fails=fails)
 
 
 @by_algebra(
@@ -328,8 +328,8 @@ def bound_grows(check) -> Finding:
 )
 def energy_not_useful(check) -> Finding:
     measured = {"shell_exponent": number(check, "shell_exponent", omega=0.0)}
-    says = "exponent of N in the largest P of one energy"
-    return judge(measured, Above(IN_PROPORTION, "shell_exponent", says=says))
+    label = "exponent of N in the largest P of one energy"
+    return judge(measured, Above(IN_PROPORTION, "shell_exponent", says=label))
 
 
 SIZES = ("theorem_1", "theorem_2")
@@ -366,7 +366,9 @@ def sharp_theorems(check) -> Finding:
         f"by_energy_{form}": number(check, "reached", form=form) for form in check["form"].values
     }
     shares = [f"share_{theorem}" for theorem in SIZES]
-    growths = Above(1.0, *(f"least_constant_{one}" for one in SIZES), says="growth of P")
+    growths = Above(
+        1.0, *(f"least_constant_{theorem_name}" for theorem_name in SIZES), says="growth of P"
+    )
     by_energy = Above(
         SHARP,
         *(name for name in measured if name.startswith("by_energy")),
@@ -383,14 +385,14 @@ FORMS = ("proof", "least")
 
 
 def _by_energy_alone(measured: dict[str, float]) -> str:
-    one, two = (
+    first, second = (
         {form: measured[f"{form}_constant_{theorem}"] for form in FORMS} for theorem in SIZES
     )
     reached = min(value for name, value in measured.items() if name.startswith("by_energy"))
     return (
         "the paper prints no constants: for small initial conditions with P(0) = delta the"
-        f" inequalities of its proofs give P <= {one['proof']:.3g} delta at Omega = 8 and"
-        f" {two['proof']:.3g} delta at Omega = -4, and {one['least']:.3g} delta and"
-        f" {two['least']:.3g} delta are enough; in terms of H at least"
+        f" inequalities of its proofs give P <= {first['proof']:.3g} delta at Omega = 8 and"
+        f" {second['proof']:.3g} delta at Omega = -4, and {first['least']:.3g} delta and"
+        f" {second['least']:.3g} delta are enough; in terms of H at least"
         f" {np.floor(1e4 * reached) / 100:g}% of each bound is reached"
     )

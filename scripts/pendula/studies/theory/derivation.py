@@ -27,14 +27,14 @@ from .polynomials import (
     STATE,
     ZERO,
     energy,
-    filled,
     joined,
+    object_array,
     rates,
     scaled,
 )
 
 HALF = fmpq(1, 2)
-MU_AT, COSINE_AT, SINE_AT = (GENS.index(one) for one in (MU, COSINE, SINE))
+MU_AT, COSINE_AT, SINE_AT = (GENS.index(generator) for generator in (MU, COSINE, SINE))
 SLOW = HALF
 """The rate of the slow time tau in the paper's mu^2 t."""
 DOUBLE = COSINE**2 - SINE**2
@@ -43,22 +43,24 @@ SINES = SimpleNamespace(sin=lambda x: x - fmpq(1, 6) * x * x * x)
 """The sine of an angle of order mu, up to mu^4."""
 
 
-def at_order(found, order: int):
+def at_order(polynomial, order: int):
     """Return the coefficient of mu^order of a polynomial."""
-    kept = {e: c for e, c in found.to_dict().items() if e[MU_AT] == order}
-    return found.context().from_dict(kept).subs({"mu": 1})
+    terms = {e: c for e, c in polynomial.to_dict().items() if e[MU_AT] == order}
+    return polynomial.context().from_dict(terms).subs({"mu": 1})
 
 
-def averaged(found):
+def averaged(polynomial):
     """Return the mean of a polynomial in cos and sin of the fast time over a turn."""
-    kept = ZERO
-    for powers, coefficient in found.to_dict().items():
+    mean = ZERO
+    for powers, coefficient in polynomial.to_dict().items():
         j, k = powers[COSINE_AT], powers[SINE_AT]
         if j % 2 == k % 2 == 0:
-            rest = list(powers)
-            rest[COSINE_AT] = rest[SINE_AT] = 0
-            kept += found.context().from_dict({tuple(rest): coefficient * mean_of_powers(j, k)})
-    return kept
+            other_powers = list(powers)
+            other_powers[COSINE_AT] = other_powers[SINE_AT] = 0
+            mean += polynomial.context().from_dict(
+                {tuple(other_powers): coefficient * mean_of_powers(j, k)}
+            )
+    return mean
 
 
 def mean_of_powers(j: int, k: int) -> fmpq:
@@ -95,9 +97,9 @@ def first_harmonic(ends, slow, drive=DOUBLE) -> list:
     inertia = inertia - 2 * turning(change[:, 1], -change[:, 0])
     forces = accelerations(ends, angles(), drive=drive)
     return [
-        averaged((2 * a - at_order(f, 3)) * part)
+        averaged((2 * a - at_order(f, 3)) * wave)
         for a, f in zip(inertia.ravel(), forces.ravel(), strict=True)
-        for part in (COSINE, SINE)
+        for wave in (COSINE, SINE)
     ]
 
 
@@ -110,9 +112,9 @@ def newtons_energy(ends, x: np.ndarray):
     """Return the potential energy of (1) up to the fourth order of the angles."""
     right, left = joined(ends, x)
     squares = x * x
-    own = (HALF * squares - fmpq(1, 24) * squares * squares).sum()
+    gravity = (HALF * squares - fmpq(1, 24) * squares * squares).sum()
     coupled = HALF * EPSILON * MU**2 * ((right - left) ** 2).sum()
-    return own + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
+    return gravity + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
 
 
 def inherited(ends, omega) -> list:
@@ -120,8 +122,11 @@ def inherited(ends, omega) -> list:
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
     generic = STATE[:, 0]
-    forces = filled(
-        (newtons_energy(ends, generic).derivative(GENS.index(one)) for one in generic.ravel()),
+    forces = object_array(
+        (
+            newtons_energy(ends, generic).derivative(GENS.index(generator))
+            for generator in generic.ravel()
+        ),
         generic.shape,
     )
     left = (accelerations(ends, generic) + forces).ravel()

@@ -40,7 +40,7 @@ def run(
 
 def controls_of(solver: dict) -> dict:
     """Return a solver and its controls as attributes of a dataset."""
-    return {"solver" if key == "name" else f"solver_{key}": one for key, one in solver.items()}
+    return {"solver" if key == "name" else f"solver_{key}": value for key, value in solver.items()}
 
 
 def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray):
@@ -48,9 +48,9 @@ def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray):
     chains = amplitudes.reshape(-1, *amplitudes.shape[-2:])
     states = np.zeros((len(chains), 4, chains.shape[2] + 2))
     states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = chains.real, chains.imag
-    found, scratch = np.empty(len(states)), np.empty((2, states.shape[2]))
-    energies(make_chain(constants, boundary, WHOLE), states, scratch, found)
-    return found.reshape(amplitudes.shape[:-2])[()]
+    totals, scratch = np.empty(len(states)), np.empty((2, states.shape[2]))
+    energies(make_chain(constants, boundary, WHOLE), states, scratch, totals)
+    return totals.reshape(amplitudes.shape[:-2])[()]
 
 
 def squared_norm(l2: np.ndarray) -> np.ndarray:

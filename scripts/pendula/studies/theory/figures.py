@@ -51,10 +51,10 @@ def gather_chart(
     `points` are pairs (Omega, gamma) in units of epsilon, `of_paper` says whether of its figures.
     """
     data = chart[CHART].drop_attrs(deep=False).assign_attrs(caption=CHART_CAPTION, **REGULAR)
-    whose = "the paper's cases" if of_paper else "the cases"
+    owner = "the paper's cases" if of_paper else "the cases"
     for name, values in zip(("omega", "gamma"), np.reshape(points, (-1, 2)).T, strict=True):
-        about = {"long_name": f"{name} of {whose}", "units": "1"}
-        data[f"point_{name}"] = ("point", values.astype(float), about)
+        attributes = {"long_name": f"{name} of {owner}", "units": "1"}
+        data[f"point_{name}"] = ("point", values.astype(float), attributes)
     return data if of_paper else data.assign_attrs(points="Figs 2 to 4 of this run")
 
 

@@ -94,14 +94,16 @@ def times_i(state):
     return times(0, 1, state)
 
 
-def alike(factor: int) -> np.ndarray:
+def equal_phases(factor: int) -> np.ndarray:
     """Return a state with B = `factor` A."""
     return np.stack([STATE[0], factor * STATE[0]])
 
 
-def equivariance(ends, image: Callable, state=STATE, direction: int = 1, **given):
+def equivariance(ends, image: Callable, state=STATE, direction: int = 1, **constants):
     """Return by what w -> image(w), with time in this `direction`, misses the same equations."""
-    return rates(ends, image(state), **given) - direction * image(rates(ends, state, **given))
+    return rates(ends, image(state), **constants) - direction * image(
+        rates(ends, state, **constants)
+    )
 
 
 def p_and_t(ends, direction: int):
@@ -110,14 +112,14 @@ def p_and_t(ends, direction: int):
     return equivariance(ends, image, direction=direction, model=PT)
 
 
-def phases(ends, gamma, **given):
+def phases(ends, gamma, **constants):
     """Return by what turning all phases misses the same equations, with this drive."""
-    return equivariance(ends, turned, gamma=gamma, **given)
+    return equivariance(ends, turned, gamma=gamma, **constants)
 
 
 def phases_alike(ends, factor: int):
     """Return by what (4) misses gauge symmetry where B = `factor` A."""
-    return equivariance(ends, turned, alike(factor))
+    return equivariance(ends, turned, equal_phases(factor))
 
 
 def hamiltonian(ends, omega):
@@ -131,7 +133,7 @@ def rate_of_energy(ends, omega):
 
 def reduction(ends, factor: int):
     """Return the rates of A in (4) where B = `factor` A, less those of the scalar equation."""
-    return rates(ends, alike(factor))[0] - rates(ends, STATE[:1], SCALAR)[0]
+    return rates(ends, equal_phases(factor))[0] - rates(ends, STATE[:1], SCALAR)[0]
 
 
 def of_pt(ends, gamma):
@@ -158,23 +160,25 @@ def of_a_wave(ends, kappa):
 
     Less those of (14), i A' + kappa A = gamma (conj B - conj A). Here s = sin(theta / 2).
     """
-    one = STATE[..., :1]
-    beside = scaled(1 - 2 * SINE**2, one)
-    at_site = linear_rates("dirichlet", np.concatenate([beside, one, beside], axis=-1))[..., 1:2]
-    flipped = conjugate(exchanged(one) - one)
-    return at_site - times(0, -1, scaled(GAMMA, flipped) - scaled(kappa, one))
+    site = STATE[..., :1]
+    neighbour = scaled(1 - 2 * SINE**2, site)
+    at_site = linear_rates("dirichlet", np.concatenate([neighbour, site, neighbour], axis=-1))[
+        ..., 1:2
+    ]
+    flipped = conjugate(exchanged(site) - site)
+    return at_site - times(0, -1, scaled(GAMMA, flipped) - scaled(kappa, site))
 
 
 def determinant(ends, drive: int):
     """Return the determinant printed before (15) less its factors, with `drive` times gamma."""
     k, g, w = KAPPA, GAMMA, OMEGA
     rows = [[k - w, g, ZERO, -g], [g, k + w, -g, ZERO], [ZERO, -g, k - w, g], [-g, ZERO, g, k + w]]
-    found = ZERO
+    total = ZERO
     for order in permutations(range(4)):
         swaps = sum(i > j for i, j in combinations(order, 2))
-        found += (-1) ** swaps * prod((rows[i][order[i]] for i in range(4)), start=ZERO + 1)
-    apart = w**2 - k**2
-    return found - apart * (apart + (drive * g) ** 2)
+        total += (-1) ** swaps * prod((rows[i][order[i]] for i in range(4)), start=ZERO + 1)
+    difference = w**2 - k**2
+    return total - difference * (difference + (drive * g) ** 2)
 
 
 def balance(ends, factor: int):
@@ -212,8 +216,8 @@ def prove_identities() -> xr.Dataset:
     dims = ("identity", "boundary")
     right, wrong = (
         [
-            [terms_left(left(ends, says[i])) for ends in BOUNDARIES]
-            for left, *says in IDENTITIES.values()
+            [terms_left(left(ends, texts[i])) for ends in BOUNDARIES]
+            for left, *texts in IDENTITIES.values()
         ]
         for i in (0, 1)
     )

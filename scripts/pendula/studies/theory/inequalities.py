@@ -14,10 +14,10 @@ import numpy as np
 from flint import fmpq
 
 from .polynomials import (
-    APART,
     EPSILON,
     GAMMA,
     OMEGA,
+    PERTURBATION,
     SITES,
     STATE,
     ZERO,
@@ -70,39 +70,41 @@ def parting(ends, factor: int):
 
     It is `factor` gamma |d|^2, and the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
     """
-    (re, im), (x, y) = STATE.swapaxes(0, 1), APART.swapaxes(0, 1)
+    (re, im), (x, y) = STATE.swapaxes(0, 1), PERTURBATION.swapaxes(0, 1)
     along, across = re * x + im * y, im * x - re * y  # of A times the conjugate of d
-    quartic = (densities() * densities(APART)).sum()
-    bounds = driven(2 * (APART * linear_rates(ends, APART, STATE)).sum(), APART, factor)
+    quartic = (densities() * densities(PERTURBATION)).sum()
+    bounds = driven(
+        2 * (PERTURBATION * linear_rates(ends, PERTURBATION, STATE)).sum(), PERTURBATION, factor
+    )
     return [
         bound + quartic - ((along - s * across) ** 2).sum()
         for s, bound in zip((1, -1), bounds, strict=True)
     ]
 
 
-def laplacian(ends, part):
+def laplacian(ends, draw):
     """Return what is left of (17)."""
-    return 4 * part * densities().sum() - bonds(ends) - sums(ends)
+    return 4 * draw * densities().sum() - bonds(ends) - sums(ends)
 
 
-def of_products(ends, part):
+def of_products(ends, draw):
     """Return what is left of (18), squared."""
     a, b = densities()
     both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
-    return part * a.sum() * b.sum() - (a * b).sum() - both
+    return draw * a.sum() * b.sum() - (a * b).sum() - both
 
 
-def embedding(ends, part):
+def embedding(ends, draw):
     """Return what is left of (22), to the fourth power."""
     a = densities()[0]
-    return part * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
+    return draw * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
 
-def embedding_reversed(ends, part):
+def embedding_reversed(ends, draw):
     """Return what is left of (27), to the fourth power."""
     a = densities()[0]
     differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
-    return part * len(a) * (a**2).sum() - a.sum() ** 2 - differences
+    return draw * len(a) * (a**2).sum() - a.sum() ** 2 - differences
 
 
 def above_band(ends, gammas: int):

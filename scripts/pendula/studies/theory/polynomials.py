@@ -19,32 +19,32 @@ from pendula.models.equations import AMPLITUDE_MODEL
 
 SITES = 3
 CONSTANTS = ("epsilon", "gamma", "omega")
-OTHERS = ("mu", "cosine", "sine", "kappa")
+FURTHER_SYMBOLS = ("mu", "cosine", "sine", "kappa")
 """Indeterminates of single identities: mu of (2), cos and sin of omega t, the kappa of (14)."""
 ROWS = tuple(
-    f"{part} {field}{n}" for field in "ABab" for part in ("Re", "Im") for n in range(SITES)
+    f"{re_im} {field}{n}" for field in "ABab" for re_im in ("Re", "Im") for n in range(SITES)
 )
-CONTEXT = fmpq_mpoly_ctx.get((*CONSTANTS, *OTHERS, *ROWS), "degrevlex")
+CONTEXT = fmpq_mpoly_ctx.get((*CONSTANTS, *FURTHER_SYMBOLS, *ROWS), "degrevlex")
 GENS = CONTEXT.gens()
 EPSILON, GAMMA, OMEGA, MU, COSINE, SINE, KAPPA = GENS[:7]
 ZERO = 0 * GAMMA
 
 
-def filled(values: Iterable, shape=(2, 2, SITES)) -> np.ndarray:
+def object_array(values: Iterable, shape=(2, 2, SITES)) -> np.ndarray:
     """Return an array of polynomials, which NumPy would take for sequences of terms."""
-    found = np.empty(shape, object)
+    array = np.empty(shape, object)
     for at, value in zip(np.ndindex(*shape), values, strict=True):
-        found[at] = value
-    return found
+        array[at] = value
+    return array
 
 
-STATE, APART = filled(GENS[7:19]), filled(GENS[19:])
+STATE, PERTURBATION = object_array(GENS[7:19]), object_array(GENS[19:])
 """A state, and the distance of another solution from it."""
 
 
 def scaled(by, values: np.ndarray) -> np.ndarray:
     """Return an array times a polynomial, which NumPy would take for a sequence."""
-    return np.frompyfunc(lambda one: by * one, 1, 1)(values)
+    return np.frompyfunc(lambda value: by * value, 1, 1)(values)
 
 
 def rational(x: float) -> fmpq:
@@ -60,20 +60,20 @@ def rates(
 
     `functions` has what stands for sines of polynomials.
     """
-    given = {"epsilon": EPSILON, "gamma": GAMMA, "omega": OMEGA} | constants
+    values = {"epsilon": EPSILON, "gamma": GAMMA, "omega": OMEGA} | constants
     shape, (right, left) = state.shape, neighbours(state, ends)
     seen = {0: state, 1: right, -1: left}
 
-    def leaf(one):
-        if one.operation == "number":
-            return rational(one.operands[0])
-        if one.operation in ("parameter", "clock"):
-            return filled([given[one.operands[0]]] * shape[-1], shape[-1:])
-        component, part, by = one.operands
-        return seen[by][component, part]
+    def leaf(node):
+        if node.operation == "number":
+            return rational(node.operands[0])
+        if node.operation in ("parameter", "clock"):
+            return object_array([values[node.operands[0]]] * shape[-1], shape[-1:])
+        component, re_im, by = node.operands
+        return seen[by][component, re_im]
 
-    found = evaluate(model.rates, leaf, functions)
-    return filled((one for row in found for one in row), shape)
+    rows = evaluate(model.rates, leaf, functions)
+    return object_array((rate for row in rows for rate in row), shape)
 
 
 def linear_rates(ends: str, state=STATE, at=None) -> np.ndarray:
@@ -124,7 +124,7 @@ def drive(state=STATE):
 
 def gradient(of) -> np.ndarray:
     """Return the derivatives of a polynomial by the rows of the state."""
-    return filled(of.derivative(GENS.index(one)) for one in STATE.ravel())
+    return object_array(of.derivative(GENS.index(symbol)) for symbol in STATE.ravel())
 
 
 def times(re, im, state: np.ndarray) -> np.ndarray:
@@ -137,13 +137,13 @@ def conjugate(state: np.ndarray) -> np.ndarray:
     return state * np.array([1, -1], object)[:, None]
 
 
-def put(found, state: np.ndarray):
+def put(polynomial, state: np.ndarray):
     """Return a polynomial with another state in the place of the indeterminate one."""
-    return found.compose(*GENS[:7], *state.ravel(), *GENS[19:])
+    return polynomial.compose(*GENS[:7], *state.ravel(), *GENS[19:])
 
 
-def terms_left(found) -> int:
+def terms_left(polynomial) -> int:
     """Return how many terms a polynomial has, or all of an array or list: none where all are 0."""
-    if isinstance(found, np.ndarray | list):
-        return sum(map(terms_left, found))
-    return len(found)
+    if isinstance(polynomial, np.ndarray | list):
+        return sum(map(terms_left, polynomial))
+    return len(polynomial)

@@ -48,18 +48,18 @@ def check_chart() -> dict:
         "infinite_curve": gamma_0(CURVE, 1.0),
         "finite_curve": finite_threshold(CURVE, *chain),
     }
-    about = {"infinite_curve": "gamma_0 of (12)", "finite_curve": "threshold of N sites"}
-    found = table(
+    labels = {"infinite_curve": "gamma_0 of (12)", "finite_curve": "threshold of N sites"}
+    chart = table(
         f"Growth rates on {SITES} sites, {ENDS} ends, measured and predicted",
         {"omega": OMEGAS, "gamma": GAMMAS, "curve_omega": CURVE},
         sites=variable(SITES, (), "number of sites N"),
         measured=variable(measured, grid, "growth rate of tiny data, per unit of tau"),
         finite_rate=variable(rates, grid, "largest rate of N sites, per unit of tau"),
         gamma_0=variable(gamma_0(OMEGAS, 1.0), ("omega",), "gamma_0 of (12)"),
-        **columns(("curve_omega",), about, curves),
+        **columns(("curve_omega",), labels, curves),
     )
-    found["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "seed": SEED}
-    return found
+    chart["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "seed": SEED}
+    return chart
 
 
 def edge_wave(omega: float, sites: int) -> np.ndarray:
@@ -79,23 +79,25 @@ def check_threshold() -> dict:
     """
     rows, sizes, omegas = [], (SITES, 81, 601), np.array([-4.0, 8.0])
     thresholds = np.transpose([finite_threshold(omegas, 1.0, n, ENDS) for n in sizes])
-    for omega, own in zip(omegas, thresholds[:, 0], strict=True):
-        wave, above = edge_wave(omega, SITES), own + 0.2
-        grown = [late_growth(constants_at(omega, gamma), wave, LONG) for gamma in (own, above)]
+    for omega, threshold in zip(omegas, thresholds[:, 0], strict=True):
+        wave, above = edge_wave(omega, SITES), threshold + 0.2
+        grown = [
+            late_growth(constants_at(omega, gamma), wave, LONG) for gamma in (threshold, above)
+        ]
         fastest = np.argmax(growth_rate(curvatures(SITES, ENDS) - omega, above))
         rows.append([*(np.array(grown) / log(2.0)), np.pi * (fastest + 1) / (SITES + 1)])
-    about = {
+    labels = {
         "wave_exponent": "exponent of tau in l2 of a wave at the threshold of its chain",
         "exponent_above": "the same of the wave above the threshold",
         "leading_wave": "wave number of the fastest growth above the threshold",
     }
     excess = thresholds - gamma_0(omegas, 1.0)[:, None]
-    found = table(
+    data = table(
         "Growth of tiny data at the threshold of Lemma 1 and above it",
         {"omega": omegas, "sites": list(sizes)},
         excess=variable(excess, ("omega", "sites"), "threshold of N sites minus gamma_0"),
-        **columns(("omega",), about, dict(zip(about, np.transpose(rows), strict=True))),
+        **columns(("omega",), labels, dict(zip(labels, np.transpose(rows), strict=True))),
     )
-    found["coords"]["omega"]["attrs"] |= FEW_CHOICES
-    found["attrs"] |= {**controls_of(SOLVER), "end_time": LONG}
-    return found
+    data["coords"]["omega"]["attrs"] |= FEW_CHOICES
+    data["attrs"] |= {**controls_of(SOLVER), "end_time": LONG}
+    return data

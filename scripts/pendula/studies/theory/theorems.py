@@ -43,11 +43,11 @@ def check_sharpness() -> dict:
     C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta.
     """
     above, below = constants_at(8.0), constants_at(-4.0)
-    high, low = (TINY * edge_wave(one.omega, LONG) for one in (above, below))
+    high, low = (TINY * edge_wave(constants.omega, LONG) for constants in (above, below))
     power = power_of(low)
     (least, largest), (top, bottom) = (
-        [total_energy(one, ENDS, z) for z in (wave, 1j * wave)]
-        for one, wave in ((below, low), (above, high))
+        [total_energy(constants, ENDS, z) for z in (wave, 1j * wave)]
+        for constants, wave in ((below, low), (above, high))
     )
     rough = [alternating(LONG, np.sqrt(square)) for square in SQUARES]
     reached = {
@@ -99,14 +99,14 @@ def check_chain_growth() -> dict:
         ]
         exponents.append(np.diff(log(grown), axis=0)[0] / log(SIZES[1] / SIZES[0]))
     of_bound, of_shell = np.transpose(exponents)
-    found = table(
+    data = table(
         "What grows with the length of the chain: C_N, and the largest P of one energy",
         {"omega": omegas},
         constant_exponent=variable(of_bound, dims, "exponent in N of C_N"),
         shell_exponent=variable(of_shell, dims, "exponent in N of the largest P of one energy"),
     )
-    found["coords"]["omega"]["attrs"] |= FEW_CHOICES
-    return found
+    data["coords"]["omega"]["attrs"] |= FEW_CHOICES
+    return data
 
 
 # --- Errors of the proofs, each with the smallest example that anyone can rerun -------------------

@@ -50,15 +50,15 @@ def perturbed(amplitudes: np.ndarray, direction: str, size: float) -> np.ndarray
     return amplitudes + size * np.sqrt(power_of(amplitudes) / power_of(change)) * change
 
 
-def distance_of(one: np.ndarray, other: np.ndarray) -> float:
+def distance_of(first: np.ndarray, second: np.ndarray) -> float:
     """Return the distance of two states in l2."""
-    return float(np.sqrt(power_of(one - other)))
+    return float(np.sqrt(power_of(first - second)))
 
 
 def margins(constants: Constants, start: np.ndarray, gamma: float) -> dict[str, float]:
     """Return how close a run comes to the bound (19) of a drive `gamma`."""
-    found = run(constants, ENDS, start, END_TIME, OUTPUTS, solver=SOLVER)
-    return growth_margin(found.tau, found.l2, gamma)
+    trajectory = run(constants, ENDS, start, END_TIME, OUTPUTS, solver=SOLVER)
+    return growth_margin(trajectory.tau, trajectory.l2, gamma)
 
 
 def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +83,9 @@ def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.
 
 def between_solvers(constants: Constants, start: np.ndarray) -> float:
     """Return the distance at CLOSE_TIME of runs by two solvers, over the initial norm."""
-    ends = [run(constants, ENDS, start, CLOSE_TIME, solver=one).final for one in (SOLVER, SECOND)]
+    ends = [
+        run(constants, ENDS, start, CLOSE_TIME, solver=solver).final for solver in (SOLVER, SECOND)
+    ]
     return distance_of(*ends) / float(np.sqrt(power_of(start)))
 
 
@@ -101,12 +103,12 @@ def check_well_posed() -> dict:
         for constants, start in cells
     ]
     numbers = {
-        "from_start": [one["from_start"] for one in right],
-        "steepest": [one["steepest"] for one in right],
-        "steepest_of_twice_the_drive": [one["steepest"] for one in wrong],
+        "from_start": [margin["from_start"] for margin in right],
+        "steepest": [margin["steepest"] for margin in right],
+        "steepest_of_twice_the_drive": [margin["steepest"] for margin in wrong],
         "between_solvers": [between_solvers(*cell) for cell in cells],
     }
-    about = {
+    labels = {
         "from_start": "largest P over the bound (19)",
         "steepest": "largest change of log P over 4 gamma times its duration",
         "steepest_of_twice_the_drive": "the same under twice the drive, by the bound of the drive",
@@ -121,14 +123,16 @@ def check_well_posed() -> dict:
         ),
         "rate": (rates, "growth of the log of the distance over (2 gamma + M^2 / 2) tau"),
     }
-    found = table(
+    data = table(
         f"Solutions from random initial conditions on {SITES} sites, and others close to them",
         over | near,
-        **columns(over, about, {name: np.reshape(one, shape) for name, one in numbers.items()}),
+        **columns(
+            over, labels, {name: np.reshape(values, shape) for name, values in numbers.items()}
+        ),
         **{
-            name: variable(np.reshape(one, (*shape, *ratios[0].shape)), (*over, *near), words)
-            for name, (one, words) in distances.items()
+            name: variable(np.reshape(distance, (*shape, *ratios[0].shape)), (*over, *near), words)
+            for name, (distance, words) in distances.items()
         },
     )
-    found["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "close_time": CLOSE_TIME}
-    return found | {"attrs": found["attrs"] | {"seed": SEED, "gamma": constants_at(0.0).gamma}}
+    data["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "close_time": CLOSE_TIME}
+    return data | {"attrs": data["attrs"] | {"seed": SEED, "gamma": constants_at(0.0).gamma}}

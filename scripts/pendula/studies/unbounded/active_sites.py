@@ -22,7 +22,7 @@ from latticode.simulation.traced import TracedEquations
 
 from pendula.problem import Problem
 
-from .bulk import EDGE, LEVEL, PIECE, find_front, region_means, site_powers
+from .bulk import EDGE, LEVEL, SLICE_LENGTH, find_front, region_means, site_powers
 from .sums import halves, in_sums, turned
 
 BLOCK, GUARD = 64, 32
@@ -45,11 +45,11 @@ def right_half(state: np.ndarray, even: bool) -> np.ndarray:
     return state[:, 1 if even else 1 + width_of(state, even) : -1]
 
 
-def widen(state: np.ndarray, rest: float, even: bool = True) -> np.ndarray:
+def widen(state: np.ndarray, rest_threshold: float, even: bool = True) -> np.ndarray:
     """Return the state with a block of sites at rest added where an end is no longer at rest."""
     power = site_powers(state[:, 1:-1])
     at_ends = power[-GUARD:].max() if even else max(power[:GUARD].max(), power[-GUARD:].max())
-    if not at_ends > rest * rest * power.max():
+    if not at_ends > rest_threshold * rest_threshold * power.max():
         return state
     return np.pad(state[:, 1:-1], ((0, 0), (1 if even else 1 + BLOCK, 1 + BLOCK)))
 
@@ -80,21 +80,21 @@ def advance(
     return record
 
 
-def in_pieces(
-    problem: Problem, rest: float
+def integrate_intervals(
+    problem: Problem, rest_threshold: float
 ) -> Iterator[tuple[np.ndarray, Record, np.ndarray, np.ndarray]]:
     """Integrate a problem in S and D, and yield of each piece its outputs and its last state.
 
     These are the times, both ends included, the record, the state, which may be changed in place,
-    and its sites 0..W. `rest` is what counts as at rest ahead of the front (see above).
+    and its sites 0..W. `rest_threshold` is what counts as at rest ahead of the front (see above).
     """
     even, rooms = is_even(problem.initial), {}
     width = problem.initial.shape[1] // 2 + BLOCK
     state = pack(place(problem.initial, width), Reduction(even, synchronised=False))
     steps = round(problem.end_time / problem.output_step)
-    steps_of_piece = int(PIECE / problem.output_step)
+    steps_of_piece = int(SLICE_LENGTH / problem.output_step)
     for first in range(0, steps, steps_of_piece):
-        state = widen(state, rest, even)
+        state = widen(state, rest_threshold, even)
         last = min(first + steps_of_piece, steps)
         times = problem.output_step * np.arange(first, last + 1)
         record = advance(problem, state, times, rooms, even)
@@ -106,7 +106,7 @@ def in_pieces(
 
 def run_long(
     problem: Problem,
-    rest: float,
+    rest_threshold: float,
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),
 ) -> dict[str, np.ndarray]:
@@ -119,11 +119,14 @@ def run_long(
     norms are of the sites 0..W.
     """
     outputs, looks = [], []
-    for times, record, _, sites in in_pieces(in_sums(problem), rest):
+    for times, record, _, sites in integrate_intervals(in_sums(problem), rest_threshold):
         first = 1 if outputs else 0  # the first output ends the piece before
         outputs.append(np.array([times, *_norms(record)])[:, first:])
         power = site_powers(sites[:2])
-        front, second = find_front(site_powers(sites)), [find_front(power, one) for one in levels]
+        front, second = (
+            find_front(site_powers(sites)),
+            [find_front(power, level) for level in levels],
+        )
         means = [region_means(sites, front, second[0], edge) for edge in edges]
         looks.append((times[-1], front, _one_or_all(second), _one_or_all(means)))
     series = dict(zip(("tau", "l2", "linf"), np.concatenate(outputs, axis=1), strict=True))
@@ -139,5 +142,5 @@ def _one_or_all(values: list) -> np.ndarray:
 def _norms(record: Record) -> tuple[np.ndarray, np.ndarray]:
     """Return l2 and l-infinity of the pair (A, B) at every output, each (time,)."""
     s, d = np.swapaxes(record.kept, 0, 1)  # (part, site, time)
-    squares = np.maximum(*(site_powers(part) for part in halves(turned(np.concatenate([s, d])))))
+    squares = np.maximum(*(site_powers(re_im) for re_im in halves(turned(np.concatenate([s, d])))))
     return np.sqrt((record.l2**2).sum(axis=0)), np.sqrt(squares.max(axis=0))

@@ -9,7 +9,7 @@ POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, its mean"
 PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
 """What these quantities are called in every dataset of this study."""
 
-PIECE = 2.0
+SLICE_LENGTH = 2.0
 """Units of tau between two looks at a run, at most: a piece of it is a whole number of outputs."""
 
 LEVEL = 1e-2
@@ -42,8 +42,8 @@ def region_means(sites: np.ndarray, front: float, second: float, edge: int = EDG
     values = np.array([site_powers(sites), site_powers(sites[:2])])
     ahead = max(1, int(second) + AHEAD) if second >= 0.0 else 1
     regions = slice(1, int(SHARE * second)), slice(ahead, int(front) - edge)
-    found = np.full((len(REGIONS), len(KINDS)), np.nan)
-    for mean, region in zip(found, regions, strict=True):
+    means = np.full((len(REGIONS), len(KINDS)), np.nan)
+    for mean, region in zip(means, regions, strict=True):
         if region.stop > region.start:
             mean[:] = np.add.reduce(values[:, region], axis=1) / (region.stop - region.start)
-    return found
+    return means

@@ -55,8 +55,8 @@ def curves_of(run, name: str, variant: int = 0) -> np.ndarray:
 def exponents_of(run, variant: int) -> np.ndarray:
     """Return the exponent of tau in l2 of each member over the last OCTAVES, (member,)."""
     tau = times_of(run)
-    kept = tau >= tau[-1] * 0.5**OCTAVES
-    return exponent_with_offset(tau[kept], curves_of(run, "l2", variant)[:, kept] ** 2)
+    is_late = tau >= tau[-1] * 0.5**OCTAVES
+    return exponent_with_offset(tau[is_late], curves_of(run, "l2", variant)[:, is_late] ** 2)
 
 
 def growths_of(run) -> tuple[list[Limits], list[float]]:
@@ -70,7 +70,7 @@ def growths_of(run) -> tuple[list[Limits], list[float]]:
     for variant in variants:
         l2 = curves_of(run, "l2", variant)
         factors.append(mean_limits(l2[:, -1] / l2[:, start], confidence).low)
-    return [mean_limits(exponents_of(run, one), confidence) for one in variants], factors
+    return [mean_limits(exponents_of(run, values), confidence) for values in variants], factors
 
 
 GROWS = AllOf(
@@ -147,15 +147,15 @@ def unbounded_in_time(run) -> Finding:
     (SLOWEST,),
 )
 def unbounded_band(run) -> Finding:
-    omegas, (found, factors) = run["omega"].values, growths_of(run)
+    omegas, (growths, factors) = run["omega"].values, growths_of(run)
     measured = {
-        "least_exponent": min(limits.value for limits in found),
-        "largest_exponent": max(limits.value for limits in found),
-        "exponent_at_least": min(limits.low for limits in found),
+        "least_exponent": min(limits.value for limits in growths),
+        "largest_exponent": max(limits.value for limits in growths),
+        "exponent_at_least": min(limits.low for limits in growths),
         "factor_at_least": min(factors),
     }
     caveat = f"tested at {len(omegas)} values of Omega from {omegas.min():g} to {omegas.max():g}"
-    off = [f"{at:g}" for at, q in zip(omegas, found, strict=True) if not q.low < HALF < q.high]
+    off = [f"{at:g}" for at, q in zip(omegas, growths, strict=True) if not q.low < HALF < q.high]
     if off:
         caveat += f"; at Omega = {', '.join(off)} the exponent is significantly off 1/2"
     return judge(measured, GROWS, caveat)
@@ -216,12 +216,12 @@ def unbounded_starts(run) -> Finding:
         "share_at_least": share.low,
         "omega": run["omega"].max(),
     }
-    says = (
+    label = (
         f"lower confidence limit of the share of runs whose l2 grew twofold since tau = {SETTLED:g}"
     )
     outside = Below(-2.0 * run.attrs["gamma"], "omega", says="Omega of the runs")
     caveat = f"{share.value:.0%} of the runs, up to tau = {tau[-1]:.0f}"
-    return judge(measured, AllOf(Above(MAJORITY, "share_at_least", says=says), outside), caveat)
+    return judge(measured, AllOf(Above(MAJORITY, "share_at_least", says=label), outside), caveat)
 
 
 @claim(
@@ -232,8 +232,8 @@ def unbounded_starts(run) -> Finding:
 )
 def unbounded_stable(run) -> Finding:
     measured = {"growth": late_growths(run, "l2").max()}
-    says = "largest relative growth of the mean of l2 of an octave of tau within two octaves"
-    return judge(measured, Below(CONSTANT, "growth", says=says))
+    label = "largest relative growth of the mean of l2 of an octave of tau within two octaves"
+    return judge(measured, Below(CONSTANT, "growth", says=label))
 
 
 @claim(
@@ -256,9 +256,9 @@ def unbounded_maximum(run) -> Finding:
         "growth": growth.value,
         "growth_at_most": growth.high,
     }
-    says = "upper confidence limit of the relative growth of the mean of an octave within two"
+    label = "upper confidence limit of the relative growth of the mean of an octave within two"
     caveat = (
         f"shown up to tau = {times_of(run)[-1]:.0f}; this does not exclude a growth as the fourth "
         "root of ln tau, which the largest of many amplitudes has in thermal equilibrium"
     )
-    return judge(measured, Below(CHANGE, "growth_at_most", says=says), caveat)
+    return judge(measured, Below(CHANGE, "growth_at_most", says=label), caveat)

@@ -52,12 +52,12 @@ def unbounded_front(run) -> Finding:
     off = np.abs(speeds(run)[0] - run["predicted_speed"].values).max()
     known = resolution(run["piece_tau"].values)
     measured = {"furthest": off, "furthest_over_resolution": off / known}
-    says = (
+    label = (
         "largest difference of the speed, with the known delay of a pulled front added back, from "
         "that of linear spreading, over the resolution"
     )
     fails = "not every front moves at the speed of linear spreading"
-    return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", says=says), fails=fails)
+    return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", says=label), fails=fails)
 
 
 def both_between(run):
@@ -80,13 +80,13 @@ def both_between(run):
 )
 def second_front(run) -> Finding:
     times_of(run)
-    found, error = second_speeds(run)
+    speed, error = second_speeds(run)
     between, omegas = mean_powers(run, BETWEEN).mean(axis=1), run["omega"].values
-    apart = np.isfinite(between) & np.isfinite(found)
-    if apart.sum() < FEW:
+    is_comparable = np.isfinite(between) & np.isfinite(speed)
+    if is_comparable.sum() < FEW:
         raise UndecidableError("fewer than three second fronts have formed apart from the first")
     measured = {
-        "fastest": ((found + error) / run["predicted_speed"].values)[apart].max(),
+        "fastest": ((speed + error) / run["predicted_speed"].values)[is_comparable].max(),
         "share_between": np.nanmax(mean_powers(run, BETWEEN, KINDS[1]).mean(axis=1) / between),
     }
     slower = "largest upper limit of the speed of a second front over that of the first"
@@ -94,21 +94,21 @@ def second_front(run) -> Finding:
     criterion = AllOf(
         Below(1.0, "fastest", says=slower), Below(CONSTANT, "share_between", says=filled)
     )
-    absent = ", ".join(f"{omega:g}" for omega in omegas[~np.isfinite(found)])
+    absent = ", ".join(f"{omega:g}" for omega in omegas[~np.isfinite(speed)])
     caveat = f"no second front has formed at Omega = {absent}" if absent else ""
     return judge(measured, criterion, caveat)
 
 
 def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Limits]:
     """Return limits of P (variant, member) over that of thermal states, where both are known."""
-    found = [
-        Limits(*(bound / state for bound in mean_limits(one, sure(tries))))
-        for one, state in zip(powers, expected, strict=True)
-        if np.isfinite([*one, state]).all()
+    ratios = [
+        Limits(*(bound / state for bound in mean_limits(power, sure(tries))))
+        for power, state in zip(powers, expected, strict=True)
+        if np.isfinite([*power, state]).all()
     ]
-    if len(found) < FEW:
+    if len(ratios) < FEW:
         raise UndecidableError("fewer than three regions have formed")
-    return found
+    return ratios
 
 
 def next_states(thermal):
@@ -136,15 +136,19 @@ def unbounded_equilibrium(run, thermal) -> Finding:
     expected = thermal_powers(thermal, run)
     ratios = ratios_of(both, expected, tries)
     measured = {
-        "at_least": min(one.low for one in ratios),
-        "at_most": max(one.high for one in ratios),
+        "at_least": min(ratio.low for ratio in ratios),
+        "at_most": max(ratio.high for ratio in ratios),
     }
-    says = "confidence interval of P behind the second front over thermal P"
-    apart = np.nanmax(np.abs(thermal_powers(thermal, run, "antisymmetric_power") / expected - 1.0))
-    caveat = f"P alone hardly tells this state from that with A = -B, whose P is within {apart:.0%}"
+    label = "confidence interval of P behind the second front over thermal P"
+    difference = np.nanmax(
+        np.abs(thermal_powers(thermal, run, "antisymmetric_power") / expected - 1.0)
+    )
+    caveat = (
+        f"P alone hardly tells this state from that with A = -B, whose P is within {difference:.0%}"
+    )
     if absent := ", ".join(f"{omega:g}" for omega in omegas[~formed]):
         caveat += f"; no second front has formed at Omega = {absent}"
-    return judge(measured, Near(1.0, CHANGE, "at_least", "at_most", says=says), caveat)
+    return judge(measured, Near(1.0, CHANGE, "at_least", "at_most", says=label), caveat)
 
 
 def largest_change(run, thermal) -> float:
@@ -171,19 +175,19 @@ def unbounded_slope(run, thermal) -> Finding:
     times_of(run)
     omegas = run["omega"].values
     ratios = slope_ratios(run, thermal, sure(len(omegas)))
-    known = [one.value for one in ratios if np.isfinite(one.value)]
+    known = [ratio.value for ratio in ratios if np.isfinite(ratio.value)]
     if len(known) < FEW:
         raise UndecidableError("the law is known at fewer than three values of Omega")
     measured = {"least": min(known), "largest": max(known)}
-    apart = [
-        f"{omega:g} ({100.0 * (one.value - 1.0):+.1f} %)"
-        for omega, one in zip(omegas, ratios, strict=True)
-        if one.low > 1.0 or one.high < 1.0
+    deviating = [
+        f"{omega:g} ({100.0 * (ratio.value - 1.0):+.1f} %)"
+        for omega, ratio in zip(omegas, ratios, strict=True)
+        if ratio.low > 1.0 or ratio.high < 1.0
     ]
     caveat = (
         "these runs test the size of the slope, and hardly that there are two states: with p or p' "
         f"behind both fronts the law would change by at most {largest_change(run, thermal):.0%}"
     )
-    caveat += f"; significantly off at Omega = {', '.join(apart)}" if apart else ""
-    says = "slope of l2^2 over that of its law"
-    return judge(measured, Near(1.0, CHANGE, "least", "largest", says=says), caveat)
+    caveat += f"; significantly off at Omega = {', '.join(deviating)}" if deviating else ""
+    label = "slope of l2^2 over that of its law"
+    return judge(measured, Near(1.0, CHANGE, "least", "largest", says=label), caveat)

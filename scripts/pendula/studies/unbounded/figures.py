@@ -42,15 +42,15 @@ def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dat
     The law of l2^2 stands beside them where its states were solved.
     """
     cases = xr.Variable("case", [run.attrs["name"] for run in runs])
-    found = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
-    found["band"].attrs["long_name"] = "value over the members of the ensemble"
-    found["law"].attrs = {
+    bands = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
+    bands["band"].attrs["long_name"] = "value over the members of the ensemble"
+    bands["law"].attrs = {
         "long_name": "l2^2 by thermal states and speeds of fronts",
         **missing("no thermal state was solved"),
         **ALL_TIMES,
     }
-    found["initial"].attrs["long_name"] = "initial {site: [A, B]}"
-    return found.assign_attrs(title="Growth of the norms", caption=GROWTH_CAPTION)
+    bands["initial"].attrs["long_name"] = "initial {site: [A, B]}"
+    return bands.assign_attrs(title="Growth of the norms", caption=GROWTH_CAPTION)
 
 
 def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
@@ -59,10 +59,10 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     law = law_of(run, thermal)[0] if known else np.full(run.sizes["tau"], np.nan)
     norms = run[["l2", "linf"]].isel(variant=0)
     bands = [norms.min("member"), norms.mean("member"), norms.max("member")]
-    found = xr.concat(bands, xr.Variable("band", list(BAND)))
-    found = found.assign(omega=run["omega"][0], initial=run.attrs["initial"], law=("tau", law))
+    data = xr.concat(bands, xr.Variable("band", list(BAND)))
+    data = data.assign(omega=run["omega"][0], initial=run.attrs["initial"], law=("tau", law))
     times = geometric(FIRST_TAU, float(run["tau"][-1]), POINTS)
-    return found.sel(tau=np.unique(found["tau"].sel(tau=times, method="nearest")))
+    return data.sel(tau=np.unique(data["tau"].sel(tau=times, method="nearest")))
 
 
 @style.styled
@@ -71,13 +71,13 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     figure = style.new_figure(style.WIDTH, 2.4)
     rate, linf, ratio = figure.subplots(1, 3, sharex=True)
     for case in data["case"].values:
-        one, look = data.sel(case=case), LOOKS[str(case)]
-        tau = one["tau"]
-        _draw_band(rate, tau, one["l2"] ** 2 / tau, look, name_case(one))
-        rate.plot(tau, one["law"] / tau, **LAW)
-        _draw_band(linf, tau, one["linf"], look)
-        if one["law"].notnull().any():
-            _draw_band(ratio, tau, one["l2"] ** 2 / one["law"], look)
+        case_data, look = data.sel(case=case), LOOKS[str(case)]
+        tau = case_data["tau"]
+        _draw_band(rate, tau, case_data["l2"] ** 2 / tau, look, name_case(case_data))
+        rate.plot(tau, case_data["law"] / tau, **LAW)
+        _draw_band(linf, tau, case_data["linf"], look)
+        if case_data["law"].notnull().any():
+            _draw_band(ratio, tau, case_data["l2"] ** 2 / case_data["law"], look)
     ratio.axhline(1.0, **LAW)
     rate.set_yscale("log")
     rate.set_xscale("log")
@@ -128,8 +128,8 @@ def gather_fronts(fronts: xr.Dataset, long: xr.Dataset | None = None) -> xr.Data
     if long is not None and all(long.attrs[name] == fronts.attrs[name] for name in CHAIN):
         near = {"method": "nearest", "tolerance": 1e-9}
         speed = long["predicted_second_speed"].reindex(omega=fronts["omega"].values, **near)
-    about = {"long_name": "predicted speed of the second front, in sites per unit of tau"}
-    predicted = "omega", speed.values, about
+    attributes = {"long_name": "predicted speed of the second front, in sites per unit of tau"}
+    predicted = "omega", speed.values, attributes
     return fronts.assign(predicted_second_speed=predicted).assign_attrs(caption=FRONTS_CAPTION)
 
 

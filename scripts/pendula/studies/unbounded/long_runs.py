@@ -38,14 +38,16 @@ def members_of(
     problems: list[Problem], members: int, perturbation: float, seed: int
 ) -> list[Problem]:
     """Return all members of each problem."""
-    return [member(one, perturbation, seed, n) for one in problems for n in range(members)]
+    return [member(problem, perturbation, seed, n) for problem in problems for n in range(members)]
 
 
-def attributes(title: str, name: str, problems: list[Problem], rest: float, **ensemble) -> dict:
+def attributes(
+    title: str, name: str, problems: list[Problem], rest_threshold: float, **ensemble
+) -> dict:
     """Return what all of `problems` have in common: of varied parameters there is no one value."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
     shared = shared_by(described, "half_width", "snapshot_every")
-    ends = {"boundary": "none: sites are added as the front moves", "rest": rest}
+    ends = {"boundary": "none: sites are added as the front moves", "rest": rest_threshold}
     chaos = CHAOTIC if name in SCANS else {}
     return {"title": title, **shared, **ends, **ensemble, **chaos}
 
@@ -53,7 +55,7 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
 def spread_case(
     name: str,
     problems: list[Problem],
-    rest: float,
+    rest_threshold: float,
     members: int,
     perturbation: float,
     seed: int,
@@ -62,13 +64,13 @@ def spread_case(
 ) -> ManyRuns:
     """Return the runs that give what `run_long` returns of each problem and member."""
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
-    make = partial(run_long, rest=rest, levels=levels, edges=edges)
+    make = partial(run_long, rest_threshold=rest_threshold, levels=levels, edges=edges)
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:
         series = shaped(retained, (len(problems), members))
         variables = run_variables(problems, series, levels, edges)
-        return variables, attributes(title, name, problems, rest, **ensemble)
+        return variables, attributes(title, name, problems, rest_threshold, **ensemble)
 
     return ManyRuns(members_of(problems, **ensemble), make, conclude)
 

@@ -72,14 +72,14 @@ def second_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray
     """Return the same of the second front, NaN where |S|^2 behind it has not reached LEVEL."""
     filled = mean_powers(run, BEHIND, KINDS[1]).mean(axis=1) > LEVEL
     slopes = level_speeds(run, settled)
-    return tuple(np.where(filled, one, np.nan) for one in slopes)
+    return tuple(np.where(filled, speeds, np.nan) for speeds in slopes)
 
 
 def level_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     """Return the same of the last site where |S|^2 has reached a level, NaN where none has."""
     reached = (run["second_front"].isel(piece_tau=-1) >= 0.0).all("member").values
     slopes = _slopes(run, run["second_front"], settled)
-    return tuple(np.where(reached, one, np.nan) for one in slopes)
+    return tuple(np.where(reached, speeds, np.nan) for speeds in slopes)
 
 
 def _slopes(run, way, settled: float) -> tuple[np.ndarray, np.ndarray]:
@@ -90,7 +90,7 @@ def _slopes(run, way, settled: float) -> tuple[np.ndarray, np.ndarray]:
     tau = run["piece_tau"].values
     late = tau >= settled * tau[-1]
     ways = way.transpose("variant", "member", "piece_tau").values[:, :, late]
-    slopes = [[lay_line(tau[late], one).slope for one in members] for members in ways]
+    slopes = [[lay_line(tau[late], places).slope for places in members] for members in ways]
     limits = mean_limits(np.transpose(slopes))
     return limits.value, np.maximum(_known(limits.half, 0.0), resolution(tau, settled))
 
@@ -138,13 +138,13 @@ def slope_ratios(
 
     Where the law begins is not known: an offset is fitted. `second` are speeds as of `law_of`.
     """
-    kept = run["tau"].values >= first * float(run["tau"][-1])
-    squares = run["l2"].transpose("variant", "member", "tau").values[:, :, kept] ** 2
+    is_late = run["tau"].values >= first * float(run["tau"][-1])
+    squares = run["l2"].transpose("variant", "member", "tau").values[:, :, is_late] ** 2
     return [
         fit_line(law, curves, law[0], confidence).slope
         if np.isfinite(law).all()
         else Limits(np.nan, np.nan, np.nan)
-        for law, curves in zip(law_of(run, thermal, second)[:, kept], squares, strict=True)
+        for law, curves in zip(law_of(run, thermal, second)[:, is_late], squares, strict=True)
     ]
 
 
@@ -159,7 +159,7 @@ def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     behind = mean_limits((mean_powers(omegas, BEHIND) * formed[:, None]).T)
     between = mean_limits(mean_powers(omegas, BETWEEN).T)
     of_speed, limits = "in sites per unit of tau", "half of the 95 % limits of that"
-    found = {
+    measured = {
         "omega": (omegas["omega"].values, ""),
         "front_speed": (first, f"speed of the first front with its delay added back, {of_speed}"),
         "front_speed_error": (
@@ -187,7 +187,7 @@ def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     }
     variables = {
         name: Variable(("omega",), values, long_name, attributes=dict(*attributes))
-        for name, (values, long_name, *attributes) in found.items()
+        for name, (values, long_name, *attributes) in measured.items()
     }
     title = "The two fronts on infinite chains, and the states behind them"
     return as_xarray(variables, {**omegas.attrs, "title": title, **chaotic_along("omega")})

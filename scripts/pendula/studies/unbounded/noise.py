@@ -16,7 +16,7 @@ from latticode.simulation.runs import ManyRuns
 from pendula.problem import Problem
 from pendula.varied import Estimate, Printed, as_dataset, vary_several
 
-from .active_sites import in_pieces
+from .active_sites import integrate_intervals
 from .bulk import LEVEL, find_front, site_powers
 from .long_runs import members_of
 from .sums import in_sums, turned
@@ -36,7 +36,7 @@ MEANINGS = {
 
 def follow_noise(
     problems: list[Problem],
-    rest: float,
+    rest_threshold: float,
     noises: list[float],
     members: int,
     perturbation: float,
@@ -51,8 +51,8 @@ def follow_noise(
     runs = []
     for tolerance in tolerances:
         solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
-        again = [problem.changed(solver=solver) for problem in problems]
-        runs += members_of(again, members, perturbation, seed)
+        repeated = [problem.changed(solver=solver) for problem in problems]
+        runs += members_of(repeated, members, perturbation, seed)
     sizes = [*noises, ROUNDING]
     shape = (len(tolerances), len(problems), members, len(sizes), len(MEANINGS))
 
@@ -60,18 +60,20 @@ def follow_noise(
         numbers = retained["numbers"].reshape(*shape, *map(len, CHOICES.values()))
         return _numbers_by_noise(problems, noises, tolerances, numbers)
 
-    retain = partial(follow_front, noises=sizes, rest=rest, seed=seed)
+    retain = partial(follow_front, noises=sizes, rest_threshold=rest_threshold, seed=seed)
     return ManyRuns(runs, retain, conclude)
 
 
 def _numbers_by_noise(
-    problems: list[Problem], noises: list[float], tolerances: list[float], made: np.ndarray
+    problems: list[Problem], noises: list[float], tolerances: list[float], numbers: np.ndarray
 ) -> xr.Dataset:
     """Return the dataset of the numbers (tolerance, problem, member, noise, number, ...)."""
 
     def measure(tolerance, **choices) -> dict[str, Estimate]:
         place = tuple(CHOICES[name].index(value) for name, value in choices.items())
-        of_choices = made[tolerances.index(tolerance)][(..., *place)]  # (omega, member, noise, .)
+        of_choices = numbers[tolerances.index(tolerance)][
+            (..., *place)
+        ]  # (omega, member, noise, .)
         limits = mean_limits(np.moveaxis(of_choices, (1, 3, 2), (0, 1, 2)))
         return {name: (limits.value[n], limits.half[n]) for n, name in enumerate(MEANINGS)}
 
@@ -81,33 +83,46 @@ def _numbers_by_noise(
     labels = np.array([f"{noise:g}" for noise in noises] + [ROUNDING], object)
     coordinates = {
         "noise": ("noise", labels, {"long_name": "noise added to A + B, a part of |A - B|"}),
-        "omega": ("omega", [one.constants.omega for one in problems], {"long_name": "detuning"}),
+        "omega": (
+            "omega",
+            [problem.constants.omega for problem in problems],
+            {"long_name": "detuning"},
+        ),
     }
     title = "The second front on infinite chains with noise in A + B"
-    ends = [one.end_time for one in problems], {"long_name": "end time of the runs with noise"}
+    ends = (
+        [problem.end_time for problem in problems],
+        {"long_name": "end time of the runs with noise"},
+    )
     data = as_dataset(printed, coordinates).assign(noise_end_time=("omega", *ends))
     return data.assign_attrs(title=title)
 
 
-def follow_front(problem: Problem, noises: list, rest: float, seed: int) -> dict[str, np.ndarray]:
+def follow_front(
+    problem: Problem, noises: list, rest_threshold: float, seed: int
+) -> dict[str, np.ndarray]:
     """Return the numbers of MEANINGS for each noise under all CHOICES, (noise, number, ...)."""
-    return {"numbers": np.array([_numbers_of(problem, noise, rest, seed) for noise in noises])}
+    return {
+        "numbers": np.array([_numbers_of(problem, noise, rest_threshold, seed) for noise in noises])
+    }
 
 
-def _numbers_of(problem: Problem, noise: float | str, rest: float, seed: int) -> np.ndarray:
-    tau, fronts, seconds = places_of(problem, noise, rest, seed)
-    found = np.empty((len(MEANINGS), len(SHORTER), len(LATE), len(LEVELS)))
-    for i, part in enumerate(SHORTER):
+def _numbers_of(
+    problem: Problem, noise: float | str, rest_threshold: float, seed: int
+) -> np.ndarray:
+    tau, fronts, seconds = places_of(problem, noise, rest_threshold, seed)
+    numbers = np.empty((len(MEANINGS), len(SHORTER), len(LATE), len(LEVELS)))
+    for i, fraction in enumerate(SHORTER):
         for j, late in enumerate(LATE):
-            kept = (tau > (1.0 - late) * part * tau[-1]) & (tau <= part * tau[-1])
-            for k, second in enumerate(seconds.T[:, kept]):
-                slope = lay_line(tau[kept], second).slope
-                found[:, i, j, k] = slope, (fronts[kept] - second).mean()
-    return found
+            is_fitted = (tau > (1.0 - late) * fraction * tau[-1]) & (tau <= fraction * tau[-1])
+            for k, second in enumerate(seconds.T[:, is_fitted]):
+                slope = lay_line(tau[is_fitted], second).slope
+                numbers[:, i, j, k] = slope, (fronts[is_fitted] - second).mean()
+    return numbers
 
 
 def places_of(
-    problem: Problem, noise: float | str, rest: float, seed: int
+    problem: Problem, noise: float | str, rest_threshold: float, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return times, the places of the first front, and those of the second, (time, level).
 
@@ -115,7 +130,7 @@ def places_of(
     """
     in_doubles = noise == ROUNDING
     rng = np.random.default_rng([seed, *problem.initial.view(np.uint64).ravel()])
-    pieces = in_pieces(problem if in_doubles else in_sums(problem), rest)
+    pieces = integrate_intervals(problem if in_doubles else in_sums(problem), rest_threshold)
     tau, fronts, seconds = [], [], []
     for times, _, _, sites in pieces:
         sums = turned(sites) if in_doubles else sites

@@ -29,7 +29,7 @@ from pendula.configuration.cost import estimate
 from pendula.configuration.runs import Runs
 from pendula.configuration.schema import Configuration, Faults
 
-from .bulk import PIECE
+from .bulk import SLICE_LENGTH
 
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
@@ -47,7 +47,7 @@ class Size(Model):
     """How far everything is run, and by which solver."""
 
     solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
-    rest: Positive
+    rest_threshold: Positive  # of the largest amplitude
     runs: dict[Name, model(end_time=Positive, members=Count)]
 
 
@@ -63,7 +63,9 @@ class Transverse(Model):
 
     def end_times(self, omegas: list[float]) -> list[float]:
         """Return the end time at each Omega."""
-        return [self.slow_end_time if one >= self.slow_from else self.end_time for one in omegas]
+        return [
+            self.slow_end_time if omega >= self.slow_from else self.end_time for omega in omegas
+        ]
 
 
 class Noise(Model):
@@ -114,8 +116,8 @@ class Settings(Model):
         for label, size in sizes.items():
             unknown = size.runs.keys() - {*self.names, *settings.cases}
             missing = [name for name in self.names if name not in size.runs]
-            said = "is no ensemble of cases, over Omega or over initial conditions"
-            absent += [(f"{label}.runs.{name}", said) for name in sorted(unknown)]
+            message = "is no ensemble of cases, over Omega or over initial conditions"
+            absent += [(f"{label}.runs.{name}", message) for name in sorted(unknown)]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
         for case in GROWTH_CASES:
             if case not in self.cases:
@@ -124,8 +126,8 @@ class Settings(Model):
         if absent:
             return
         yield from self._faults_of_band(settings)
-        if self.output_step > PIECE:
-            text = f"is {self.output_step:g}; it must be at most {PIECE:g}"
+        if self.output_step > SLICE_LENGTH:
+            text = f"is {self.output_step:g}; it must be at most {SLICE_LENGTH:g}"
             yield (
                 "output_step",
                 f"{text}: sites are added where an output shows that they are needed",
@@ -155,8 +157,8 @@ class Settings(Model):
             if not is_multiple(run.end_time, self.output_step):
                 text = f"{run.end_time:g} is not a whole number of output steps"
                 yield f"{label}.runs.{name}.end_time", f"{text} of {self.output_step:g}"
-            if run.end_time <= PIECE:
-                text = f"is {run.end_time:g}; it must be above {PIECE:g}"
+            if run.end_time <= SLICE_LENGTH:
+                text = f"is {run.end_time:g}; it must be above {SLICE_LENGTH:g}"
                 yield f"{label}.runs.{name}.end_time", f"{text}, so that a front has a speed"
         for name in self.names:
             run = size.runs[name]

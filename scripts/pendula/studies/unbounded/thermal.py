@@ -59,9 +59,9 @@ def state_of_energy(
         return _excess(constants, beta, grid, energy)[0] < 0.0
 
     if not is_too_hot(HOT) or is_too_hot(COLD):
-        told = f"{energy:g} at Omega = {constants.omega:g}"
+        state_text = f"{energy:g} at Omega = {constants.omega:g}"
         raise NoThermalStateError(
-            f"no thermal state between the temperatures tried has the energy {told}"
+            f"no thermal state between the temperatures tried has the energy {state_text}"
         )
     hot, cold = HOT, COLD
     for _ in range(HALVINGS):
@@ -104,23 +104,28 @@ def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int)
 
     Where one has no such state it is left out.
     """
-    found = []
+    states = []
     for omega in omegas:
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         try:
-            found.append([state_of_energy(constants, 0.0, nodes, alike) for alike in (False, True)])
+            states.append(
+                [
+                    state_of_energy(constants, 0.0, nodes, antisymmetric)
+                    for antisymmetric in (False, True)
+                ]
+            )
         except NoThermalStateError as error:
             print(f"left out: {error}")
-    known = [both.operator.constants.omega for both, _ in found]
+    known = [both.operator.constants.omega for both, _ in states]
     variables, along = {"omega": Variable(("omega",), known, attributes=FEW_CHOICES)}, ("omega",)
     for number, prefix, words in (
         (0, "", f"{POWER} in the thermal state of no energy"),
         (1, "antisymmetric_", f"{POWER} in that of the chain with A = -B"),
     ):
-        powers, errors = np.reshape([pair[number][1:3] for pair in found], (-1, 2)).T
+        powers, errors = np.reshape([pair[number][1:3] for pair in states], (-1, 2)).T
         variables[f"{prefix}power"] = Variable(along, powers, words)
-        said = f"change of the {words} from a coarser and wider grid"
-        variables[f"{prefix}power_error"] = Variable(along, errors, said, attributes=SCATTERED)
+        long_name = f"change of the {words} from a coarser and wider grid"
+        variables[f"{prefix}power_error"] = Variable(along, errors, long_name, attributes=SCATTERED)
     title = "Thermal states of the infinite chain, by its transfer operator"
     return variables, {
         "title": title,

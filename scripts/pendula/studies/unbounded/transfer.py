@@ -65,17 +65,17 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
 
 def half_nodes(reach: np.ndarray, count: int, antisymmetric: bool) -> tuple[np.ndarray, ...]:
     """Return `count` midpoints between 0 and each of `reach`; s and p are zero where A = -B."""
-    found = [one * (np.arange(count) + 0.5) / count for one in reach]
+    nodes = [length * (np.arange(count) + 0.5) / count for length in reach]
     if antisymmetric:
-        found[0] = found[2] = np.zeros(1)
-    return tuple(found)
+        nodes[0] = nodes[2] = np.zeros(1)
+    return tuple(nodes)
 
 
 def bonds_on(nodes: np.ndarray, beta: float, epsilon: float) -> np.ndarray:
     """Return the factor of a bond on even and odd functions of a coordinate, (parity, to, node)."""
     step = 2.0 * nodes[0] if nodes.size > 1 else 1.0  # the midpoint rule
-    apart, across = nodes[:, None] - nodes, nodes[:, None] + nodes
-    near, far = (step * exp(-beta * epsilon * d * d) for d in (apart, across))
+    difference, total = nodes[:, None] - nodes, nodes[:, None] + nodes
+    near, far = (step * exp(-beta * epsilon * d * d) for d in (difference, total))
     return np.array([near + far, near - far])
 
 
@@ -86,9 +86,9 @@ def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ..
     power = s * s + t * t + p * p + q * q
     products = np.array([s * t + p * q, s * t - p * q])
     quartic = (power * power + 4.0 * products * products) / 8.0
-    whole = quartic + (omega - 4.0 * epsilon) * power - 2.0 * gamma * (t * t - q * q)
-    roots = exp(-0.5 * beta * (whole - whole.min()))
-    bonds = tuple(bonds_on(one, beta, epsilon) for one in nodes)
+    site_energy = quartic + (omega - 4.0 * epsilon) * power - 2.0 * gamma * (t * t - q * q)
+    roots = exp(-0.5 * beta * (site_energy - site_energy.min()))
+    bonds = tuple(bonds_on(axis_nodes, beta, epsilon) for axis_nodes in nodes)
     return Operator(constants, beta, nodes, bonds, roots, quartic, power)
 
 
@@ -114,16 +114,16 @@ def smoothed(bonds: tuple[np.ndarray, ...], values: np.ndarray) -> np.ndarray:
     The part of the function that is even in q is even in s, t and p too, and the part that is odd
     in q is odd in all.
     """
-    parts = 0.5 * (values[0] + values[1]), 0.5 * (values[0] - values[1])
+    even_and_odd = 0.5 * (values[0] + values[1]), 0.5 * (values[0] - values[1])
     done = []
-    for odd, part in enumerate(parts):
+    for odd, half in enumerate(even_and_odd):
         for of_axis in bonds:
             bond = of_axis[odd]
-            result = np.empty((part.size // part.shape[0], len(bond)))
-            flat = np.ascontiguousarray(part).reshape(len(part), -1)
+            result = np.empty((half.size // half.shape[0], len(bond)))
+            flat = np.ascontiguousarray(half).reshape(len(half), -1)
             pass_through(bond, flat, np.empty(flat.shape[1]), result)
-            part = result.reshape(*part.shape[1:], len(bond))
-        done.append(part)
+            half = result.reshape(*half.shape[1:], len(bond))
+        done.append(half)
     return np.array([done[0] + done[1], done[0] - done[1]])
 
 
@@ -155,9 +155,9 @@ def leading(operator: Operator, vector: np.ndarray | None = None, most: int = 20
 def reach_of(operator: Operator, vector: np.ndarray) -> np.ndarray:
     """Return for each coordinate the node beyond which its density is below TAIL of its largest."""
     chance = (vector * vector).sum(axis=0)
-    found = []
+    lengths = []
     for axis, nodes in enumerate(operator.nodes):
-        along = chance.sum(axis=tuple(other for other in range(4) if other != axis))
+        along = chance.sum(axis=tuple(summed for summed in range(4) if summed != axis))
         last = np.flatnonzero(along > TAIL * along.max()).max()
-        found.append(nodes[min(last + 1, len(nodes) - 1)])
-    return np.array(found)
+        lengths.append(nodes[min(last + 1, len(nodes) - 1)])
+    return np.array(lengths)

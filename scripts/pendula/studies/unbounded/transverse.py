@@ -26,7 +26,7 @@ from latticode.simulation.runs import ManyRuns
 from pendula.problem import Problem
 from pendula.varied import Estimate, Printed, as_dataset, vary_several
 
-from .active_sites import in_pieces
+from .active_sites import integrate_intervals
 from .front import linear_front
 from .long_runs import members_of
 from .sums import in_sums
@@ -45,7 +45,7 @@ of each is a variation."""
 
 def solve_transverse(
     problems: list[Problem],
-    rest: float,
+    rest_threshold: float,
     members: int,
     perturbations: list[float],
     tolerances: list[float],
@@ -55,20 +55,20 @@ def solve_transverse(
 
     They are of the first of `perturbations` and of `tolerances`; the others are variations.
     """
-    settings = [(tolerances[0], one) for one in perturbations]
+    settings = [(tolerances[0], perturbation) for perturbation in perturbations]
     settings += [(tolerance, perturbations[0]) for tolerance in tolerances[1:]]
     runs = []
     for tolerance, perturbation in settings:
         solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
-        again = [problem.changed(solver=solver) for problem in problems]
-        runs += members_of(again, members, perturbation, seed)
+        repeated = [problem.changed(solver=solver) for problem in problems]
+        runs += members_of(repeated, members, perturbation, seed)
 
     def conclude(retained: dict[str, np.ndarray]) -> xr.Dataset:
         exponents = retained["exponents"].reshape(len(settings), len(problems), members, -1)
         by_setting = dict(zip(settings, exponents, strict=True))
         return as_numbers(problems, by_setting, tolerances, perturbations)
 
-    return ManyRuns(runs, partial(exponents_of, rest=rest), conclude)
+    return ManyRuns(runs, partial(exponents_of, rest_threshold=rest_threshold), conclude)
 
 
 def as_numbers(problems, by_setting, tolerances, perturbations) -> xr.Dataset:
@@ -79,14 +79,15 @@ def as_numbers(problems, by_setting, tolerances, perturbations) -> xr.Dataset:
         exponents = by_setting[tolerance, perturbation].reshape(shape)
         place = tuple(CHOICES[name].index(value) for name, value in choices.items())
         spans = [
-            choices["part of the run"] * choices["part fitted"] * one.end_time for one in problems
+            choices["part of the run"] * choices["part fitted"] * problem.end_time
+            for problem in problems
         ]
         return numbers_of(problems, exponents[:, :, *place, :], 1.0 / np.array(spans))
 
     choices = {"tolerance": tolerances, "perturbation": perturbations, **CHOICES}
     varied = vary_several(measure, choices)
     printed = {name: Printed(("omega",), varied[name], MEANINGS[name]) for name in MEANINGS}
-    omegas = ("omega", [one.constants.omega for one in problems], {"long_name": "detuning"})
+    omegas = ("omega", [problem.constants.omega for problem in problems], {"long_name": "detuning"})
     title = "Growth of a small A + B on the infinite chain with A = -B"
     return as_dataset(printed, {"omega": omegas}).assign_attrs(title=title)
 
@@ -99,7 +100,7 @@ MEANINGS = {
 }
 
 
-def exponents_of(problem: Problem, rest: float) -> dict[str, np.ndarray]:
+def exponents_of(problem: Problem, rest_threshold: float) -> dict[str, np.ndarray]:
     """Return the exponent of |S| at each velocity under all CHOICES, flat, from a small S like D.
 
     It is NaN where |S| falls below LEAST: there it decreases beside the largest.
@@ -108,7 +109,7 @@ def exponents_of(problem: Problem, rest: float) -> dict[str, np.ndarray]:
     d = start.initial[1]
     start = start.changed(initial=np.array([SMALL * d, d]))
     grown, tau, logs = 0.0, [], []
-    for times, _, state, sites in in_pieces(start, rest):
+    for times, _, state, sites in integrate_intervals(start, rest_threshold):
         sizes = np.abs(sites[:2]).max(axis=0)  # squares would underflow
         places = (velocities() * speed * times[-1]).astype(int)
         logs.append([_log_near(sizes, places, near) + grown for near in NEAR])
@@ -133,15 +134,20 @@ def _log_near(sizes: np.ndarray, places: np.ndarray, near: int) -> np.ndarray:
 def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
     """Return the slopes of logs (time, near, velocity), (part, fitted, near, velocity)."""
     return np.array(
-        [[_slopes_within(tau, logs, part * tau[-1], late) for late in LATE] for part in SHORTER]
+        [
+            [_slopes_within(tau, logs, fraction * tau[-1], late) for late in LATE]
+            for fraction in SHORTER
+        ]
     )
 
 
 def _slopes_within(tau: np.ndarray, logs: np.ndarray, end: float, late: float) -> np.ndarray:
     """Return the slopes over the `late` part before `end`, (near, velocity)."""
-    kept = (tau > (1.0 - late) * end) & (tau <= end)
-    curves = logs[kept].reshape(kept.sum(), -1).T
-    return np.array([lay_line(tau[kept], one).slope for one in curves]).reshape(logs.shape[1:])
+    is_fitted = (tau > (1.0 - late) * end) & (tau <= end)
+    curves = logs[is_fitted].reshape(is_fitted.sum(), -1).T
+    return np.array([lay_line(tau[is_fitted], curve).slope for curve in curves]).reshape(
+        logs.shape[1:]
+    )
 
 
 # --- Numbers of exponents -------------------------------------------------------------------------
@@ -159,10 +165,14 @@ def numbers_of(
     fronts = np.array([linear_front(problem.constants).speed for problem in problems])
     means = exponents.mean(axis=1)
     grows = np.nanmax(means, axis=1) > least
-    second = np.array([[crossing_of(one) for one in of_members] for of_members in exponents])
-    behind = np.array([[largest_ratio(one) for one in of_members] for of_members in exponents])
-    crossing = np.array([crossing_of(one) for one in means])
-    kappa = np.array([largest_ratio(one) for one in means])
+    second = np.array(
+        [[crossing_of(spectrum) for spectrum in of_members] for of_members in exponents]
+    )
+    behind = np.array(
+        [[largest_ratio(spectrum) for spectrum in of_members] for of_members in exponents]
+    )
+    crossing = np.array([crossing_of(spectrum) for spectrum in means])
+    kappa = np.array([largest_ratio(spectrum) for spectrum in means])
     return {
         "predicted_second_speed": (
             np.where(grows, crossing * fronts, np.nan),
@@ -181,12 +191,12 @@ def crossing_of(exponents: np.ndarray) -> float:
     positive = np.flatnonzero(exponents > 0.0)
     if not positive.size:
         return 0.0
-    here = positive[-1]
-    if here == exponents.size - 1:
+    last = positive[-1]
+    if last == exponents.size - 1:
         return 1.0
-    high, low = exponents[here], exponents[here + 1]
-    part = high / (high - low) if np.isfinite(low) else 0.5
-    return float((here + part) / VELOCITIES)
+    high, low = exponents[last], exponents[last + 1]
+    fraction = high / (high - low) if np.isfinite(low) else 0.5
+    return float((last + fraction) / VELOCITIES)
 
 
 def largest_ratio(exponents: np.ndarray) -> float:

@@ -31,7 +31,7 @@ from .noise import ROUNDING
 
 OCTAVES = 2
 """Exponents are fitted over so many of the last octaves of time."""
-PART, PREDICTED = [1.0, 0.5], ["predicted", "measured"]
+FRACTIONS, PREDICTED = [1.0, 0.5], ["predicted", "measured"]
 SPEED = "in sites per unit of tau"
 ROUNDING_ERROR = 2.0**-53
 
@@ -69,15 +69,15 @@ def vary_numbers(
         noise.coords,
     )
     title = "Numbers of long runs on infinite chains, with their variations"
-    about = {name: omegas.attrs[name] for name in ABOUT}
-    about |= {"end_time": float(omegas["tau"][-1]), "large_end_time": float(large["tau"][-1])}
-    about |= {"large_members": large.attrs["members"], "edge": int(omegas["edge"][0])}
-    parts = [data, transverse, noise, distances]
-    merged = xr.merge([part.drop_attrs(deep=False) for part in parts], join="outer")
-    return merged.assign_attrs(title=title, **about)
+    attributes = {name: omegas.attrs[name] for name in SHARED_ATTRIBUTES}
+    attributes |= {"end_time": float(omegas["tau"][-1]), "large_end_time": float(large["tau"][-1])}
+    attributes |= {"large_members": large.attrs["members"], "edge": int(omegas["edge"][0])}
+    datasets = [data, transverse, noise, distances]
+    merged = xr.merge([dataset.drop_attrs(deep=False) for dataset in datasets], join="outer")
+    return merged.assign_attrs(title=title, **attributes)
 
 
-ABOUT = ("epsilon", "gamma", "members", "solver", "solver_rtol", "solver_atol", "rest")
+SHARED_ATTRIBUTES = ("epsilon", "gamma", "members", "solver", "solver_rtol", "solver_atol", "rest")
 
 
 def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]:
@@ -85,13 +85,15 @@ def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]
     last = omegas["front"].isel(piece_tau=-1).max("member").values
     both, alone = (thermal_powers(thermal, omegas, f"{of}power") for of in ("", "antisymmetric_"))
     state = f"{POWER} in the thermal state"
-    found = {
+    numbers = {
         "sites": ((2 * last + 1).astype(int), "sites that the front has passed at the end"),
         "predicted_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
         "thermal_power": (both, state),
         "thermal_antisymmetric_power": (alone, f"{state} of the chain with A = -B"),
     }
-    return {name: ("omega", one, {"long_name": words}) for name, (one, words) in found.items()}
+    return {
+        name: ("omega", values, {"long_name": words}) for name, (values, words) in numbers.items()
+    }
 
 
 def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
@@ -99,12 +101,17 @@ def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
 
     The noise of A and B in doubles is that of a rounding error.
     """
-    sizes = [ROUNDING_ERROR if one == ROUNDING else float(one) for one in noise["noise"].values]
-    there = transverse.sel(omega=noise["omega"].values)
+    sizes = [
+        ROUNDING_ERROR if noise_level == ROUNDING else float(noise_level)
+        for noise_level in noise["noise"].values
+    ]
+    growth = transverse.sel(omega=noise["omega"].values)
     logs = -log(np.array(sizes))[:, None]
-    kappa, error = (there[names_of("growth_behind_front")[n]].values for n in (0, 2))
-    again = there[names_of("growth_behind_front")[3]].dropna("variation", how="all")
-    varied_kappa = {str(one["variation"].item()): logs / one.values for one in again.T}
+    kappa, error = (growth[names_of("growth_behind_front")[n]].values for n in (0, 2))
+    variations = growth[names_of("growth_behind_front")[3]].dropna("variation", how="all")
+    varied_kappa = {
+        str(variation["variation"].item()): logs / variation.values for variation in variations.T
+    }
     number = Varied(logs / kappa, logs * error / (kappa * kappa), {}, varied_kappa)
     words = "predicted distance of the second front with noise from the first, in sites"
     return Printed(("noise", "omega"), number, words)
@@ -118,18 +125,19 @@ def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, Printed]
     """
     first, second = (noise.isel(noise=n) for n in (0, 1))
     predicted = predict_distances(noise, transverse).number
-    errors = [one["distance_statistical_error"].values for one in (first, second)]
+    errors = [data["distance_statistical_error"].values for data in (first, second)]
     both = np.sqrt(errors[0] ** 2 + errors[1] ** 2)
     changes = first["distance_varied"] - second["distance_varied"]
-    again = {
-        str(one["variation"].item()): one.values for one in changes.transpose("variation", ...)
+    variations = {
+        str(variation["variation"].item()): variation.values
+        for variation in changes.transpose("variation", ...)
     }
-    measured = Varied((first["distance"] - second["distance"]).values, both, {}, again)
+    measured = Varied((first["distance"] - second["distance"]).values, both, {}, variations)
     computed = Varied(
         predicted.value[0] - predicted.value[1],
         predicted.statistical_error[0] - predicted.statistical_error[1],
         {},
-        {label: one[0] - one[1] for label, one in predicted.variations.items()},
+        {label: values[0] - values[1] for label, values in predicted.variations.items()},
     )
     words = "difference of the distances with the first and the second size of noise, in sites"
     return {
@@ -143,9 +151,9 @@ def by_tolerance(*runs: xr.Dataset) -> dict[float, xr.Dataset]:
     return {float(run.attrs["solver_rtol"]): run for run in runs}
 
 
-def read_part(run: xr.Dataset, part: float, **at: float) -> xr.Dataset:
+def select_fraction(run: xr.Dataset, fraction: float, **at: float) -> xr.Dataset:
     """Return a run up to a part of its end time, at a level and an edge."""
-    end = part * float(run["tau"][-1])
+    end = fraction * float(run["tau"][-1])
     return run.sel(tau=slice(0.0, end), piece_tau=slice(0.0, end), **at)
 
 
@@ -165,9 +173,9 @@ def varied(
     def measured(**chosen) -> Estimate:
         run = runs[chosen.pop("tolerance")]
         at = {key: chosen.pop(key, first) for key, first in _first(run).items()}
-        return measure(read_part(run, chosen.pop("part_of_run"), **at), **chosen)
+        return measure(select_fraction(run, chosen.pop("part_of_run"), **at), **chosen)
 
-    return vary(measured, {"tolerance": list(runs), "part_of_run": PART, **choices})
+    return vary(measured, {"tolerance": list(runs), "part_of_run": FRACTIONS, **choices})
 
 
 def _with_half(limits: Limits) -> Estimate:
@@ -205,13 +213,13 @@ def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> Vari
 
     def measured(tolerance: float, part_of_run: float, left_out_part: float) -> Estimate:
         run = runs[tolerance].isel(variant=[int(runs[tolerance]["omega"].values.argmax())])
-        found = [
-            level_speeds(read_part(run, part_of_run, level=level), left_out_part)
+        values = [
+            level_speeds(select_fraction(run, part_of_run, level=level), left_out_part)
             for level in run["level"].values
         ]
-        return tuple(np.concatenate(values) for values in zip(*found, strict=True))
+        return tuple(np.concatenate(values) for values in zip(*values, strict=True))
 
-    choices = {"tolerance": list(runs), "part_of_run": PART, "left_out_part": fitted}
+    choices = {"tolerance": list(runs), "part_of_run": FRACTIONS, "left_out_part": fitted}
     return vary(measured, choices)
 
 
@@ -249,7 +257,7 @@ def numbers_of_growth(
     """Return exponents of tau in l2, and the slope of l2^2 over that of its law."""
     octaves = [OCTAVES, OCTAVES // 2, 2 * OCTAVES]
     with_offset = varied(runs, exponents, octaves=octaves)
-    plain = varied(runs, plain_exponents, octaves=octaves)
+    exponents_without_law = varied(runs, plain_exponents, octaves=octaves)
 
     omegas = next(iter(runs.values()))["omega"].values
     predicted = transverse["predicted_second_speed"].sel(omega=omegas).values
@@ -257,7 +265,9 @@ def numbers_of_growth(
     def ratio(run: xr.Dataset, second_speed: str, fitted_from: float) -> Estimate:
         speed = predicted if second_speed == PREDICTED[0] else None
         limits = slope_ratios(run, thermal, second=speed, first=fitted_from)
-        return np.array([one.value for one in limits]), np.array([one.half for one in limits])
+        return np.array([limit.value for limit in limits]), np.array(
+            [limit.half for limit in limits]
+        )
 
     first = [FIRST_OF_LINE, 2.0 * FIRST_OF_LINE]
     law = varied(runs, ratio, second_speed=PREDICTED, fitted_from=first)
@@ -270,7 +280,7 @@ def numbers_of_growth(
         "exponent": Printed(
             along, with_offset, "exponent of tau in l2, with a free offset of l2^2"
         ),
-        "plain_exponent": Printed(along, plain, "slope of log l2 over log tau"),
+        "plain_exponent": Printed(along, exponents_without_law, "slope of log l2 over log tau"),
         "slope_ratio": Printed(along, law, "slope of l2^2 over that of its law"),
     }
 
@@ -280,14 +290,16 @@ def exponents(run: xr.Dataset, octaves: int) -> Estimate:
     tau, start = run["tau"].values, float(run["tau"][-1]) * 0.5**octaves
     curves = run["l2"].transpose("variant", "member", "tau").values
     limits = [fit_exponent(tau, members, start) for members in curves]
-    return np.array([one.value for one in limits]), np.array([one.half for one in limits])
+    return np.array([limit.value for limit in limits]), np.array([limit.half for limit in limits])
 
 
 def plain_exponents(run: xr.Dataset, octaves: int) -> Estimate:
     """Return the slope of log l2 over log tau in the last octaves, (variant,)."""
-    kept = run["tau"].values >= float(run["tau"][-1]) * 0.5**octaves
-    tau, curves = run["tau"].values[kept], run["l2"].transpose("member", "variant", "tau").values
-    slopes = [[lay_line(log(tau), log(one[kept])).slope for one in member] for member in curves]
+    is_late = run["tau"].values >= float(run["tau"][-1]) * 0.5**octaves
+    tau, curves = run["tau"].values[is_late], run["l2"].transpose("member", "variant", "tau").values
+    slopes = [
+        [lay_line(log(tau), log(series[is_late])).slope for series in member] for member in curves
+    ]
     return _with_half(mean_limits(slopes))
 
 
