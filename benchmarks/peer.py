@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from latticode.kernels.compiled import kernel
 from latticode.simulation.lattice import WHOLE, Reduction, find_reduction, unfold, unpack
-from latticode.simulation.traced import equations_of
 from pendula.models.amplitudes import rates
 from pendula.models.pendula import at_time
 from pendula.models.pendula import rates as pendula_rates
@@ -42,7 +41,7 @@ def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarr
         raise ValueError(f"peers know only the boundary dirichlet, not {problem.boundary}")
     if reduction == HALF and not find_reduction(problem.amplitudes).even:
         raise ValueError("half a chain needs data that are even in n")
-    equations = equations_of(problem)
+    equations = problem.equations
     end = float(equations.times[-1])
     return equations.system(reduction), equations.start(reduction), end
 

@@ -6,6 +6,7 @@ Their plain values are those of a case in the configuration: the constants by th
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -85,15 +86,15 @@ class Problem(problem.Problem):
             changes["model"] = _model_of(changes["model"])
         return super().changed(**changes)
 
-    @property
-    def equations_class(self) -> type | None:
-        """The class that integrates the paper's equations; None for a model of a user's own."""
+    @cached_property
+    def equations(self):
+        """How the problem is integrated; a model of a user's own follows from its trace."""
         # here, since the configuration makes problems and needs no kernels
         from pendula.models.integrations import AmplitudeEquations, PendulumEquations
 
         if self.model is AMPLITUDE_MODEL:
-            return AmplitudeEquations
-        return PendulumEquations if self.model is PENDULUM_MODEL else None
+            return AmplitudeEquations(self)
+        return PendulumEquations(self) if self.model is PENDULUM_MODEL else super().equations
 
     @property
     def constants(self) -> Constants:

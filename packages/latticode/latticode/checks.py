@@ -42,7 +42,6 @@ from latticode.numerics.elementary import complex_of, log, modulus
 from latticode.simulation.equations import GaveUpError, IntegrationError
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
-from latticode.simulation.traced import equations_of
 
 TITLE = "A run and its checks"
 UNSTABLE_REST = "unstable_rest"
@@ -67,7 +66,7 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     `run` is the trajectory that `simulate` made of `problem`, by any solver. Its dataset holds no
     phases on the way: so its solver runs again too, and keeps the fields at the snapshots.
     """
-    peak, known = float(modulus(problem.initial).max()), set(equations_of(problem).methods)
+    peak, known = float(modulus(problem.initial).max()), set(problem.equations.methods)
     solver = choose_solver(str(run.attrs["solver"]), peak, known)
     apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
     again, agreement, refusal = run[list(NORMS)] * np.nan, None, {}
@@ -143,7 +142,7 @@ FEWEST_STEPS, SEED = 64, 20170817
 
 def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
-    even, rng = equations_of(problem).find_reduction().even, np.random.default_rng(SEED)
+    even, rng = problem.equations.find_reduction().even, np.random.default_rng(SEED)
     tangent = random_tangent(problem.sites, rng, even, len(problem.model.fields))
     step = min(STEP, problem.span / FEWEST_STEPS)
     return grow(problem, tangent[None], problem.span, even, step)
@@ -221,7 +220,7 @@ def check_breather(problem: Problem) -> xr.Dataset:
     described = {f"breather{name}": variable(*given, digits=6) for name, given in numbers.items()}
     axes = {"part": ["re", "im"], "component": list(problem.model.fields), "site": sites}
     found = xr.Dataset.from_dict(table(TITLE, axes, **described))
-    found["component"].attrs["long_name"] = equations_of(problem).names.component
+    found["component"].attrs["long_name"] = problem.equations.names.component
     return found
 
 

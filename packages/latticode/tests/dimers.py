@@ -3,11 +3,12 @@
 from typing import NamedTuple
 
 from latticode import Model, abs2, conj, lap
+from latticode.equations.initial_values import on_sites
 from latticode.generation.chain import at_every_site, close
 from latticode.generation.modules import load_rule
 from latticode.kernels.compiled import kernel
 from latticode.simulation.lattice import WHOLE
-from latticode.simulation.problem import Problem, on_sites
+from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import Trajectory, simulate
 from oracle import CASES
 from oracle import SOLVERS as CONTROLS

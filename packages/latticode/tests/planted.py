@@ -2,8 +2,9 @@
 
 import numpy as np
 from latticode import Model, abs2, lap
+from latticode.equations.initial_values import on_sites
 from latticode.simulation.equations import CompiledMethod
-from latticode.simulation.problem import Problem, on_sites
+from latticode.simulation.problem import Problem
 from latticode.simulation.traced import TracedEquations
 
 EXTRA_TURN = 1e-3
@@ -15,11 +16,13 @@ def lattice() -> Model:
     return Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
 
 
-def problem(equations: type[TracedEquations] = TracedEquations, **changes) -> Problem:
+def problem(equations_class: type[TracedEquations] = TracedEquations, **changes) -> Problem:
     """Return a regular run of it, integrated by a class of equations."""
 
     class Planted(Problem):
-        equations_class = equations
+        @property
+        def equations(self):
+            return equations_class(self)
 
     return Planted(
         **{

@@ -15,9 +15,9 @@ from latticode.configuration.messages import lines_of
 from latticode.configuration.schema import Configuration
 from latticode.configuration.solvers import FLAG, Solver, Taylor
 from latticode.configuration.values import Number, Positive, faults
+from latticode.equations.initial_values import KEPT
 from latticode.equations.model import Model
 from latticode.simulation.feasibility import Obstacle
-from latticode.simulation.problem import KEPT
 from pydantic import (
     Field,
     SerializeAsAny,

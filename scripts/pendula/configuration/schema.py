@@ -7,7 +7,7 @@ from latticode.configuration import cost, schema
 from latticode.configuration.cost import Cost
 from latticode.configuration.schema import Faults
 from latticode.configuration.values import Name
-from latticode.simulation.problem import name_window
+from latticode.equations.initial_values import name_window
 from pydantic import Field
 
 from pendula.problem import AMPLITUDES

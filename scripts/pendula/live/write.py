@@ -15,10 +15,10 @@ import xarray as xr
 import yaml
 from latticode.datasets import complete_or_absent
 from latticode.datasets.netcdf import read
+from latticode.equations.initial_values import read_initial
 from latticode.integrators import FAULTS
 from latticode.kernels.webassembly import loader
 from latticode.measures.difference import VISIBLE
-from latticode.simulation.problem import read_initial
 from markupsafe import Markup
 from replication.report import page
 from replication.report.words import case_of

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from latticode.datasets import complete_or_absent
-from latticode.simulation.problem import read_initial
+from latticode.equations.initial_values import read_initial
 from tabulate import tabulate
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

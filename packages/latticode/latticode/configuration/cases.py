@@ -19,6 +19,7 @@ from pydantic import (
 )
 
 from latticode.equations.ends import ENDS
+from latticode.equations.initial_values import KEPT
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
 from latticode.equations.model_file import at_middle, chain_sites, values_at
@@ -26,7 +27,7 @@ from latticode.integrators.families import first_tolerance, instead_of_taylor, p
 from latticode.integrators.method import Obstacle
 from latticode.integrators.methods import METHODS, methods_taking
 from latticode.simulation.feasibility import MOST_STEPS, find_fault, rates_of
-from latticode.simulation.problem import KEPT, Problem
+from latticode.simulation.problem import Problem
 
 from . import cost
 from .cost import Cost

@@ -11,9 +11,9 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, SerializeAsAny, ValidationError, model_validator
 
+from latticode.equations.initial_values import name_window
 from latticode.equations.model_file import chain_sites
 from latticode.integrators.families import remark_on
-from latticode.simulation.problem import name_window
 
 from . import cost
 from .cases import Case, is_multiple

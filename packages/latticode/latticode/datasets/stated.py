@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from latticode.simulation.problem import Problem, write_initial
-from latticode.simulation.traced import equations_of
+from latticode.equations.initial_values import write_initial
+from latticode.simulation.problem import Problem
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
 """The attributes that name the function of a job, and the datasets that it has read."""
@@ -27,7 +27,7 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
         del about["half_width"]
         about["sites"] = problem.site_count
     about |= {"start_time": problem.start_time} if problem.start_time else {}
-    about |= equations_of(problem).describe()
+    about |= problem.equations.describe()
     return {
         "case": name,
         **{key: about[key] for key in sorted(about)},

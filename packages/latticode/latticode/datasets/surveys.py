@@ -11,7 +11,6 @@ from latticode.simulation.problem import Problem
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
 from latticode.simulation.survey_runs import runs_of_survey
-from latticode.simulation.traced import equations_of
 
 from .netcdf import Variable
 from .registry import NAMES
@@ -67,7 +66,7 @@ def survey_contents(
     if survey.members:
         dimensions.append("member")
         variables["member"] = Variable(("member",), np.arange(survey.members.count))
-    result_names = equations_of(problem).names
+    result_names = problem.equations.names
     variables["component"] = Variable(
         ("component",), list(result_names.components), result_names.component
     )

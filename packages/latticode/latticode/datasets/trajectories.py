@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from latticode.equations.initial_values import name_window
 from latticode.simulation.equations import ResultNames
-from latticode.simulation.problem import Problem, name_window
+from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import Trajectory
 from latticode.simulation.sweep import STATISTICS
-from latticode.simulation.traced import equations_of
 
 from .netcdf import Variable
 from .registry import NAMES
@@ -21,7 +21,7 @@ Contents = tuple[dict[str, Variable], dict[str, Any]]
 
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
     """Return the contents of the dataset on a run of `problem`."""
-    equations = equations_of(problem)
+    equations = problem.equations
     variables = trajectory_variables(problem, trajectory)
     if equations.stores_final:
         variables |= final_state(problem, trajectory)
@@ -34,7 +34,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
     """Return the norms, the energy if there is one, and what the run kept of its snapshots."""
-    names, every = equations_of(problem).names, len(trajectory.snapshot_tau)
+    names, every = problem.equations.names, len(trajectory.snapshot_tau)
     variables = {
         "tau": Variable(("tau",), trajectory.tau),
         "component": Variable(("component",), list(names.components), names.component),
@@ -78,7 +78,7 @@ def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
 
 def final_state(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
     """Return the state at the end time: both parts of each field, (part, component, site)."""
-    names, final = equations_of(problem).names, trajectory.final
+    names, final = problem.equations.names, trajectory.final
     if final.ndim == 2:
         final = np.stack([final.real, final.imag])
     grid = ("part", "component", "site")
@@ -97,7 +97,7 @@ def sweep_contents(
     sweep: Mapping[str, np.ndarray],
 ) -> Contents:
     """Return the contents of the dataset on a sweep of `problem` over half-widths."""
-    axes, names = ("half_width", "quantity", "statistic", "window"), equations_of(problem).names
+    axes, names = ("half_width", "quantity", "statistic", "window"), problem.equations.names
     variables = {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
         "quantity": Variable(("quantity",), [*names.components, "pair"]),

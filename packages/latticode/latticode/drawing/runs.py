@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from latticode.equations.ends import ends_of
+from latticode.equations.initial_values import read_initial
 from latticode.measures.difference import VISIBLE
-from latticode.simulation.problem import read_initial
 
 from . import panels, strips, style
 from .strips import NORMS, Strip

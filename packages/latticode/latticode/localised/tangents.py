@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from latticode.equations.initial_values import output_times
 from latticode.equations.model import Model
 from latticode.generation.modules import load_text, tangents_module_text
 from latticode.integrators import DONE, FAULTS, dop853
@@ -16,9 +17,9 @@ from latticode.numerics.draws import complex_normal
 from latticode.numerics.elementary import log
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import Reduction, aligned, pack
-from latticode.simulation.problem import Problem, output_times
+from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import IntegrationError
-from latticode.simulation.traced import equations_of, make_system, site_dependent
+from latticode.simulation.traced import make_system, site_dependent
 
 from .bundles import orthonormalise, size_of_solution
 
@@ -78,7 +79,7 @@ def grow(
     at_rest = np.zeros((2 * tangents.shape[1], problem.initial.shape[1]))
     model = problem.model.tangent()
     system = make_system(problem.changed(model=model, initial=at_rest), cut)
-    start = equations_of(problem).start(cut)
+    start = problem.equations.start(cut)
     bundle = np.concatenate([start, *(pack(one, cut) for one in tangents)])
     tau = output_times(end_time, step)
     times = problem.start_time + tau

@@ -2,7 +2,7 @@
 
 All of it follows from the trace of a model (`traced.TracedEquations`). A program whose kernels know
 more than the trace of their model says so in a class of its own, which its problems name: see
-`Problem.equations_class`.
+`Problem.equations`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from latticode.equations.initial_values import InitialValueProblem
 from latticode.generation.chain import can_be_tiled
 from latticode.integrators.method import Method
 
 from .lattice import Reduction, aligned, find_reduction, pack
 from .observables import blank_state_record
-from .problem import Problem
 
 
 class IntegrationError(RuntimeError):
@@ -76,7 +76,7 @@ class Equations:
     stores_final = True
     """Whether the dataset of a run has the state at its end."""
 
-    def __init__(self, problem: Problem):
+    def __init__(self, problem: InitialValueProblem):
         self.problem = problem
 
     # --- Names, units, and what is known before a run

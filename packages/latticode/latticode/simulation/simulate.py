@@ -25,7 +25,6 @@ from .feasibility import find_fault
 from .interrupts import interruptible
 from .lattice import Reduction, unfold
 from .problem import Problem
-from .traced import equations_of
 
 SINGULAR = (
     ": a divisor, or the argument of a logarithm, a root or a power, is zero or negative at some"
@@ -92,7 +91,7 @@ def simulate(
 
 
 def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) -> Trajectory:
-    equations = equations_of(problem)
+    equations = problem.equations
     cut = equations.find_reduction() if reduction is None else reduction
     record, y, outcome = integrate(equations, cut, energy)
     both = Reduction(even=False, synchronised=cut.synchronised)
@@ -109,7 +108,7 @@ def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) 
 
 def remark_on_start(problem: Problem) -> str:
     """Return a sentence on a run that starts late and has other bits than one run; else nothing."""
-    same = [name for name in equations_of(problem).methods if NAMED[name].continues_exactly]
+    same = [name for name in problem.equations.methods if NAMED[name].continues_exactly]
     if not problem.start_time or problem.solver["name"] in same:
         return ""
     to_the_bit = f"; {same[0]} goes on with the same bits" if same else ""
@@ -205,7 +204,7 @@ def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) 
     """
     every = problem.snapshot_every or max(1, (len(problem.times) - 1) // SNAPSHOTS)
     runs = _Runs(problem.changed(snapshot_every=every), problem.solver["error"], make)
-    methods = equations_of(problem).methods
+    methods = problem.equations.methods
     try:
         found = runs.agreeing(methods)
     except GaveUpError:
@@ -287,7 +286,7 @@ class _Runs(NamedTuple):
 def angle_of(problem: Problem) -> float:
     """Return a bound of the angle in radians by which the data turn in a run."""
     peak = float(np.abs(np.ascontiguousarray(problem.initial).view(float)).max(initial=0.0))
-    return sum(equations_of(problem).rates(peak).values()) * problem.span
+    return sum(problem.equations.rates(peak).values()) * problem.span
 
 
 def without_snapshots(run: Trajectory) -> Trajectory:

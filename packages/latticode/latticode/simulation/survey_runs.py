@@ -15,7 +15,6 @@ from .runs import ManyRuns, Run, run_all, shaped
 from .simulate import IntegrationError, Trajectory, simulate
 from .survey import CHAINS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
 from .sweep import mean_of, within
-from .traced import equations_of
 
 
 def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str, np.ndarray]:
@@ -106,7 +105,7 @@ def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
 
 def _divergence(problem: Problem, run: Trajectory) -> float:
     """Return the first time at which a run by another method differs by the visible part."""
-    other = other_family(run.solver["name"], equations_of(problem).methods)
+    other = other_family(run.solver["name"], problem.equations.methods)
     try:
         again = simulate(
             problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), energy=False

@@ -10,6 +10,7 @@ import numpy as np
 
 from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import evaluate
+from latticode.equations.initial_values import InitialValueProblem
 from latticode.equations.model import Model
 from latticode.equations.model_file import values_at
 from latticode.generation.modules import conserved_text, load_text, module_text, parts_of_rates
@@ -25,7 +26,6 @@ from .equations import CompiledMethod, Equations, ResultNames
 from .feasibility import rates_of
 from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .observables import blank_state_record
-from .problem import Problem
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
@@ -93,7 +93,7 @@ def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
     return load_text(text + runs_text(methods, observe, model.driven))
 
 
-def parameters_of(problem: Problem) -> dict[str, float | np.ndarray]:
+def parameters_of(problem: InitialValueProblem) -> dict[str, float | np.ndarray]:
     """Return the value of each parameter: a number, or an array (site,) of one for each site.
 
     Raises ValueError with the name of one that has none.
@@ -108,12 +108,12 @@ def parameters_of(problem: Problem) -> dict[str, float | np.ndarray]:
     return found
 
 
-def site_dependent(problem: Problem) -> frozenset[str]:
+def site_dependent(problem: InitialValueProblem) -> frozenset[str]:
     """Return the names of the parameters that depend on the site."""
     return frozenset(name for name, value in parameters_of(problem).items() if np.ndim(value))
 
 
-def make_system(problem: Problem, reduction: Reduction) -> System:
+def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
     """Return what the kernels of a model take for its parameters, at time 0."""
     model = problem.model
     sites = problem.half_width + 1 if reduction.even else problem.sites
@@ -125,7 +125,7 @@ def make_system(problem: Problem, reduction: Reduction) -> System:
     return System(constants, clocks, at_sites, wide, _sums(problem), *ends)
 
 
-def _sums(problem: Problem) -> Sums:
+def _sums(problem: InitialValueProblem) -> Sums:
     """Return what the densities of a model are given: see Sums."""
     model, reach = problem.model, problem.model.reach_of_densities
     if not model.conserved:
@@ -139,7 +139,7 @@ def _sums(problem: Problem) -> Sums:
 
 
 def _values(
-    problem: Problem, parts: Parts, margin: int = 0
+    problem: InitialValueProblem, parts: Parts, margin: int = 0
 ) -> tuple[tuple[float, ...], np.ndarray]:
     """Return constants, and what depends on the site, with so many sites more beyond each end."""
     values = parameters_of(problem)
@@ -256,8 +256,3 @@ class TracedEquations(Equations):
             "state": state,
             "conserved": dict(zip(model.conserved, record.conserved, strict=True)),
         }
-
-
-def equations_of(problem: Problem) -> Equations:
-    """Return how a problem is integrated: as its own class says, or as follows from its trace."""
-    return (problem.equations_class or TracedEquations)(problem)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from latticode import Model, lap
-from latticode.simulation.problem import Problem, on_sites
+from latticode.equations.initial_values import on_sites
+from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
 
 TIGHT = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}

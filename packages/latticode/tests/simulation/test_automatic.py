@@ -2,8 +2,8 @@
 
 import pytest
 from dimers import case_of, chain
+from latticode.equations.initial_values import on_sites
 from latticode.measures.difference import norm_difference
-from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import CASES
 

@@ -7,12 +7,11 @@ from latticode.integrators.methods import METHODS
 from latticode.integrators.taylor import ORDER
 from latticode.simulation import simulate as simulation
 from latticode.simulation.feasibility import find_fault, rates_of
-from latticode.simulation.traced import equations_of
 from oracle import random_chain
 
 
 def find_obstacle(problem):
-    return simulation.find_obstacle(equations_of(problem))
+    return simulation.find_obstacle(problem.equations)
 
 
 def obstacle(name="dop853", size=1.0, span=50.0, numbers=PAPER, **controls):

@@ -20,7 +20,6 @@ from latticode.simulation import simulate as simulation
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import WHOLE, pack
 from latticode.simulation.simulate import IntegrationError, simulate
-from latticode.simulation.traced import equations_of
 from oracle import random_chain
 from waiting import HANGS, wait_for
 
@@ -64,7 +63,7 @@ class LongRun:
 
     def __init__(self, name):
         problem = chain(random_chain(2000), (1e4, 1.0, 0.0))
-        equations = equations_of(problem)
+        equations = problem.equations
         self.compiled, self.outcomes = equations.compiled(name), []
         self.controls = SOLVERS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
         self.state = pack(problem.amplitudes, WHOLE)

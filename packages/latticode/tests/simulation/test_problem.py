@@ -7,8 +7,7 @@ import pytest
 from dimers import chain
 from hypothesis import given
 from hypothesis import strategies as st
-from latticode.simulation.problem import (
-    Problem,
+from latticode.equations.initial_values import (
     by_site,
     on_sites,
     output_times,
@@ -16,6 +15,7 @@ from latticode.simulation.problem import (
     read_initial,
     write_initial,
 )
+from latticode.simulation.problem import Problem
 from oracle import chains
 
 PAIR = on_sites({0: (1.0, 0.1)})

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from dimers import PAPER, SOLVERS, chain
 from hypothesis import given, settings
+from latticode.equations.initial_values import on_sites
 from latticode.simulation.lattice import WHOLE, Reduction
-from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain
 

@@ -8,8 +8,8 @@ import xarray as xr
 from dimers import dimers
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.surveys import survey_contents
+from latticode.equations.initial_values import on_sites
 from latticode.simulation import survey_runs
-from latticode.simulation.problem import on_sites
 from latticode.simulation.runs import joined, run_all, run_part
 from latticode.simulation.simulate import simulate
 from latticode.simulation.survey import Members, Survey, Surveyed

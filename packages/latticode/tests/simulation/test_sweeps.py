@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from dimers import chain
-from latticode.simulation.problem import on_sites
+from latticode.equations.initial_values import on_sites
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import sweep
 

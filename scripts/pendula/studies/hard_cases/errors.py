@@ -6,9 +6,9 @@ difference of a component over the largest component.
 """
 
 import numpy as np
+from latticode.equations.initial_values import on_sites, place
 from latticode.measures.difference import state_error
 from latticode.numerics.draws import complex_normal
-from latticode.simulation.problem import on_sites, place
 from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.linear_chain import flow

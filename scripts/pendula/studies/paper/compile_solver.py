@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from latticode.datasets import complete_or_absent
+from latticode.equations.initial_values import on_sites
 from latticode.integrators.methods import NAMED
 from latticode.kernels.sources import digest_of_code
-from latticode.simulation.problem import on_sites
 from latticode.simulation.simulate import simulate
 
 from pendula.models import solvers

@@ -14,8 +14,8 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
+from latticode.equations.initial_values import by_site
 from latticode.simulation.lattice import Reduction, unfold
-from latticode.simulation.problem import by_site
 from latticode.simulation.simulate import IntegrationError
 
 from pendula.many_cases import COMPONENTS

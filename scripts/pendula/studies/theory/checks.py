@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 from latticode.datasets.checks import describe, table, variable
-from latticode.simulation.problem import write_initial
+from latticode.equations.initial_values import write_initial
 from replication.variables import REGULAR
 
 from .equations import ENDS, PAIR, constants_at, controls_of, one_pair, run, squared_norm

@@ -12,11 +12,11 @@ alone. A state holds S and D (see `sums`).
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from latticode.equations.initial_values import place
 from latticode.integrators import DONE, FAULTS
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import Reduction, pack
 from latticode.simulation.observables import Record, blank_state_record
-from latticode.simulation.problem import place
 from latticode.simulation.simulate import IntegrationError
 from latticode.simulation.traced import TracedEquations
 

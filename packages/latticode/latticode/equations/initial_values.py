@@ -1,0 +1,247 @@
+"""The values of one initial-value problem: model, parameters, chain, data, times and solver.
+
+The configuration makes a `Problem` of a case, the simulation integrates it, datasets describe it by
+their attributes: there is no second form of it. A workflow passes it on as a mapping of plain
+values: `Problem.plain` writes one, `Problem.of` reads it.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Self
+
+import numpy as np
+
+from .ends import ends_of
+from .model import Model
+from .model_file import at_middle, chain_sites
+
+KEPT = ("norms", "moduli", "state")
+"""What datasets may have of the snapshots: nothing, moduli in single precision, or beside them the
+whole state in double precision."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class InitialValueProblem:
+    """The values of one initial-value problem.
+
+    `parameters` are those of the model, where they differ from its own values. `initial` is
+    complex, of shape (component, 2r + 1): the fields on the sites -r..r at the start; all sites
+    beyond are at rest. `half_width` is M, the chain has the sites -M..M; None stands for an
+    infinite chain. Where there is a `site_count` N, the chain has the sites 0..N-1 instead, and
+    `initial` has the shape (component, N). The run starts at `start_time`. `snapshot_every` keeps
+    each component at every site at each so many outputs; 0 keeps none. `snapshots_at` are numbers
+    of outputs: of those that are kept, these alone. `keep` is a name of KEPT: what datasets have of
+    the snapshots.
+
+    Raises ValueError where data lie outside the chain, or there are no such ends.
+    """
+
+    model: Model
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    half_width: int | None
+    boundary: str
+    initial: np.ndarray = field(repr=False)
+    end_time: float
+    output_step: float
+    solver: Mapping[str, Any]  # {"name": ..., **controls}
+    snapshot_every: int = 0
+    start_time: float = 0.0
+    snapshots_at: tuple[int, ...] = ()
+    keep: str = "moduli"
+    site_count: int | None = None
+
+    def __post_init__(self):
+        ends_of(self.boundary)
+        initial, fields = np.array(self.initial, complex), self.model.fields
+        wanted = "an odd number of sites" if self.site_count is None else f"{self.site_count} sites"
+        if initial.ndim != 2 or len(initial) != len(fields) or not self._fits(initial.shape[1]):
+            raise ValueError(f"data of {' and '.join(fields)} on {wanted}, not {initial.shape}")
+        if self.half_width is not None and self.site_count is None:
+            require_inside(initial.shape[1] // 2, self.half_width)
+        if self.model.form == "dt":
+            initial = initial.real + 0j
+        initial.flags.writeable = False
+        if self.keep not in KEPT:
+            raise ValueError(f"keep is {self.keep!r}; give one of {', '.join(KEPT)}")
+        object.__setattr__(self, "snapshots_at", tuple(self.snapshots_at))
+        object.__setattr__(self, "initial", initial)
+        object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
+        object.__setattr__(self, "solver", MappingProxyType(dict(self.solver)))
+
+    def _fits(self, columns: int) -> bool:
+        """Return whether data may have so many columns."""
+        return columns % 2 == 1 if self.site_count is None else columns == self.site_count
+
+    @classmethod
+    def of(cls, values: Mapping) -> Self:
+        """Return the problem that a mapping of plain values describes (see `plain`)."""
+        model = values["model"]
+        model = model if isinstance(model, Model) else Model.of_plain(model)
+        initial = on_sites(values["initial"], len(model.fields), values.get("site_count"))
+        return cls(**{**values, "initial": initial, "model": model})
+
+    def plain(self) -> dict[str, Any]:
+        """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond.
+
+        The model is its graph, so that no job runs its code again.
+        """
+        counted = {} if self.site_count is None else {"site_count": self.site_count}
+        return {
+            "half_width": self.half_width,
+            **counted,
+            "boundary": self.boundary,
+            "initial": self.data_by_site,
+            "end_time": self.end_time,
+            "output_step": self.output_step,
+            "solver": dict(self.solver),
+            "snapshot_every": self.snapshot_every,
+            "start_time": self.start_time,
+            "snapshots_at": list(self.snapshots_at),
+            "keep": self.keep,
+            "model": self.model.plain,
+            "parameters": dict(self.parameters),
+        }
+
+    def changed(self, **changes) -> Self:
+        """Return the problem with other values; parameters of its model are given by name.
+
+        On a shorter chain, parameters have the values of the sites in its middle.
+        """
+        values = {**self.parameters, **changes.pop("parameters", {})}
+        known = changes.get("model", self.model).parameters or values  # one from its graph has none
+        values |= {name: changes.pop(name) for name in known if name in changes}
+        values = {name: value for name, value in values.items() if name in known}
+        half_width = changes.get("half_width")
+        if half_width is not None:
+            values = {name: at_middle(one, half_width) for name, one in values.items()}
+        return replace(self, **changes, parameters=values)
+
+    @property
+    def site_numbers(self) -> range:
+        """The sites of the chain: -M..M, or 0..N-1."""
+        return chain_sites(self.half_width, self.site_count)
+
+    @property
+    def sites(self) -> int:
+        """The number N of sites in the chain."""
+        return len(self.site_numbers)
+
+    @property
+    def first_site_of_data(self) -> int:
+        """The site of the first column of `initial`."""
+        return 0 if self.site_count is not None else -(self.initial.shape[1] // 2)
+
+    @property
+    def data_by_site(self) -> dict[int, tuple[complex, ...]]:
+        """The fields {site: (A, B)} at the start, the sites at rest left out."""
+        return by_site(self.initial, self.first_site_of_data)
+
+    @property
+    def amplitudes(self) -> np.ndarray:
+        """The fields on the whole chain at the start, complex of shape (component, N)."""
+        if self.site_count is not None:
+            return self.initial
+        return place(self.initial, self.half_width)
+
+    @property
+    def times(self) -> np.ndarray:
+        """The output times start_time, ..., end_time in equal steps; integers are exact."""
+        return output_times(self.end_time, self.output_step, self.start_time)
+
+    @property
+    def span(self) -> float:
+        """How long the run lasts."""
+        return self.end_time - self.start_time
+
+    @property
+    def snapshot_outputs(self) -> np.ndarray:
+        """The numbers of the outputs that are snapshots."""
+        last = round(self.span / self.output_step)
+        if self.snapshots_at:
+            return np.array([number for number in self.snapshots_at if number <= last])
+        return np.arange(0, last + 1, self.snapshot_every) if self.snapshot_every else np.arange(0)
+
+
+def output_times(end_time: float, output_step: float, start_time: float = 0.0) -> np.ndarray:
+    """Return start_time, ..., end_time in equal steps; integers among them are exact.
+
+    Where `start_time` is a whole number of steps, the times are those of a run from 0.
+    """
+    count = round(end_time / output_step)
+    first = round(start_time / output_step)
+    if first and abs(first * output_step - start_time) > 1e-9 * abs(start_time):
+        count, first = round((end_time - start_time) / output_step), 0
+        return start_time + (end_time - start_time) * np.arange(count + 1) / count
+    return end_time * np.arange(first, count + 1) / count
+
+
+def place(initial: np.ndarray, half_width: int) -> np.ndarray:
+    """Return amplitudes (., 2M + 1): `initial` (., 2r + 1) on the sites -r..r, zero elsewhere."""
+    reach = initial.shape[1] // 2
+    require_inside(reach, half_width)
+    amplitudes = np.zeros((len(initial), 2 * half_width + 1), complex)
+    amplitudes[:, half_width - reach : half_width + reach + 1] = initial
+    return amplitudes
+
+
+def require_inside(site: int, half_width: int) -> None:
+    """Raise ValueError if the chain has no such site."""
+    if site > half_width:
+        raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
+
+
+def on_sites(
+    initial: Mapping[int, tuple[complex, ...]], fields: int = 2, site_count: int | None = None
+) -> np.ndarray:
+    """Return data {site: (A, B)} as an array of (field, 2r + 1) amplitudes on the sites -r..r.
+
+    Where there is a `site_count` N, they are (field, N) on the sites 0..N-1.
+    """
+    sites = chain_sites(max(map(abs, initial), default=0), site_count)
+    amplitudes = np.zeros((fields, len(sites)), complex)
+    for site, pair in initial.items():
+        amplitudes[:, sites.index(site)] = pair
+    return amplitudes
+
+
+def by_site(
+    amplitudes: np.ndarray, first_site: int | None = None
+) -> dict[int, tuple[complex, ...]]:
+    """Return amplitudes (field, 2r + 1) as {site: (A, B)}, the sites at rest left out.
+
+    Where all are at rest the central site stands for them. The first column is that of
+    `first_site`, or else of -r.
+    """
+    reach = amplitudes.shape[1] // 2
+    first = -reach if first_site is None else first_site
+    moving = np.flatnonzero((amplitudes != 0).any(axis=0))
+    columns = moving if moving.size else [reach]
+    return {int(j) + first: tuple(map(complex, amplitudes[:, j])) for j in columns}
+
+
+def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:
+    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
+    return json.dumps({str(site): [_as_written(z) for z in pair] for site, pair in initial.items()})
+
+
+def is_even(text: str) -> bool:
+    """Return whether data, as datasets keep them, are the same on sites n and -n."""
+    sites = read_initial(text)
+    rest = (0.0, 0.0)
+    return all(tuple(sites.get(-site, rest)) == tuple(pair) for site, pair in sites.items())
+
+
+def read_initial(text: str) -> dict[int, tuple[complex, complex]]:
+    """Return the initial data that `write_initial` has written."""
+    return {int(site): tuple(complex(z) for z in pair) for site, pair in json.loads(text).items()}
+
+
+def _as_written(z: complex) -> float | str:
+    return z.real if z.imag == 0 else str(complex(z)).strip("()")
+
+
+def name_window(window: tuple[float, float]) -> str:
+    """Return a time window as the datasets name it: "[10, 50]"."""
+    return f"[{window[0]:g}, {window[1]:g}]"
