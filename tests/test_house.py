@@ -97,7 +97,8 @@ def test_operators_have_the_same_bits_on_every_processor():
 INSIDE = ("inside_numba.py", "test_inside_numba.py", "inside.py")
 """What looks inside numba, and inside Snakemake: each says on top what it rests upon, and why."""
 HIDDEN = re.compile(
-    r"^ *(?:from|import) (?:numba\.core(?! import (?:cgutils|errors)\b|\.(?:cgutils|errors)\b)"
+    r"^ *(?:from|import) (?:"
+    r"numba\.core(?! import (?:cgutils|errors|event)\b|\.(?:cgutils|errors)\b)"
     r"|snakemake\.(?!(?:api|utils|logging|exceptions|settings|script)\b))",
     re.MULTILINE,
 )

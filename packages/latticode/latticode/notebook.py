@@ -14,6 +14,7 @@ from functools import partial
 from numbers import Integral
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 from pydantic import ValidationError
 
@@ -27,13 +28,16 @@ from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
-from latticode.datasets.surveys import survey_contents
+from latticode.datasets.surveys import COUNTS, runs_in, survey_contents
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
 from latticode.integrators.families import remark_on
 from latticode.simulation import simulate as simulation
 from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
-from latticode.simulation.runs import run_all
+from latticode.simulation.problem import Problem
+from latticode.simulation.progress import shown
+from latticode.simulation.runs import Retained, run_until_interrupted
+from latticode.simulation.survey import Survey, names_of
 
 __all__ = [
     "Case",
@@ -237,7 +241,8 @@ def simulate(
     _affordable(case, _limits(hours, gigabytes))
     require(name, str, "a name for the dataset")
     problem = case.kind.of(case.shown_problem())
-    trajectory = simulation.simulate(problem)
+    with shown("simulate"):
+        trajectory = simulation.simulate(problem)
     _print_remark(trajectory.solver)
     if anew := simulation.remark_on_start(problem):
         print(anew, flush=True)
@@ -300,7 +305,8 @@ def sweep(
     settings = _load({"cases": {name: case}, "sweeps": {name: asked}}, limits)
     _announce(settings.cost_of_sweep(name))
     checked, problem = settings.sweeps[name], case.kind.of(settings.swept_problem(name))
-    result = sweeps.sweep(problem, checked.half_widths, checked.windows)
+    with shown("sweep"):
+        result = sweeps.sweep(problem, checked.half_widths, checked.windows)
     return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
 
 
@@ -315,6 +321,7 @@ def survey(
     cores: int = 1,
     together: Mapping[str, Iterable] | None = None,
     gigabytes: float | None = None,
+    resume: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Make many runs of a case and keep a few numbers of each.
 
@@ -329,11 +336,13 @@ def survey(
         snapshot_tau and state (part, component, site, snapshot).
     cores: how many runs are made side by side; it changes no bit.
     together: what varies along one more axis, all names from one value to the next.
+    resume: what the same survey returned when Ctrl-C interrupted it: the runs that it has are not
+        made again.
 
     Returns a dataset whose dimensions are the axes, "member", and "component" for what each field
     has. A run that cannot be made to its end has NaN, and a line says how many there are: they are
     the attribute failed_runs, and "failure" has the reason of each. So "remark" says which runs are
-    not by the solver of the case, and why.
+    not by the solver of the case, and why, and "unfinished" which were not made before Ctrl-C.
 
     Raises ConfigurationError for what has no meaning, or would take more than `hours` or
     `gigabytes` (1 and 8 if they are left out).
@@ -368,8 +377,30 @@ def survey(
     if any(map(callable, kept)):  # which may read the snapshots that the case asks for
         plain = case.problem()
     problem = case.kind.of(plain)
-    found = survey_runs.run_survey(problem, plan, partial(run_all, cores=cores))
+    retained = {} if resume is None else _runs_to_resume(resume, name, problem, plan)
+    run = partial(run_until_interrupted, cores=cores, retained=retained)
+    found = survey_runs.run_survey(problem, plan, run)
     return as_xarray(*survey_contents(name, problem, plan, found))
+
+
+def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Survey) -> Retained:
+    """Return the runs that an interrupted survey has; raise ConfigurationError for another one."""
+    names = names_of(plan)
+    require(resume, xr.Dataset, "the survey to resume, as `survey` returned it", *names)
+    expected = as_xarray(*survey_contents(name, problem, plan, {}))
+    differ = [key for key in expected.variables if not expected[key].equals(resume.get(key))]
+    known = {"case", "title", *COUNTS.values()}
+    differ += [
+        key
+        for key, value in expected.attrs.items()
+        if key not in known and not np.array_equal(value, resume.attrs.get(key))
+    ]
+    if differ:
+        raise ConfigurationError(
+            f"resume: it is another survey: they differ in {', '.join(map(str, differ))}; give"
+            " what this one returned, or leave it out"
+        )
+    return runs_in(resume, names, plan.shape)
 
 
 def _listed(given):
@@ -400,7 +431,8 @@ def check(
     run = simulate(case) if run is None else run
     require(run, xr.Dataset, RUN, "linf", "l2", "tau", *variables)
     _require_run_of(case, run)
-    found = checks(case.kind.of(case.shown_problem()), run)
+    with shown("check"):
+        found = checks(case.kind.of(case.shown_problem()), run)
     if sentence := found.attrs.get(UNSTABLE_REST):
         print(sentence)
     return found

@@ -1,16 +1,17 @@
 """Surveys as datasets: an axis of the survey is a dimension, and what is kept a variable."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from math import prod
 from typing import Any
 
 import numpy as np
 
 from latticode.integrators.families import instead_of_taylor
 from latticode.simulation.problem import Problem
-from latticode.simulation.runs import ManyRuns
+from latticode.simulation.runs import ManyRuns, Retained
 from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
-from latticode.simulation.survey_runs import runs_of_survey
+from latticode.simulation.survey_runs import TEXT, runs_of_survey
 
 from .netcdf import Variable
 from .registry import NAMES
@@ -28,8 +29,13 @@ ABOUT = {
 TEXTS = {
     "failure": "why a run failed, which has NaN; empty where it did not",
     "remark": "why a run is not by the solver of the case; empty where it is",
+    "unfinished": "why a run was not made; empty where it was",
 }
-COUNTS = {"failure": "failed_runs", "remark": "runs_by_another_solver"}
+COUNTS = {
+    "failure": "failed_runs",
+    "remark": "runs_by_another_solver",
+    "unfinished": "unfinished_runs",
+}
 """What is said of runs where there is something to say, and the attributes with their numbers."""
 
 
@@ -93,6 +99,21 @@ def survey_contents(
     said["failed_runs"] = 0
     said |= {COUNTS[kind]: int((texts[kind] != "").sum()) for kind in texts}
     return variables, {"title": f"The survey {name}", **about, **said}
+
+
+def runs_in(survey: Mapping[str, Any], names: Iterable[str], shape: Sequence[int]) -> Retained:
+    """Return what an interrupted survey, in its dataset, kept of the runs that are done."""
+    texts = np.full(prod(shape), "", object)
+    for kind in (kind for kind in TEXTS if kind in survey):
+        said = survey[kind].values.ravel()
+        texts = np.where(said == "", texts, [f"{kind}: {text}" for text in said])
+    columns = {name: survey[name].values for name in names}
+    columns = {
+        name: array.reshape(-1, *array.shape[len(shape) :]) for name, array in columns.items()
+    }
+    columns[TEXT] = texts.astype(str)
+    done = np.flatnonzero(~np.char.startswith(columns[TEXT], "unfinished"))
+    return {int(n): {name: array[n] for name, array in columns.items()} for n in done}
 
 
 def _plain(axis: str) -> str:

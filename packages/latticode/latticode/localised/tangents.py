@@ -18,6 +18,7 @@ from latticode.numerics.elementary import log
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import Reduction, aligned, pack
 from latticode.simulation.problem import Problem
+from latticode.simulation.progress import follow
 from latticode.simulation.simulate import IntegrationError
 from latticode.simulation.traced import make_system, site_dependent
 
@@ -87,6 +88,8 @@ def grow(
     orthonormalise(system, bundle, lengths[0])
     lengths[0], sizes[0] = 1.0, size_of_solution(system, bundle, count)
     carry = kernels_of_tangents(problem.model, site_dependent(problem)).carry
+    follow(lengths[:, 0], "a tangent vector")
+    lengths[0] = 1.0
     given = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)
     status = interruptible(carry, system, bundle, times, *given, lengths[1:], sizes[1:])
     if status != DONE:

@@ -27,6 +27,27 @@ from typing import Any
 
 import numpy as np
 
+
+class Interrupted(KeyboardInterrupt):
+    """Work that Ctrl-C ended. Python and Jupyter show it as one line, without a traceback."""
+
+    def __init__(self, *words: str):
+        super().__init__(*words)
+        if sys.excepthook is sys.__excepthook__:
+            sys.excepthook = _show_in_a_line
+
+    def _render_traceback_(self) -> list[str]:
+        """Return what IPython shows."""
+        return [str(self)]
+
+
+def _show_in_a_line(kind: type[BaseException], error: BaseException, traceback: Any) -> None:
+    if isinstance(error, Interrupted):
+        print(error, file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, traceback)
+
+
 LOOK = 0.1
 """Seconds between two looks of a waiting caller at what happened meanwhile."""
 PATIENCE = 0.5

@@ -12,11 +12,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .interrupts import interruptible
+from .interrupts import Interrupted, interruptible
 from .problem import Problem
+from .progress import shown
 
 Make = Callable[[Problem], Mapping[str, Any]]
 """What makes the run of a problem and returns what is kept of it, by name."""
+Retained = dict[int, Mapping[str, Any]]
+"""What is kept of runs, by the number of the run."""
 Run = Callable[[Sequence[Problem], Make], dict[str, np.ndarray]]
 """What makes the runs of problems, such as `run_all`, and returns what is kept, each (run, ...)."""
 
@@ -27,23 +30,31 @@ def run_part(
     part: int = 0,
     parts: int = 1,
     progress: Callable[[int, int], None] = lambda done, count: None,
+    retained: Retained | None = None,
 ) -> dict[str, np.ndarray]:
     """Return what is kept of every `parts`-th run from number `part` on, each (run, ...).
 
-    `progress` is called with the number of runs that are done, and of all in the part. Where what
+    `progress` is called with the number of runs that are done, and of all in the part. Runs that
+    are in `retained` are not made again, and what is kept of the others is added to it. Where what
     is kept has not the same shape of all runs, NaN fill it up.
     """
     numbers = range(part, len(problems), parts)
-    found: dict[str, list] = {}
+    retained = {} if retained is None else retained
 
     def make_all(stop: np.ndarray) -> None:  # all in one thread: handing over takes time
         for done, number in enumerate(numbers, 1):
-            for name, value in make(problems[number]).items():
-                found.setdefault(name, []).append(value)
+            if number not in retained:
+                retained[number] = make(problems[number])
             progress(done, len(numbers))
 
     interruptible(make_all)
-    return {name: stacked(values) for name, values in found.items()}
+    return table_of([retained[number] for number in numbers])
+
+
+def table_of(runs: Sequence[Mapping[str, Any]]) -> dict[str, np.ndarray]:
+    """Return what is kept of runs by name, each (run, ...)."""
+    names = dict.fromkeys(name for run in runs for name in run)
+    return {name: stacked([run[name] for run in runs if name in run]) for name in names}
 
 
 def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
@@ -62,10 +73,13 @@ def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
     return found
 
 
-def run_all(problems: Sequence[Problem], make: Make, cores: int = 1) -> dict[str, np.ndarray]:
+def run_all(
+    problems: Sequence[Problem], make: Make, cores: int = 1, retained: Retained | None = None
+) -> dict[str, np.ndarray]:
     """Return what is kept of all runs, each (run, ...), made in a part for each core.
 
-    Kernels run beside each other in threads. Ctrl-C ends all of them.
+    Kernels run beside each other in threads. Ctrl-C ends all of them; `retained` then has the runs
+    that are done, and those that it has at the start are not made again.
     """
     ended = threading.Event()
 
@@ -75,8 +89,9 @@ def run_all(problems: Sequence[Problem], make: Make, cores: int = 1) -> dict[str
 
     parts = max(1, min(cores, len(problems)))
     with ThreadPoolExecutor(parts) as pool:
-        made = [pool.submit(run_part, problems, make, n, parts, go_on) for n in range(parts)]
-        try:
+        shared = parts, go_on, retained
+        try:  # from the first part on, which runs while others are handed over
+            made = [pool.submit(run_part, problems, make, n, *shared) for n in range(parts)]
             over, _ = wait(made, return_when=FIRST_EXCEPTION)
         finally:
             ended.set()
@@ -100,6 +115,36 @@ class ManyRuns(NamedTuple):
     def make(self, run: Run = run_all) -> Any:
         """Return the result of the study, its runs made by `run`."""
         return self.conclude(run(self.problems, self.retain))
+
+
+def run_until_interrupted(
+    problems: Sequence[Problem], make: Make, cores: int, retained: Retained
+) -> dict[str, np.ndarray]:
+    """Return what `run_all` returns; after Ctrl-C what is kept of the runs that are done.
+
+    The others then have NaN. Shows progress. Raises Interrupted where no run is done.
+    """
+    try:
+        with shown("survey", retained, len(problems)):
+            return run_all(problems, make, cores, retained)
+    except Interrupted:
+        if not retained:
+            raise
+        done = dict(retained)  # a thread may still end its run
+        absent = {name: nothing_like(value) for name, value in done[min(done)].items()}
+        return table_of([done.get(number, absent) for number in range(len(problems))])
+
+
+UNFINISHED = "unfinished: the survey was interrupted before this run"
+"""The text of a run that was not made."""
+
+
+def nothing_like(value: Any) -> np.ndarray:
+    """Return what stands in place of a value of a run that was not made: NaN, or a text."""
+    values = np.asarray(value)
+    if values.dtype.kind == "U":
+        return np.array(UNFINISHED)
+    return np.full(values.shape, np.nan if values.dtype.kind in "fc" else 0, values.dtype)
 
 
 def shaped(found: Mapping[str, np.ndarray], shape: Sequence[int]) -> dict[str, np.ndarray]:

@@ -25,6 +25,7 @@ from .feasibility import find_fault
 from .interrupts import interruptible
 from .lattice import Reduction, unfold
 from .problem import Problem
+from .progress import follow
 
 SINGULAR = (
     ": a divisor, or the argument of a logarithm, a root or a power, is zero or negative at some"
@@ -139,6 +140,7 @@ def integrate(
     record = equations.record(*size, problem.snapshot_every, energy)
     if problem.keep == "state" and record.kept.ndim == 3:
         record = record._replace(kept=np.empty((2, *record.kept.shape)))
+    follow(record.linf[0], name)
     controls = compiled.controls_of(problem.solver, equations.atol_scale)
     work = compiled.work_for(system, y)
     outcome = interruptible(compiled.run, system, y, times, controls, work, record)
@@ -152,7 +154,7 @@ def integrate(
 
 def _gave_up(problem: Problem, time: float, outcome: Outcome) -> IntegrationError:
     """Return the error of a run that its solver did not bring to its end."""
-    at_start = outcome.status == NOT_FINITE and outcome.time == 0.0
+    at_start = outcome.status == NOT_FINITE and time == problem.start_time
     why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
     if outcome.status == STEP_TOO_SMALL and switches(problem.model.rates):
         why += JUMPS

@@ -45,7 +45,7 @@ def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
 def _in_shape(problems: Surveyed, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Return what is kept of all runs in the survey's shape; print what failed."""
     texts = found.pop(TEXT)
-    for kind, what in (("failure", "failed and have NaN"), ("remark", "are by another solver")):
+    for kind, what in KINDS.items():
         chosen = np.char.startswith(texts, kind)
         if chosen.any():
             found[kind] = np.char.replace(np.where(chosen, texts, ""), f"{kind}: ", "", 1)
@@ -56,6 +56,12 @@ def _in_shape(problems: Surveyed, found: dict[str, np.ndarray]) -> dict[str, np.
     return shaped(found, problems.survey.shape)
 
 
+KINDS = {
+    "failure": "failed and have NaN",
+    "remark": "are by another solver",
+    "unfinished": "are not made; to go on from the others, give the result as resume",
+}
+"""What is printed of runs by the kind of their text."""
 TEXT = "text"
 """Under which name a run keeps why it failed, or why it is by another solver; empty if neither."""
 

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from latticode import Case, Model, abs2, check, draw_spacetime, lap, simulate, survey, sweep
 from latticode.configuration.files import ConfigurationError
-from latticode.configuration.messages import load
+from latticode.configuration.schema import load
 from numpy_lattice import slope_of, solution
 
 ENDS = ("dirichlet", "free", "periodic", "antiperiodic")
