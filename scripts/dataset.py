@@ -13,14 +13,10 @@ import pendula.names  # noqa: F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import Variable, read, save, write
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
 from latticode.datasets.trajectories import Contents
-from latticode.simulation import problem
 from latticode.simulation.runs import ManyRuns, joined, run_part
 from pendula.contract.arguments import Arguments, function_of, load_arguments
-from pendula.problem import Problem
+from pendula.contract.kinds import KINDS
 from xarray import Dataset
-
-KINDS = {Dataset: read, Problem: Problem.of, problem.Problem: Problem.of}
-"""How arguments are made of paths and of plain values, by the annotation of the parameter."""
 
 
 def compute(snakemake) -> None:

@@ -4,14 +4,12 @@ from pendula.contract.log import run  # first: its hook logs an import that fail
 
 # isort: split
 
-import sys
-
 import pendula.names  # noqa: F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import read
 from latticode.datasets.stated import stated
 from latticode.drawing.style import save
 from pendula.configuration.paper import in_short
-from pendula.contract.arguments import function_of, load_arguments
+from pendula.contract.arguments import function_of, gather_for, load_arguments
 from xarray import Dataset
 
 
@@ -32,12 +30,6 @@ def draw(snakemake) -> None:
         shown = shown.assign_attrs(comment=comment)
     note = f"Not the paper's: {in_short(differs)}" if differs else ""
     save(function(shown), shown, *snakemake.output, note)
-
-
-def gather_for(function):
-    """Return the function gather_x of the module in which draw_x is."""
-    topic = function.__name__.removeprefix("draw")
-    return getattr(sys.modules[function.__module__], f"gather{topic}")
 
 
 if __name__ == "__main__":

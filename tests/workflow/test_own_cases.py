@@ -111,4 +111,7 @@ def test_chunks_split_the_runs_of_a_study_into_jobs(tmp_path):
 def test_a_case_that_is_not_even_is_refused_a_proof_before_any_job(tmp_path):
     result = snakemake(ROOT, tmp_path, "-n", "results/certified/sea.nc", settings=SETTINGS)
     assert result.returncode != 0
-    assert "cases.sea: a proof needs data that are even in n" in result.stderr + result.stdout
+    assert (
+        "cases.sea: a proof requires initial data that are even in n"
+        in result.stderr + result.stdout
+    )

@@ -53,6 +53,12 @@ def function_of(call: list[str]) -> Callable:
     return getattr(import_module(module), name)
 
 
+def gather_for(draw: Callable) -> Callable:
+    """Return the function gather_x of the module of draw_x: it gathers what the figure shows."""
+    topic = draw.__name__.removeprefix("draw")
+    return getattr(import_module(draw.__module__), f"gather{topic}")
+
+
 def load_arguments(function: Callable, job: Any, kinds: Mapping[type, Callable]) -> Arguments:
     """Return the arguments of `function` from the named inputs, outputs and parameters of a job.
 

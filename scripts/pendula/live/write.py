@@ -89,7 +89,7 @@ def _solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
         "code": _text(compile_for_any_processor()),
         "controls": [*controls.values()],
         "named": yaml.safe_dump({"name": "ode45", **controls}, default_flow_style=True).strip(),
-        "work": ODE45.work,
+        "work": ODE45.work_arrays(sites=1, in_tiles=False),
     }
 
 
