@@ -21,8 +21,8 @@ STOREYS = (
     ("drawing",),
     ("many_cases", "varied"),
     ("configuration",),
-    ("models", "feasibility", "problem", "names"),
     ("contract",),
+    ("models", "feasibility", "problem", "names"),
     ("sources",),
 )
 """The rooms from the top down: an import points down, or stays in its room."""

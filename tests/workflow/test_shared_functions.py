@@ -1,4 +1,4 @@
-"""The functions that rules share: names of files, chunks, values, hashes, resources and refusals."""
+"""Functions that rules share: names of files, chunks, values, hashes, resources, refusals."""
 
 import os
 from types import SimpleNamespace

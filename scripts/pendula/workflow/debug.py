@@ -26,9 +26,10 @@ from pendula.sources import SCRIPTS
 
 SNAKEFILE = """
 include: {snakefile!r}
+def plain(entry):
+    return str(entry) if isinstance(entry, str) else list(map(str, entry))
 def values_of(place):
-    held = ((name, getattr(place, name)) for name in place.keys())
-    return {{name: str(entry) if isinstance(entry, str) else list(map(str, entry)) for name, entry in held}}
+    return {{name: plain(getattr(place, name)) for name in place.keys()}}
 def keep_job():
     import pickle
     for job in [job for job in workflow.dag.jobs if {target!r} in job.output]:

@@ -31,7 +31,6 @@ from latticode.simulation.lattice import find_reduction, unpack
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import integrate
 from latticode.simulation.survey import Survey, Surveyed
-from latticode.simulation.traced import equations_of
 from replication.variables import FEW_CHOICES, chaotic_along
 
 from pendula.problem import Constants, Problem
@@ -109,7 +108,7 @@ def fate_of(problem: Problem, final: np.ndarray, majority: float = MAJORITY) -> 
 def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
     """Run a problem, and return the fate of its data, which is all that is kept."""
     reduction = find_reduction(problem.amplitudes)
-    _, y, _ = integrate(equations_of(problem), reduction)
+    _, y, _ = integrate(problem.equations, reduction)
     return {"fate": fate_of(problem, unpack(y, reduction), majority)}
 
 
