@@ -1,1 +1,1 @@
-"""Breathers: localised states that stay, and what they say of the paper's large case."""
+"""Breathers: localised states, their stability, and the fate of initial conditions on one pair."""

@@ -1,4 +1,4 @@
-"""What breathers say of the paper's conclusion and of its large case at Omega = -4."""
+"""Claims about breathers: the paper's conclusion, and its large case at Omega = -4."""
 
 from replication.ledger.changes import exchange, put, scale
 from replication.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
@@ -25,14 +25,15 @@ ALL_SPREAD = put(("share", "share_low", "share_high"), 1.0)
 OF_FIG_2, OF_FIG_3, OF_FIG_4 = 8.0, -4.0, 0.0
 """Omega of the paper's figures."""
 DATA_POWER = 26.0
-"""P of the paper's large data, A_0 = 5 and B_0 = 1."""
+"""P of the paper's large initial condition, A_0 = 5 and B_0 = 1."""
 FAR_FROM_THE_WAVES = -3.5
-"""Solitons of a lower frequency are wide and of little P, and waves between the ends shake them."""
+"""At lower frequencies solitons are wide and have little P, and waves reflected by the ends disturb
+them."""
 SAME_GROWTH = Cutoff(1e-3, "a rate that adds less than 10 % by the end of the paper's runs")
 
 
 def at_omega(dataset, omega: float):
-    """Return a dataset at one detuning; raise UndecidableError if it has none."""
+    """Return a dataset at one detuning. Raises UndecidableError if it has none."""
     if omega not in dataset["omega"].values:
         raise UndecidableError(f"no breathers were computed at Omega = {omega:g}")
     return dataset.sel(omega=omega)
@@ -45,7 +46,7 @@ def at_omega(dataset, omega: float):
     (Control("the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names="growth")),),
 )
 def steady_unstable(steady) -> Finding:
-    """Require a growing perturbation of each family."""
+    """Require a growing perturbation of each family of steady states."""
     states = at_omega(steady, OF_FIG_3)
     if states[["power", "growth"]].isnull().to_dataarray().any():
         raise UndecidableError("a state without known growth rates may be stable")
@@ -60,7 +61,7 @@ def steady_unstable(steady) -> Finding:
 
 
 def breathers_of_fig3(periodic):
-    """Return breathers at Omega of Fig 3; raise UndecidableError if some are unknown."""
+    """Return the breathers at Omega of Fig 3. Raises UndecidableError if some are unknown."""
     breathers = at_omega(periodic, OF_FIG_3)
     if breathers[["power", "growth"]].isnull().to_dataarray().any():
         raise UndecidableError("some breathers, or their growth rates, are unknown")
@@ -75,7 +76,7 @@ def breathers_of_fig3(periodic):
     (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
 )
 def periodic_stable(periodic) -> Finding:
-    """Decide by the two families that are not on A = B."""
+    """Decide by the two families with A != B."""
     breathers = breathers_of_fig3(periodic).sel(family=["A only", "A = -B"])
     measured = {
         "breathers": breathers["growth"].size,
@@ -99,7 +100,7 @@ def periodic_stable(periodic) -> Finding:
     (Control("solitons that no perturbation leaves", put("soliton_growth", 0.0)),),
 )
 def solitons_unstable(periodic) -> Finding:
-    """Decide by the growth on the longer chain; nearer to Omega it depends on the length."""
+    """Decide by the growth rate on the longer chain; near Omega it depends on the length."""
     away = periodic.where(periodic["soliton_frequency"] >= FAR_FROM_THE_WAVES, drop=True)
     short, long = (away["soliton_growth"].isel(soliton_half_width=i) for i in (0, -1))
     measured = {
@@ -133,7 +134,10 @@ def solitons_unstable(periodic) -> Finding:
     ),
 )
 def data_below_breathers(periodic) -> Finding:
-    """So they cannot end as one of these unless the drive feeds them."""
+    """Compare P of the large data with the least P of a stable breather.
+
+    Data with less P cannot become one of these breathers unless the drive adds P.
+    """
     breathers = breathers_of_fig3(periodic)
     stable = breathers["least_power"].where(breathers["growth"] == 0.0)
     measured = {"least_of_a_period": stable.min(), "data": DATA_POWER}
@@ -150,7 +154,7 @@ def data_below_breathers(periodic) -> Finding:
     on=("fig3_large",),
 )
 def spreading_is_an_accident(sensitivity) -> Finding:
-    """Require that most runs spread from data within 1e-6, and most do not from 1e-2 on."""
+    """Require that most runs perturbed by up to 1e-6 spread, and most with 1e-2 or more do not."""
     sizes = sensitivity["size"].values
     small, large = sizes <= 1e-6, sizes >= 1e-2
     if not (small.any() and large.any()):
@@ -172,7 +176,7 @@ def spreading_is_an_accident(sensitivity) -> Finding:
 
 
 def one_that_disperses(fates):
-    """Return the maps with another fate of the most unequal data at Omega = 0."""
+    """Return the maps with another fate of the most unequal data at Omega = 0, as a control."""
     return put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(fates)
 
 
@@ -187,7 +191,7 @@ def one_that_disperses(fates):
     ),
 )
 def detuning_decides(fates) -> Finding:
-    """Count fates on the map; A = B conserves P, has no area, and is left out."""
+    """Count fates on the map; the diagonal A = B conserves P, has no area, and is left out."""
     spreads = fates["fate"].attrs["flag_meanings"].split().index("spreads")
     unequal = (fates["fate"] == spreads).astype(float).where(fates["a0"] != fates["b0"])
     measured = {

@@ -1,4 +1,5 @@
-"""The datasets of steady and of periodic breathers, rounded where LAPACK decides the last bits."""
+"""The datasets of steady and periodic breathers, rounded because LAPACK's last bits differ by
+machine."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -19,12 +20,12 @@ from . import multipliers, periodic
 
 RE_IM = Variable(("part",), ["re", "im"])
 DIGITS, GROWTH_DIGITS = 10, 7
-"""Significant digits of states, and of rates, which come from roots of eigenvalues."""
+"""Significant digits of states, and of growth rates, which are roots of eigenvalues."""
 RATE = "largest rate of growth of a perturbation"
 
 
 def rounded_variable(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
-    """Return a variable rounded to so many significant digits. NaN stands where there is none."""
+    """Return a variable rounded to `digits` significant digits, NaN where there is no state."""
     attributes = {"significant_digits": digits, **missing("there is no such state")}
     return Variable(dimensions, rounded(values, digits), words, attributes=attributes)
 
@@ -32,7 +33,10 @@ def rounded_variable(dimensions, values, words: str, digits: int = DIGITS) -> Va
 def steady_contents(
     epsilon: float, gamma: float, omegas: Sequence[float], half_width: int
 ) -> Contents:
-    """Return all families at each Omega; NaN where a pair has no state of a family."""
+    """Return the dataset of steady states: amplitude, P and growth rate (family, omega).
+
+    Values are NaN where a pair has no state of a family.
+    """
     shape = (len(FAMILIES), len(omegas))
     amplitude, (power, rates) = np.full((2, 2, *shape), np.nan), np.full((2, *shape), np.nan)
     for at in np.ndindex(shape):
@@ -72,9 +76,10 @@ def periodic_contents(
     half_width: int,
     solitons: Mapping[str, Any],
 ) -> Contents:
-    """Return the three families at each Omega and frequency; NaN where a family does not exist.
+    """Return the dataset of periodic breathers (family, omega, frequency), NaN where none is.
 
-    `solitons` gives Omega, the frequencies and the two half-widths of chains of the solitons.
+    `solitons` gives Omega, the frequencies and the two half-widths of the chains of the solitons A
+    = B.
     """
     shape = (len(periodic.FAMILIES), len(omegas), len(frequencies))
     amplitude, power = (np.full((2, *shape), np.nan) for _ in range(2))
@@ -129,9 +134,9 @@ def soliton_variables(
     frequencies: Sequence[float],
     half_widths: Sequence[int],
 ) -> dict[str, Variable]:
-    """Return P of the solitons A = B, and the growth of their perturbations on each chain.
+    """Return P of the solitons A = B, and growth rates of perturbations on each chain.
 
-    A growth that depends on the length is one of the waves between the ends.
+    A rate that depends on the length belongs to waves reflected by the ends.
     """
     constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
     powers, rates = np.empty((2, len(half_widths), len(frequencies)))

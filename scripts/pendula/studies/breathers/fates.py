@@ -1,23 +1,23 @@
-"""What becomes of data on one pair: they stay localised, move away, disperse, or spread.
+"""The fate of initial conditions on one pair: they stay localised, move, disperse, or spread.
 
-A motion is *localised* while more than half of P is near the centre. Near are the central pair and
-the two to which it is coupled, since these are all that its motion drives directly.
+A motion is *localised* while more than half of P is near the centre, which means on the central
+pair and the two pairs coupled to it, since its motion drives only these directly.
 
-The end of a run on an even chain distinguishes the four fates, without a number to choose:
+The final state of a run on an even chain distinguishes the four fates without a free parameter:
 
-- three neighbouring pairs, or three and their mirror image, hold more than half of P: the central
-  ones, then the motion is localised and *stays*, or others, then it *moves*;
-- no three do, and P is no larger than linear waves could have made it: it *disperses*;
+- three neighbouring pairs, or three and their mirror image, hold more than half of P: if these are
+  the central ones the motion is localised and *stays*, otherwise it *moves*;
+- no three do, and P is at most what linear waves can reach: it *disperses*;
 - no three do, and P is larger: it *spreads*, and the drive feeds the chaotic state that fills the
   chain.
 
-One pair would not do, since a breather of little P and whatever moves along the chain reach beyond
-it. On 61 pairs dispersed waves and chaotic states have less than a third of P on any three.
+One pair is not enough, since a breather of little P and a moving localised state are wider. On 61
+pairs dispersed waves and chaotic states have less than a third of P on any three.
 
 Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
-factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B keep theirs. Where zero is unstable
-no wave has a bound, and all growth counts.
+factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B conserve P. Where zero is unstable
+waves have no bound, and any growth of P means spreading.
 """
 
 from collections.abc import Mapping, Sequence
@@ -39,11 +39,11 @@ FATES = ("disperses", "stays", "moves", "spreads")
 DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))
 MAJORITY = 0.5
 ROUNDING = 1e-6
-"""By how much a run may miss the conservation of P where it holds."""
+"""Largest relative error of a run in P, where P is conserved."""
 
 
 def largest_linear_gain(constants: Constants) -> float:
-    """Return by how much linear waves can multiply P: 1 where zero is unstable, see above."""
+    """Return the largest factor by which linear waves can multiply P; 1 where zero is unstable."""
     ends = np.array([constants.omega - 4.0 * constants.epsilon, constants.omega])
     least = 0.0 if ends[0] * ends[1] <= 0.0 else np.abs(ends).min()
     drive = 2.0 * abs(constants.gamma)
@@ -51,7 +51,7 @@ def largest_linear_gain(constants: Constants) -> float:
 
 
 def power_by_distance(state: np.ndarray) -> np.ndarray:
-    """Return P of each pair and its mirror image, (distance from the centre,).
+    """Return P of each pair plus its mirror image, (distance from the centre,).
 
     `state` is (component, site) on an odd number of sites.
     """
@@ -63,10 +63,10 @@ def power_by_distance(state: np.ndarray) -> np.ndarray:
 
 
 def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
-    """Return the share of P on a pair, its two neighbours and their images, by (distance,).
+    """Return the share of P on three neighbouring pairs and their mirror images, (distance,).
 
-    `power` is that by distance. The first entry is the share of the three at the centre, the next
-    one that of the five there.
+    `power` is P by distance. The first entry is the share of the three central pairs, the next one
+    that of the five central pairs.
     """
     held = power.copy()
     held[1:] += power[:-1]
@@ -75,15 +75,15 @@ def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
 
 
 def is_localised(power: np.ndarray, majority: float = MAJORITY) -> bool:
-    """Return whether P by distance is that of a localised motion."""
+    """Return whether `power`, P by distance, is that of a localised motion."""
     return bool(share_of_three_pairs(power)[0] > majority)
 
 
 def place_of(power: np.ndarray, majority: float = MAJORITY) -> int | None:
-    """Return how far from the centre three pairs hold more than half of P; None if none do.
+    """Return the distance from the centre at which three pairs hold most of P, or None.
 
-    Three pairs one site away from the centre include it, and are not counted. `majority` can be
-    another part of P than half.
+    Three pairs one site away from the centre include it, and are not counted. `majority` is the
+    share of P that counts as most, 0.5 by default.
     """
     if is_localised(power, majority):
         return 0
@@ -95,7 +95,7 @@ def place_of(power: np.ndarray, majority: float = MAJORITY) -> int | None:
 
 
 def fate_of(problem: Problem, final: np.ndarray, majority: float = MAJORITY) -> int:
-    """Return the fate that the final state (component, site) of a run shows."""
+    """Return the fate, an index of FATES, of the final state (component, site) of a run."""
     power = power_by_distance(final)
     place = place_of(power, majority)
     if place is not None:
@@ -106,7 +106,7 @@ def fate_of(problem: Problem, final: np.ndarray, majority: float = MAJORITY) -> 
 
 
 def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
-    """Run a problem, and return the fate of its data, which is all that is kept."""
+    """Run a problem and return the fate of its initial data, the only stored result."""
     reduction = find_reduction(problem.amplitudes)
     _, y, _ = integrate(problem.equations, reduction)
     return {"fate": fate_of(problem, unpack(y, reduction), majority)}
@@ -120,10 +120,10 @@ def map_fates(
     amplitudes: Sequence[float],
     majority: float = MAJORITY,
 ) -> ManyRuns:
-    """Return the runs that map the fate of data on one pair, at the detuning of each problem.
+    """Return the runs that map the fate of (A_0, B_0) on one pair, at the Omega of each problem.
 
-    A_0 and B_0 go over `amplitudes`. Exchanging A and B changes no fate, so that one half of the
-    map is run.
+    A_0 and B_0 take the values `amplitudes`. Exchanging A and B changes no fate, so that only one
+    half of the map is run.
     """
     rows, columns = np.tril_indices(len(amplitudes))
     data = np.array(amplitudes)[np.stack([rows, columns], -1)]
@@ -140,7 +140,7 @@ def map_fates(
 def _map_contents(
     problems: Mapping[float, Problem], amplitudes: Sequence[float], fates: np.ndarray
 ) -> Contents:
-    """Return the contents of the dataset of the fates (omega, data) of one half of the map."""
+    """Return the dataset of the map, from the fates (omega, run) of one half of it."""
     rows, columns = np.tril_indices(len(amplitudes))
     (first, *_) = problems.values()
     mapped = np.empty((len(problems), *2 * [len(amplitudes)]), dtype=np.int8)

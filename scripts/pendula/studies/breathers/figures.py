@@ -1,4 +1,4 @@
-"""Maps of what becomes of initial conditions on one pair."""
+"""The figure that maps the fate of initial conditions on one pair."""
 
 import numpy as np
 import xarray as xr
@@ -16,14 +16,14 @@ LOOKS = {
     "moves away": "#007a5a",
     "spreads": "#f2a33c",
 }
-"""The fates in their order, in hues that people with any colour vision distinguish, and at least
-25 % of the way from black to white apart in grey."""
+"""Colours of the fates in their order, in hues that people with any colour vision distinguish, and
+at least 25 % of the range from black to white apart in grey."""
 KINDS = tuple(LOOKS)
 COLOURS = ListedColormap([*LOOKS.values()], name="fates")
 
 MARK = {"marker": "o", "markersize": 5, "color": "black", "markerfacecolor": "#d62728"}
 SAME_RUNS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "solver_rtol")
-"""What two maps must have in common to be of the same runs, beside their detunings."""
+"""Attributes that two maps must share to be of the same runs."""
 OF_PAPER = ((1.0, 0.1), (5.0, 1.0))
 """A_0 and B_0 of Figs 2 to 4."""
 FATES_CAPTION = (
@@ -36,7 +36,7 @@ FATES_CAPTION = (
 
 
 def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Dataset:
-    """Return the map as it is drawn: that of `fine` if this is of the same runs."""
+    """Return the map to draw: that of `fine` if it has the same runs on a finer grid."""
     fate_map, omegas = fates, fates["omega"].values
     known = fine is not None and np.isin(omegas, fine["omega"].values).all()
     if known and all(fates.attrs[name] == fine.attrs[name] for name in SAME_RUNS):
@@ -47,7 +47,7 @@ def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Datase
 
 @style.styled
 def draw_fates(data: xr.Dataset) -> Figure:
-    """Draw the fate of each (A_0, B_0), a column an Omega."""
+    """Draw the fate of each (A_0, B_0), one panel for each Omega."""
     figure = style.new_figure(style.WIDTH, 2.2)
     row = figure.subplots(1, data.sizes["omega"], sharey=True, squeeze=False)[0]
     for axes, omega, letter in zip(row, data["omega"].values, "abcdefghijklmnop", strict=False):
@@ -64,7 +64,7 @@ def draw_fates(data: xr.Dataset) -> Figure:
 
 
 def _draw_map(axes: Axes, fates: xr.DataArray) -> None:
-    """Draw a cell around each of the equally spaced data, and those of the paper."""
+    """Draw a cell around each grid point, and marks at the paper's initial conditions."""
     ends = []
     for name in ("a0", "b0"):
         centres = fates[name].values

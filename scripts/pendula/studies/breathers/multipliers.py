@@ -1,6 +1,6 @@
-"""Floquet multipliers of periodic breathers: whether a perturbation grows, and how fast.
+"""Floquet multipliers of periodic breathers, and the growth rates of their perturbations.
 
-Let perturbations p + i q of the solution go over a quarter of its period T as
+Over a quarter of the period T perturbations p + i q of the solution change as
 
     p -> P p + Q q,    q -> S p + W q,
 
@@ -15,7 +15,7 @@ this map. It is a product of two reflections, so that mu and 1 / mu come togethe
 nu = (mu + 1 / mu) / 2 are the eigenvalues of -a: half as many, and a breather is stable if all nu
 lie in [-1, 1]. The multipliers over a whole period are the squares of mu. The shift along the
 solution has nu = 1. There mu has a Jordan block, and an error d of the map would show as sqrt(d);
-nu is simple and exact, so that it is set to 1.
+nu is simple and known, and is therefore set to 1.
 """
 
 import numpy as np
@@ -26,15 +26,15 @@ from .quarter_period import STEPS, integrate_bundle
 
 PARITIES = ("even", "odd")
 NOISE = 1e-5
-"""Growth by less counts as none: an error of nu near 1 shows by its root, and rounding splits two
-waves of nearly equal nu. A perturbation would grow at this rate by a tenth until tau = 1e4; the
-slowest that was seen grows at 0.03."""
+"""Smaller rates count as zero: an error of nu near 1 enters by its root, and rounding splits two
+waves of nearly equal nu. At this rate a perturbation grows by 10 % until tau = 1e4; the slowest
+growth of a breather here is 0.03."""
 
 
 def half_traces(breather: Breather, parity: str) -> np.ndarray:
     """Return nu of all even or odd perturbations, complex.
 
-    Where A = B or A = -B, perturbations with b = a and with b = -a do not mix.
+    If A = B or A = -B, perturbations with b = a and with b = -a decouple.
     """
     sites, first = breather.data.shape[1], PARITIES.index(parity)
     is_symmetric = exchange_sign(breather.data) != 0
@@ -42,11 +42,13 @@ def half_traces(breather: Breather, parity: str) -> np.ndarray:
     bundle = (nothing, directions) if first else (directions, nothing)
     state = real_data(breather.data)
     ends = integrate_bundle(breather.constants, state, *bundle, breather.quarter, STEPS)[1:]
-    ends = ends[:, :, first:].reshape(2, -1, 2, 2, sites - first)  # (part, start, A or B, part, n)
+    ends = ends[:, :, first:].reshape(
+        2, -1, 2, 2, sites - first
+    )  # (Re or Im, start, A or B, Re or Im, n)
     if is_symmetric:
         ends = np.concatenate([ends, ends[:, :, ::-1]], axis=1)
     _, s, q, _ = ends.transpose(0, 3, 2, 4, 1).reshape(4, -1, ends.shape[1])
-    # a site beside the centre stands for its mirror image too
+    # a site next to the centre also represents its mirror image
     weights = np.tile([1.0] * (1 - first) + [2.0] * (sites - 1), 2)[:, None]
     a = np.eye(len(s)) + 2.0 * (q.T @ (weights * s)) / weights
     n = len(a) // 2
@@ -58,9 +60,9 @@ def half_traces(breather: Breather, parity: str) -> np.ndarray:
 
 
 def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
-    """Return unit perturbations on the sites `first`..M: of real parts, then of imaginary ones.
+    """Return unit perturbations on the sites `first`..M: real parts, then imaginary ones.
 
-    Those of B are left out where A and B are `is_symmetric`.
+    If `is_symmetric`, those of B are left out.
     """
     units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - is_symmetric, first:]
     units = units.reshape(-1, 2, sites)
@@ -70,9 +72,9 @@ def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
 
 
 def growth_rate_of_traces(frequency: float, nu: np.ndarray) -> float:
-    """Return the rate per unit of tau at which the fastest perturbation grows; 0 if none does.
+    """Return the growth rate of the fastest perturbation, per unit of tau, 0 if none grows.
 
-    A negative frequency is that of the same motion with time reversed, which grows as fast.
+    A negative frequency is the same motion with time reversed, which has the same rate.
     """
     root = np.sqrt(nu.astype(complex) ** 2 - 1.0)
     largest = np.maximum(np.abs(nu + root), np.abs(nu - root)).max()
@@ -81,7 +83,7 @@ def growth_rate_of_traces(frequency: float, nu: np.ndarray) -> float:
 
 
 def growth_rate(breather: Breather) -> float:
-    """Return the rate at which the worst perturbation of a breather grows; 0 if none does."""
+    """Return the growth rate of the fastest perturbation of a breather, per unit of tau, or 0."""
     return max(
         growth_rate_of_traces(breather.frequency, half_traces(breather, parity))
         for parity in PARITIES

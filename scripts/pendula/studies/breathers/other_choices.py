@@ -16,14 +16,14 @@ from .sensitivity import sensitivity_contents
 
 
 def with_choices(problem: Problem, tolerance: float, end_time: float, half_width: int) -> Problem:
-    """Return a problem with another tolerance, end and length, whose only output is its end."""
+    """Return a problem with another tolerance, end time and length, and one output."""
     solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
     changed = problem.changed(solver=solver, end_time=end_time, output_step=end_time)
     return changed.changed(half_width=int(half_width))
 
 
 def choices_of(chosen: Mapping[str, float], variations: Mapping[str, Sequence]) -> dict[str, list]:
-    """Return all values of each choice, that of the printed number first."""
+    """Return all values of each choice, first the one of the printed number."""
     return {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
 
 
@@ -33,9 +33,10 @@ def vary_areas(
     chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
 ) -> xr.Dataset:
-    """Return which part of the map of fates each fate has, but for its diagonal, (kind,).
+    """Return the share of the map of fates that has each fate, without the diagonal, (kind,).
 
-    The limits are those of as many independent initial conditions as one half of the map has.
+    The confidence limits are those of as many independent initial conditions as half of the map
+    has.
     """
 
     def measure(majority, stride, **settings):
@@ -61,7 +62,7 @@ def vary_shares(
     chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
 ) -> xr.Dataset:
-    """Return the share of runs that spread, by the size of the perturbation."""
+    """Return the share of runs that spread, by the relative perturbation, (size,)."""
 
     def measure(majority, seed, **settings):
         changed = with_choices(problem, **settings)
@@ -91,7 +92,7 @@ def vary_least_power(
 ) -> xr.Dataset:
     """Return the least P of the breathers "A only" within a period, and its frequency.
 
-    `frequencies` are the lowest and the highest of a scan in equal steps.
+    `frequencies` are the first and the last of a scan in equal steps.
     """
 
     def measure(frequency_step, half_width, steps):

@@ -2,26 +2,26 @@
 
     A_n(tau) = sum over odd m of a_{n,m} exp(-i m lambda tau) with real coefficients,
 
-B_n alike. The equations (4) are reversible, conj A(-tau) solves them with A(tau), and odd, -A
-solves them with A. Real coefficients make A and B real at tau = 0, odd harmonics turn their sign
-after half a period T / 2 = pi / lambda, and both together make A and B imaginary at T / 4.
-Conversely, a solution that is real at 0 and imaginary at T / 4 is reflected at both times, hence
-has the period T and both symmetries. So a breather is found by shooting over a quarter of its
-period: Re A(T / 4) = Re B(T / 4) = 0 for the real unknowns A(0), B(0), by Newton's method, which
-needs the perturbations of these data alone. P is even in time about both instants, and falls all
-the way from the first to the second.
+and B_n likewise. The equations (4) are reversible: with A(tau), conj A(-tau) is a solution. They
+are odd: with A, -A is a solution. Real coefficients make A and B real at tau = 0, odd harmonics
+change their sign after half a period T / 2 = pi / lambda, and both together make A and B imaginary
+at T / 4. Conversely, a solution that is real at 0 and imaginary at T / 4 is reflected at both
+times, and so has the period T and both symmetries. So a breather is computed by shooting over a
+quarter of its period: Re A(T / 4) = Re B(T / 4) = 0 for the real unknowns A(0), B(0), by Newton's
+method, which needs the perturbations of these unknowns alone. P is even in time about both
+instants, and decreases monotonically from the first to the second.
 
 Module `multipliers` computes their stability.
 
 Existence. On an infinite chain the tails decay if no odd multiple of lambda meets the frequencies
 of linear waves, equation (15): with kappa between Omega - 4 epsilon and Omega, +-kappa for A + B
-and +-sqrt(kappa^2 - 4 gamma^2) for A - B. So they do where lambda lies above all of them. The tails
-reach the end of a chain the sooner the nearer lambda is to the waves.
+and +-sqrt(kappa^2 - 4 gamma^2) for A - B. This holds if lambda lies above all of them. The nearer
+lambda is to the waves, the slower the tails decay, until they reach the end of a chain.
 
-On A = B the drive vanishes, and there are breathers among the waves too: A_n = phi_n
-exp(-i lambda tau) with the soliton phi of the scalar equation, for each lambda above Omega. The
-tails of A + B decay where lambda lies outside of its band alone, and A - B vanishes. P vanishes as
-lambda comes to Omega.
+On A = B the drive vanishes, and there are breathers among the waves too: A_n = phi_n exp(-i lambda
+tau) with the soliton phi of the scalar equation, for each lambda above Omega. Then A - B vanishes,
+and the tails of A + B decay if lambda lies outside of its own band. P tends to zero as lambda tends
+to Omega.
 """
 
 from dataclasses import replace
@@ -38,17 +38,19 @@ from pendula.problem import Constants
 from .quarter_period import FINE_STEPS, STEPS, integrate_bundle
 
 FAMILIES = ("A only", "A = -B", "A = B")
-"""B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
+"""Families: "A only" has B = 0 at gamma = 0, and B grows with the drive; in the others B = -A and B
+= A."""
 EQUAL_PAIR = next(family for family in PAIRS if family.kind == "equal")
 TOLERANCE = 1e-13
-"""Largest |Re A| and |Re B| at a quarter of a period, relative to the largest at the start."""
+"""Largest |Re A| and |Re B| at a quarter of a period, relative to the largest amplitude at the
+start."""
 ITERATIONS = 30
 EQUAL = 1e-6
-"""Where A and B differ by less, relative to the largest, they are equal."""
+"""A and B count as equal if they differ by less than this, relative to the largest amplitude."""
 
 
 class Breather(NamedTuple):
-    """A periodic breather at the instant when A and B are real: (component, site 0..M)."""
+    """A periodic breather at an instant at which A and B are real, (component, site 0..M)."""
 
     constants: Constants
     frequency: float
@@ -56,21 +58,21 @@ class Breather(NamedTuple):
 
     @property
     def quarter(self) -> float:
-        """A quarter of the period."""
+        """A quarter of the period, in tau."""
         return 0.5 * np.pi / self.frequency
 
 
 def highest_wave(constants: Constants) -> float:
-    """Return the highest frequency of a linear wave."""
+    """Return the highest frequency of a linear wave, equation (15)."""
     return max(abs(constants.omega - 4.0 * constants.epsilon), abs(constants.omega))
 
 
 def find_breather(
     family: str, constants: Constants, frequency: float, half_width: int
 ) -> Breather | None:
-    """Return the breather of a family, or None where it has none above the linear waves.
+    """Return the breather of a family, or None if it has none above the linear waves.
 
-    "A only" can end there, where it has become A = B.
+    There "A only" may have become A = B, which counts as none.
     """
     if frequency <= highest_wave(constants):
         return None
@@ -87,7 +89,7 @@ def find_breather(
 def find_soliton(constants: Constants, frequency: float, half_width: int) -> Breather:
     """Return the breather A = B = phi exp(-i lambda tau), which is steady at Omega - lambda.
 
-    Raises NoStateError where the frequency lambda is not above Omega.
+    Raises NoStateError if the frequency lambda is not above Omega.
     """
     turned = replace(constants, omega=constants.omega - frequency)
     problem, state = localised(EQUAL_PAIR, turned, half_width)
@@ -96,22 +98,22 @@ def find_soliton(constants: Constants, frequency: float, half_width: int) -> Bre
 
 
 def exchange_sign(data: np.ndarray) -> int:
-    """Return 1 where A = B, -1 where A = -B, and 0 elsewhere."""
+    """Return 1 if A = B, -1 if A = -B, and 0 otherwise."""
     return next((sign for sign in (1, -1) if np.array_equal(data[0], sign * data[1])), 0)
 
 
 def power(data: np.ndarray) -> np.ndarray:
-    """Return the sum of squares over the whole chain of each component, (component,)."""
+    """Return the sum of squares of each component over the whole chain, (component,)."""
     return 2.0 * np.sum(data**2, axis=1) - data[:, 0] ** 2
 
 
 def least_power(breather: Breather) -> float:
-    """Return P when A and B are imaginary: the least of a period."""
+    """Return P at the instant when A and B are imaginary, the least of a period."""
     return float(power(quarter_later(breather, FINE_STEPS)[0, 1::2]).sum())
 
 
 def single_site(constants: Constants, frequency: float, family: str, half_width: int) -> np.ndarray:
-    """Return a first guess: the motion of one pair whose neighbours follow it weakly."""
+    """Return the first guess: the motion of one pair, and its neighbours to first order."""
     binding = frequency - constants.omega + 2.0 * constants.epsilon
     data = np.zeros((2, half_width + 1))
     data[0, :2] = np.sqrt(2.0 * binding) * np.array([1.0, constants.epsilon / binding])
@@ -123,10 +125,10 @@ def single_site(constants: Constants, frequency: float, family: str, half_width:
 
 
 def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather:
-    """Return the breather that Newton's method finds from real data, (component, site).
+    """Return the breather to which Newton's method converges from real data (component, site).
 
-    A start with A = B or A = -B leads to such a breather to the last bit, also where the matrix
-    does not determine the step that breaks the symmetry.
+    A start with A = B or A = -B keeps this symmetry to the last bit, even where the matrix does not
+    determine the step that would break it. Raises NoStateError if the method does not converge.
     """
     data, sites, symmetry, largest = start, start.shape[1], exchange_sign(start), np.inf
     for _ in range(ITERATIONS):
@@ -146,9 +148,10 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
 
 
 def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = None) -> np.ndarray:
-    """Return where a breather and small changes of its data are after a quarter of a period.
+    """Return a breather, and small changes of its data, after a quarter of a period.
 
-    `changes` are real, (change, component, site); the result is (1 + changes, 4, site), see `flow`.
+    `changes` are real, (change, component, site); the result is (1 + changes, 4, site), see
+    `integrate_bundle`.
     """
     nothing = np.empty((0, 4, breather.data.shape[1]))
     evens = nothing if changes is None else real_data(changes)
@@ -157,7 +160,7 @@ def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = N
 
 
 def _derivative_of_miss(guess: Breather, symmetry: int) -> np.ndarray:
-    """Return the derivative of the miss by the data; of A alone if A = B or A = -B."""
+    """Return the derivative of the miss by the data; by A alone if A = B or A = -B."""
     sites = guess.data.shape[1]
     unit = np.eye(sites)
     both = np.eye(2 * sites).reshape(-1, 2, sites)

@@ -1,8 +1,8 @@
 """The flow of (4) and of its small perturbations over a quarter of a period, by fixed steps.
 
-The steps are those of the method of order eight in `integrators.dop853`. A fixed number of them
-makes the map from initial to final state smooth, as Newton's method requires: a controlled step
-would change with the data.
+The steps are those of the method of order eight, DOP853. A fixed number of them makes the map from
+initial to final state smooth, as Newton's method requires: controlled steps would depend on the
+data.
 """
 
 import numpy as np
@@ -16,8 +16,8 @@ from pendula.models.amplitudes import Chain, rates, write_tangent_rates
 from pendula.problem import Constants
 
 STEPS, FINE_STEPS = 16, 40
-"""Steps of a quarter of a period. With the fewer ones, perturbations have multipliers that stay the
-same to 1e-10 with twice as many. With the others, the period of a solution closes to 1e-11."""
+"""Steps in a quarter of a period. With the smaller number, multipliers keep 10 digits if it is
+doubled. With the larger one, the period of a solution closes to 1e-11."""
 STAGES, SLOPES = 13, 16
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""
@@ -25,11 +25,11 @@ ROWS = 4
 
 @kernel
 def parity_rates(chain, bundle, even, slopes):
-    """Write the rates of a solution, of `even` even perturbations and of odd ones behind them.
+    """Write the rates of a solution, of `even` even perturbations, and of the odd ones behind them.
 
     All are given on the sites 0..M. The neighbour of site 0 on the other half is the mirror image
-    of site 1: with its own sign in an even state, with the opposite one in an odd state, which
-    stays zero at site 0.
+    of site 1, with its sign in an even state, with the opposite sign in an odd state, which stays
+    zero at site 0.
     """
     y = bundle[:ROWS]
     rates(chain, y, slopes[:ROWS])
@@ -44,7 +44,7 @@ def parity_rates(chain, bundle, even, slopes):
 
 @kernel
 def advance_bundle(chain, bundle, even, duration, steps, work):
-    """Carry a bundle over `duration` in equal steps; `work` holds SLOPES + 1 bundles."""
+    """Advance a bundle over `duration` in equal steps; `work` holds SLOPES + 1 bundles."""
     h = duration / steps
     y, k, w = bundle.reshape(-1), work[:SLOPES].reshape(SLOPES, -1), work[SLOPES]
     for _ in range(steps):
@@ -64,11 +64,11 @@ def integrate_bundle(
     duration: float,
     steps: int,
 ) -> np.ndarray:
-    """Return where data and their perturbations are after `duration`.
+    """Return a state and its perturbations after `duration`, (1 + vectors, 4, M + 1).
 
     `state` is (4, M + 1): Re A, Im A, Re B, Im B on the sites 0..M of an even chain at rest beyond
-    its ends; `evens` and `odds` are (vector, 4, M + 1), the latter zero at site 0. The result
-    has all of them in this order, (1 + vectors, 4, M + 1).
+    its ends; `evens` and `odds` are (vector, 4, M + 1), the latter zero at site 0. The result has
+    the state first, then the even vectors, then the odd ones.
     """
     chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
     states = np.concatenate([state[None], evens, odds])

@@ -1,7 +1,7 @@
-"""Share of runs that spread over the chain, by the size of a random change of the data.
+"""Share of runs that spread over the chain, by the size of a random perturbation of the data.
 
-A run has spread where its fate says so: no three neighbouring pairs, with their mirror image, hold
-more than half of P at the end, and P is larger than waves could have made it, see `fates`. The
+The fate of a run is that of `fates`: it spreads if no three neighbouring pairs, with their mirror
+image, hold more than half of P at the end, and P is larger than linear waves can reach. The
 confidence limits of the share are the exact ones of Clopper and Pearson.
 """
 
@@ -30,7 +30,7 @@ def sensitivity_contents(
     seed: int,
     majority: float = MAJORITY,
 ) -> ManyRuns:
-    """Return the runs that give the share that spreads for each relative size of the change."""
+    """Return the runs that give the share that spreads for each relative perturbation."""
     # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
     drawn = [
@@ -49,7 +49,7 @@ def sensitivity_contents(
 
 
 def _shares_of(sizes: Sequence[float], members: int, fates: np.ndarray) -> dict[str, Variable]:
-    """Return the share of the fates (run,) that spread, with its confidence limits, by size."""
+    """Return the share of the fates (run,) that spread, with its confidence limits, (size,)."""
     spread = (fates == SPREADS).reshape(len(sizes), members).sum(axis=1)
     share = Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
     by_size, label = ("size",), "share of runs that spread"

@@ -1,4 +1,4 @@
-"""What the configuration says of breathers: constants, grids, members, seeds."""
+"""The keys of config/breathers.yaml: constants, grids, members, seeds."""
 
 from collections.abc import Iterator
 from typing import Annotated, Literal
@@ -25,11 +25,11 @@ from pendula.configuration.runs import Runs
 from pendula.configuration.schema import Configuration, Faults
 
 OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
-"""Choices of runs that long studies change."""
+"""Choices of runs that the long studies change."""
 
 Steady = model(omegas=Numbers, half_width=Annotated[Whole, Field(ge=4)])
 
-# On A = B solitons of the scalar equation, on two chains that show which growth is of the ends.
+# Solitons A = B of the scalar equation, on two chains: rates that differ belong to the ends.
 Solitons = model(
     omega=Number, frequencies=Numbers, half_widths=Annotated[Counts, Field(min_length=2)]
 )
@@ -47,7 +47,7 @@ Periodic = model(
     ),
 )
 
-# Share of runs that spread, by the size of a random change of the data.
+# Share of runs that spread, by the size of a random perturbation of the data.
 Sensitivity = model(
     case=Name,
     end_time=Positive,
@@ -60,7 +60,7 @@ Sensitivity = model(
 
 
 class Fates(Model):
-    """What becomes of data on one pair."""
+    """The map of the fates of initial conditions on one pair."""
 
     omegas: Numbers
     half_width: Annotated[Whole, Field(ge=4)]
@@ -74,7 +74,7 @@ class Fates(Model):
     tolerance: Tolerance
 
     def amplitudes(self, points: int) -> list[float]:
-        """Return the middles of so many equal parts of what is below the largest amplitude."""
+        """Return the midpoints of `points` equal intervals from 0 to the largest amplitude."""
         middles = (np.arange(points) + 0.5) / points
         return [float(f"{amplitude:.12g}") for amplitude in self.largest * middles]
 
@@ -90,7 +90,7 @@ class Settings(Model):
     fates: Fates
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the families and cases, or takes too long."""
+        """Yield faults of families and cases, and of runs that take too long."""
         solitons = self.periodic.solitons
         if not (lowest := min(solitons.frequencies)) > solitons.omega:
             text = f"has {lowest:g}; each must be above Omega = {solitons.omega:g}"
@@ -102,7 +102,7 @@ class Settings(Model):
                 yield from settings.faults_of_runs(runs)
 
     def runs_of(self, settings: Configuration) -> Iterator[Runs]:
-        """Yield the runs of the ensembles by size, and those of the smallest and largest fates."""
+        """Yield the runs of the ensembles, and those of the smallest and largest data mapped."""
         sensitivity, fates = self.sensitivity, self.fates
         run = settings.run_of(
             sensitivity.case, sensitivity.tolerance, end_time=sensitivity.end_time

@@ -1,1 +1,2 @@
-"""Chaos in the chain: how fast small errors grow, and what that leaves to be trusted."""
+"""Chaos in the chain: Lyapunov exponents, ensembles of runs, and the transition to the chaotic
+state."""

@@ -1,7 +1,7 @@
-"""What the paper says of chaotic figures against time, of ensembles in place of single runs.
+"""The paper's claims on chaotic figures against time, decided by ensembles instead of single runs.
 
-One run is one draw, and what it shows need not hold for the next. So a sentence holds where the
-confidence limits of its ensemble satisfy the criterion.
+A single run is one random sample, and the next may differ. So a claim holds if the confidence
+limits of its ensemble satisfy the criterion.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,7 @@ from .clocks import limits_of
 SECTION = 5
 NEEDS = checks("members")
 EARLIER, LATER = "[10, 30]", "[30, 50]"
-"""The halves of the time over which the paper takes its statistics."""
+"""The two halves of the time over which the paper takes its statistics."""
 
 LEVEL = Cutoff(CONFIDENCE, "the customary level of confidence, 95 %", 1.0)
 BAND = Cutoff(1.0, '"no visible differences": smaller than the band over which runs scatter')
@@ -47,14 +47,14 @@ ANTICORRELATED = Cutoff(
 )
 
 END = 50.0
-"""The paper runs Figs 2 to 4 up to this time."""
+"""The end time of the paper's Figs 2 to 4."""
 PAPERS_LARGEST = 5.0
 """A_0 of the paper's large initial condition."""
 
 
 @once
 def members_of(members, case: str):
-    """Return the dataset of the members of a case."""
+    """Return the dataset of the members of a case. Raises UndecidableError if there are too few."""
     if case not in members["case"].values or not {EARLIER, LATER} <= set(members["window"].values):
         raise UndecidableError(f"there is no ensemble of {case} on {EARLIER} and {LATER}")
     if members.sizes["member"] < FEWEST:
@@ -63,34 +63,34 @@ def members_of(members, case: str):
 
 
 def mean_limits_of(members, case: str, reduce: Callable, *arguments) -> Limits:
-    """Return the limits of the mean over the members of a case.
+    """Return the mean over the members of a case, with confidence limits.
 
-    `reduce` makes one number of each member from the dataset of the case and what is `arguments`.
+    `reduce` returns one number for each member, from the dataset of the case and `arguments`.
     """
     return mean_limits(reduce(members_of(members, case), *arguments), LEVEL.value)
 
 
 def largest_limit(limit: Limits) -> float:
-    """Return the size of the limit that is further from zero."""
+    """Return the modulus of the limit that is farther from zero."""
     return max(abs(limit.low), abs(limit.high))
 
 
-# What each member is reduced to, from the dataset of a case, (member,)
+# Numbers of each member, (member,), from the dataset of a case
 
 
 @once
 def level(case, norm: str, window: str = LATER, quantity: str = "pair") -> np.ndarray:
-    """Return the mean of a norm over a window."""
+    """Return the mean of a norm over a window, (member,)."""
     return case[f"{norm}_level"].sel(window=window, quantity=quantity).values
 
 
 def over_start(case, norm: str) -> np.ndarray:
-    """Return the late mean of a norm over that of the data."""
+    """Return the late mean of a norm over its initial value, (member,)."""
     return level(case, norm) / float(case[f"{norm}_start"])
 
 
 def change(case, norm: str) -> np.ndarray:
-    """Return the relative change of a norm between the halves."""
+    """Return the relative change of a norm between the two halves, (member,)."""
     return level(case, norm) / level(case, norm, EARLIER) - 1.0
 
 
@@ -120,9 +120,10 @@ def wrong_case(right: str, wrong: str) -> Control:
 
 
 def fig3(statement: str, *wrongs: str) -> Callable:
-    """Return the decorator of a claim, whose controls are members of these other cases.
+    """Return the decorator of a claim whose controls are the members of these other cases.
 
-    It needs the shares of runs that spread as well, and they must not spread by data far away.
+    The claim also needs the shares of runs that spread. As another control, shares far from the
+    data are given as those close to them.
     """
     place, needs = "Section 5, Fig 3 lower, in ensembles", (*NEEDS, SENSITIVITY)
     controls = (*(wrong_case("fig3_large", wrong) for wrong in wrongs), FAR_AS_NEAR)
@@ -190,7 +191,7 @@ fig4 = partial(claim, "Section 5, Fig 4, in ensembles", needs=NEEDS, on=BOTH)
 
 
 def lows(members, name: str, reduce: Callable) -> dict[str, float]:
-    """Return the lower limits of both panels of Fig 4, as measured numbers."""
+    """Return the lower confidence limits of both panels of Fig 4, as measured numbers."""
     return {f"{case}_{name}_low": mean_limits_of(members, case, reduce).low for case in BOTH}
 
 
@@ -246,7 +247,11 @@ def ensemble_fig4_many(members) -> Finding:
     ),
 )
 def ensemble_fig4_alike(members) -> Finding:
-    """Each panel shows one run, so that a difference is seen where it is wider than their band."""
+    """Compare the means of both panels with the scatter of runs.
+
+    Each panel shows a single run, so a difference is visible only if it is wider than their
+    scatter.
+    """
     upper, lower = (members_of(members, case) for case in BOTH)
     small, large = (level(case, "l2") for case in (upper, lower))
     difference = difference_limits(large / large.mean(), small / large.mean(), LEVEL.value)
@@ -296,7 +301,7 @@ def ensemble_equilibrium(members) -> Finding:
 
 
 def slower_from_one(lifetimes):
-    """Return the same with other times of the transition from the smallest amplitude."""
+    """Return the dataset with later transitions from the smallest amplitude, as a control."""
     smallest = lifetimes["start_amplitude"].values.min()
     return scale("transition", 2.5, start_amplitude=smallest)(lifetimes)
 
@@ -311,7 +316,7 @@ def slower_from_one(lifetimes):
     ),
 )
 def transition_amplitude(lifetimes) -> Finding:
-    """Require that the chain makes it as fast, and to the same state, from each amplitude.
+    """Require the same time of the transition, and the same final state, from each amplitude.
 
     A centre that stays excited inside the chaotic chain is a caveat.
     """
@@ -337,7 +342,7 @@ def transition_amplitude(lifetimes) -> Finding:
 
 
 def excited_centre(lifetimes, share: Limits) -> str:
-    """Return from which amplitudes the central pair surely keeps more than a comparable share."""
+    """Return a sentence on the amplitudes from which the centre keeps a larger share."""
     a0, pairs = lifetimes["start_amplitude"].values, 2 * int(lifetimes.attrs["half_width"]) + 1
     excited = a0[share.low > FACTOR.value / pairs]
     if not excited.size:

@@ -1,11 +1,11 @@
-"""What the paper says of Figs 5 and 6, right, of ensembles at each half-width M.
+"""The paper's claims on Figs 5 and 6, right, decided by ensembles at each half-width M.
 
-A single sweep is one draw at each M, and its points scatter by what chaos makes of the last digits.
-The means over the ensembles do not, and Student's t says how far they can be trusted.
+A single sweep is one random sample at each M, and chaos amplifies rounding into scatter of its
+points. Means over ensembles scatter less, by amounts that Student's t estimates.
 
 On a fixed time window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
-and a chain whose ends the front does not reach by the end of the window is as good as infinite. So
-a sweep can show growth with M, but neither growth in time nor divergence with M.
+and on a chain whose ends the front does not reach within the window the norm is that of the
+infinite chain. So a sweep can show growth with M, but neither growth in time nor divergence with M.
 """
 
 from collections.abc import Callable
@@ -54,15 +54,15 @@ SECTION = 5
 NEEDS = checks("ensembles")
 CASE = runs("fig3_large")
 DATA_POWER = 26.0
-"""P of the paper's large data, A_0 = 5 and B_0 = 1."""
+"""P of the paper's large initial condition, A_0 = 5 and B_0 = 1."""
 TEXT_5 = "[10, 50]"
 """The window of the maxima in the text on Fig 5."""
 READINGS_6 = {"text": ("max", "[10, 70]"), "caption": ("mean", "[10, 40]")}
-"""The statistic and the window of Fig 6 by the text and by the caption."""
+"""The statistic and the window of Fig 6 according to the text and to the caption."""
 
 
 class Means(NamedTuple):
-    """Means over the members at each half-width, and their standard errors, all (half_width,)."""
+    """Means over the members at each half-width, with standard errors, all (half_width,)."""
 
     half_width: np.ndarray
     mean: np.ndarray
@@ -71,11 +71,11 @@ class Means(NamedTuple):
 
     @property
     def off(self) -> np.ndarray:
-        """Half of each confidence interval."""
+        """Half of each confidence interval, (half_width,)."""
         return student(self.members - 1, LEVEL.value) * self.error
 
     def over(self, below: slice, above: slice, confidence: float | None = None) -> Limits:
-        """Return the mean over some half-widths over that of others, `above` / `below`."""
+        """Return the mean over the half-widths `above` over that on `below`, with limits."""
         value = [self.mean[half_widths].mean() for half_widths in (below, above)]
         errors = [self.error[half_widths] for half_widths in (below, above)]
         error = [
@@ -85,18 +85,21 @@ class Means(NamedTuple):
 
     @property
     def largest_before(self) -> int:
-        """The place of the largest mean but for that on the longest chain."""
+        """Index of the largest mean, without that on the longest chain."""
         return int(np.argmax(self.mean[:-1]))
 
     def last_growth(self) -> Limits:
-        """Return the mean on the longest chain over the largest before, with sure limits."""
+        """Return the mean on the longest chain over the largest before it, with wide limits."""
         before = self.largest_before
         return self.over(slice(before, before + 1), slice(-1, None), 1.0 - RARE.value)
 
 
 @once
 def means_of(ensembles, sweep: str, norm: str = "l2", reading: str = "text") -> Means:
-    """Return the means of the norm of the pair by a reading; by the text these are of maxima."""
+    """Return the means of a norm of the pair, by the reading of the text or the caption.
+
+    By the text these are means of maxima. Raises UndecidableError if there are too few.
+    """
     if sweep not in ensembles["sweep"].values:
         raise UndecidableError(f"there is no ensemble of {sweep}")
     norms = ensembles.sel(sweep=sweep, reading=reading).dropna("half_width", subset=["l2_mean"])
@@ -110,9 +113,9 @@ def means_of(ensembles, sweep: str, norm: str = "l2", reading: str = "text") -> 
 
 
 def flat(name: str) -> Control:
-    """Return a control: all means of the l2 norm of a sweep are those of its shortest chain.
+    """Return a control: all means of the l2 norm of a sweep equal that on its shortest chain.
 
-    Their errors keep their parts of them.
+    Their relative errors stay the same.
     """
 
     def changed(ensembles):
@@ -123,14 +126,14 @@ def flat(name: str) -> Control:
 
 
 def at_the_start(ensembles):
-    """Return the ensembles with means that stay at the initial norm of the large data."""
+    """Return the ensembles with all means at the initial norm of the large data, as a control."""
     to_start = np.sqrt(DATA_POWER) / ensembles["l2_mean"]
     return scale("l2_mean", to_start, sweep="fig6_right")(ensembles)
 
 
 SMALL = Control("means that stay at the initial norm", {NEEDS[0]: at_the_start})
 CROSSED = keep(half_width=slice(None, 100))
-"""Chains that the front still crosses by the end."""
+"""Chains whose ends the front reaches within the time window."""
 
 
 # --- Fig 5, right ---------------------------------------------------------------------------------
@@ -167,7 +170,7 @@ STILL_GROWS = Above(
 
 
 def last_growth_of(means: Means) -> dict[str, float]:
-    """Return what is measured of the growth to the longest chain."""
+    """Return the measured numbers of the growth to the longest chain."""
     last = means.last_growth()
     return {
         "last_growth": last.value,
@@ -178,7 +181,7 @@ def last_growth_of(means: Means) -> dict[str, float]:
 
 
 def explain_no_growth(means: Means) -> str:
-    """Return in words what a sweep shows that levels off."""
+    """Return half a sentence on a sweep that levels off."""
     last, longest = means.last_growth(), means.half_width[-1]
     largest = means.half_width[means.largest_before]
     return (
@@ -201,7 +204,7 @@ def explain_no_growth(means: Means) -> str:
     kind=Kind.CONCLUSION,
 )
 def ensemble_fig5_conjecture(ensembles) -> Finding:
-    """Ask that the norm still grows on the longest chains."""
+    """Require that the norm still grows on the longest chains."""
     means = means_of(ensembles, "fig5_right")
     measured = {"growth_low": means.over(slice(1), slice(-1, None)).low, **last_growth_of(means)}
     label = "lower confidence limit of longest over shortest chain"
@@ -222,7 +225,7 @@ def ensemble_fig5_conjecture(ensembles) -> Finding:
     ),
 )
 def ensemble_fig5_maximum(ensembles) -> Finding:
-    """Ask whether long chains have the level of short ones: single means are too uncertain."""
+    """Compare the level on long chains with that on short ones: single means are too uncertain."""
     means = means_of(ensembles, "fig5_right", "linf")
     half = len(means.mean) // 2
     ratio = means.over(slice(half), slice(half, None))
@@ -241,9 +244,9 @@ def fig6(
     wrong: Control,
     place: str = "Section 5, Fig 6 right, in ensembles",
 ) -> Callable:
-    """Return the decorator of a claim that needs the shares of runs that spread as well.
+    """Return the decorator of a claim that also needs the shares of runs that spread.
 
-    Its controls are `wrong`, and shares that do not spread close to the data.
+    Its controls are `wrong`, and shares far from the data given as those close to them.
     """
     controls = (wrong, FAR_AS_NEAR)
     return claim(place, statement, (*NEEDS, SENSITIVITY, *more_needs), controls, ("fig6_right",))
@@ -283,7 +286,7 @@ def ensemble_fig6_grows(ensembles, sensitivity) -> Finding:
     kind=Kind.CONCLUSION,
 )
 def ensemble_fig6_diverges(ensembles) -> Finding:
-    """Ask that the norm still grows on the longest chains."""
+    """Require that the norm still grows on the longest chains."""
     means = means_of(ensembles, "fig6_right")
     fails = (
         "no sweep over a fixed time window can show it, however long its chains:"
@@ -334,7 +337,7 @@ def ensemble_fig6_time(ensembles, sensitivity, run) -> Finding:
     on=("fig6_left", "fig6_right"),
 )
 def fig6_caption(left, ensembles) -> Finding:
-    """Ask by which reading the text holds: l2 constant on the left, and growing on the right."""
+    """Compare both readings: l2 is constant on the left, and grows on the right."""
     measured, criteria = {}, {}
     for reading, quantity in READINGS_6.items():
         right = means_of(ensembles, "fig6_right", "l2", reading)

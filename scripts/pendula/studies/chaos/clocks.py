@@ -1,6 +1,6 @@
-"""What is kept of each run from an initial amplitude, and its medians and means over members.
+"""Names of the numbers measured in each run from an initial amplitude, and their medians and means.
 
-It needs no solver, so that figures and claims do not depend on how the runs were integrated.
+The module imports no solver, so that figures and claims do not depend on the code that integrated.
 """
 
 import numpy as np
@@ -14,13 +14,13 @@ NUMBERS = {
     "l2": "l2 norm over the chain, mean over the window",
     "linf": "l-infinity norm over the chain, mean over the window",
 }
-"""What is kept of each run."""
+"""Numbers measured in each run."""
 TIMES = ("transition", "life")
-"""Those whose median is taken, as a time may never come."""
+"""Times, which may not come within a run: the ensemble has their medians instead of means."""
 
 
 def limits_of(lifetimes: xr.Dataset, confidence: float = CONFIDENCE) -> dict[str, Limits]:
-    """Return the median times and the means over members with their limits, (start_amplitude,)."""
+    """Return medians of times, means of other numbers, with limits (start_amplitude,)."""
     return {
         name: Limits(
             *np.transpose(

@@ -1,7 +1,6 @@
 """Seeded ensembles of sweeps: many runs at each half-width, from slightly perturbed data.
 
-Where the motion is chaotic one run is one draw; what another computer would draw as well is the
-distribution.
+In chaotic motion one run is one random sample. Another computer reproduces only the distribution.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,7 +22,7 @@ from pendula.problem import Problem, by_name
 
 NORMS = ("l2", "linf")
 READINGS = {"text": "max", "caption": "mean"}
-"""What the text of the paper says that its figures show, and what their captions say."""
+"""Statistics of the figures according to the text of the paper, and according to the captions."""
 MOMENTS = {
     "mean": "ensemble mean",
     "deviation": "standard deviation over the ensemble",
@@ -36,27 +35,25 @@ def draw_swept(
 ) -> list[Problem]:
     """Return the members of a sweep, all of one half-width and then of the next.
 
-    Each half-width has draws of its own. The same data would give the same motion on all chains
-    that are too long for the front, so that their means would not be independent of each other.
+    Each half-width has its own draws. The same data would give the same motion on all chains that
+    are too long for the front, so that their means would not be independent of each other.
     """
     chains = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
 
 
 def read_norms(problem: Problem, windows) -> dict[str, np.ndarray]:
-    """Return both READINGS of the pair's norms of a run, each over its own of the `windows`."""
+    """Return both READINGS of the pair's norms in a run, (reading,), each over its window."""
     norms, pair = windowed(simulate(problem, energy=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]
     return {name: norms[name][pair, places, range(len(places))] for name in NORMS}
 
 
 def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> ManyRuns:
-    """Return the runs that give the moments of the norms of sweeps.
+    """Return the runs of all sweeps, for the dataset of moments of their norms.
 
-    They are NaN at half-widths that another sweep has alone.
-
-    `swept` gives by sweep its problem as plain values, half-widths, members at each of them, and
-    the windows of the READINGS.
+    `swept` gives for each sweep its problem as plain values, half-widths, members at each of them,
+    and the windows of the READINGS. Moments are NaN at half-widths that only other sweeps have.
     """
     problem_of = by_name({name: sweep["problem"] for name, sweep in swept.items()})
     windows = {
@@ -76,7 +73,7 @@ def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> M
 def _ensembles_dataset(
     norms: Mapping[str, np.ndarray], problem_of: Mapping[str, Problem], swept: Mapping[str, Mapping]
 ) -> xr.Dataset:
-    """Return the dataset of the norms of all runs, sweep by sweep."""
+    """Return the dataset of the moments of the norms of all runs, sweep by sweep."""
     done, moments_by_sweep = 0, []
     for sweep in swept.values():
         shape = len(sweep["half_widths"]), sweep["members"]
@@ -101,11 +98,11 @@ def measure_second_solver(
     first_members: int,
     seed: int,
 ) -> ManyRuns:
-    """Return the runs by the paper's second solver that give the maxima of l2 over a window.
+    """Return the runs by the paper's second solver, for the dataset of maxima of l2 over a window.
 
-    `second` are its problems, which differ in the step, and `first` is that by the solver of the
-    ensembles, as plain values. Each has draws of its own at each half-width: `members` of each of
-    `second`, and `first_members` of `first`.
+    `second` are its problems, which differ in the step, and `first` is the problem of the solver of
+    the ensembles, as plain values. Each has its own draws at each half-width: `members` for each of
+    `second`, and `first_members` for `first`.
     """
     sizes = [first_members, *(members for _ in second)]
     drawn = [
@@ -131,7 +128,7 @@ def measure_second_solver(
 def _second_solver_dataset(
     values: Sequence[np.ndarray], half_widths: Sequence[int], second: Sequence[Mapping]
 ) -> xr.Dataset:
-    """Return the maxima of l2 by both solvers, from those of the runs of each problem."""
+    """Return the dataset of the maxima of l2 by both solvers, from those of each problem."""
     of_first, *of_second = (maxima.reshape(len(half_widths), -1) for maxima in values)
     long_name = f"{NAMES['l2']} of the pair, largest over the window"
     steps = [problem["solver"]["step"] for problem in second]

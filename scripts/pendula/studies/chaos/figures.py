@@ -1,4 +1,5 @@
-"""The transition at Omega = 0 by two clocks, and what its centre keeps, as a picture."""
+"""The figure of the transition at Omega = 0: two times against amplitude, and the share of the
+centre."""
 
 import numpy as np
 import xarray as xr
@@ -9,9 +10,9 @@ from matplotlib.figure import Figure
 from .clocks import limits_of
 
 PAPERS_END = 50.0
-"""The paper runs Fig 4 up to this time."""
+"""The end time of the paper's Fig 4."""
 CLOCKS = {"transition": (style.BLUE, "o", -0.12), "life": (style.RED, "s", 0.12)}
-"""The colour and the mark of each clock, and where it stands beside its amplitude."""
+"""Colour, mark and horizontal offset of each time."""
 WORDS = {
     "middle": "median or mean of the",
     "low": "lower confidence limit of the",
@@ -31,10 +32,10 @@ CAPTION = (
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
-    """Return times and shares of the runs, and their medians or means with their limits.
+    """Return times and shares of the runs, and their medians or means with confidence limits.
 
-    What comes after the runs stands at their end. Such medians are rows of their own, and so are
-    such upper limits, so that the figure has the same curves whether there are any.
+    A time later than the end of the runs is drawn at the end. Such medians and upper limits are
+    rows of their own, so that the figure has the same curves whether there are any or not.
     """
     names, end = [*CLOCKS, "centre_share"], float(lifetimes.attrs["end_time"])
     drawn, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
@@ -70,7 +71,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
-    """Draw both clocks against A_0 in the left panel, and the share of P on the centre right."""
+    """Draw both times against A_0 on the left, and the share of P on the centre on the right."""
     figure = style.new_figure(style.WIDTH, 2.5)
     left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     for name, label in (("transition", "chain"), ("life", "central pair")):
@@ -94,7 +95,7 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
 
 
 def _draw_open_limits(axes: Axes, data: xr.Dataset, name: str) -> None:
-    """Draw an arrow from each median whose upper limit comes after the runs to their end."""
+    """Draw an arrow to the end of the runs from each median with a later upper limit."""
     colour, _, aside = CLOCKS[name]
     a0, middle = data["start_amplitude"].values + aside, data[f"{name}_middle"].values
     rise = data[f"{name}_open"].values - middle
@@ -110,7 +111,7 @@ def _draw_runs(
     aside: float,
     label: str | None = None,
 ) -> None:
-    """Draw the runs of one number as small marks, and their middle with its limits."""
+    """Draw one number of all runs as small marks, and its median or mean with limits."""
     a0 = data["start_amplitude"].values + aside
     runs = data[name].transpose("start_amplitude", "member").values
     label_of_runs = f"single runs, {label}" if label else None

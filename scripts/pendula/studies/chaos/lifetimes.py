@@ -1,7 +1,8 @@
-"""The transition to the chaotic state at Omega = 0 by two clocks, against the initial amplitude.
+"""The transition to the chaotic state at Omega = 0, measured by two times, against the initial
+amplitude.
 
-Zero is unstable, so that the chain around the centre is always set in motion. The *transition* of
-the chain is over when P first reaches half of its final value, the mean over a window of time. The
+Zero is unstable, so the chain around the centre is always set in motion. The *transition* of the
+chain is over when P first reaches half of its final value, the mean over a window of time. The
 *life* of the centre ends when the central pair first holds at most a multiple of P / N, the mean
 power of a pair. From a large amplitude the centre outlives the transition: it stays excited inside
 a chaotic chain. Lives that outlast the run are censored.
@@ -26,8 +27,8 @@ from pendula.varied import Printed, as_dataset, vary_several
 from .clocks import NUMBERS, TIMES, limits_of
 
 SPAN = 10.0
-"""Units of tau from one look at the centre to the next, after the window: a run ends with the life
-that it follows. Pieces of a run start from the state alone."""
+"""After the window the centre is checked once in this many units of tau, and the run stops with its
+life. Each interval starts from the state at the end of the one before."""
 
 
 def follow(
@@ -35,7 +36,8 @@ def follow(
 ) -> dict[str, float]:
     """Run a problem until its centre first holds at most `multiple` of P / N, or to the end.
 
-    Returns NUMBERS of the run, with `level` in place of one half. `window` must end before the run.
+    Returns NUMBERS of the run; the transition is over at the share `level` of the final P. `window`
+    must end before the run.
     """
     first = simulate(problem.changed(end_time=window[1], snapshot_every=1), energy=False)
     numbers = in_window(first, window, level)
@@ -60,7 +62,10 @@ def in_window(run: Trajectory, window: Sequence[float], level: float) -> dict[st
 
 
 def measure_later_life(problem: Problem, run: Trajectory, start: float, multiple: float) -> float:
-    """Return when the centre first holds its share of P after `start`, where `run` has ended."""
+    """Return when the centre first holds its share of P after `start`, the end of `run`.
+
+    It is infinite if that does not happen before the end time of the problem.
+    """
     remaining = problem.end_time - start
     if remaining <= 0.0:
         return np.inf
@@ -94,7 +99,10 @@ def measure_lifetimes(
     level: float,
     multiple: float,
 ) -> ManyRuns:
-    """Return the runs that give NUMBERS of members from each A_0, with B_0 = `ratio` A_0."""
+    """Return the runs of all members from each A_0, with B_0 = `ratio` A_0.
+
+    `size` is the relative perturbation; see `follow` for the others.
+    """
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
     attributes_of_study = {
@@ -115,7 +123,7 @@ def measure_lifetimes(
 def _lifetimes_of(
     problem: Problem, amplitudes: list[float], members: int, numbers: Mapping[str, np.ndarray]
 ) -> Contents:
-    """Return the contents of the dataset of NUMBERS, each (run,)."""
+    """Return the dataset of NUMBERS, each given as (run,)."""
     over = ("start_amplitude",)
     variables = {
         "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),

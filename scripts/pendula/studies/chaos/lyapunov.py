@@ -1,7 +1,7 @@
-"""Lyapunov exponents: how fast small perturbations of a solution grow, on average over a time span.
+"""Lyapunov exponents: mean growth rates of small perturbations of a solution over a time span.
 
-The largest exponent of a case is that of random tangent vectors along an ensemble of its runs: its
-limits are Student's t over the members.
+The largest exponent of a case is the growth rate of random tangent vectors along an ensemble of its
+runs, with confidence limits by Student's t over the members.
 
 All exponents are computed on a short chain. Those of a Hamiltonian flow come in pairs of opposite
 sign, sum to zero, and two of them vanish: those along the flow and across the energy.
@@ -20,13 +20,13 @@ from pendula.many_cases import describe_cases
 from pendula.problem import Problem
 
 STEP = 1.0
-"""Units of tau between two values of a growth that is kept."""
+"""Interval between two stored values of the growth, in tau."""
 
 
 def follow_members(
     problem: Problem, end_time: float, members: int, size: float, seed: int
 ) -> list[Growth]:
-    """Carry a random tangent vector along each of `members` runs from perturbed data."""
+    """Return the growth of a random tangent vector along each of `members` perturbed runs."""
     tolerance, growths = problem.solver["rtol"], []
     for number, member in enumerate(draw_members(problem, size, members, seed)):
         tangent = random_tangent(problem.sites, np.random.default_rng([seed, number]))
@@ -37,9 +37,10 @@ def follow_members(
 def largest_exponents(
     problems: dict[str, Problem], span: tuple[float, float], members: int, size: float, seed: int
 ) -> Contents:
-    """Return the mean rates on `span` of tangent vectors along members of each case.
+    """Return the dataset of the mean growth rates on `span` along members of each case.
 
-    `problems` are given by case, and integrated at the tolerance of their solver to its end.
+    `problems` are given by case; each is integrated at the tolerance of its solver to the end of
+    the span.
     """
     start, end_time = span
     runs = [follow_members(problem, end_time, members, size, seed) for problem in problems.values()]
@@ -68,10 +69,10 @@ def largest_exponents(
 def measure_spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """Return all exponents of a chain in order, and half of the confidence interval of each.
 
-    Rates are over the last three quarters of time, their errors from PARTS of it. The upper half
-    of the exponents is measured. The lower half has the opposite signs, since the flow keeps the
-    symplectic product of any two tangent vectors. Each vector loses its components along those
-    before it.
+    Rates are means over the last three quarters of time, their errors follow from PARTS of it. The
+    upper half of the exponents is measured. The lower half has the opposite signs, since the flow
+    conserves the symplectic product of any two tangent vectors. Each vector is orthogonalised to
+    those before it.
     """
     rng = np.random.default_rng(seed)
     basis = np.array([random_tangent(problem.sites, rng) for _ in range(2 * problem.sites)])
@@ -92,7 +93,7 @@ def measure_lyapunov(
 ) -> Contents:
     """Return the largest exponents of `problems`, and all exponents of `short_problems`.
 
-    These are also followed without a drive, to `undriven_end`, where the l2 norm is a second
+    The latter are also integrated without a drive, to `undriven_end`: then the l2 norm is a second
     integral. `seed` draws perturbations and tangent vectors.
     """
     variables, attributes = largest_exponents(problems, span, members, size, seed)

@@ -1,9 +1,8 @@
-"""Ensembles of every case: bands of the norms, and numbers of each member that sentences are about.
+"""Ensembles of every case: bands of the norms, and numbers of each member that decide claims.
 
-The paper's sentences on figures speak of levels, of growth, of how many pendula move. In a chaotic
-case such a number differs from run to run, so that only an ensemble decides, by confidence limits.
-Cases that are not chaotic have ensembles here too: what a sentence says of chaos must not hold for
-them.
+The paper speaks of levels, of growth, and of the number of pendula that move. In a chaotic case
+such a number differs from run to run, and only an ensemble decides, by confidence limits. Regular
+cases are included as negative controls: a statement about chaos must not hold for them.
 """
 
 from functools import partial
@@ -26,7 +25,7 @@ from pendula.problem import Problem
 
 PAIR = QUANTITIES.index("pair")
 QUANTILES = (0.1, 0.5, 0.9)
-"""The ends of the band of an ensemble, and its middle."""
+"""The quantiles of the band of an ensemble: lower end, median, upper end."""
 REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
@@ -36,16 +35,16 @@ REDUCED = {
         "root mean square of an amplitude over the window",
     ),
 }
-"""What each member is reduced to: dimensions after case and member, and in words."""
+"""Numbers of each member: dimensions after case and member, and long name."""
 ATTRIBUTES = {"norm_correlation": SCATTERED, "rms": missing("the chain has no such site")}
 
 Window = tuple[float, float]
 
 
 def reduce_run(problem: Problem, windows: list[Window], reach: int) -> dict[str, np.ndarray]:
-    """Run a problem that keeps all moduli; return its norms, and what REDUCED names, up to `reach`.
+    """Run a problem that stores all moduli; return norms (quantity, time) and REDUCED.
 
-    The norms are (quantity, time).
+    Moduli are padded with NaN to the sites -reach..reach.
     """
     run = simulate(problem, energy=False)
     inside = [(run.tau >= start) & (run.tau <= end) for start, end in windows]
@@ -74,9 +73,9 @@ def member_numbers(
     members: int,
     seed: int,
 ) -> ManyRuns:
-    """Return the runs that give bands of norms of each case, and what REDUCED names of each member.
+    """Return the runs of all members of each case, for the dataset of bands and of REDUCED.
 
-    `problems` are given by case, and keep all moduli; the sites are those of the longest chain.
+    `problems` are given by case, and store all moduli; the sites are those of the longest chain.
     """
     reach = max(problem.half_width for problem in problems.values())
     drawn = [m for problem in problems.values() for m in draw_members(problem, size, members, seed)]
@@ -97,7 +96,7 @@ def member_numbers(
 def _members_contents(
     problems: dict[str, Problem], windows: list[Window], reach: int, numbers: dict[str, np.ndarray]
 ) -> Contents:
-    """Return the contents of the dataset of what `reduce_run` returns, each (case, member, ...)."""
+    """Return the dataset of the results of `reduce_run`, each (case, member, ...)."""
     tau = next(iter(problems.values())).times
     squares = [square_modulus(problem.initial) for problem in problems.values()]
     l2, linf = (np.sqrt([reduce(square) for square in squares]) for reduce in (np.sum, np.max))

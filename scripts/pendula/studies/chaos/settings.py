@@ -1,4 +1,4 @@
-"""Section `chaos` of the configuration: cases, lengths of runs, tolerances and seeds."""
+"""The keys of config/chaos.yaml: cases, run times, tolerances and seeds."""
 
 from collections.abc import Iterator
 from typing import Annotated, Literal
@@ -25,9 +25,9 @@ from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 
 
 class Spectrum(Model):
-    """All Lyapunov exponents, on a short chain; lengths count the longest of the cases.
+    """All Lyapunov exponents, on a short chain; `lengths` are in units of the longest end time.
 
-    The chain is followed without a drive too, for `undriven_lengths`.
+    The chain is also integrated without a drive, for `undriven_lengths`.
     """
 
     cases: Names
@@ -38,7 +38,8 @@ class Spectrum(Model):
 
 
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
-"""What all ensembles have: the solver's tolerance, the size of a change, and the seed."""
+"""Keys that all ensembles have: the solver's tolerance, the relative perturbation `size`, and the
+seed."""
 
 VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", "multiple"]
 """Choices of a study that its long runs change."""
@@ -51,7 +52,7 @@ Lyapunov = model(
     **RANDOM,
 )
 
-# Sweeps from data that differ in their last digits, so many members on chains of each half-width.
+# Sweeps of ensembles: on chains of each half-width, `members` runs from slightly perturbed data.
 Ensembles = model(
     sweeps=Annotated[
         dict[Name, model(half_widths=Counts, members=Annotated[Whole, Field(ge=2)])],
@@ -61,7 +62,7 @@ Ensembles = model(
     **RANDOM,
 )
 
-# A chaotic sweep by the second solver, with its own step and a coarse one, and by the first.
+# A chaotic sweep by the second solver with two steps, and by the first solver.
 SecondSolver = model(
     sweep=Name,
     half_widths=Counts,
@@ -80,15 +81,16 @@ Members = model(
 
 
 def steps_beside(step: float, output_step: float) -> list[float]:
-    """Return the step of the second solver and a coarse one, upward, or one where both are equal.
+    """Return the step of the second solver and a coarse one, rounded up, or one if both are equal.
 
-    A coarse run takes two steps from one output time to the next, so that any output step will do.
+    A coarse run takes two steps from one output time to the next, so that any output step is
+    possible.
     """
     return sorted({step, output_step / 2})
 
 
 class Lifetimes(Model):
-    """The transition by two clocks, against the initial amplitude of the central pair."""
+    """The transition measured by two times, against the initial amplitude of the central pair."""
 
     case: Name
     amplitudes: Annotated[list[Positive], Field(min_length=2), Distinct]
@@ -115,7 +117,7 @@ class Settings(Model):
     lifetimes: Lifetimes
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the cases and sweeps of the configuration, or takes too long."""
+        """Yield faults of cases, sweeps and windows, and of runs that take too long."""
         absent = [
             *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
             *settings.absent("sweeps", "ensembles.sweeps", list(self.ensembles.sweeps)),
@@ -136,10 +138,7 @@ class Settings(Model):
             yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
 
     def member_of(self, settings: Configuration, sweep: str) -> dict:
-        """Return what a member of a sweep's ensemble runs, to the end of the drawn windows.
-
-        These are plain values of a problem, and the windows.
-        """
+        """Return the problem of a sweep's ensemble as plain values, and the drawn windows."""
         drawn = settings.sweeps[sweep].drawn
         windows = [list(window) for window in (drawn.max, drawn.mean)]
         times = {
@@ -150,7 +149,7 @@ class Settings(Model):
         return {"problem": settings.run_of(case, tolerance, **times), "windows": windows}
 
     def by_second_solver(self, settings: Configuration, sweep: str) -> list[dict]:
-        """Return a sweep's problems by the paper's second solver, by its step and a coarse one."""
+        """Return a sweep's problems by the paper's second solver: its step, and a coarse one."""
         problem = settings.swept_problem(sweep, "crank_nicolson")
         end_time = self.member_of(settings, sweep)["problem"]["end_time"]
         problem |= {"end_time": end_time, "snapshot_every": 0}
@@ -158,7 +157,7 @@ class Settings(Model):
         return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
 
     def shorter_chains(self, settings: Configuration, case: str) -> dict[str, int]:
-        """Return the least half-width on which each ensemble integrates a case, by its key."""
+        """Return by its key the least half-width on which each ensemble integrates a case."""
         spectrum = self.lyapunov.spectrum
         half_widths = {"lyapunov.spectrum": spectrum.half_width} if case in spectrum.cases else {}
         for name, swept in self.ensembles.sweeps.items():
@@ -212,7 +211,7 @@ class Settings(Model):
         return Runs(key, "ensembles.tolerance", runs, members, "ensembles.size", drawn.size)
 
     def _lives(self, settings: Configuration) -> Runs:
-        """Return the runs from each amplitude, whose number of looks is that of its outputs."""
+        """Return the runs from each amplitude; the centre is checked at each output."""
         lifetimes = self.lifetimes
         times = {"end_time": lifetimes.end_time, "output_step": lifetimes.output_step}
         runs = [
@@ -228,7 +227,7 @@ class Settings(Model):
         return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
     def _spectra(self, settings: Configuration) -> list[Cost]:
-        """Return what exponents of short chains take: half as many tangent vectors as numbers."""
+        """Return the costs of exponents: half as many tangent vectors as a state has numbers."""
         spectrum, costs = self.lyapunov.spectrum, []
         for case in spectrum.cases:
             cost = estimate(settings.problem(case, half_width=spectrum.half_width))
