@@ -25,8 +25,14 @@ MADE_TOGETHER = {
     "fronts": "The infinite chain: its two fronts, and the states behind them",
 }
 FIGURES = [
-    *(*MADE_TOGETHER, "fig1", "energy_drift", "trust_horizons", "stability_chart", "bounds"),
-    *("lifetimes", "fates"),
+    *MADE_TOGETHER,
+    "fig1",
+    "energy_drift",
+    "trust_horizons",
+    "stability_chart",
+    "bounds",
+    "lifetimes",
+    "fates",
 ]
 
 
@@ -42,7 +48,8 @@ include: "workflow/rules/own.smk"
 
 DATASETS = [
     *TRAJECTORIES,
-    *(*SWEEPS, *SECOND_SWEEPS),
+    *SWEEPS,
+    *SECOND_SWEEPS,
     *checks("identities", "cases", *THEORY_CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
     *rules.newton.input.datasets,
@@ -71,7 +78,8 @@ rule all:
         figure_files(*(f"<results>/figures/{name}" for name in FIGURES)),
         "<results>/claims.json",
         expand("<results>/tables/{name}.md", name=["claims", "claims_figures"]),
-        *("<results>/report.html", "<results>/live.html"),
+        "<results>/report.html",
+        "<results>/live.html",
         expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
         QUOTED_COPIES,
     message:

@@ -51,16 +51,18 @@ def test_claims_and_controls_come_out_as_accepted(part):
     modules = sorted({f"{study}/{module}" for *_, study, module, _ in own})
     found = {row["name"]: without_numbers(row)
              for row in evaluate(datasets(needed(*modules)), None, modules)}  # fmt: skip
-    assert found.keys() == accepted.keys()
     apart = {name: differing(accepted[name], row, 1e-3, ROUNDED.get(name, 0.0))
-             for name, row in found.items()}  # fmt: skip
-    assert {name: places for name, places in apart.items() if places} == {}
+             for name, row in found.items() if name in accepted}  # fmt: skip
+    remedy = "if this is meant, look at the rows of the ledger and type `snakemake accept_figures`"
+    assert {name: places for name, places in apart.items() if places} == {}, remedy
 
 
-def test_every_claim_is_in_the_ledger():
+def test_every_claim_is_in_the_accepted_ledger():
     accepted = {row["name"] for path in (BASELINE / "claims").glob("*.json")
                 for row in load_json(path)["rows"]}  # fmt: skip
-    assert accepted == CLAIM.keys() and len(CLAIM) == len(all_claims())
+    assert len(CLAIM) == len(all_claims())
+    remedy = "look at its row of the ledger, then type `snakemake accept_figures`"
+    assert sorted(accepted ^ CLAIM.keys()) == [], remedy
 
 
 @cache
