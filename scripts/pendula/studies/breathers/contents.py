@@ -1,5 +1,4 @@
-"""The datasets of steady and periodic breathers, rounded because LAPACK's last bits differ by
-machine."""
+"""The datasets of steady and periodic breathers, rounded: LAPACK's last bits differ by machine."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,2 +1,1 @@
-"""Chaos in the chain: Lyapunov exponents, ensembles of runs, and the transition to the chaotic
-state."""
+"""Chaos in the chain: Lyapunov exponents, ensembles, and the transition to the chaotic state."""

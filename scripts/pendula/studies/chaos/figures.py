@@ -1,5 +1,4 @@
-"""The figure of the transition at Omega = 0: two times against amplitude, and the share of the
-centre."""
+"""The figure of the transition at Omega = 0: two times, and the share of the centre."""
 
 import numpy as np
 import xarray as xr

@@ -1,5 +1,4 @@
-"""The transition to the chaotic state at Omega = 0, measured by two times, against the initial
-amplitude.
+"""The transition to the chaotic state at Omega = 0, by two times, against the amplitude.
 
 Zero is unstable, so the chain around the centre is always set in motion. The *transition* of the
 chain is over when P first reaches half of its final value, the mean over a window of time. The

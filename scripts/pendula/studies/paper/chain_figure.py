@@ -20,7 +20,7 @@ CAPTION = (
 
 
 def gather() -> xr.Dataset:
-    """Return the points, on the page, of all pairs, the central one turned by ANGLES.
+    """Return the points on the page of all pairs, with the central one turned by ANGLES.
 
     The others are turned less, the farther they are from it: a picture, not a solution.
     """
@@ -57,7 +57,7 @@ def _long_name(title: str) -> dict[str, str]:
 
 
 def _project(along: np.ndarray, back: np.ndarray, up: np.ndarray | float) -> np.ndarray:
-    """Return points on the page: what lies farther back is shown higher and to the right."""
+    """Return points on the page: points farther back appear higher and to the right."""
     return np.stack(np.broadcast_arrays(along + 0.6 * back, up + 0.42 * back), axis=-1)
 
 
@@ -105,6 +105,6 @@ def _draw_row(axes: Axes, row: xr.Dataset) -> None:
         axes.plot(*bob, "o", color=COLOURS[pendulum], markersize=9, markeredgecolor="black")
         axes.plot(*pivot, "o", color="black", markersize=2.5)
         name = f"${pendulum}_{{n{offset:+d}}}$" if offset else f"${pendulum}_n$"
-        # on the side to which the pendulum is turned, away from its dashed place of rest
+        # on the side to which the pendulum is turned, away from its dashed position at rest
         side, ha = (1, "left") if bob[0] >= rest_position[0] else (-1, "right")
         axes.annotate(name, bob, (7 * side, 0), textcoords="offset points", ha=ha, va="center")

@@ -1,4 +1,4 @@
-"""Section 5: the energy by the paper's first solver."""
+"""Section 5: claims on the energy in runs by the paper's first solver."""
 
 from itertools import product
 
@@ -19,15 +19,15 @@ from .solvers import ORDER, STATED_DRIFT, UNKNOWNS
 
 SECTION = 5
 EARLIEST = 20.0
-"""Shorter runs than up to this time are too short to read a drift."""
+"""Shorter runs show no drift that could be compared."""
 
 
 def drifts(solvers, size: str) -> Finding:
     """Return the finding of a claim on the energy over the cases with data of this size.
 
-    The paper gives the order and the tolerances of the solver. It says neither whether the order is
-    that of H or relative to H(0), nor what the solver's unknowns are. A case decides if it keeps
-    the order by all these readings, or exceeds it by all of them.
+    The paper gives the order of the drift and the tolerances of the solver. It says neither whether
+    the order is that of H or relative to H(0), nor whether the solver's unknowns are complex. A
+    case decides if it keeps the order by all these readings, or exceeds it by all of them.
     """
     if (end := float(solvers["tau"][-1])) < EARLIEST:
         raise UndecidableError(f"the runs end at tau = {end:g}, before {EARLIEST:g}")
@@ -35,7 +35,7 @@ def drifts(solvers, size: str) -> Finding:
     for (unknowns, solver), reading in product(UNKNOWNS.items(), solvers["of"].values):
         read = solvers["largest_drift"].sel(solver=solver, of=reading)
         for case in (name for name in map(str, solvers["case"].values) if name.endswith(size)):
-            # names leave out the reading of the figures
+            # names leave out the reading that the figures use
             words = (word for word in (unknowns, reading) if word not in ("complex", "absolute"))
             name = "_".join([case, *words])
             measured[name] = float(read.sel(case=case))
@@ -60,7 +60,7 @@ def drifts(solvers, size: str) -> Finding:
 
 
 def as_by(solver: str) -> dict:
-    """Return what feeds the drifts of another solver as those of ode45 by either unknowns."""
+    """Return a change that gives the drifts of another solver as those of ode45."""
     return repeat("solver", solver, at=list(UNKNOWNS.values()), names="largest_drift")
 
 

@@ -1,4 +1,4 @@
-"""Section 5, Figs 2 to 4: the norms against time."""
+"""Section 5, Figs 2 to 4: claims on the norms against time."""
 
 from functools import partial
 
@@ -36,7 +36,7 @@ from pendula.problem import Constants
 
 SECTION = 5
 
-# ASSUME: the paper's words as numbers; the origin of each says what the word stands for.
+# ASSUME: the paper's words as numbers; the origin of each quotes the word.
 HALF = Cutoff(0.5, '"decreases": to less than half')
 MOST = Cutoff(0.5, '"excites others": most of P is on other sites')
 ANTICORRELATED = Cutoff(-0.8, '"oscillates between": |A|^2 falls where |B|^2 rises', -1.0)
@@ -48,7 +48,7 @@ NORMS = ("l2", "linf")
 AT_STABLE_REST = ("fig2_small", "fig2_large", "fig3_small", "fig3_large")
 """The cases in which the chain at rest is linearly stable by Lemma 1."""
 UNSTABLE = 3.0
-"""The time over which a growth is taken: before the small data are large."""
+"""Growth is measured up to this time, before small data become large."""
 
 
 @claim(
@@ -63,7 +63,7 @@ UNSTABLE = 3.0
     ),
 )
 def fig2_bounded(small, large, sweep) -> Finding:
-    """Compare P with the bound by the energy of the same data, the sweep with that of its case."""
+    """Compare P with the bound by the energy of the same data, and the sweep with that bound."""
     bounds = [
         theorem_1_bound(float(ds["energy"][0]), Constants.of(ds.attrs)) for ds in (small, large)
     ]
@@ -102,7 +102,7 @@ def fig2_excites(small) -> Finding:
 
 
 def share_at_maxima(trajectory) -> np.ndarray:
-    """Return the share of P that the largest |A_n| and the largest |B_n| hold, at all times."""
+    """Return the share of P on the largest |A_n| and the largest |B_n|, (time,)."""
     return (trajectory["linf"] ** 2).sum("component").values / total_power(trajectory)
 
 
@@ -169,7 +169,7 @@ def fig2_separate(large) -> Finding:
 
 
 def with_growth_of(run, growing):
-    """Return a run whose norms grow as those of another one, from the same initial norm."""
+    """Return a run whose norms grow like those of another run, from its own initial norm."""
     to_start = np.sqrt(total_power(run)[0] / total_power(growing)[0])
     return take_from("l2", "linf")(run, growing.assign({n: to_start * growing[n] for n in NORMS}))
 
@@ -191,7 +191,7 @@ def with_growth_of(run, growing):
     ),
 )
 def stable_oscillations(*trajectories) -> Finding:
-    """Require it of the cases that Theorem 1 or 2 covers: these say which oscillations are stable.
+    """Decide by the cases that Theorem 1 or 2 covers, which say what oscillations are stable.
 
     Rest is stable in all four cases. The paper restricts stability to small initial conditions
     below the band.
@@ -261,7 +261,7 @@ def fig3_only_small(small, large) -> Finding:
 
 
 def region_of(run) -> str:
-    """Return which theorem covers the data of a run."""
+    """Return the name of the theorem that covers the data of a run, or "none"."""
     start, energy = float(total_power(run)[0]), float(run["energy"][0])
     return proven_region(energy, start, Constants.of(run.attrs), str(run.attrs["boundary"]))
 
@@ -273,7 +273,7 @@ def region_of(run) -> str:
     controls=(Control("a stable run at Omega = -4", "fig3_small"),),
 )
 def fig4_unstable(small) -> Finding:
-    """Ask for the growth of small data: where cubic terms rule, growth tells nothing of zero."""
+    """Require growth of small data: once cubic terms matter, growth is no instability of zero."""
     if not largest(small)[0] ** 2 <= Constants.of(small.attrs).gamma:
         raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]

@@ -1,4 +1,4 @@
-"""Sections 5 and 6: what stays bounded, and what is regular."""
+"""Sections 5 and 6: claims on norms that stay bounded and on regular motion."""
 
 from replication.ledger.changes import exchange
 from replication.ledger.claim import Control, checks, claim
@@ -9,7 +9,7 @@ from pendula.models.linear_chain import gamma_0
 SECTION = 5
 
 GAMMA = EPSILON = 1.0
-"""Of all cases of the paper."""
+"""Datasets of all cases of the paper."""
 
 
 @claim(

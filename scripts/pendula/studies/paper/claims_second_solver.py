@@ -1,9 +1,9 @@
-"""Section 5: the figures of the paper by its second solver.
+"""Section 5: claims on the figures by the paper's second solver.
 
 Single runs of a chaotic case cannot agree for long. Where the motion is chaotic, a run of the
-second solver is compared with an ensemble, as one more draw from it. In Figs 2 to 4 the mean norm
-of a long time is compared, whose draws are normal to good approximation. The maxima of Fig 6,
-right, are not, as some runs spread late: there a draw is compared with the range of many others.
+second solver is compared with an ensemble, as one more member. In Figs 2 to 4 the mean norm over a
+long time is compared, which is normally distributed to good approximation. The maxima of Fig 6,
+right, are not, as some runs spread late: there the run is compared with the range of many others.
 """
 
 import numpy as np
@@ -31,23 +31,23 @@ SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale, wider t
 ZERO = ["fig4_small", "fig4_large"]
 """The cases at Omega = 0."""
 LATE, WINDOW = (30.0, 50.0), "[30, 50]"
-"""The time over which a run is compared with its ensemble."""
+"""The time window over which a run is compared with its ensemble."""
 
 FIRST = sweeps("fig5_left", "fig6_left")
 SECOND = tuple(f"{name}.crank_nicolson" for name in FIRST)
-"""The regular sweeps by either solver."""
+"""The regular sweeps by each solver."""
 (RIGHT,) = checks("second_solver")
-"""A chaotic sweep by either solver, by the second one with two steps."""
+"""A chaotic sweep by the first solver, and by the second one with two steps."""
 
 
 # --- Figs 2 to 4 ----------------------------------------------------------------------------------
 
 
 def late_distance(solvers, members, case: str) -> tuple[float, int]:
-    """Return how far the second solver is from the mean of its ensemble, and the members of it.
+    """Return how far the second solver is from the mean of its ensemble, and the number of members.
 
-    The number is the late mean of the l2 norm, after the solvers diverge, and its distance is in
-    standard deviations of one more draw, which hold that of the mean.
+    The number is the late mean of the l2 norm, after the solvers diverge. Its distance is in
+    standard deviations of one more member, which include the error of the mean.
     """
     run, since = solvers.sel(case=case), LATE[0]
     known = WINDOW in members["window"].values and run["second_divergence"][0] < since
@@ -114,7 +114,7 @@ def second_solver(solvers, lyapunov, members) -> Finding:
 
 
 def largest_difference(first, second) -> float:
-    """Return the largest relative difference of the pair's norms over all of a sweep."""
+    """Return the largest relative difference of the norms of the pair over a sweep."""
     if first.sizes["half_width"] < FEWEST:
         raise UndecidableError(f"the sweeps have fewer than {FEWEST} half-widths")
     return max(
@@ -126,7 +126,7 @@ def largest_difference(first, second) -> float:
 def shares_inside(right) -> np.ndarray:
     """Return the share of runs of the second solver within the range of the first, (solver_step,).
 
-    It is the least over all half-widths.
+    It is the smallest share over all half-widths.
     """
     if right.sizes["half_width"] < missing.FEWEST or right.sizes["first_member"] < missing.FEWEST:
         raise UndecidableError("the ensembles of the second solver are too small")
@@ -136,7 +136,7 @@ def shares_inside(right) -> np.ndarray:
 
 
 def first_as_second(right):
-    """Return the ensembles with runs of the first solver in place of those of the second."""
+    """Return a control: the ensembles with the first solver's runs as those of the second."""
     drawn = right["first_l2"].isel(first_member=slice(right.sizes["member"]))
     drawn = drawn.rename(first_member="member").broadcast_like(right["l2"])
     remaining = right["first_l2"].isel(first_member=slice(right.sizes["member"], None))
@@ -146,7 +146,7 @@ def first_as_second(right):
 
 
 def coarse_alone(right):
-    """Return the ensembles with the runs of the coarse step in place of all."""
+    """Return the ensembles with the runs of the coarse step in place of all, as a control."""
     largest = right["solver_step"].max()
     return repeat("solver_step", float(largest), at=slice(None), names="l2")(right)
 
@@ -172,7 +172,8 @@ def coarse_alone(right):
 def second_solver_sweeps(left_5, left_6, second_5, second_6, right) -> Finding:
     """Compare regular sweeps point by point, and a chaotic one by ensembles and with two steps.
 
-    Nothing is decided where the step does, for the paper gives none.
+    If the two steps give different outcomes the claim is undecided, because the paper gives no
+    step.
     """
     shares = shares_inside(right)
     measured = {

@@ -1,7 +1,7 @@
-"""Section 5, Figs 5 and 6: norms over time windows against the half-width M.
+"""Section 5, Figs 5 and 6: claims on norms over time windows against the half-width M.
 
-On a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
-and once the front does not reach the ends, a longer chain changes nothing.
+On a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite, and
+once the front does not reach the ends within the window, a longer chain changes nothing.
 """
 
 import numpy as np
@@ -36,19 +36,19 @@ from pendula.problem import Constants
 SECTION = 5
 
 WINDOW = "[10, 50]"
-"""Of Fig 5, by the text and by the caption."""
+"""Windows of Fig 5, according to the text and to the caption."""
 LEVEL = Cutoff(levels.LEVEL, '"approaches a level": within 0.5 %, the width of a line')
 TEXT_6 = "[10, 70]"
-"""Of Fig 6, by the text."""
+"""Window of Fig 6, according to the text."""
 
 
 def with_a_hump(sweep):
-    """Return a sweep or the check at Omega = 8 whose l2 norm rises before it falls."""
+    """Return a control: a sweep, or the check at Omega = 8, whose l2 rises before it falls."""
     return scale("l2", 1.3, half_width=sweep["half_width"][1:5])(sweep)
 
 
 def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], AllOf]:
-    """Return what is measured of a curve against M that decreases to a level, and its criterion."""
+    """Return the measured numbers of a curve against M that falls to a level, and the criterion."""
     measured = {
         fall: 1.0 - values[-1] / values[0],
         "largest_rise": np.max(values / np.minimum.accumulate(values)) - 1.0,
@@ -69,7 +69,7 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
     ),
 )
 def fig5_decreases(sweep) -> Finding:
-    """Ask for a fall over all M, and that the curve rises nowhere on its way to its level."""
+    """Require a fall over all M, and no rise of the curve before it reaches its level."""
     m, highest = swept(sweep, "l2", "max", WINDOW)
     _, average = swept(sweep, "l2", "mean", WINDOW)
     measured, criterion = falls_to_a_level(m, highest, "fall_of_maximum")
@@ -122,7 +122,7 @@ def fig5_not_shown(check) -> Finding:
 
 
 def maxima_of(sweep):
-    """Return the maxima of a sweep over the window of Fig 5 as the check of Omega = 8 has them."""
+    """Return the maxima of a sweep over Fig 5's window, named as in the check at Omega = 8."""
     chosen = {"quantity": "pair", "statistic": "max", "window": WINDOW}
     return sweep[["l2"]].sel(chosen, drop=True)
 

@@ -12,12 +12,12 @@ from pendula.models import solvers
 from pendula.problem import Problem
 
 CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
-"""A value for every control. Compiled code depends on none, so that a tolerance that the user
-changes asks for no compilation, and reruns nothing that does not use it."""
+"""A value for every control. Compiled code depends on none of them, so that another tolerance needs
+no compilation, and reruns only jobs that use it."""
 
 
 def compile_solver(kernels: str, solver: str) -> None:
-    """Run the solver over a short time, then record what it was compiled from."""
+    """Run the solver over a short time, then record from which sources it was compiled."""
     controls = {name: CONTROLS[name] for name in NAMED[solver].controls}
     problem = Problem(
         parameters={"epsilon": 1.0, "gamma": 1.0, "omega": 0.0},

@@ -1,4 +1,4 @@
-"""Figures 2 to 6, the chain's motion beside them, and the solvers side by side."""
+"""Figures 2 to 6, the motion of the chain, and comparisons of the solvers."""
 
 import numpy as np
 import xarray as xr
@@ -63,10 +63,10 @@ TRUST_CAPTION = (
 def gather_norms(
     runs: list[xr.Dataset], references: list[xr.Dataset], ensembles: xr.Dataset | None = None
 ) -> xr.Dataset:
-    """Return the norms of two trajectories, of small and of large data, beside the references.
+    """Return the norms of two trajectories, of small and of large data, with their references.
 
-    A trajectory whose parameters are not those of its reference stands alone: there the norms of
-    the reference are NaN. With `ensembles` the bands of the cases are beside them as well.
+    If the parameters of a trajectory are not those of its reference, the norms of the reference are
+    NaN. With `ensembles` the bands of the cases are added.
     """
     cases = [_with_reference(run, true) for run, true in zip(runs, references, strict=True)]
     divergence_text, band = PARTS_CAPTION, ""
@@ -99,7 +99,7 @@ def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
 
 
 def _share(banded: xr.Dataset) -> str:
-    """Return the part of the runs that a band between quantiles holds, in per cent."""
+    """Return the share of the runs within a band between quantiles, such as "90 %"."""
     ends = banded["quantile"].values
     return f"{100 * (ends[-1] - ends[0]):g} %"
 
@@ -108,8 +108,8 @@ def _share(banded: xr.Dataset) -> str:
 def draw_norms(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, small data above and large below, A red and B blue.
 
-    A run that leaves its reference has the ensemble in a strip of its own below it, and a dashed
-    line shows the divergence time. Elsewhere the reference lies under the run.
+    If a run diverges from its reference, a strip below it shows the ensemble, and a dashed line the
+    divergence time. Otherwise the reference is drawn under the run.
     """
     cases = [data.sel(initial_size=size) for size in data["initial_size"].values]
     figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
@@ -137,7 +137,7 @@ def _strips(case: xr.Dataset) -> list[Strip]:
 def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
     """Return the moduli |A_n| and |B_n| of two trajectories over sites and snapshots.
 
-    Beside them is when the runs leave their references, from what `gather_norms` returns of them.
+    The divergence times of the runs are taken from the dataset of `gather_norms`.
     """
     cases = [panels.over_time(case) for case in runs]
     data = mark(style.join(cases, SIZES, "initial_size", KEPT), REGULAR, "omega")
@@ -149,7 +149,7 @@ def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
 def draw_spacetime(data: xr.Dataset) -> Figure:
     """Draw |A_n| left and |B_n| right, small data above and large below, one scale a row.
 
-    A dashed line shows when a run has left its reference.
+    A dashed line marks the divergence time.
     """
     figure = style.new_figure(style.WIDTH, 4.2)
     grid = figure.subplots(2, 2, sharex=True, sharey=True)
@@ -174,11 +174,11 @@ def gather_sweeps(
     norms: tuple[str, ...] = ("l2", "linf"),
     ensembles: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Return the pair's norms of two sweeps: the maximum over one window, the mean over another.
+    """Return the norms of the pair in two sweeps: the maximum over a window, the mean over another.
 
-    The paper's text speaks of the maximum, its captions of the average, over windows of their own.
-    The windows are named as in the sweeps, such as "[10, 50]"; `norms` are those to be drawn. Of
-    sweeps that have an ensemble, its mean and standard deviation are beside them.
+    The paper's text speaks of the maximum, its captions of the average, over different windows.
+    Windows have the names that they have in the sweeps, such as "[10, 50]"; `norms` are those to
+    draw. If a sweep has an ensemble, its mean and standard deviation are added.
     """
     sweeps = {"left": left, "right": right}
     readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
@@ -197,7 +197,8 @@ def gather_sweeps(
 def draw_sweeps(data: xr.Dataset) -> Figure:
     """Draw both panels: l2 red dots, l-infinity blue squares; the captions' reading is hollow.
 
-    Each dot of a chaotic sweep is one draw, so the bars of its ensemble stand beside the dots.
+    Each dot of a chaotic sweep is one random sample, so the bars of its ensemble are drawn next to
+    it.
     """
     figure = style.new_figure(style.WIDTH, 2.4)
     row = figure.subplots(1, 2)
@@ -220,8 +221,9 @@ DRAWN = ["ode45", "ode45_real", "taylor", "delfour_fortin_payre", "crank_nicolso
 def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
     """Return the largest of the values up to each time.
 
-    A difference of oscillating curves falls to zero again and again, and fills a panel with ink.
-    Its largest value so far never falls, and it passes the visible part at the divergence time.
+    The difference of two oscillating curves returns to zero many times and would fill the panel.
+    Its largest value so far never falls, and it exceeds the visible fraction at the divergence
+    time.
     """
     values = values.transpose(..., "tau")
     largest = values.copy(data=np.maximum.accumulate(values.values, axis=-1))
@@ -229,7 +231,7 @@ def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
 
 
 def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
-    """Return the largest drift of the energy up to each time, and the one that the paper states."""
+    """Return the largest drift of the energy up to each time, and the drift the paper states."""
     drift = _so_far(
         solvers["drift"].sel(solver=DRAWN), "largest drift of the energy up to this time"
     )
@@ -248,7 +250,7 @@ def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
         curve = panels.positive(case["drift_so_far"].sel(solver=solver))
         look = _look(solver) | {"markeredgecolor": "white", "markeredgewidth": 0.5}
         every = max(curve.size // 4, 1)
-        marked = every * (i + 1) // 6, every  # the marks of the solvers stand apart
+        marked = every * (i + 1) // 6, every  # the marks of different solvers must not overlap
         label = SOLVER_NAMES[solver]
         axes.plot(curve["tau"], curve, label=label, markevery=marked, **look)
     stated = float(case["stated_drift"])
@@ -261,7 +263,7 @@ def _look(solver: str) -> dict:
 
 
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
-    """Return by case how far each solver is from the reference, and when it leaves."""
+    """Return by case the error of each solver against the reference, and its divergence time."""
     largest = _so_far(trust["difference"], DIFFERENCE)
     drawn = trust[["horizon", "visible", *LABELS]].assign(largest_so_far=largest)
     return drawn.assign_attrs(caption=TRUST_CAPTION)
@@ -269,9 +271,9 @@ def gather_trust(trust: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_trust(data: xr.Dataset) -> Figure:
-    """Draw one panel a case, one line a solver, a mark where its curve is visibly another.
+    """Draw one panel a case, one line a solver, and a mark where its error becomes visible.
 
-    A curve that never is has its mark near its end, so that marks tell the curves apart everywhere.
+    A curve that never becomes visible has its mark near its end, so that marks identify all curves.
     """
     return draw_cases(data, _draw_trust, "largest error so far")
 

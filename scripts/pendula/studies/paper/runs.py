@@ -1,4 +1,4 @@
-"""The runs that figures and claims rest on: a case by a solver, and a case on many chains."""
+"""The datasets of trajectories and sweeps: a case by a solver, and a case on many chains."""
 
 from collections.abc import Sequence
 
@@ -13,7 +13,7 @@ from pendula.problem import Problem
 
 
 def run_case(name: str, problem: Problem) -> Contents:
-    """Return the observables of a case."""
+    """Return the dataset of the observables of a case."""
     result = simulate(problem)
     if remark := remark_on(result.solver):
         print(f"{name}: {remark}")
@@ -31,7 +31,7 @@ def run_sweep(
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
 ) -> ManyRuns:
-    """Return the runs that give maxima and means of norms over `windows`, on all `half_widths`."""
+    """Return the runs on all `half_widths`, for maxima and means of norms over `windows`."""
     runs = runs_of_sweep(problem, half_widths, windows)
 
     def contents(retained: dict[str, np.ndarray]) -> Contents:

@@ -1,8 +1,8 @@
-"""The paper's solvers compared: the energy, the second solver, and the way to the reference.
+"""The paper's solvers compared: energy drift, second solver, errors against the reference.
 
 Section 5 states to which order ode45 conserves the energy, and that a second solver gives no
-significant differences. Each case is integrated here by all solvers, and what figures, claims and
-the article need of the runs goes into two datasets.
+significant differences. Each case is integrated here by all solvers, and two datasets store what
+figures, claims and the article need of the runs.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -32,9 +32,9 @@ FIRST, SECOND, HALVED = "ode45", "crank_nicolson", "crank_nicolson_halved"
 TRIED = FIRST, SECOND, "taylor"
 """The solvers that are compared with the references."""
 UNKNOWNS = {"complex": FIRST, "real": "ode45_real"}
-"""The paper's first solver by what its unknowns are: see `integrators.ode45`."""
+"""The paper's first solver by the type of its unknowns: see `integrators.ode45`."""
 STATED_DRIFT = {"small": 1e-6, "large": 1e-4}
-"""The orders of the energy's drift that the paper states, for the cases whose names end so."""
+"""The drift of the energy that the paper states, by the end of a case's name."""
 # ASSUME: "up to the order of 10^-k" allows up to twice that number.
 ORDER = Cutoff(2.0, '"up to the order of": up to twice the number')
 
@@ -57,7 +57,7 @@ TRUSTED = {
     "distance": "largest distance of its norms from the reference, over the bound",
     "late_distance": "the same distance of the curve one output late",
 }
-"""What the two datasets hold, beside names of the registry and of `measures.difference`."""
+"""Long names of the variables of the two datasets that are not in the registry."""
 NO_REFERENCE = missing("there is no reference")
 ATTRIBUTES = {
     "omega": REGULAR,
@@ -72,7 +72,7 @@ ATTRIBUTES = {
     "distance": REGULAR,
     "late_distance": REGULAR,
 }
-"""What the comparison and the ledger must know of these variables."""
+"""Attributes of these variables for the comparison and the ledger."""
 
 
 def measure_solvers(
@@ -82,10 +82,10 @@ def measure_solvers(
     user_cases: Collection[str] = (),
     proofs: Mapping[str, xr.Dataset] = {},
 ) -> Iterator[xr.Dataset]:
-    """Yield how the solvers keep the energy and differ, then until when each can be trusted.
+    """Yield the dataset of energy drifts and the second solver, then that of all errors.
 
-    `cases` are plain problems without a solver, and `solvers` the controls of each. For the cases
-    `user_cases`, which are not the paper's, the paper states no drift.
+    `cases` are plain problems without a solver, and `solvers` the controls of each. For
+    `user_cases`, which differ from the paper's, there is no stated drift.
     """
     runs = {name: run_by_all(name, case, solvers) for name, case in cases.items()}
     yield compare_solvers(runs, user_cases)
@@ -93,7 +93,7 @@ def measure_solvers(
 
 
 def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict[str, xr.Dataset]:
-    """Return a case by each solver, by ode45 with real unknowns, and by half the second's step."""
+    """Return a case by each solver, by ode45 on real unknowns, and by half the second's step."""
     first, second = solvers[FIRST], solvers[SECOND]
     variants = {
         UNKNOWNS["real"]: {**first, "name": UNKNOWNS["real"]},
@@ -109,7 +109,7 @@ def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict
 def compare_solvers(
     runs: Mapping[str, Mapping[str, xr.Dataset]], user_cases: Collection[str] = ()
 ) -> xr.Dataset:
-    """Return how each solver keeps the energy and how the second solver differs, see COMPARED."""
+    """Return the dataset of COMPARED: energy drifts, and the differences of the second solver."""
     comparisons = []
     for case, by_solver in runs.items():
         stated = np.nan if case in user_cases else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
@@ -145,7 +145,7 @@ def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
 
 
 def _second_solver_differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Return how the second solver differs from the first, by its step, and the pair's l2 norm."""
+    """Return the differences of the second solver from the first, by step, and its l2 norm."""
     differences = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
     run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
     return xr.Dataset(
@@ -169,10 +169,10 @@ def trust_solvers(
     references: Mapping[str, xr.Dataset],
     proofs: Mapping[str, xr.Dataset] = {},
 ) -> xr.Dataset:
-    """Return by case and solver how far the norms are from the reference's, and from when on.
+    """Return the dataset of TRUSTED: errors and horizons by case and solver.
 
-    A run that does not solve its reference's problem has no horizon: there it is NaN. `proofs`
-    holds computed curves with a proven bound, which counts where it is of the run's problem.
+    The horizon is NaN if a run does not solve the problem of its reference. `proofs` are curves
+    with a proven bound, which is used if it is of the run's problem.
     """
     errors = [
         _trust_case(by_solver, references[case], proofs.get(case))
@@ -204,7 +204,7 @@ def _trust_case(
 
 
 def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
-    """Return what is proved of a curve of the run's problem, as TRUSTED says."""
+    """Return the numbers of TRUSTED that are proved for the run's problem, NaN if none is."""
     if proved is None or not is_of_same_case(run, proved):
         return dict.fromkeys(("l2_bound", "distance", "late_distance"), np.nan)
     right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)
@@ -226,7 +226,7 @@ def _case_variables(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
 
 
 def _stack(by_case: list[xr.Dataset], cases: Collection[str]) -> xr.Dataset:
-    """Return the parts along the cases."""
+    """Return datasets of cases joined along "case"."""
     return xr.concat(by_case, xr.Variable("case", list(cases)), join="outer")
 
 

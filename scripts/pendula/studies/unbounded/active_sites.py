@@ -1,12 +1,12 @@
-"""An infinite chain: only the sites in motion are integrated, 0..W of even data, else -W..W.
+"""Integration on an infinite chain: only the sites in motion, 0..W of even data, otherwise -W..W.
 
-W grows by a block when anything above `rest` of the largest amplitude comes near the last site.
-For a short run 1e-20 is enough. But a front that is pulled by the growth of its leading edge is
-slowed where the edge is cut off (Brunet and Derrida, Phys. Rev. E 56 (1997) 2597), so a long run
-takes 1e-150, about the least whose square is a normal double.
+W grows by a block when a site near the end exceeds `rest_threshold` times the largest amplitude.
+For a short run 1e-20 is small enough. But a front that is pulled by the growth of its leading edge
+is slower if the edge is cut off (Brunet and Derrida, Phys. Rev. E 56 (1997) 2597), so long runs use
+1e-150, about the smallest number whose square is a normal double.
 
-Sites are added between two pieces of a run. Each piece starts the solver again from the state
-alone. A state holds S and D (see `sums`).
+A run is divided into intervals, between which sites are added. Each interval starts from the state
+at the end of the one before. A state holds S and D (see `sums`).
 """
 
 from collections.abc import Iterator, Sequence
@@ -26,17 +26,17 @@ from .bulk import EDGE, LEVEL, SLICE_LENGTH, find_front, region_means, site_powe
 from .sums import halves, in_sums, turned
 
 BLOCK, GUARD = 64, 32
-"""Sites by which W grows, and how many of the last ones must be at rest: no front crosses GUARD
-sites within a piece."""
+"""W grows by the first number of sites, and the last sites, as many as the second, must be at rest:
+no front crosses GUARD sites within an interval."""
 
 
 def is_even(initial: np.ndarray) -> bool:
-    """Return whether data (2, 2r + 1) are the same on sites n and -n."""
+    """Return whether data (2, 2r + 1) are the same on the sites n and -n."""
     return np.array_equal(initial, initial[:, ::-1])
 
 
 def width_of(state: np.ndarray, even: bool) -> int:
-    """Return W, the last site of a state, which has two ghosts, (row, 1 + site + 1)."""
+    """Return W, the last site of a state with two ghost sites, (row, 1 + site + 1)."""
     return state.shape[1] - 3 if even else (state.shape[1] - 3) // 2
 
 
@@ -46,7 +46,7 @@ def right_half(state: np.ndarray, even: bool) -> np.ndarray:
 
 
 def widen(state: np.ndarray, rest_threshold: float, even: bool = True) -> np.ndarray:
-    """Return the state with a block of sites at rest added where an end is no longer at rest."""
+    """Return the state with a block of sites added at an end that is no longer at rest."""
     power = site_powers(state[:, 1:-1])
     at_ends = power[-GUARD:].max() if even else max(power[:GUARD].max(), power[-GUARD:].max())
     if not at_ends > rest_threshold * rest_threshold * power.max():
@@ -59,8 +59,8 @@ def advance(
 ) -> Record:
     """Integrate `state` in place over `times` (outputs, both ends included) on its sites.
 
-    `rooms` keeps the work arrays from one piece to the next: to allocate them anew takes a tenth of
-    the time of a piece. Raises IntegrationError where the solver gives up.
+    `rooms` keeps the work arrays for the next interval: allocating them again takes a tenth of its
+    time. Raises IntegrationError if the solver gives up.
     """
     solver = problem.solver
     if state.shape not in rooms:
@@ -83,10 +83,10 @@ def advance(
 def integrate_intervals(
     problem: Problem, rest_threshold: float
 ) -> Iterator[tuple[np.ndarray, Record, np.ndarray, np.ndarray]]:
-    """Integrate a problem in S and D, and yield of each piece its outputs and its last state.
+    """Integrate a problem in S and D; yield the outputs and the last state of each interval.
 
-    These are the times, both ends included, the record, the state, which may be changed in place,
-    and its sites 0..W. `rest_threshold` is what counts as at rest ahead of the front (see above).
+    They are the times, both ends included, the record, the state, which may be changed in place,
+    and its sites 0..W. `rest_threshold` is relative to the largest amplitude.
     """
     even, rooms = is_even(problem.initial), {}
     width = problem.initial.shape[1] // 2 + BLOCK
@@ -110,17 +110,17 @@ def run_long(
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),
 ) -> dict[str, np.ndarray]:
-    """Return the series of a run of `problem`, whose chain has no ends.
+    """Return the series of a run of `problem` on an infinite chain.
 
-    These are l2 and linf of the pair (A, B) by `tau`, and by `piece_tau` the site of the front,
-    those of the second front at all `levels`, -1 where there is none, and `means` as of
-    `region_means` at all `edges`, whose regions end at the second front of the first level. There
-    is no axis of a single level, nor of a single edge. Of data that are not even in n, all but the
-    norms are of the sites 0..W.
+    By `tau` these are l2 and linf of the pair (A, B). By `piece_tau` they are the site of the
+    front, those of the second front at all `levels`, -1 if there is none, and `means`, see
+    `region_means`, at all `edges`, whose regions end at the second front of the first level. A
+    single level or edge has no axis. If the data are not even in n, all but the norms are those of
+    the sites 0..W.
     """
     outputs, looks = [], []
     for times, record, _, sites in integrate_intervals(in_sums(problem), rest_threshold):
-        first = 1 if outputs else 0  # the first output ends the piece before
+        first = 1 if outputs else 0  # the first output is the last one of the interval before
         outputs.append(np.array([times, *_norms(record)])[:, first:])
         power = site_powers(sites[:2])
         front, second = (
@@ -135,12 +135,12 @@ def run_long(
 
 
 def _one_or_all(values: list) -> np.ndarray:
-    """Return the only value, or an array of all if they are several."""
+    """Return the only value, or an array of all if there are several."""
     return np.array(values if len(values) > 1 else values[0])
 
 
 def _norms(record: Record) -> tuple[np.ndarray, np.ndarray]:
     """Return l2 and l-infinity of the pair (A, B) at every output, each (time,)."""
-    s, d = np.swapaxes(record.kept, 0, 1)  # (part, site, time)
+    s, d = np.swapaxes(record.kept, 0, 1)  # (Re or Im, site, time)
     squares = np.maximum(*(site_powers(re_im) for re_im in halves(turned(np.concatenate([s, d])))))
     return np.sqrt((record.l2**2).sum(axis=0)), np.sqrt(squares.max(axis=0))

@@ -1,4 +1,4 @@
-"""Where the fronts are on the sites of a state, and the powers of what they leave behind.
+"""The sites of the fronts in a state, and the mean powers of the regions behind them.
 
 `sites` are four rows on the sites 0..W, (row, site): Re and Im of S and D (see `sums`).
 """
@@ -7,20 +7,22 @@ import numpy as np
 
 POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, its mean"
 PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
-"""What these quantities are called in every dataset of this study."""
+"""Names of these quantities in every dataset of this study."""
 
 SLICE_LENGTH = 2.0
-"""Units of tau between two looks at a run, at most: a piece of it is a whole number of outputs."""
+"""Largest interval between two states that are measured, in tau; it is a whole number of outputs.
+"""
 
 LEVEL = 1e-2
-"""Power of a pair at which the fronts are found: of P the first, of its part |S|^2 the second."""
+"""Powers of a pair at which the fronts are found: that of P for the first, that of |S|^2 for the
+second."""
 
 BEHIND, BETWEEN = REGIONS = ("behind the second front", "between the fronts")
 KINDS = ("P", "|S|^2")
 SHARE, EDGE, AHEAD = 0.9, 40, 10
-"""The part of the way to a front that counts as behind it, and how many sites behind the first and
-ahead of the second front do not count as between them: there the state is yet to settle. Behind the
-first it does so over some hundred sites, so that long runs leave out more of them than EDGE."""
+"""A site counts as behind a front up to this fraction of its distance. Sites near the first and the
+second front, as many as EDGE, do not count as between them: there the state still relaxes.
+Behind the first front this takes some hundred sites, so that long runs leave out more than EDGE."""
 
 
 def site_powers(sites: np.ndarray) -> np.ndarray:
@@ -29,15 +31,16 @@ def site_powers(sites: np.ndarray) -> np.ndarray:
 
 
 def find_front(power: np.ndarray, level: float = LEVEL) -> float:
-    """Return the last site where the power (site,) is above a level, -1 if none is."""
+    """Return the last site at which the power (site,) exceeds a level, -1 if none does."""
     above = np.flatnonzero(power > level)
     return float(above[-1]) if above.size else -1.0
 
 
 def region_means(sites: np.ndarray, front: float, second: float, edge: int = EDGE) -> np.ndarray:
-    """Return the means of KINDS over REGIONS, (region, kind), NaN where one has no sites.
+    """Return the means of KINDS over REGIONS, (region, kind), NaN if a region has no sites.
 
-    `sites` are rows of S and D. The centre is left out, and `edge` sites behind the first front.
+    `sites` are rows of S and D. The centre is left out, and so are `edge` sites behind the first
+    front.
     """
     values = np.array([site_powers(sites), site_powers(sites[:2])])
     ahead = max(1, int(second) + AHEAD) if second >= 0.0 else 1

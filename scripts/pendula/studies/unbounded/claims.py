@@ -1,8 +1,8 @@
-"""The conjecture where it lives: growth in time on infinite chains.
+"""Claims on the paper's conjecture: growth in time on infinite chains.
 
-No run reaches infinity. What these rows decide is whether l2 has grown by a factor, and with which
-exponent of tau over the last octaves of a run in which the front never met an end. The offset of
-l2^2 is fitted too, and all limits are those of Student's t over the members of an ensemble.
+No run reaches infinity. The claims decide whether l2 has grown by a factor, and with which exponent
+of tau over the last octaves of a run in which the front never met an end. The offset of l2^2 is
+fitted as well, and all limits are those of Student's t over the members of an ensemble.
 """
 
 from collections.abc import Callable
@@ -25,21 +25,21 @@ SURE = Cutoff(0.95, "the customary level of confidence, 95 %", 1.0)
 SLOW = Cutoff(0.25, "the exponent of l2 in diffusion; a steady front gives 1/2")
 HALF = 0.5
 SHORTEST = 100.0
-"""Runs that end before are no test of growth in time."""
+"""Shorter runs do not test growth in time."""
 
 OCTAVES = 3
-"""Last octaves of time over which an exponent is fitted: at Omega = -4, where the bulk is short and
-members differ, the exponents of 20 members scatter by 0.41 over two octaves and by 0.32 over three.
-"""
+"""Octaves of time at the end of a run over which an exponent is fitted: at Omega = -4, where the
+bulk is short and members differ, the exponents of 20 members scatter by 0.41 over two octaves
+and by 0.32 over three."""
 
 
 def sure(tries: int = 1) -> float:
-    """Return the confidence of each of so many limits that holds for all together (Bonferroni)."""
+    """Return the confidence of each of `tries` limits that hold together at SURE (Bonferroni)."""
     return 1.0 - (1.0 - SURE.value) / tries
 
 
 def times_of(run) -> np.ndarray:
-    """Return the times of a run that is long enough to be a test of growth in time."""
+    """Return the times of a run. Raises UndecidableError if it is too short."""
     tau = run["tau"].values
     if tau[-1] < SHORTEST:
         raise UndecidableError(f"the runs end at tau = {tau[-1]:g}, before {SHORTEST:g}")
@@ -60,9 +60,9 @@ def exponents_of(run, variant: int) -> np.ndarray:
 
 
 def growths_of(run) -> tuple[list[Limits], list[float]]:
-    """Return of each variant the exponent, and the lower limit of the growth since tau = SETTLED.
+    """Return for each variant the exponent, and the lower limit of the growth since tau = SETTLED.
 
-    The limits are those of the mean over members, and hold for all variants together.
+    They are limits of the mean over members, and hold for all variants together.
     """
     variants = range(run.sizes["variant"])
     confidence = sure(len(variants))
@@ -77,11 +77,11 @@ GROWS = AllOf(
     Above(SLOW, "exponent_at_least", says="lower confidence limit of the exponent of tau in l2"),
     Above(FACTOR, "factor_at_least", says=f"least factor by which l2 grew since tau = {SETTLED:g}"),
 )
-"""What lower limits keep where l2 grows."""
+"""Criteria on lower limits that hold if l2 grows."""
 
 
 def growth_of(run) -> dict[str, float]:
-    """Return what is measured of the growth of l2 of a run with one variant."""
+    """Return the measured numbers of the growth of l2 of a run with one variant."""
     (exponent,), (factor,) = growths_of(run)
     return {
         "exponent": exponent.value,
@@ -93,7 +93,7 @@ def growth_of(run) -> dict[str, float]:
 
 
 def late_growths(run, name: str) -> np.ndarray:
-    """Return by how much a norm rose to the last octave from two before, as a part, (member,)."""
+    """Return the relative growth of a norm to the last octave from two before, (member,)."""
     tau, curves = times_of(run), curves_of(run, name)
     before = curves[:, (tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)].mean(axis=1)
     return curves[:, tau > tau[-1] / 2.0].mean(axis=1) / before - 1.0
@@ -103,7 +103,7 @@ def late_growths(run, name: str) -> np.ndarray:
 
 
 def following(law: Callable) -> Callable:
-    """Return a change of both norms of a run to law(tau), which keeps the scatter of members."""
+    """Return a change that lets both norms of a run follow law(tau), keeping their scatter."""
 
     def changed(run):
         curve = law(run["tau"].clip(min=1.0))
@@ -122,7 +122,7 @@ SLOWEST = Control(
     "the norm follows tau^(1/8), slower than in diffusion",
     following(lambda tau: 20.0 * np.sqrt(np.sqrt(np.sqrt(tau)))),
 )
-"""An exponent at the limit itself would be rejected or not by chance."""
+"""At the limit itself, chance would decide whether an exponent is rejected."""
 
 
 @claim(
@@ -172,10 +172,10 @@ def unbounded_band(run) -> Finding:
     ),
 )
 def unbounded_large(run, sensitivity) -> Finding:
-    """Require that the median member grows, and still does so over the last octaves.
+    """Require that the median member grows, and still grows over the last octaves.
 
-    Of members whose initial conditions differ by a millionth some do not spread: they decide a
-    mean and its limits, though most members grow.
+    Of the members, whose initial data differ by 1e-6, some do not spread: they would decide a mean
+    and its limits, though most members grow.
     """
     near = almost_equal(sensitivity, run.attrs["perturbation"])
     tau, l2 = times_of(run), curves_of(run, "l2")
@@ -205,7 +205,7 @@ def unbounded_large(run, sensitivity) -> Finding:
     (Control("the stable run fig3_small", "fig3_small"), SLOWER),
 )
 def unbounded_starts(run) -> Finding:
-    """Require that most runs grow, of members together: not all that are perturbed spread."""
+    """Require that most runs grow, over all members: not all perturbed runs spread."""
     tau, norms = times_of(run), run["l2"].transpose("tau", "variant", "member").values
     factors = norms[-1] / norms[np.searchsorted(tau, SETTLED)]
     share = share_limits(int((factors > FACTOR.value).sum()), factors.size)
@@ -246,9 +246,9 @@ def unbounded_stable(run) -> Finding:
     ),
 )
 def unbounded_maximum(run) -> Finding:
-    """Ask that the norm hardly changes while the front moves on.
+    """Require that the norm hardly changes while the front moves on.
 
-    The largest amplitude of N sites in thermal equilibrium has no bound: one amplitude m has the
+    The largest amplitude of N sites in thermal equilibrium has no bound: an amplitude m has the
     weight exp(-beta m^4 / 4), so that the largest grows as the fourth root of ln N.
     """
     growth = mean_limits(late_growths(run, "linf"), SURE.value)

@@ -1,6 +1,6 @@
-"""What moves on infinite chains: the fronts, and the states behind them.
+"""Claims on the fronts of infinite chains and on the states behind them.
 
-Only the errors of what is measured count: limits of means over members, by Student's t.
+Only the errors of measured numbers count: limits of means over members, by Student's t.
 """
 
 import numpy as np
@@ -32,7 +32,7 @@ OMEGAS = "unbounded/omegas"
 
 
 def a_stop(run):
-    """Return the run with fronts that stop at half the time."""
+    """Return the run with fronts that stop at half of the time, as a control."""
     tau = run["piece_tau"]
     middle = run["front"].sel(piece_tau=0.5 * float(tau[-1]), method="nearest")
     return run.assign(front=run["front"].where(tau < 0.5 * tau[-1], middle))
@@ -61,7 +61,7 @@ def unbounded_front(run) -> Finding:
 
 
 def both_between(run):
-    """Return the run with both fields alike between the fronts."""
+    """Return the run with equal powers of both fields between the fronts, as a control."""
     means = run["region_mean"]
     half = 0.5 * means.sel(kind=KINDS[0], drop=True)
     chosen = (means["region"] == BETWEEN) & (means["kind"] == KINDS[1])
@@ -100,7 +100,7 @@ def second_front(run) -> Finding:
 
 
 def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Limits]:
-    """Return limits of P (variant, member) over that of thermal states, where both are known."""
+    """Return P (variant, member) over that of thermal states, with limits, where both are known."""
     ratios = [
         Limits(*(bound / state for bound in mean_limits(power, sure(tries))))
         for power, state in zip(powers, expected, strict=True)
@@ -112,7 +112,7 @@ def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Limi
 
 
 def next_states(thermal):
-    """Return thermal states with the powers of the next Omega."""
+    """Return the thermal states with the powers of the next Omega, as a control."""
     return roll(("power", "antisymmetric_power"), {"omega": 1})(thermal)
 
 
@@ -124,10 +124,10 @@ def next_states(thermal):
     (Control("the thermal states of the next Omega", {"thermal": next_states}),),
 )
 def unbounded_equilibrium(run, thermal) -> Finding:
-    """Require that the limits of P behind the second fronts are near that of the thermal state.
+    """Require that P behind the second fronts is near that of the thermal state.
 
     Between the fronts P relaxes over hundreds of sites, of which short runs have few: these runs
-    decide nothing there.
+    cannot decide there.
     """
     times_of(run)
     omegas, tries = run["omega"].values, run.sizes["variant"]
@@ -152,7 +152,7 @@ def unbounded_equilibrium(run, thermal) -> Finding:
 
 
 def largest_change(run, thermal) -> float:
-    """Return by how much the slope of the law changes at most with one state behind both fronts."""
+    """Return the largest change of the law's slope if both fronts had one state behind them."""
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     first, second = run["predicted_speed"].values, np.nan_to_num(second_speeds(run)[0])
     law = second * both + (first - second) * alone

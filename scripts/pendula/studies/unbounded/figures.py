@@ -1,4 +1,4 @@
-"""Infinite chains in pictures: norms against time, and the two fronts over Omega."""
+"""Figures of infinite chains: norms against time, and the two fronts against Omega."""
 
 from collections.abc import Sequence
 
@@ -24,7 +24,7 @@ LOOKS = {
 }
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
 CHAOTIC = ("fig4_small", "fig3_large")
-"""The cases whose members differ, so that their bands are seen."""
+"""The cases whose members differ visibly, so that bands are drawn."""
 BAND_ALPHA = 0.3
 FIRST_TAU, POINTS = 10.0, 120
 BAND = ("lowest", "mean", "highest")
@@ -39,7 +39,7 @@ GROWTH_CAPTION = (
 def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
     """Return the norms of the first variant of each run at times equally spaced in log tau.
 
-    The law of l2^2 stands beside them where its states were solved.
+    The law of l2^2 is added where the states of a case were solved.
     """
     cases = xr.Variable("case", [run.attrs["name"] for run in runs])
     bands = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
@@ -67,7 +67,7 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2^2 / tau beside its law, l-infinity, and l2^2 over its law on a scale of its own."""
+    """Draw l2^2 / tau with its law, l-infinity, and l2^2 over its law on a scale of its own."""
     figure = style.new_figure(style.WIDTH, 2.4)
     rate, linf, ratio = figure.subplots(1, 3, sharex=True)
     for case in data["case"].values:
@@ -110,7 +110,7 @@ FIRST = {**DOTS, "color": style.RED}
 SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
 LINE = LAW | {"ls": "-"}
 CHAIN = ("epsilon", "gamma")
-"""What two studies must have in common to be of one chain, beside their detunings."""
+"""Attributes that two studies must share to be of the same chain."""
 FRONTS_CAPTION = (
     "The two fronts on the infinite chain. (a): their speeds; the lines are the predicted ones, of "
     "the second (dotted) by a longer study. (b): the power per pair behind the second front and "
@@ -120,9 +120,9 @@ FRONTS_CAPTION = (
 
 
 def gather_fronts(fronts: xr.Dataset, long: xr.Dataset | None = None) -> xr.Dataset:
-    """Return what `measured.measure_fronts` has made, and the predicted speed of the second front.
+    """Return the dataset of `measure_fronts` with the predicted speed of the second front.
 
-    It is that of the numbers of the `long` study; NaN where this is of no such chain.
+    The prediction is that of the `long` study, NaN if it is of another chain.
     """
     speed = xr.full_like(fronts["linear_speed"], np.nan, float)
     if long is not None and all(long.attrs[name] == fronts.attrs[name] for name in CHAIN):

@@ -1,4 +1,4 @@
-"""Ensembles of long runs on infinite chains as datasets."""
+"""The datasets of ensembles of long runs on infinite chains."""
 
 from collections.abc import Mapping, Sequence
 from functools import partial
@@ -19,14 +19,15 @@ from .bulk import EDGE, KINDS, LEVEL, PREDICTED_SPEED, REGIONS
 from .front import linear_front
 
 SCANS = ("omegas", "starts")
-"""Ensembles over detunings or initial conditions that are no case of the paper."""
+"""Ensembles over detunings or initial conditions, which belong to no case of the paper."""
 
 
 def member(problem: Problem, perturbation: float, seed: int, number: int) -> Problem:
-    """Return the problem of an ensemble's member; number 0 has the initial data as they are.
+    """Return the problem of an ensemble's member; number 0 has the unperturbed initial data.
 
-    The relative differences are `perturbation` times normal draws: chaos makes them of order one in
-    some ten units of tau. All sites of a component share a factor, so that even data stay even.
+    Members differ by `perturbation` times normal draws, relative to the data: chaos makes this of
+    order one within some ten units of tau. All sites of a component share a factor, so that even
+    data stay even.
     """
     if number == 0:
         return problem
@@ -44,7 +45,7 @@ def members_of(
 def attributes(
     title: str, name: str, problems: list[Problem], rest_threshold: float, **ensemble
 ) -> dict:
-    """Return what all of `problems` have in common: of varied parameters there is no one value."""
+    """Return the attributes that all `problems` share; varied parameters are left out."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
     shared = shared_by(described, "half_width", "snapshot_every")
     ends = {"boundary": "none: sites are added as the front moves", "rest": rest_threshold}
@@ -62,7 +63,7 @@ def spread_case(
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),
 ) -> ManyRuns:
-    """Return the runs that give what `run_long` returns of each problem and member."""
+    """Return the runs of all problems and members, for the dataset of the series of `run_long`."""
     ensemble = {"members": members, "perturbation": perturbation, "seed": seed}
     make = partial(run_long, rest_threshold=rest_threshold, levels=levels, edges=edges)
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
@@ -81,7 +82,7 @@ def run_variables(
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),
 ) -> dict[str, Variable]:
-    """Return the variables of series (variant, member, ...) of as many problems."""
+    """Return the variables of series (variant, member, ...), one variant for each problem."""
     predicted = [linear_front(problem.constants) for problem in problems]
 
     def of_variants(values: list[float], long_name: str = "") -> Variable:

@@ -1,12 +1,12 @@
-"""What is measured of runs on infinite chains: the fronts, the states behind them, and the law.
+"""Numbers measured on infinite chains: speeds of fronts, powers behind them, and the law of l2.
 
-Where the chain at rest is unstable, a front moves at the speed v_1 of linear spreading. Behind it
-A = -B, up to a second front, whose speed is v_2. With the powers P' between the fronts and P behind
-the second one the norm is l2 = (2 (v_2 P + (v_1 - v_2) P') tau)^(1/2).
+If the chain at rest is unstable, a front moves at the speed v_1 of linear spreading. Behind it A =
+-B, up to a second front, whose speed is v_2. With the powers P' between the fronts and P behind the
+second one the norm is l2 = (2 (v_2 P + (v_1 - v_2) P') tau)^(1/2).
 
-Energy is conserved and zero at rest, so what the fronts leave behind has none on average. If these
-states are in equilibrium, they are distributed as exp(-beta H), and their energy fixes beta.
-Nothing is fitted. The module `thermal` solves these states.
+Energy is conserved and zero at rest, so the states behind the fronts have none on average. In
+equilibrium they are distributed as exp(-beta H), and their energy fixes beta. Nothing is fitted.
+The module `thermal` solves these states.
 """
 
 import numpy as np
@@ -23,19 +23,20 @@ NO_FRONT, NO_SITES = missing("no second front has formed"), missing("the region 
 NO_STATE = REGULAR | missing("no thermal state was solved")
 
 LATE = 0.5
-"""The part of a run, at its end, that powers are means of."""
+"""Fraction of a run, at its end, over which powers are averaged."""
 
 SETTLED = 1 / 3
-"""The part of a run that is left out of speeds: at first they are below those they tend to."""
+"""Fraction of a run, at its start, that is left out of speeds, which approach their limits from
+below."""
 
 FIRST_OF_LINE = 0.25
-"""The line through l2^2 starts at this part of a run."""
+"""The line through l2^2 starts at this fraction of a run."""
 
 
 def mean_powers(run, region: str, kind: str = KINDS[0], late: float = LATE) -> np.ndarray:
-    """Return a mean over a region and the `late` part of a run, at its end, (variant, member).
+    """Return a mean over a region and the fraction `late` of a run, at its end, (variant, member).
 
-    Looks at which the region has no sites are left out; NaN where it never has.
+    States in which the region has no sites are left out; it is NaN if there are no others.
     """
     tau, values = run["piece_tau"], run["region_mean"].sel(region=region, kind=kind)
     at_end = values.isel(piece_tau=np.flatnonzero(tau > (1.0 - late) * tau[-1]))
@@ -43,7 +44,7 @@ def mean_powers(run, region: str, kind: str = KINDS[0], late: float = LATE) -> n
 
 
 def with_first_choices(run: xr.Dataset) -> xr.Dataset:
-    """Return a run with the first of its levels and edges, of which short runs have one each."""
+    """Return a run at the first of its levels and edges; short runs have only one of each."""
     return run.isel(level=0, edge=0, missing_dims="ignore")
 
 
@@ -51,41 +52,41 @@ def with_first_choices(run: xr.Dataset) -> xr.Dataset:
 
 
 def resolution(tau: np.ndarray, settled: float = SETTLED) -> float:
-    """Return how well the speed of a front can be known from its places at `tau`.
+    """Return the error of the speed of a front that follows from its places being whole sites.
 
-    Places that are off by half a site either way change the slope of least squares by at most 3/2
-    sites over the time of the fit, in all members alike.
+    Places that are off by half a site in either direction change the slope of least squares by at
+    most 3/2 sites over the time of the fit, equally in all members.
     """
     return 1.5 / ((1.0 - settled) * float(tau[-1]))
 
 
 def speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the speed of the first front of each variant, and its limits.
+    """Return the speed of the first front of each variant, with limits.
 
-    What a pulled front loses on its way is added back.
+    The delay of a pulled front is added back.
     """
     lost = run["predicted_delay"] * xr.DataArray(log(run["piece_tau"].values), dims="piece_tau")
     return _slopes(run, run["front"] + lost, settled)
 
 
 def second_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the same of the second front, NaN where |S|^2 behind it has not reached LEVEL."""
+    """Return the speed of the second front with its error, NaN if |S|^2 stays below LEVEL."""
     filled = mean_powers(run, BEHIND, KINDS[1]).mean(axis=1) > LEVEL
     slopes = level_speeds(run, settled)
     return tuple(np.where(filled, speeds, np.nan) for speeds in slopes)
 
 
 def level_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the same of the last site where |S|^2 has reached a level, NaN where none has."""
+    """Return the speed of the last site where |S|^2 has reached a level, NaN if there is none."""
     reached = (run["second_front"].isel(piece_tau=-1) >= 0.0).all("member").values
     slopes = _slopes(run, run["second_front"], settled)
     return tuple(np.where(reached, speeds, np.nan) for speeds in slopes)
 
 
 def _slopes(run, way, settled: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the slope of a front's way over the late time, its mean over members, and limits.
+    """Return the slope of a front's place over the late time, its mean over members, and limits.
 
-    These are those of the mean by Student's t, and no less than the `resolution`.
+    The limits are those of the mean by Student's t, and at least the `resolution`.
     """
     tau = run["piece_tau"].values
     late = tau >= settled * tau[-1]
@@ -96,7 +97,7 @@ def _slopes(run, way, settled: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _known(halves, otherwise: float = np.nan):
-    """Return limits, and something else in place of the infinite ones of a single member."""
+    """Return limits, with another value in place of infinite ones of a single member."""
     return np.where(np.isfinite(halves), halves, otherwise)
 
 
@@ -104,7 +105,7 @@ def _known(halves, otherwise: float = np.nan):
 
 
 def thermal_powers(thermal, run, name: str = "power") -> np.ndarray:
-    """Return P of the thermal states at each Omega of a run, (variant,), NaN where none was solved.
+    """Return P of the thermal states at each Omega of a run, (variant,), NaN if none was solved.
 
     That of A = -B has the name "antisymmetric_power".
     """
@@ -112,11 +113,11 @@ def thermal_powers(thermal, run, name: str = "power") -> np.ndarray:
 
 
 def law_of(run, thermal, second: np.ndarray | None = None) -> np.ndarray:
-    """Return l2^2 as thermal states and speeds of fronts have it, (variant, tau); no constant fits.
+    """Return l2^2 by thermal states and speeds of fronts, (variant, tau), without a fit.
 
-    It is 2 (v_2 P + (v_1 - v_2) P') tau less 2 P' delay ln tau, which a pulled front loses on its
-    way; v_1 is predicted, v_2 is that of `second` (variant,), or else measured, and zero where no
-    second front has formed. NaN where no front is pulled or no state was solved.
+    It is 2 (v_2 P + (v_1 - v_2) P') tau minus 2 P' delay ln tau, the delay of a pulled front; v_1
+    is predicted, v_2 is `second` (variant,) if given, otherwise measured, and zero if no second
+    front has formed. NaN if no front is pulled or no state was solved.
     """
     delay, first = run["predicted_delay"].values, run["predicted_speed"].values
     second = np.nan_to_num(second_speeds(run)[0] if second is None else second)
@@ -134,9 +135,9 @@ def slope_ratios(
     second: np.ndarray | None = None,
     first: float = FIRST_OF_LINE,
 ) -> list[Limits]:
-    """Return the slope of l2^2 over its law of each variant, with limits over the members.
+    """Return the slope of l2^2 over that of its law for each variant, with limits over the members.
 
-    Where the law begins is not known: an offset is fitted. `second` are speeds as of `law_of`.
+    The time at which the law begins is unknown, so an offset is fitted. For `second` see `law_of`.
     """
     is_late = run["tau"].values >= first * float(run["tau"][-1])
     squares = run["l2"].transpose("variant", "member", "tau").values[:, :, is_late] ** 2
@@ -152,7 +153,7 @@ def slope_ratios(
 
 
 def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
-    """Return speeds of the fronts and powers behind them over Omega, beside predicted ones."""
+    """Return the dataset of speeds of fronts and powers behind them, measured and predicted."""
     omegas = with_first_choices(omegas)
     (first, first_error), (second, second_error) = speeds(omegas), second_speeds(omegas)
     formed = np.where(np.isfinite(second), 1.0, np.nan)

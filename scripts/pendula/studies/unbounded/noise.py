@@ -1,7 +1,7 @@
-"""How the second front moves if noise sets A + B going behind the first, as rounding errors do.
+"""The second front if noise starts the growth of A + B behind the first front.
 
-Noise of a part sigma of |D|, drawn anew at every site at every look, is added to S. Runs in A and B
-themselves have the noise of their rounding errors, which is about 1e-16 of |D|.
+Noise of the relative size sigma of |D|, drawn anew at every site and every stored state, is added
+to S. Runs in A and B have the noise of their own rounding errors, which is about 1e-16 of |D|.
 """
 
 from functools import partial
@@ -25,8 +25,8 @@ ROUNDING = "A and B in doubles"
 """In place of a size of noise: the run is made in A and B, whose rounding errors are the noise."""
 
 LEVELS, LATE, SHORTER = (LEVEL, 1.0), (0.5, 0.25), (1.0, 0.5)
-"""Least |S|^2 behind the second front; the part of a run, at its end, over which it is followed;
-and the part of a run that is made. The second of each is a variation."""
+"""Least |S|^2 behind the second front; the fraction of a run, at its end, over which the front is
+fitted; and the fraction of the run that is used. The second value of each is a variation."""
 CHOICES = {"part of the run": SHORTER, "part fitted": LATE, "level": LEVELS}
 MEANINGS = {
     "noisy_second_speed": "speed of the second front with noise, in sites per unit of tau",
@@ -43,10 +43,10 @@ def follow_noise(
     tolerances: list[float],
     seed: int,
 ) -> ManyRuns:
-    """Return the runs that give speeds of the second front and its distance from the first.
+    """Return the runs that give the speed of the second front and its distance from the first.
 
-    Both are (noise, omega), and the last noise is ROUNDING. They are of the first of
-    `tolerances`; others are variations.
+    Both are (noise, omega), and the last noise is ROUNDING. Printed are those at the first of
+    `tolerances`; the others are variations.
     """
     runs = []
     for tolerance in tolerances:
@@ -124,9 +124,9 @@ def _numbers_of(
 def places_of(
     problem: Problem, noise: float | str, rest_threshold: float, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return times, the places of the first front, and those of the second, (time, level).
+    """Return times, places of the first front, and places of the second one, (time, level).
 
-    Each member draws its noise anew: its initial data are a part of the seed.
+    Each member draws its own noise: its initial data enter the seed.
     """
     in_doubles = noise == ROUNDING
     rng = np.random.default_rng([seed, *problem.initial.view(np.uint64).ravel()])

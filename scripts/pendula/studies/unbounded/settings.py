@@ -1,6 +1,6 @@
-"""The section of the configuration on infinite chains, and the problems that follow from it.
+"""The keys of config/unbounded.yaml, and the problems of infinite chains that follow from them.
 
-A full run makes the study of `short`, and `snakemake unbounded` that of `long`.
+A full run makes the study `short`, and `snakemake unbounded` the study `long`.
 """
 
 from collections.abc import Mapping
@@ -32,19 +32,20 @@ from pendula.configuration.schema import Configuration, Faults
 from .bulk import SLICE_LENGTH
 
 SPEED = 5.0
-"""Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
+"""Upper bound of the speeds of fronts in the paper's cases, in sites per unit of tau and of the
+coupling."""
 
 GROWTH_CASES = ("fig4_small", "fig3_large", "fig2_large", "fig3_small")
 """The cases of the figure growth_law, and of claims."""
 
 OMEGAS = "omegas"
-"""The ensemble over Omega, beside those of cases."""
+"""Name of the ensemble over Omega, next to those of cases."""
 STARTS = "starts"
-"""The ensemble over initial conditions of the central pair."""
+"""Name of the ensemble over initial conditions of the central pair."""
 
 
 class Size(Model):
-    """How far everything is run, and by which solver."""
+    """Solver, threshold of rest, end times and members of a study."""
 
     solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
     rest_threshold: Positive  # of the largest amplitude
@@ -52,24 +53,24 @@ class Size(Model):
 
 
 class Transverse(Model):
-    """Where the growth of a small A + B is measured, and how long; the first values are printed."""
+    """Runs that measure the growth of a small A + B; the first of several values is printed."""
 
     end_time: Positive
-    slow_from: Number  # the Omega from which on runs end later
+    slow_from: Number  # Omega from which on runs end later
     slow_end_time: Positive
     members: Count
     tolerances: list[Tolerance]
     perturbations: Positives
 
     def end_times(self, omegas: list[float]) -> list[float]:
-        """Return the end time at each Omega."""
+        """Return the end time for each Omega."""
         return [
             self.slow_end_time if omega >= self.slow_from else self.end_time for omega in omegas
         ]
 
 
 class Noise(Model):
-    """Which noise is added to A + B, where and how long; the first tolerance is printed."""
+    """Runs with noise added to A + B; the first tolerance is printed."""
 
     omegas: Numbers
     end_times: list[Positive]  # one for each Omega
@@ -79,11 +80,13 @@ class Noise(Model):
 
 
 class LongSize(Size):
-    """The long study, and what its numbers are varied by; the first of each is printed."""
+    """The long study, and the choices that vary its numbers; the first of each is printed."""
 
     levels: Positives  # of |S|^2 behind the second front
-    edges: Counts  # sites behind the first front that do not count as between both
-    coarse: Tolerance  # at which runs are made again
+    edges: (
+        Counts  # sites behind the first front that are left out of the region between both fronts
+    )
+    coarse: Tolerance  # tolerance of the repeated runs
     transverse: Transverse
     noise: Noise
 
@@ -108,7 +111,7 @@ class Settings(Model):
     long: LongSize
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield what does not fit the cases of the configuration, or takes too long."""
+        """Yield faults of cases and ensembles, and of runs that take too long."""
         used = [("omegas.case", self.omegas.case), ("starts.case", self.starts.case)]
         used += [("cases", case) for case in self.cases]
         absent = [fault for key, case in used for fault in settings.absent("cases", key, [case])]
@@ -138,7 +141,7 @@ class Settings(Model):
         yield from self._faults_of_noise()
 
     def _faults_of_band(self, settings: Configuration) -> Faults:
-        """Yield why no front has a state behind it: outside of the unstable band none spreads."""
+        """Yield the Omegas outside of the unstable band, where no front spreads."""
         case = settings.cases[self.omegas.case]
         low, high = -2.0 * abs(case.gamma), 2.0 * abs(case.gamma) + 4.0 * max(case.epsilon, 0.0)
         if not any(low < omega < high for omega in self.omegas.values):
@@ -146,7 +149,7 @@ class Settings(Model):
             yield "omegas.values", f"{text} (for epsilon and gamma of cases.{self.omegas.case})"
 
     def _faults_of_noise(self) -> Faults:
-        """Yield whether there is not one end time for each Omega."""
+        """Yield a fault unless there is one end time for each Omega."""
         noise = self.long.noise
         if len(noise.end_times) != len(noise.omegas):
             text = f"has {len(noise.end_times)} values; give one for each of the omegas"
@@ -169,7 +172,7 @@ class Settings(Model):
             if unfit := list(drawn.faults()):
                 yield from unfit
                 return
-            # the front moves at SPEED, half of its reach is the mean
+            # the front moves at SPEED, so that the mean width is half of its reach
             reach = 0.5 * SPEED * abs(problems[0]["epsilon"]) * run.end_time
             cost = estimate(problems[0] | {"half_width": max(1.0, reach), "snapshot_every": 0})
             count = len(problems) * run.members
@@ -182,7 +185,7 @@ class Settings(Model):
         return [*self.cases, OMEGAS, STARTS]
 
     def case_of(self, name: str) -> str:
-        """Return the case of the paper that an ensemble starts from."""
+        """Return the case of the paper from which an ensemble starts."""
         return {OMEGAS: self.omegas.case, STARTS: self.starts.case}.get(name, name)
 
     def problems(self, case: Mapping[str, Any], name: str, size: Size) -> list[dict]:

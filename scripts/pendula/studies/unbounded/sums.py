@@ -1,8 +1,8 @@
 """The equations (4) in the unknowns S = (A + B) / sqrt 2 and D = (A - B) / sqrt 2.
 
 The drive acts on D alone. So the chain that it excites has A = -B, and S is tiny there. In A and B
-it is lost in rounding errors: at 1e-16 of D they are larger, and grow as S does, so that S seems to
-fill the chain earlier than it does. As an unknown of its own S keeps all of its digits.
+it is lost in rounding errors, which at 1e-16 of D are larger and grow like S, so that S seems to
+fill the chain too early. As an unknown of its own S keeps all of its digits.
 """
 
 from dataclasses import asdict
@@ -36,7 +36,7 @@ def halves(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def turned(values: np.ndarray) -> np.ndarray:
-    """Return S and D of A and B, or A and B of S and D: the first half of the rows and the second.
+    """Return S and D of A and B, or A and B of S and D, in the two halves of the rows.
 
     `values` are complex (component, ...), or rows of real and imaginary parts (row, ...).
     """

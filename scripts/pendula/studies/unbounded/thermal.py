@@ -3,9 +3,9 @@
 Nothing is sampled: an eigenvector of the operator (see `transfer`) gives the means of a site. Their
 error is that of the grid, which a coarser and wider grid measures.
 
-The energy needs no bond. The mean of y dH/dy is f / beta a site with f coordinates, and y dH/dy is
-2 H plus twice the quartic term: the energy a site is f / (2 beta) - <quartic>. Two fields have four
-coordinates a site, and the chain with A = -B has two.
+The energy needs no bond. The mean of y dH/dy is f / beta for a site with f coordinates, and y dH/dy
+is 2 H plus twice the quartic term: the energy per site is f / (2 beta) - <quartic>. Two fields have
+four coordinates a site, and the chain with A = -B has two.
 """
 
 from typing import NamedTuple
@@ -22,7 +22,7 @@ from . import transfer
 from .bulk import POWER
 
 HOT, COLD = 1e-3, 1e5
-"""Inverse temperatures between which a state is looked for."""
+"""Largest and smallest temperature 1 / beta: states are searched between these beta."""
 
 HALVINGS, SECANTS = 7, 12
 """Steps to a rough beta on a coarse grid, and the most steps from there on a finer one."""
@@ -44,13 +44,12 @@ class ThermalState(NamedTuple):
 def state_of_energy(
     constants: Constants, energy: float, nodes: int, antisymmetric: bool = False
 ) -> ThermalState:
-    """Return the thermal state with an energy per site, on `nodes` half-nodes a coordinate.
+    """Return the thermal state with this energy per site, on `nodes` half-nodes a coordinate.
 
-    It is that of both fields, or of the chain with A = -B.
-
-    Three grids follow each other: one with half of the nodes finds beta roughly and how far the
-    distribution reaches, one with three quarters gives the error, the last gives the state.
-    Raises NoThermalStateError where no state between HOT and COLD has this energy.
+    It is that of both fields, or that of the chain with A = -B. Three grids are used: one with half
+    of the nodes gives a rough beta and the extent of the distribution, one with three quarters the
+    error, the last one the state. Raises NoThermalStateError if no state between HOT and COLD has
+    this energy.
     """
     few, some = nodes // 2, 3 * nodes // 4
 
@@ -86,7 +85,7 @@ def _excess(constants, beta, grid, energy, vector=None) -> tuple:
 
 
 def _refined(constants, beta, grid, energy) -> tuple:
-    """Return beta, operator and vector where the excess vanishes, by secants in log beta."""
+    """Return beta, operator and vector at which the excess vanishes, by secants in log beta."""
     old, (excess, operator, vector) = beta, _excess(constants, beta, grid, energy)
     beta *= 1.01
     for _ in range(SECANTS):
@@ -100,9 +99,9 @@ def _refined(constants, beta, grid, energy) -> tuple:
 
 
 def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int) -> Contents:
-    """Return the states without energy at all `omegas`, of both fields and of A = -B.
+    """Return the dataset of the states of zero energy at `omegas`, both fields and A = -B.
 
-    Where one has no such state it is left out.
+    An Omega at which one has no such state is left out.
     """
     states = []
     for omega in omegas:

@@ -23,13 +23,14 @@ from latticode.numerics.elementary import exp
 from pendula.problem import Constants
 
 TAIL = 1e-9
-"""A grid ends where the density of a coordinate falls below this part of its largest value."""
+"""A grid ends where the density of a coordinate falls below this fraction of its largest value."""
 
 REACH = 25.0
 """The first grid ends where the weight of a site is below exp(-REACH) of its largest value."""
 
 SETTLED = 1e-9
-"""The power iteration ends when the mean quartic energy changes by less than this part of it."""
+"""The power iteration ends when the mean quartic energy changes by less than this fraction of it.
+"""
 
 
 class Operator(NamedTuple):
@@ -48,12 +49,12 @@ class Operator(NamedTuple):
 
     @property
     def freedom(self) -> int:
-        """The number of coordinates of a site that are not held at zero."""
+        """The number of coordinates of a site that are not fixed at zero."""
         return sum(nodes.size > 1 for nodes in self.nodes)
 
 
 def widest(constants: Constants, beta: float) -> np.ndarray:
-    """Return a bound on the coordinates: beyond it a site has less than exp(-REACH) of the weight.
+    """Return a bound of the coordinates: beyond it the weight of a site is below exp(-REACH).
 
     The energy of a site is above P^2 / 8 - c P with c as below.
     """
@@ -64,7 +65,7 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
 
 
 def half_nodes(reach: np.ndarray, count: int, antisymmetric: bool) -> tuple[np.ndarray, ...]:
-    """Return `count` midpoints between 0 and each of `reach`; s and p are zero where A = -B."""
+    """Return `count` midpoints between 0 and each of `reach`; s and p are zero if A = -B."""
     nodes = [length * (np.arange(count) + 0.5) / count for length in reach]
     if antisymmetric:
         nodes[0] = nodes[2] = np.zeros(1)
@@ -80,7 +81,7 @@ def bonds_on(nodes: np.ndarray, beta: float, epsilon: float) -> np.ndarray:
 
 
 def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ...]) -> Operator:
-    """Return the operator on given nodes."""
+    """Return the operator on these nodes."""
     epsilon, gamma, omega = constants
     s, t, p, q = np.ix_(*nodes)
     power = s * s + t * t + p * p + q * q
@@ -94,9 +95,9 @@ def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ..
 
 @kernel
 def pass_through(bond, values, row, result):
-    """Put the sum over j of bond[i, j] values[j, r] into result[r, i]: the first axis goes last.
+    """Write the sum over j of bond[i, j] values[j, r] to result[r, i]: the first axis goes last.
 
-    `row` has room for a row of `values`.
+    `row` is workspace for a row of `values`.
     """
     for i in range(bond.shape[0]):
         row[:] = 0.0
@@ -133,12 +134,12 @@ def applied(operator: Operator, values: np.ndarray) -> np.ndarray:
 
 
 def normalised(vector: np.ndarray) -> np.ndarray:
-    """Return the vector over the root of the sum of its squares."""
+    """Return the vector divided by its l2 norm."""
     return vector / np.sqrt(np.sum(vector * vector))
 
 
 def leading(operator: Operator, vector: np.ndarray | None = None, most: int = 2000) -> np.ndarray:
-    """Return the eigenvector of the largest eigenvalue, by iteration from `vector`.
+    """Return the eigenvector of the largest eigenvalue, by power iteration from `vector`.
 
     Raises ArithmeticError if `most` iterations are not enough.
     """

@@ -1,15 +1,15 @@
-"""Whether a small A + B grows on the chaotic chain with A = -B, and how fast it spreads.
+"""Growth and spreading of a small A + B on the chaotic chain with A = -B.
 
 To first order in S = (A + B) / sqrt 2, D = (A - B) / sqrt 2 moves alone behind the first front, and
 S obeys a linear equation with D in its coefficients. At a site that moves at a velocity v, |S|
 grows as exp(lambda(v) tau). Without noise S spreads at the velocity v_2 at which lambda vanishes,
-as errors do in chaotic media (Cencini and Torcini, Phys. Rev. E 63 (2001) 056201), and at that of
-the first front where lambda is positive up to there.
+as errors do in chaotic media (Cencini and Torcini, Phys. Rev. E 63 (2001) 056201), or at that of
+the first front if lambda is positive up to there.
 
-Noise of a part sigma of |D| sets S going wherever the first front has passed. From there S grows
-along all velocities. So at d sites behind the front, whose speed is v_1, it has grown by
-exp(kappa d), where kappa is the largest lambda(v) / (v_1 - v). If kappa > 0, S is of order one at
-ln(1 / sigma) / kappa sites behind the first front, and the second front follows the first.
+Noise of the relative size sigma of |D| starts S at every site that the first front has passed. From
+there S grows along all velocities. So at d sites behind the front, whose speed is v_1, it has grown
+by exp(kappa d), where kappa is the largest lambda(v) / (v_1 - v). If kappa > 0, S is of order one
+at ln(1 / sigma) / kappa sites behind the first front, and the second front follows the first.
 
 The equations are those of `sums`, with S so small that its squares are lost in rounding errors.
 """
@@ -32,15 +32,16 @@ from .long_runs import members_of
 from .sums import in_sums
 
 SMALL, LEAST = 1e-20, 1e-300
-"""The largest |S| after each piece of a run, and the least that counts: less loses digits."""
+"""|S| is scaled down to the first number after each interval; values below the second have too few
+digits."""
 
 VELOCITIES = 64
-"""Parts into which velocities up to the first front's are cut."""
+"""Number of intervals of the velocities from 0 to that of the first front."""
 
 NEAR, LATE, SHORTER = (8, 16), (0.5, 0.25), (1.0, 0.5)
-"""Sites to each side of which the largest |S| is taken, since it vanishes here and there; the part
-of a run, at its end, over which growth is measured; and the part of a run that is made. The second
-of each is a variation."""
+"""Sites to each side over which the largest |S| is taken, since |S| has zeros; the fraction of a
+run, at its end, over which growth is fitted; and the fraction of the run that is used. The
+second value of each is a variation."""
 
 
 def solve_transverse(
@@ -53,7 +54,7 @@ def solve_transverse(
 ) -> ManyRuns:
     """Return the runs that give predicted speeds of the second front, exponents, and kappa.
 
-    They are of the first of `perturbations` and of `tolerances`; the others are variations.
+    Printed are those of the first of `perturbations` and `tolerances`; the others are variations.
     """
     settings = [(tolerances[0], perturbation) for perturbation in perturbations]
     settings += [(tolerance, perturbations[0]) for tolerance in tolerances[1:]]
@@ -101,9 +102,9 @@ MEANINGS = {
 
 
 def exponents_of(problem: Problem, rest_threshold: float) -> dict[str, np.ndarray]:
-    """Return the exponent of |S| at each velocity under all CHOICES, flat, from a small S like D.
+    """Return the exponent of |S| at each velocity under all CHOICES, flat, from a small S.
 
-    It is NaN where |S| falls below LEAST: there it decreases beside the largest.
+    It is NaN where |S| falls below LEAST.
     """
     start, speed = in_sums(problem), linear_front(problem.constants).speed
     d = start.initial[1]
@@ -126,13 +127,13 @@ def velocities() -> np.ndarray:
 
 
 def _log_near(sizes: np.ndarray, places: np.ndarray, near: int) -> np.ndarray:
-    """Return the logarithm of the largest size near each place, NaN below LEAST."""
+    """Return the logarithm of the largest |S| near each place, NaN below LEAST."""
     nearby = np.array([sizes[max(0, at - near) : at + near + 1].max(initial=0.0) for at in places])
     return np.where(nearby > LEAST, log(np.maximum(nearby, LEAST)), np.nan)
 
 
 def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
-    """Return the slopes of logs (time, near, velocity), (part, fitted, near, velocity)."""
+    """Return the slopes of logs (time, near, velocity): (fraction, fitted, near, velocity)."""
     return np.array(
         [
             [_slopes_within(tau, logs, fraction * tau[-1], late) for late in LATE]
@@ -142,7 +143,7 @@ def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
 
 
 def _slopes_within(tau: np.ndarray, logs: np.ndarray, end: float, late: float) -> np.ndarray:
-    """Return the slopes over the `late` part before `end`, (near, velocity)."""
+    """Return the slopes over the fraction `late` before `end`, (near, velocity)."""
     is_fitted = (tau > (1.0 - late) * end) & (tau <= end)
     curves = logs[is_fitted].reshape(is_fitted.sum(), -1).T
     return np.array([lay_line(tau[is_fitted], curve).slope for curve in curves]).reshape(
@@ -159,8 +160,8 @@ def numbers_of(
     """Return the numbers of MEANINGS with their errors, from exponents (omega, member, velocity).
 
     The errors are half of the 95 % limits of the mean over the members. If no exponent is above
-    `least` (omega,), |S| grew by less than a factor of e, which could not be told from a power of
-    tau, and no second front is predicted.
+    `least` (omega,), |S| grew by less than a factor of e, which is indistinguishable from a power
+    of tau, and no second front is predicted.
     """
     fronts = np.array([linear_front(problem.constants).speed for problem in problems])
     means = exponents.mean(axis=1)
@@ -184,9 +185,9 @@ def numbers_of(
 
 
 def crossing_of(exponents: np.ndarray) -> float:
-    """Return the velocity from which on exponents (velocity,) are negative, over the first front's.
+    """Return the velocity above which exponents (velocity,) are negative, over the front's.
 
-    It is interpolated: one if the last is positive, and zero if none is. NaN are negative.
+    It is interpolated: one if the last is positive, and zero if none is. NaN counts as negative.
     """
     positive = np.flatnonzero(exponents > 0.0)
     if not positive.size:
@@ -200,5 +201,5 @@ def crossing_of(exponents: np.ndarray) -> float:
 
 
 def largest_ratio(exponents: np.ndarray) -> float:
-    """Return the largest exponent over the velocity that is left to the first front's."""
+    """Return the largest exponent, each over the distance of its velocity from the front speed."""
     return float(np.nanmax(exponents / (1.0 - velocities())))

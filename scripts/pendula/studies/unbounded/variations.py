@@ -1,8 +1,8 @@
 """The numbers of long runs on infinite chains, each measured again with its choices changed.
 
-A long study is made with two tolerances. Its other choices are of the measurement: the part of a
-run that is read or fitted, the level at which the second front is found, and how many sites behind
-the first front do not count as between both.
+A long study is made with two tolerances. Its other choices belong to the measurement: the fraction
+of a run that is used or fitted, the level at which the second front is found, and the number of
+sites behind the first front that do not count as between both.
 """
 
 from collections.abc import Callable, Mapping
@@ -30,7 +30,7 @@ from .measured import (
 from .noise import ROUNDING
 
 OCTAVES = 2
-"""Exponents are fitted over so many of the last octaves of time."""
+"""Octaves of time at the end of a run over which exponents are fitted."""
 FRACTIONS, PREDICTED = [1.0, 0.5], ["predicted", "measured"]
 SPEED = "in sites per unit of tau"
 ROUNDING_ERROR = 2.0**-53
@@ -45,9 +45,9 @@ def vary_numbers(
     transverse: xr.Dataset,
     noise: xr.Dataset,
 ) -> xr.Dataset:
-    """Return the numbers of long runs over Omega and of fig3_large with their variations.
+    """Return the numbers of long runs over Omega and of fig3_large, with their variations.
 
-    Beside them are those that were predicted, and had their variations before.
+    Predicted numbers, which have variations of their own, are added.
     """
     over_omega = by_tolerance(omegas, omegas_coarse)
     numbers = {
@@ -81,7 +81,7 @@ SHARED_ATTRIBUTES = ("epsilon", "gamma", "members", "solver", "solver_rtol", "so
 
 
 def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]:
-    """Return what is counted, or computed without a choice, over Omega."""
+    """Return counted numbers, and those computed without a choice, over Omega."""
     last = omegas["front"].isel(piece_tau=-1).max("member").values
     both, alone = (thermal_powers(thermal, omegas, f"{of}power") for of in ("", "antisymmetric_"))
     state = f"{POWER} in the thermal state"
@@ -99,7 +99,7 @@ def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]
 def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
     """Return ln(1 / noise) / kappa, the distance of the second front from the first, with noise.
 
-    The noise of A and B in doubles is that of a rounding error.
+    The noise of A and B in doubles is a rounding error.
     """
     sizes = [
         ROUNDING_ERROR if noise_level == ROUNDING else float(noise_level)
@@ -118,10 +118,11 @@ def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
 
 
 def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, Printed]:
-    """Return by how much the distance is larger with the first size of noise than with the second.
+    """Return the distance with the first size of noise minus that with the second.
 
-    It is ln(second / first) / kappa, where the constant of neither distance is left: growth begins
-    at no one site. The errors of both measured distances are taken as independent.
+    The prediction is ln(second / first) / kappa: the unknown constant of both distances cancels,
+    since growth does not start at one site. The errors of both measured distances are taken as
+    independent.
     """
     first, second = (noise.isel(noise=n) for n in (0, 1))
     predicted = predict_distances(noise, transverse).number
@@ -152,7 +153,7 @@ def by_tolerance(*runs: xr.Dataset) -> dict[float, xr.Dataset]:
 
 
 def select_fraction(run: xr.Dataset, fraction: float, **at: float) -> xr.Dataset:
-    """Return a run up to a part of its end time, at a level and an edge."""
+    """Return a run up to a fraction of its end time, at a level and an edge."""
     end = fraction * float(run["tau"][-1])
     return run.sel(tau=slice(0.0, end), piece_tau=slice(0.0, end), **at)
 
@@ -165,9 +166,9 @@ def _first(run: xr.Dataset) -> dict[str, float]:
 def varied(
     runs: Mapping[float, xr.Dataset], measure: Callable[..., Estimate], **choices: list
 ) -> Varied:
-    """Return what `measure(run, ...)` returns, for all choices, and parts and tolerances of runs.
+    """Return the results of `measure(run, ...)` for all choices, fractions and tolerances of runs.
 
-    A choice of level or edge chooses the fronts and regions of the run.
+    A level or an edge selects the fronts and regions of the run.
     """
 
     def measured(**chosen) -> Estimate:
@@ -224,7 +225,7 @@ def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> Vari
 
 
 def numbers_of_states(runs: Mapping[float, xr.Dataset], thermal: xr.Dataset) -> dict[str, Printed]:
-    """Return the powers behind both fronts, and these over those of thermal states."""
+    """Return the powers behind both fronts, and their ratios to those of thermal states."""
     edges = [int(edge) for edge in next(iter(runs.values()))["edge"].values]
     numbers = {}
     for name, region, state, choices in (
@@ -304,7 +305,7 @@ def plain_exponents(run: xr.Dataset, octaves: int) -> Estimate:
 
 
 def growths_of_maximum(run: xr.Dataset) -> Estimate:
-    """Return by how much the mean of l-infinity in the last octave is above that two before."""
+    """Return the relative growth of the mean of l-infinity in the last octave from two before."""
     tau = run["tau"]
     before = run["linf"].sel(tau=(tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)).mean("tau")
     growth = run["linf"].sel(tau=tau > tau[-1] / 2.0).mean("tau") / before - 1.0
