@@ -1,4 +1,4 @@
-"""Trajectories beside the bounds of Theorems 1 to 3, and which theorem covers each."""
+"""Trajectories compared with the bounds of Theorems 1 to 3, and the theorem that covers each."""
 
 from collections.abc import Mapping
 
@@ -21,13 +21,13 @@ NUMBERS = {
     "widened": ("the same with the bonds kept", None),
     "theorem_3": ("C_N of Theorem 3", None),
 }
-"""The numbers of a trajectory, each with its long name and its tolerance."""
+"""The numbers of a trajectory: long name, and tolerance if the number decides."""
 PRINTED_NUMBERS = ("start", "theorem_1", "theorem_2", "widened", "theorem_3")
-"""Those that follow from the initial conditions."""
+"""Numbers that follow from the initial conditions."""
 
 
 def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
-    """Return the numbers of one trajectory that NUMBERS describes."""
+    """Return the numbers of one trajectory, as NUMBERS lists them."""
     constants, boundary = Constants.of(trajectory.attrs), str(trajectory.attrs["boundary"])
     sites = 2 * int(trajectory.attrs["half_width"]) + 1
     energy, power = float(trajectory["energy"][0]), total_power(trajectory)
@@ -40,7 +40,7 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
 
 
 def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
-    """Set each of the paper's trajectories (by the name of its case) beside its bounds."""
+    """Return the table that compares each of the paper's trajectories, by case, with its bounds."""
     attributes = [trajectory.attrs for trajectory in trajectories.values()]
     return tabulate(
         "The paper's cases beside the bounds of its theorems",

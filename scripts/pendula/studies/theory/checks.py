@@ -1,4 +1,4 @@
-"""The checks that one job makes: starting it costs more than most of them."""
+"""All checks, made by one job: to start a job costs more than most of them."""
 
 from collections.abc import Iterator
 
@@ -18,7 +18,7 @@ SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-14}
 
 
 def check_not_shown() -> dict:
-    """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
+    """Return the sweep at Omega = 8 from small data, which the paper mentions but does not show."""
     constants, peaks = constants_at(OMEGA), []
     for half_width in HALF_WIDTHS:
         data = one_pair(2 * half_width + 1, PAIR)
@@ -48,7 +48,7 @@ CHECKS = {
 
 
 def run_checks() -> Iterator[xr.Dataset]:
-    """Yield the numbers of CHECKS, in their order."""
+    """Yield the tables of CHECKS, in their order."""
     for name, make in CHECKS.items():
         check = make()
         print(f"Check of the theory: {describe(name, check)}")

@@ -1,4 +1,4 @@
-"""Section 3: the linear stability of the chain at rest, Lemma 1 and its proof."""
+"""Section 3: claims on the linear stability of the chain at rest, Lemma 1 and its proof."""
 
 import numpy as np
 from latticode.numerics.elementary import log
@@ -41,7 +41,7 @@ def dispersion():
     kind=Kind.THEOREM,
 )
 def stable_below(chart) -> Finding:
-    """Ask above gamma_0 for half of the rate that N sites have, where time resolves that."""
+    """Require above gamma_0 half of the rate of N sites, if the run is long enough for it."""
     below, above = (chart["gamma"] < chart["gamma_0"]), (chart["gamma"] > chart["gamma_0"])
     is_resolved = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
     measured = {
@@ -85,7 +85,7 @@ def unstable_band(chart) -> Finding:
     kind=Kind.THEOREM,
 )
 def sharp_threshold(check) -> Finding:
-    """Ask that the thresholds of longer and longer chains tend to gamma_0."""
+    """Require that the thresholds of longer and longer chains tend to gamma_0."""
     excess, sites = check["excess"], check["sites"].values + 1.0
     steps = log(excess.isel(sites=0) / excess.isel(sites=-1)) / log(sites[-1] / sites[0])
     measured = {"order": steps.min(), "excess_of_the_longest": excess.isel(sites=-1).max()}

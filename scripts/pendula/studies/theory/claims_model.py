@@ -1,4 +1,4 @@
-"""Section 2: the equations, their symmetries, and their derivation from Newton's equations."""
+"""Section 2: claims on the equations, their symmetries, and their derivation from (1)."""
 
 from collections.abc import Callable, Mapping
 from functools import wraps
@@ -27,10 +27,10 @@ IDENTITIES = checks("identities")
 def by_algebra(
     place: str, statement: str, twins: Mapping[str, str], kind=Kind.IDENTITY, caveat=""
 ) -> Callable:
-    """Return a decorator: the claim holds if nothing is left of the statements in `twins`.
+    """Return a decorator: the claim holds if no terms are left of the statements in `twins`.
 
-    By statement this has what its wrong twin says, which a control puts in its place. The function
-    only names the claim, and says why these statements decide it.
+    `twins` describes for each statement its wrong twin, which a control puts in its place. The
+    decorated function only names the claim, and its docstring says why these statements decide it.
     """
 
     def declare(function: Callable) -> Callable:
@@ -46,18 +46,18 @@ def by_algebra(
 
 
 def terms_left(identities, *names: str) -> dict[str, float]:
-    """Return how many terms are left of the statements of these names, as measured numbers."""
+    """Return the number of terms left of each of these statements, as measured numbers."""
     terms = identities["terms"]
     return {f"terms_left_of_{name}": terms.sel(identity=name).max() for name in names}
 
 
 def nothing_left(left: Mapping[str, float]) -> AtMost:
-    """Return the criterion that these statements are identities."""
+    """Return the criterion that no terms are left of these statements."""
     return AtMost(0, *left, says="terms left of the identity")
 
 
 def twin(name: str, description: str) -> Control:
-    """Return the control that has the wrong twin in the place of the statement of this name."""
+    """Return the control that puts the wrong twin of this statement in its place."""
 
     def wrong(identities):
         is_named = identities["identity"] == name
@@ -76,7 +76,7 @@ def twin(name: str, description: str) -> Control:
     },
 )
 def hamiltonian():
-    """The rates are those by the gradient of H, along which H has no rate."""
+    """The rates of (4) are those by the gradient of H, and the rate of H along them vanishes."""
 
 
 @claim(
@@ -89,7 +89,7 @@ def hamiltonian():
     kind=Kind.IDENTITY,
 )
 def no_gauge(identities) -> Finding:
-    """Turning all phases is a symmetry without the drive; with it terms must be left."""
+    """Without the drive a change of all phases is a symmetry; with it terms must be left."""
     left = identities["twin_terms"].min("boundary")
     measured = {
         f"terms_left_of_{form}": left.sel(identity=f"phases of ({form}) without drive")
@@ -99,7 +99,7 @@ def no_gauge(identities) -> Finding:
 
 
 def without_drive(lyapunov):
-    """Return the spectra with those at gamma = 0 in their place."""
+    """Return a control: the table with the spectra at gamma = 0 in place of the driven ones."""
     if "exponents_undriven" not in lyapunov:
         raise UndecidableError("there are no spectra at gamma = 0")
     names = ("exponents", "exponents_error")
@@ -114,12 +114,12 @@ def without_drive(lyapunov):
 )
 def one_integral(lyapunov) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
-    # With a second integral at least four exponents of a spectrum vanish, and one of these beyond
+    # With a second integral at least four exponents of a spectrum vanish, and a single one outside
     # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
     level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(PARTS - 1, level) / student(PARTS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
-    # those that lie nearer to zero than exponents to each other
+    # exponents that are nearer to zero than to the next exponent
     between = 2.0 * size.max("index") / size.sizes["index"]
     vanishing = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
@@ -154,7 +154,7 @@ def one_integral(lyapunov) -> Finding:
     caveat="the symmetry is that of P and T together; P alone is none",
 )
 def pt_form():
-    """The change (9) turns (4) into (10), and H / 8 is its energy."""
+    """The change (9) turns (4) into (10), and H / 8 is the energy of (10)."""
 
 
 @by_algebra(
@@ -176,7 +176,7 @@ def exchange():
     },
 )
 def synchronised():
-    """Where A = B the exchange keeps it, and the rates are those of (5), without a drive."""
+    """The exchange keeps A = B, where the rates are those of (5), without a drive."""
 
 
 @by_algebra(
@@ -185,7 +185,7 @@ def synchronised():
     {"x = y is kept": "x = -y, which is kept but driven"},
 )
 def pendula_synchronised():
-    """Both accelerations are alike and have no drive."""
+    """If x = y both accelerations are equal and contain no drive."""
 
 
 @by_algebra(
@@ -194,7 +194,7 @@ def pendula_synchronised():
     {"H from the energy of (1)": "the energy of another Omega"},
 )
 def inherited():
-    """In the frame that turns with the pendula, averaged over a turn, it is -H at mu^4."""
+    """In the frame that rotates with the pendula, averaged over a period, it is -H at mu^4."""
 
 
 @by_algebra(
@@ -213,4 +213,4 @@ def resonance():
     {"(4) from (1) by (3)": "the slow time mu^2 t"},
 )
 def amplitude_equations():
-    """What (1) leaves of order mu^3 has no first harmonic, and only then with (4) and this tau."""
+    """The residual of (1) at mu^3 has no first harmonic, and only with (4) and this tau."""

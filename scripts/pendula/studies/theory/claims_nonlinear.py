@@ -1,4 +1,4 @@
-"""Section 4: Lemma 2, the inequalities, Theorems 1 to 3, their proofs and how sharp they are."""
+"""Section 4: claims on Lemma 2, the inequalities, Theorems 1 to 3, and their proofs."""
 
 from functools import partial
 
@@ -23,8 +23,8 @@ from .claims_model import by_algebra, nothing_left, terms_left, twin
 
 SECTION = 4
 
-# ASSUME: what is said to grow with the chain, as C_N does in proportion to N, has an exponent of N
-# nearer to one than to zero.
+# ASSUME: a quantity grows with the chain, as C_N does in proportion to N, if its exponent of N
+# is nearer to one than to zero.
 IN_PROPORTION = Cutoff(0.5, '"grows with N": the exponent of N is nearer to 1 than to 0')
 SHARP = Cutoff(0.9, '"sharp": at least 90 % of the bound is reached', ideal=1.0)
 ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
@@ -39,17 +39,17 @@ RESOLVED_ORDER = Cutoff(0.05, "orders are measured to one decimal")
     kind=Kind.THEOREM,
 )
 def local_existence():
-    """Picard's method asks for Lipschitz rates: the linear ones are by (17), the cubic by (18)."""
+    """Picard's method requires Lipschitz rates: the linear ones by (17), the cubic ones by (18)."""
 
 
 DISTANCE, GROWTH = "distance of two solutions", "(19)"
-"""Statements that algebra proves: how fast a distance can grow, and how fast P can."""
+"""Statements proved by algebra: bounds on the rate of a distance, and on the rate of P."""
 of_lemma_2 = partial(claim, "Lemma 2", needs=checks("identities", "well_posed"), kind=Kind.THEOREM)
 HALF_OF_THE_RATE = twin(DISTANCE, "a rate of half of the drive")
 
 
 def of_a_neighbour(well_posed):
-    """Return the runs with a solution from close by in place of that by the second solver."""
+    """Return a control: runs in which a solution from nearby data is that of the second solver."""
     near = well_posed.sel(perturbation_size=well_posed["perturbation_size"].min(), drop=True)
     return well_posed.assign(
         between_solvers=float(well_posed["perturbation_size"].min())
@@ -58,13 +58,13 @@ def of_a_neighbour(well_posed):
 
 
 def of_one_distance(well_posed):
-    """Return the runs with the distances of the largest perturbation in place of all."""
+    """Return a control: runs in which all distances are those of the largest perturbation."""
     sizes = well_posed["perturbation_size"]
     return well_posed.assign(distance_ratio=well_posed["distance_ratio"] * sizes.max() / sizes)
 
 
 def beyond_runs(well_posed, time: str) -> str:
-    """Return the caveat of what was seen on runs, up to an attribute `time`."""
+    """Return the caveat on what is known from runs only, up to the time of the attribute `time`."""
     largest, end = well_posed["initial_power"].max(), well_posed.attrs[time]
     return (
         f"computed from random initial conditions with P up to {largest:g} and for |tau| up to"
@@ -83,7 +83,7 @@ def beyond_runs(well_posed, time: str) -> str:
     ),
 )
 def global_existence(identities, well_posed) -> Finding:
-    """By (19) no norm is infinite at a finite time; so the local solution goes on."""
+    """By (19) no norm becomes infinite at a finite time, so the local solution continues."""
     left = terms_left(identities, GROWTH)
     measured = {name: well_posed[name].max(skipna=False) for name in ("from_start", "steepest")}
     criterion = AllOf(
@@ -106,11 +106,11 @@ def global_existence(identities, well_posed) -> Finding:
     ),
 )
 def uniqueness(identities, well_posed) -> Finding:
-    """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d: from none none comes.
+    """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d: from 0 it stays 0.
 
-    M is the largest amplitude on the straight way between both, along which the rates are
-    integrated by their derivative, to which the identity belongs. Two solvers, each of which
-    could have found another solution, find one.
+    M is the largest amplitude on the straight line between both states, along which the rates are
+    integrated by their derivative; the identity is about this derivative. Two solvers, each of
+    which could have found another solution, find the same one.
     """
     left = terms_left(identities, DISTANCE)
     measured = {
@@ -137,9 +137,10 @@ RATE = "largest growth of the log of a distance over (2 gamma + M^2 / 2) tau"
     ),
 )
 def continuous_dependence(identities, well_posed) -> Finding:
-    """The same rate bounds the distance at any later time by a multiple of the first one.
+    """The same rate bounds the distance at any later time by a multiple of the initial one.
 
-    So the later distance shrinks with the first one, and in proportion, as the rates are smooth.
+    So the later distance shrinks with the initial one, and in proportion to it, since the rates are
+    smooth.
     """
     left, near = terms_left(identities, DISTANCE), well_posed.sortby("perturbation_size")
     logs = (
@@ -176,7 +177,7 @@ def growth_bound():
     {"balance of P": "the balance equation with twice the drive"},
 )
 def balance():
-    """The rate of P along the equations is that of the balance."""
+    """The rate of P along the equations is that of the balance equation."""
 
 
 @by_algebra(
@@ -185,7 +186,7 @@ def balance():
     {"sign of gamma": "(A, B) -> (-A, -B) in place of (iA, iB)"},
 )
 def sign_of_gamma():
-    """All amplitudes times i turn the sign of gamma."""
+    """Multiplying all amplitudes by i changes the sign of gamma."""
 
 
 @by_algebra(
@@ -196,7 +197,7 @@ def sign_of_gamma():
     {name: f"{name} with 3/4 of the right side" for name in ("(17)", "(18)", "(22)", "(27)")},
 )
 def norm_inequalities():
-    """The right side less the left one is a sum of squares."""
+    """The right side minus the left side is a sum of squares."""
 
 
 HALF_OF_THE_DRIVE = "a bound of the energy with half of the drive"
@@ -210,7 +211,7 @@ HALF_OF_THE_DRIVE = "a bound of the energy with half of the drive"
     dict.fromkeys(("(21)", "(25)", "size of H"), HALF_OF_THE_DRIVE),
 )
 def energy_bounds():
-    """H less its lower bound, and its upper bound less H, are sums of squares."""
+    """H minus its lower bound, and its upper bound minus H, are sums of squares."""
 
 
 CONSERVED = {"conservation of (8)": "the energy of another Omega"}
@@ -223,7 +224,7 @@ CONSERVED = {"conservation of (8)": "the energy of another Omega"}
     kind=Kind.THEOREM,
 )
 def theorem_1():
-    """H is conserved and by (21) at least a multiple of P."""
+    """H is conserved, and by (21) it is at least a multiple of P."""
 
 
 @by_algebra(
@@ -233,7 +234,7 @@ def theorem_1():
     kind=Kind.THEOREM,
 )
 def theorem_2():
-    """By (25) no state of a small energy is on the barrier that P, being continuous, must pass."""
+    """By (25) no state of small energy is on the barrier that the continuous P would cross."""
 
 
 @by_algebra(
@@ -308,7 +309,7 @@ ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)
     controls=(Control("Omega = 8, where Theorem 1 bounds P on any chain", ABOVE_THE_BAND),),
 )
 def bound_grows(check) -> Finding:
-    """Ask that C_N grows, and that the largest P of data of one energy does."""
+    """Require that C_N grows, and that the largest P of data of one energy does."""
     measured = {
         name: number(check, name, omega=0.0) for name in ("constant_exponent", "shell_exponent")
     }
@@ -333,7 +334,7 @@ def energy_not_useful(check) -> Finding:
 
 
 SIZES = ("theorem_1", "theorem_2")
-"""The theorems whose bounds are in proportion to the initial power of small data."""
+"""The theorems whose bounds are proportional to the initial power of small data."""
 
 
 @claim(
@@ -355,7 +356,8 @@ def sharp_theorems(check) -> Finding:
     """Compare the bounds C delta of small data, delta = P(0), with the largest growth of P.
 
     The paper prints no constants: they may be the least ones, or those of the inequalities in its
-    proofs. If only the latter fail, and the bounds in terms of H are reached, nothing is decided.
+    proofs. If only the latter fail, and the bounds in terms of H are attained, the claim is
+    undecided.
     """
     measured = {}
     for theorem in SIZES:

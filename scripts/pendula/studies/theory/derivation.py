@@ -1,9 +1,10 @@
 """From Newton's equations (1) to (4): the straightforward computations that the paper leaves out.
 
-The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and y of B. Cosine and sine of
-the fast time omega t are indeterminates here, A and B depend on the slow time. What (1) leaves of
-order mu^3 must have no first harmonic, or the remainder grows with the time: this gives (4). The
-energy of (1) in the frame that turns with the pendula, averaged over a turn, gives -H at mu^4.
+The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and likewise y with B. Cosine
+and sine of the fast time omega t are indeterminates here, A and B depend on the slow time. The
+residual of (1) at mu^3 must have no first harmonic, or the remainder grows with time: this gives
+(4). The energy of (1) in the frame that rotates with the pendula, averaged over a period, gives -H
+at mu^4.
 """
 
 from collections.abc import Callable, Mapping
@@ -36,9 +37,9 @@ from .polynomials import (
 HALF = fmpq(1, 2)
 MU_AT, COSINE_AT, SINE_AT = (GENS.index(generator) for generator in (MU, COSINE, SINE))
 SLOW = HALF
-"""The rate of the slow time tau in the paper's mu^2 t."""
+"""d tau / d(mu^2 t), the rate of the slow time tau."""
 DOUBLE = COSINE**2 - SINE**2
-"""The cosine of 2 omega t, by which the drive acts."""
+"""The cosine of 2 omega t, the time dependence of the drive."""
 SINES = SimpleNamespace(sin=lambda x: x - fmpq(1, 6) * x * x * x)
 """The sine of an angle of order mu, up to mu^4."""
 
@@ -50,7 +51,7 @@ def at_order(polynomial, order: int):
 
 
 def averaged(polynomial):
-    """Return the mean of a polynomial in cos and sin of the fast time over a turn."""
+    """Return the mean of a polynomial in cos and sin of the fast time over a period."""
     mean = ZERO
     for powers, coefficient in polynomial.to_dict().items():
         j, k = powers[COSINE_AT], powers[SINE_AT]
@@ -64,7 +65,7 @@ def averaged(polynomial):
 
 
 def mean_of_powers(j: int, k: int) -> fmpq:
-    """Return the mean of cos^j sin^k over a turn, for even j and k."""
+    """Return the mean of cos^j sin^k over a period, for even j and k."""
     odd, even = (*range(1, j, 2), *range(1, k, 2)), range(2, j + k + 1, 2)
     return fmpq(prod(odd), prod(even))
 
@@ -87,12 +88,12 @@ def accelerations(ends, x: np.ndarray, drive=DOUBLE) -> np.ndarray:
 
 
 def first_harmonic(ends, slow, drive=DOUBLE) -> list:
-    """Return the first harmonic, by cos and by sin, of what (1) leaves of order mu^3.
+    """Return the first harmonic, by cos and by sin, of the residual of (1) at mu^3.
 
-    The amplitudes obey (4) in a time that goes at the rate `slow` in mu^2 t.
+    The amplitudes obey (4) in a time whose rate is `slow` in mu^2 t.
     """
     change = slow * rates(ends)
-    # x'' of (3) less -x: omega^2 = 1 + mu^2 Omega, and the product of the two rates
+    # x'' of (3) minus -x: omega^2 = 1 + mu^2 Omega, and the product of the two rates
     inertia = -scaled(OMEGA, turning(STATE[:, 0], STATE[:, 1]))
     inertia = inertia - 2 * turning(change[:, 1], -change[:, 0])
     forces = accelerations(ends, angles(), drive=drive)
@@ -104,7 +105,7 @@ def first_harmonic(ends, slow, drive=DOUBLE) -> list:
 
 
 def resonance(ends, drive) -> list:
-    """Return the same for another drive."""
+    """Return the first harmonic for another drive."""
     return first_harmonic(ends, SLOW, drive)
 
 
@@ -118,7 +119,7 @@ def newtons_energy(ends, x: np.ndarray):
 
 
 def inherited(ends, omega) -> list:
-    """Return what is left of H from Newton's energy, and of (1) as the equations of that energy."""
+    """Return the residuals of H as the averaged Newton energy, and of (1) as its equations."""
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
     generic = STATE[:, 0]
@@ -134,9 +135,9 @@ def inherited(ends, omega) -> list:
 
 
 def synchronised(ends, sign: int) -> list:
-    """Return by how much (1) leaves y = `sign` x, and what the drive does there.
+    """Return the residual of (1) on y = `sign` x, and what the drive contributes there.
 
-    What stands for the sine acts on each angle alone, so that any odd function would do.
+    The symbol for the sine acts on each angle alone, so the result holds for any odd function.
     """
     x = np.stack([STATE[0, 0], sign * STATE[0, 0]])
     driven, free = (accelerations(ends, x, drive) for drive in (DOUBLE, ZERO))

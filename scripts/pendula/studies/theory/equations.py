@@ -1,4 +1,4 @@
-"""Equations (4) on amplitudes: short runs of the checks, and the data that they start from."""
+"""Short runs of (4) for the checks, and their initial data."""
 
 import numpy as np
 from latticode.measures.norms import power_of
@@ -15,16 +15,16 @@ ENDS, PAIR = "dirichlet", (1.0, 0.1)
 
 
 def constants_at(omega: float, gamma: float = 1.0) -> Constants:
-    """Return the paper's constants at this detuning, with another drive if that is given."""
+    """Return the paper's constants at this detuning, with another drive if `gamma` is given."""
     return Constants(epsilon=1.0, gamma=float(gamma), omega=float(omega))
 
 
 def run(
     constants: Constants, boundary: str, amplitudes: np.ndarray, end_time, outputs=1, *, solver
 ) -> Trajectory:
-    """Integrate amplitudes (2, N) on the full chain, without any short cut.
+    """Return the trajectory of amplitudes (2, N), integrated on the full chain without reductions.
 
-    The trajectory has its start and as many `outputs`, in equal steps up to `end_time`.
+    It has the initial state and `outputs` more, in equal steps up to `end_time`.
     """
     problem = Problem(
         parameters=vars(constants),
@@ -65,13 +65,13 @@ def random_amplitudes(seed: int, sites: int) -> np.ndarray:
 
 
 def one_pair(sites: int, pair) -> np.ndarray:
-    """Return amplitudes (2, N) with one pair in the middle and all else at rest."""
+    """Return amplitudes (2, N) with one excited pair in the middle and all others at rest."""
     amplitudes = np.zeros((2, sites), complex)
     amplitudes[:, sites // 2] = pair
     return amplitudes
 
 
 def alternating(sites: int, x: float) -> np.ndarray:
-    """Return A_n = -B_n = (-1)^n x, shape (2, N)."""
+    """Return A_n = -B_n = (-1)^n x, (2, N)."""
     wave = x * (1.0 - 2.0 * (np.arange(sites) % 2))
     return np.stack([wave, -wave]).astype(complex)

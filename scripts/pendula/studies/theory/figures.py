@@ -1,4 +1,4 @@
-"""Lemma 1 and Theorems 1 to 3 in pictures: the chart of stability, and the cases and their bounds.
+"""Figures of Lemma 1 and Theorems 1 to 3: the stability chart, and the cases with their bounds.
 
 The bounds are on P = |A|^2 + |B|^2 in l2.
 """
@@ -14,7 +14,7 @@ from replication.variables import REGULAR
 
 from pendula.drawing import name_initial
 
-HEAT = "YlOrRd"  # from light to dark: the boundaries, where growth is slow, lie on light ground
+HEAT = "YlOrRd"  # from light to dark: growth is slow, and colours light, near the boundaries
 CHART = ["measured", "infinite_curve", "finite_curve", "sites"]
 CURVES = {
     "finite_curve": {"color": style.BLUE, "lw": 1.1, "label": "threshold of the finite chain"},
@@ -48,7 +48,8 @@ def gather_chart(
 ) -> xr.Dataset:
     """Return the chart and the points of the cases.
 
-    `points` are pairs (Omega, gamma) in units of epsilon, `of_paper` says whether of its figures.
+    `points` are pairs (Omega, gamma) in units of epsilon; `of_paper` tells whether they are the
+    paper's.
     """
     data = chart[CHART].drop_attrs(deep=False).assign_attrs(caption=CHART_CAPTION, **REGULAR)
     owner = "the paper's cases" if of_paper else "the cases"
@@ -89,7 +90,7 @@ def gather_bounds(cases: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_bounds(data: xr.Dataset) -> Figure:
-    """Draw the P of each case, at the start and at its largest, and its bounds."""
+    """Draw P of each case, initial and largest, and its bounds."""
     figure = style.new_figure(style.WIDTH, 2.8)
     axes, rows = figure.subplots(), np.arange(data.sizes["case"])
     hollow = {"color": "white", "markeredgecolor": "black", "label": "at the start"}

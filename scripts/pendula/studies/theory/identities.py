@@ -1,8 +1,8 @@
 """The paper's identities, proved by algebra: both sides are polynomials, compared term by term.
 
-These are polynomials in the fields and the constants, for each kind of ends. What is left of an
-identity must have no terms: then it holds for all data and constants, and only then. Each statement
-has a twin, a wrong one, of which terms must be left.
+These are polynomials in the fields and the constants, for each kind of ends. An identity holds for
+all data and constants if and only if the difference of its sides has no terms. Each statement has a
+wrong twin, of which terms must be left.
 """
 
 from collections.abc import Callable, Mapping
@@ -43,7 +43,8 @@ from .polynomials import (
 
 HALF = fmpq(1, 2)
 TURN = fmpq(3, 5), fmpq(4, 5)
-"""Cosine and sine of an angle that is no part of a turn: what it keeps, all angles keep."""
+"""Cosine and sine of an angle that is no rational part of a turn: what holds for it holds for all
+angles."""
 
 # --- The paper's other forms of the equations, as it prints them ----------------------------------
 
@@ -100,30 +101,30 @@ def equal_phases(factor: int) -> np.ndarray:
 
 
 def equivariance(ends, image: Callable, state=STATE, direction: int = 1, **constants):
-    """Return by what w -> image(w), with time in this `direction`, misses the same equations."""
+    """Return the residual of the equations under w -> image(w), with time in this `direction`."""
     return rates(ends, image(state), **constants) - direction * image(
         rates(ends, state, **constants)
     )
 
 
 def p_and_t(ends, direction: int):
-    """Return by what (10) misses the symmetry P T, or P alone with time in its own direction."""
+    """Return the residual of (10) under P T, or under P alone with time in its own direction."""
     image = exchanged if direction > 0 else lambda w: conjugate(exchanged(w))
     return equivariance(ends, image, direction=direction, model=PT)
 
 
 def phases(ends, gamma, **constants):
-    """Return by what turning all phases misses the same equations, with this drive."""
+    """Return the residual of (4) under a change of all phases, with this drive."""
     return equivariance(ends, turned, gamma=gamma, **constants)
 
 
 def phases_alike(ends, factor: int):
-    """Return by what (4) misses gauge symmetry where B = `factor` A."""
+    """Return the residual of gauge symmetry of (4) on B = `factor` A."""
     return equivariance(ends, turned, equal_phases(factor))
 
 
 def hamiltonian(ends, omega):
-    """Return the rates of (4) less those by (7): the gradient by conj A is half that by rows."""
+    """Return the rates of (4) minus those by (7): the gradient by conj A is half that by rows."""
     return rates(ends) - HALF * times(0, -1, gradient(energy(ends, omega=omega)))
 
 
@@ -132,23 +133,23 @@ def rate_of_energy(ends, omega):
 
 
 def reduction(ends, factor: int):
-    """Return the rates of A in (4) where B = `factor` A, less those of the scalar equation."""
+    """Return the rates of A in (4) on B = `factor` A, minus those of the scalar equation."""
     return rates(ends, equal_phases(factor))[0] - rates(ends, STATE[:1], SCALAR)[0]
 
 
 def of_pt(ends, gamma):
-    """Return the rates of (4) less what (10) makes of them, in the variables (9)."""
+    """Return the rates of (4) minus those of (10) transformed by (9)."""
     return from_pt(rates(ends, model=PT)) - rates(ends, from_pt(STATE), gamma=gamma)
 
 
 def pt_hamiltonian(ends, image: Callable):
-    """Return the rates of (10) less those of K = H / 8, by i u' = dK/d(conj v) and the like."""
+    """Return the rates of (10) minus those of K = H / 8, by i u' = dK/d(conj v) and the like."""
     slope = gradient(fmpq(1, 8) * put(energy(ends), from_pt(STATE)))
     return rates(ends, model=PT) - HALF * times(0, -1, image(slope))
 
 
 def sign_of_gamma(ends, image: Callable):
-    """Return by what w -> image(w) misses turning the sign of gamma."""
+    """Return the residual of w -> image(w) as a change of the sign of gamma."""
     return rates(ends, image(STATE), gamma=-GAMMA) - image(rates(ends))
 
 
@@ -156,9 +157,9 @@ def sign_of_gamma(ends, image: Callable):
 
 
 def of_a_wave(ends, kappa):
-    """Return the linear rates of one site whose neighbours are 1 - 2 s^2 = cos theta times it.
+    """Return the linear rates of a site whose neighbours are cos theta times it, minus (14).
 
-    Less those of (14), i A' + kappa A = gamma (conj B - conj A). Here s = sin(theta / 2).
+    Here cos theta = 1 - 2 s^2, (14) is i A' + kappa A = gamma (conj B - conj A), and s = sin(theta / 2).
     """
     site = STATE[..., :1]
     neighbour = scaled(1 - 2 * SINE**2, site)
@@ -170,7 +171,7 @@ def of_a_wave(ends, kappa):
 
 
 def determinant(ends, drive: int):
-    """Return the determinant printed before (15) less its factors, with `drive` times gamma."""
+    """Return the determinant printed before (15) minus its factors, with `drive` times gamma."""
     k, g, w = KAPPA, GAMMA, OMEGA
     rows = [[k - w, g, ZERO, -g], [g, k + w, -g, ZERO], [ZERO, -g, k - w, g], [-g, ZERO, g, k + w]]
     total = ZERO
@@ -182,7 +183,7 @@ def determinant(ends, drive: int):
 
 
 def balance(ends, factor: int):
-    """Return dP/dtau less `factor` times the balance equation in the proof of Lemma 2."""
+    """Return dP/dtau minus `factor` times the balance equation in the proof of Lemma 2."""
     x, y = STATE[0] - STATE[1]
     return 2 * (STATE * rates(ends)).sum() - factor * 4 * GAMMA * (x * y).sum()
 
@@ -207,12 +208,12 @@ IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
     **derivation.IDENTITIES,
     **inequalities.IDENTITIES,
 }
-"""By name what is left of each statement, for a kind of ends and what the statement says there or,
-third, what its wrong twin says."""
+"""By name: the residual of each statement for a kind of ends, its value or option, and third that
+of its wrong twin."""
 
 
 def prove_identities() -> xr.Dataset:
-    """Count the terms that are left of each statement and of its twin, for each kind of ends."""
+    """Return the number of terms left of each statement and of its twin, for each kind of ends."""
     dims = ("identity", "boundary")
     right, wrong = (
         [

@@ -1,9 +1,9 @@
-"""The inequalities of Section 4, proved: the larger side less the smaller one is a sum of squares.
+"""The inequalities of Section 4, proved: the larger side minus the smaller one is a sum of squares.
 
-The factors of the squares are not negative where epsilon, gamma > 0 and |Omega| = +-Omega. What is
-left of an inequality is its larger side less its smaller one, less these squares: no terms. P
-counts |A_n|^2 and |B_n|^2 of all sites. A twin claims three quarters of the larger side, or half of
-the drive.
+The factors of the squares are not negative if epsilon, gamma > 0 and |Omega| = +-Omega. The
+residual of an inequality is its larger side minus its smaller side minus these squares: it must
+have no terms. P counts |A_n|^2 and |B_n|^2 of all sites. A wrong twin has three quarters of the
+larger side, or half of the drive.
 """
 
 from collections.abc import Callable, Mapping
@@ -33,7 +33,7 @@ HALF, QUARTER, LESS = fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)
 
 
 def sums(ends, state=STATE):
-    """Return 4 P less the bonds as a sum of squares."""
+    """Return 4 P minus the bonds as a sum of squares."""
     right, left = joined(ends, state)
     ends_twice = 2 * densities(state)[:, [0, -1]].sum() if ends == "free" else ZERO
     return ((right + left) ** 2).sum() + ends_twice
@@ -51,7 +51,7 @@ def pairs(values: np.ndarray):
 
 
 def driven(change, state, factor: int) -> list:
-    """Return `factor` gamma |state|^2 less and more a `change`, less the squares of the drive."""
+    """Return `factor` gamma |state|^2 minus and plus `change`, minus the squares of the drive."""
     together, (x, y) = state[0] + state[1], state[0] - state[1]
     power = factor * GAMMA * densities(state).sum()
     return [
@@ -61,14 +61,14 @@ def driven(change, state, factor: int) -> list:
 
 
 def growth(ends, factor: int):
-    """Return what is left of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
+    """Return the residual of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
     return driven(2 * (STATE * rates(ends)).sum(), STATE, factor)
 
 
 def parting(ends, factor: int):
-    """Return what is left of a bound on the rate of |d|^2, for solutions at a distance d nearby.
+    """Return the residual of a bound on the rate of |d|^2, for solutions at a small distance d.
 
-    It is `factor` gamma |d|^2, and the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
+    The bound is `factor` gamma |d|^2, plus the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
     """
     (re, im), (x, y) = STATE.swapaxes(0, 1), PERTURBATION.swapaxes(0, 1)
     along, across = re * x + im * y, im * x - re * y  # of A times the conjugate of d
@@ -82,33 +82,33 @@ def parting(ends, factor: int):
     ]
 
 
-def laplacian(ends, draw):
-    """Return what is left of (17)."""
-    return 4 * draw * densities().sum() - bonds(ends) - sums(ends)
+def laplacian(ends, share):
+    """Return the residual of (17), with `share` of the larger side."""
+    return 4 * share * densities().sum() - bonds(ends) - sums(ends)
 
 
-def of_products(ends, draw):
-    """Return what is left of (18), squared."""
+def of_products(ends, share):
+    """Return the residual of (18), squared, with `share` of the larger side."""
     a, b = densities()
     both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
-    return draw * a.sum() * b.sum() - (a * b).sum() - both
+    return share * a.sum() * b.sum() - (a * b).sum() - both
 
 
-def embedding(ends, draw):
-    """Return what is left of (22), to the fourth power."""
+def embedding(ends, share):
+    """Return the residual of (22), to the fourth power, with `share` of the larger side."""
     a = densities()[0]
-    return draw * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
+    return share * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
 
-def embedding_reversed(ends, draw):
-    """Return what is left of (27), to the fourth power."""
+def embedding_reversed(ends, share):
+    """Return the residual of (27), to the fourth power, with `share` of the larger side."""
     a = densities()[0]
     differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
-    return draw * len(a) * (a**2).sum() - a.sum() ** 2 - differences
+    return share * len(a) * (a**2).sum() - a.sum() ** 2 - differences
 
 
 def above_band(ends, gammas: int):
-    """Return what is left of (21), with `gammas` times gamma in it."""
+    """Return the residual of (21), with `gammas` times gamma in it."""
     squares = densities()
     power, quartic = squares.sum(), (squares**2).sum()
     bound = (OMEGA - gammas * GAMMA - 4 * EPSILON) * power
@@ -116,7 +116,7 @@ def above_band(ends, gammas: int):
 
 
 def below_band(ends, gammas: int):
-    """Return what is left of (25), where Omega = -|Omega|."""
+    """Return the residual of (25), where Omega = -|Omega|."""
     squares = densities()
     power = squares.sum()
     bound = (-OMEGA - gammas * GAMMA) * power - QUARTER * power**2
@@ -125,7 +125,7 @@ def below_band(ends, gammas: int):
 
 
 def size_of_energy(ends, gammas: int):
-    """Return what is left of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4, by four signs."""
+    """Return the residuals of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4, by four signs."""
     squares, h, left = densities(), energy(ends), []
     power, quartic = squares.sum(), (squares**2).sum()
     for sign_of_h in (1, -1):
@@ -139,7 +139,7 @@ def size_of_energy(ends, gammas: int):
 
 
 def quadratic_part(ends, gammas: int):
-    """Return what is left of the lower bound of H in the proof of Theorem 3, by two signs."""
+    """Return the residuals of the lower bound of H in the proof of Theorem 3, by two signs."""
     squares, left = densities(), []
     power, quartic = squares.sum(), (squares**2).sum()
     for size in (OMEGA, -OMEGA):  # |Omega|

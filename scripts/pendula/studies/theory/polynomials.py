@@ -1,9 +1,8 @@
-"""Traced equations on polynomials over the rationals (python-flint): what holds there is proved.
+"""Traced equations on polynomials over the rationals (python-flint), to prove identities.
 
 The fields of a chain of SITES pairs and the constants are indeterminates. Each equation couples
-neighbours alone, and so a chain of three sites has all that a longer one has: its two ends and a
-site between them. States are arrays of polynomials, (component, part, site) with the real part
-first.
+neighbours alone, so a chain of three sites has all that a longer one has: two ends and a site
+between them. States are arrays of polynomials, (component, Re or Im, site).
 """
 
 from collections.abc import Iterable
@@ -39,7 +38,7 @@ def object_array(values: Iterable, shape=(2, 2, SITES)) -> np.ndarray:
 
 
 STATE, PERTURBATION = object_array(GENS[7:19]), object_array(GENS[19:])
-"""A state, and the distance of another solution from it."""
+"""A state, and the difference of another solution from it."""
 
 
 def scaled(by, values: np.ndarray) -> np.ndarray:
@@ -48,7 +47,7 @@ def scaled(by, values: np.ndarray) -> np.ndarray:
 
 
 def rational(x: float) -> fmpq:
-    """Return a double as the fraction that it is."""
+    """Return a double as an exact fraction."""
     exact = Fraction(x)
     return fmpq(exact.numerator, exact.denominator)
 
@@ -56,9 +55,9 @@ def rational(x: float) -> fmpq:
 def rates(
     ends: str, state=STATE, model: Model = AMPLITUDE_MODEL, functions=None, **constants
 ) -> np.ndarray:
-    """Return the rates of a state, shaped alike, with other constants than their indeterminates.
+    """Return the rates of a state, of the same shape; `constants` replace their indeterminates.
 
-    `functions` has what stands for sines of polynomials.
+    `functions` replaces sines of polynomials.
     """
     values = {"epsilon": EPSILON, "gamma": GAMMA, "omega": OMEGA} | constants
     shape, (right, left) = state.shape, neighbours(state, ends)
@@ -85,7 +84,7 @@ def linear_rates(ends: str, state=STATE, at=None) -> np.ndarray:
 def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the sites (..., bond) to the right and to the left of each bond of a chain.
 
-    A bond hangs beyond an end at rest, none beyond a free one.
+    There is a bond beyond an end at rest, and none beyond a free end.
     """
     none, at_rest = state[..., :0], 0 * state[..., :1]
     beyond = {DIRICHLET: (at_rest, at_rest), FREE: (none, none), PERIODIC: (state[..., -1:], none)}
@@ -95,7 +94,7 @@ def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def energy(ends: str, state=STATE, omega=OMEGA):
-    """Return H of (8), a polynomial."""
+    """Return H of (8) as a polynomial."""
     squares = densities(state)
     return (
         fmpq(1, 4) * (squares**2).sum()
@@ -138,12 +137,12 @@ def conjugate(state: np.ndarray) -> np.ndarray:
 
 
 def put(polynomial, state: np.ndarray):
-    """Return a polynomial with another state in the place of the indeterminate one."""
+    """Return a polynomial with another state in place of the indeterminate one."""
     return polynomial.compose(*GENS[:7], *state.ravel(), *GENS[19:])
 
 
 def terms_left(polynomial) -> int:
-    """Return how many terms a polynomial has, or all of an array or list: none where all are 0."""
+    """Return the number of terms of a polynomial, array or list, which is 0 if it vanishes."""
     if isinstance(polynomial, np.ndarray | list):
         return sum(map(terms_left, polynomial))
     return len(polynomial)

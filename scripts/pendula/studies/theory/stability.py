@@ -1,4 +1,4 @@
-"""Lemma 1: where the chain at rest is unstable, and how tiny data grow there under (4)."""
+"""Checks of Lemma 1: instability of the chain at rest, and growth of tiny data under (4)."""
 
 import numpy as np
 from latticode.datasets.checks import columns, table, variable
@@ -18,7 +18,7 @@ from pendula.problem import Constants
 from .equations import ENDS, constants_at, controls_of, random_amplitudes, run, squared_norm
 
 TINY = 1e-130
-"""Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""
+"""Norm of the initial data: e^{2 gamma tau} times it must be too small for the cubic terms."""
 SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-9 * TINY}
 OMEGAS, GAMMAS, SITES = np.linspace(-6.0, 10.0, 33), np.linspace(0.0, 3.0, 13), 21
 END_TIME, LONG, SEED = 40.0, 100.0, 5
@@ -26,16 +26,16 @@ CURVE = np.linspace(-6.0, 10.0, 1601)  # resolves the teeth of the finite chain'
 
 
 def late_growth(constants: Constants, data: np.ndarray, end_time: float) -> float:
-    """Return by what log l2 grows over the second half of a run from TINY * `data`."""
+    """Return the growth of log l2 over the second half of a run from TINY * `data`."""
     powers = squared_norm(run(constants, ENDS, TINY * data, end_time, 2, solver=SOLVER).l2)
     return 0.5 * float(log(powers[2] / powers[1]))
 
 
 def check_chart() -> dict:
-    """Measure growth rates on a grid of (Omega, gamma) and set them beside the predictions.
+    """Return growth rates measured on a grid of (Omega, gamma), with the predicted ones.
 
     The equations run from tiny random data to END_TIME; the slope of log l2 over the second half
-    tends to the finite chain's largest rate as modes separate.
+    tends to the largest rate of the finite chain as modes separate.
     """
     data, half = random_amplitudes(SEED, SITES), 0.5 * END_TIME
     measured = [
@@ -63,19 +63,20 @@ def check_chart() -> dict:
 
 
 def edge_wave(omega: float, sites: int) -> np.ndarray:
-    """Return A = -B in the wave nearest to the edge of the band, where its P is least in a period.
+    """Return A = -B in the wave nearest to the edge of the band, at the least P of a period.
 
-    D = A - B is real if kappa > 0, for Omega below the band, and else imaginary.
+    D = A - B is real if kappa > 0, which means Omega below the band, and imaginary otherwise.
     """
     shape = modes(sites, ENDS)[0] if omega < 0.0 else 1j * modes(sites, ENDS)[-1]
     return np.stack([shape, -shape]).astype(complex)
 
 
 def check_threshold() -> dict:
-    """Measure near gamma_0 what Lemma 1 and its proof say, on a chain of SITES and longer ones.
+    """Return growth near gamma_0, for Lemma 1 and its proof, on chains of SITES and more.
 
-    A chain has its own threshold, above gamma_0 by a square of 1 / N. There the wave at the edge of
-    the band must grow as tau: by (14) as 4 gamma tau.
+    A finite chain has its own threshold, above gamma_0 by an amount of order 1 / N^2. At the
+    threshold the wave at the edge of the band must grow in proportion to tau: by (14) as 4 gamma
+    tau.
     """
     rows, sizes, omegas = [], (SITES, 81, 601), np.array([-4.0, 8.0])
     thresholds = np.transpose([finite_threshold(omegas, 1.0, n, ENDS) for n in sizes])

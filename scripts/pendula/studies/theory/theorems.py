@@ -1,4 +1,4 @@
-"""How near data come to the bounds of Theorems 1 to 3, and what is wrong in their proofs."""
+"""Checks of the sharpness of Theorems 1 to 3, and of errors in their proofs."""
 
 import numpy as np
 from latticode.datasets.checks import table, variable
@@ -22,25 +22,26 @@ from .stability import edge_wave
 TINY = 1e-5
 """Amplitude of tiny data: the cubic terms change ratios by its square."""
 SQUARES = (20.0, 25.0, 40.0, 60.0)
-"""x^2 of A = -B = (-1)^n x at Omega = -4: at the bottom of H, which is at 20, and above it."""
+"""Values of x^2 of A = -B = (-1)^n x at Omega = -4: the minimum of H, which is at 20, and larger
+ones."""
 LONG, SIZES = 513, (11, 81)
-"""The sites of the chain on which data come near to the bounds, and of two that are compared."""
+"""Sites of the chain on which data come near to the bounds, and of two that are compared."""
 
 
 def check_sharpness() -> dict:
-    """Find what part of each bound the worst data known reach at Omega = 8 or -4.
+    """Return the largest known share of each bound that data attain at Omega = 8 or -4.
 
-    For Theorems 1 and 2 these are tiny: A = -B in the wave at the edge of the band. By the linear
-    equations P goes from its least value to its largest, where the phase is another by a quarter
-    of a turn, and H stays. For Theorem 3 they are A = -B = (-1)^n x, the best of SQUARES. Without
-    ends they attain its bound for any x^2 of at least 2 c if Omega is not positive. The ends cost
-    part of the bound, less the larger x is.
+    For Theorems 1 and 2 the data are tiny: A = -B in the wave at the edge of the band. By the
+    linear equations P goes from its least to its largest value, a quarter of a turn later in phase,
+    and H stays. For Theorem 3 they are A = -B = (-1)^n x, the best of SQUARES. Without ends they
+    attain its bound for any x^2 of at least 2 c if Omega is not positive. The ends cost part of the
+    bound, less of it for a larger x.
 
     In terms of the size delta = P(0) the paper prints no constants. In the limit of small delta the
     inequalities of its proofs give P <= `proof_constant` delta, the largest |H| of this size over
-    the least one of this P, and the wave needs `least_constant`: for Theorem 1 with
-    H <= (Omega + 2 gamma) delta, for Theorem 2 with |H| <= C delta and
-    C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta.
+    the least one of this P, and the wave needs `least_constant`: for Theorem 1 with H <= (Omega + 2
+    gamma) delta, for Theorem 2 with |H| <= C delta and C delta / (|Omega| - 2 gamma - C_0 delta /
+    4) <= C_0 delta.
     """
     above, below = constants_at(8.0), constants_at(-4.0)
     high, low = (TINY * edge_wave(constants.omega, LONG) for constants in (above, below))
@@ -74,9 +75,9 @@ def check_sharpness() -> dict:
 
 
 def largest_of_energy(constants: Constants, sites: int, energy: float) -> float:
-    """Return the largest P that A = -B = (-1)^n x has at this energy.
+    """Return the largest P of A = -B = (-1)^n x at this energy.
 
-    H is N x^4 / 2 and a multiple of x^2.
+    H is N x^4 / 2 plus a multiple of x^2.
     """
     quartic = 0.5 * sites
     square = total_energy(constants, ENDS, alternating(sites, 1.0)) - quartic
@@ -85,10 +86,10 @@ def largest_of_energy(constants: Constants, sites: int, energy: float) -> float:
 
 
 def check_chain_growth() -> dict:
-    """Compare chains of two SIZES: C_N of Theorem 3, and the largest P of data of one energy.
+    """Return C_N of Theorem 3 and the largest P of data of one energy, on chains of two SIZES.
 
-    The energy is that of one pair. Where the largest P of that energy grows with N, so must each
-    bound in terms of H.
+    The energy is that of one pair. If the largest P of that energy grows with N, so must each bound
+    in terms of H.
     """
     exponents, omegas, dims = [], [0.0, 8.0], ("omega",)
     for constants in map(constants_at, omegas):
@@ -113,9 +114,9 @@ def check_chain_growth() -> dict:
 
 
 def check_errata() -> dict:
-    """Gather the errors of the proofs of Theorems 2 and 3, at Omega = -4, on short chains.
+    """Return the errors of the proofs of Theorems 2 and 3, at Omega = -4, on short chains.
 
-    The bound printed in Theorem 3's proof has gamma where 2 gamma is right.
+    The bound printed in Theorem 3's proof has gamma in place of 2 gamma.
     """
     constants, sizes, dims = constants_at(-4.0), np.arange(1, 10, 2), ("sites",)
     printed, corrected = (
@@ -133,7 +134,7 @@ def check_errata() -> dict:
 
 
 def margin(constants: Constants, sites: int, drive: float) -> float:
-    """Return H less its lower bound in Theorem 3's proof, with `drive` gamma, for (-1)^n.
+    """Return H minus its lower bound in Theorem 3's proof, with `drive` gamma, for (-1)^n.
 
     The quartic terms of both are equal, so that its sign does not depend on the size of the data.
     """
@@ -144,11 +145,11 @@ def margin(constants: Constants, sites: int, drive: float) -> float:
 
 
 def without_continuity(constants: Constants) -> dict:
-    """Find data that satisfy all that the printed end of Theorem 2's proof uses, and break (24).
+    """Return data that satisfy all that the printed proof of Theorem 2 uses, and violate (24).
 
-    For small data, here delta = delta_0 / 2, it uses (25), that -H > 0 is constant, and
-    |H| <= C delta with C = c, and concludes P <= C_0 delta. None of that excludes states beyond the
-    barrier of (25): a pair (x, 0) there has the same energy. What excludes them is that P is
+    For small data, here delta = delta_0 / 2, the proof uses (25), that -H > 0 is constant, and |H|
+    <= C delta with C = c, and concludes P <= C_0 delta. This does not exclude states beyond the
+    barrier of (25): a pair (x, 0) there has the same energy. They are excluded because P is
     continuous and starts below 2 a.
     """
     delta_0, c_0 = theorem_2_constants(constants)

@@ -1,8 +1,8 @@
-"""What Lemma 2 says, on runs: solutions go on, and close initial conditions give close solutions.
+"""Checks of Lemma 2 on runs: solutions exist for all times, and depend continuously on the data.
 
-Runs prove nothing for all initial conditions. What they can do is contradict the lemma: by a norm
-that grows faster than (19) allows, by two solutions of one initial condition, or by a distance of
-two solutions that does not shrink with that of their initial conditions.
+Runs prove nothing for all initial conditions. They can contradict the lemma: by a norm that grows
+faster than (19) allows, by two solutions of one initial condition, or by a distance of two
+solutions that does not shrink with that of their initial conditions.
 """
 
 from itertools import product
@@ -19,13 +19,13 @@ from pendula.problem import Constants
 from .equations import ENDS, constants_at, controls_of, random_amplitudes, run
 
 OMEGAS, POWERS, COURSES = [-4.0, 0.0, 8.0], [1.0, 26.0, 1000.0], ["forward", "backward"]
-"""Of the paper's figures; P(0) up to far above that of the large data, which is 26; and the
-course of time."""
+"""Omega of the paper's figures; P(0) up to far above that of the large data, which is 26; and the
+direction of time."""
 DIRECTIONS, SIZES = ["A alone", "one pair", "all sites"], [1e-4, 1e-6, 1e-8]
-"""What is perturbed, and by how much of the norm."""
+"""Which initial data are perturbed, and by how much, relative to the norm."""
 SITES, SEED = 21, 11
 END_TIME, CLOSE_TIME, OUTPUTS = 10.0, 1.0, 400
-"""Distances are taken at CLOSE_TIME, before chaos makes the small ones of order one."""
+"""Distances are measured at CLOSE_TIME, before chaos makes the small ones of order one."""
 SOLVER = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 
@@ -33,8 +33,7 @@ SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 def start_of(power: float, course: str) -> np.ndarray:
     """Return random amplitudes (2, N) with this P.
 
-    The equations take the conjugate of a solution backward in time: so the conjugate data run
-    forward as the data run backward.
+    Conjugation reverses time: the conjugate data run forward as the data run backward.
     """
     amplitudes = np.sqrt(power) * random_amplitudes(SEED, SITES)
     return amplitudes.conj() if course == "backward" else amplitudes
@@ -51,21 +50,21 @@ def perturbed(amplitudes: np.ndarray, direction: str, size: float) -> np.ndarray
 
 
 def distance_of(first: np.ndarray, second: np.ndarray) -> float:
-    """Return the distance of two states in l2."""
+    """Return the l2 distance of two states."""
     return float(np.sqrt(power_of(first - second)))
 
 
 def margins(constants: Constants, start: np.ndarray, gamma: float) -> dict[str, float]:
-    """Return how close a run comes to the bound (19) of a drive `gamma`."""
+    """Return how close a run comes to the bound (19) of a drive `gamma`, as ratios."""
     trajectory = run(constants, ENDS, start, END_TIME, OUTPUTS, solver=SOLVER)
     return growth_margin(trajectory.tau, trajectory.l2, gamma)
 
 
 def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the distances at CLOSE_TIME of runs from perturbed data, over the first ones.
+    """Return the distances at CLOSE_TIME of perturbed runs over the initial ones.
 
-    Also returns the growth of their logarithms over that which the drive and the largest amplitude
-    allow, (2 |gamma| + M^2 / 2) tau. Both are (direction, size).
+    Also returns the growth of their logarithms over what the drive and the largest amplitude allow,
+    (2 |gamma| + M^2 / 2) tau. Both are (direction, size).
     """
     first = run(constants, ENDS, start, CLOSE_TIME, OUTPUTS, solver=SOLVER)
     ratios = np.empty((len(DIRECTIONS), len(SIZES)))
@@ -90,7 +89,7 @@ def between_solvers(constants: Constants, start: np.ndarray) -> float:
 
 
 def check_well_posed() -> dict:
-    """Run random data of several sizes, in both directions of time, and others close to them."""
+    """Return the table of runs from random data of several sizes, in both directions of time."""
     cells = [
         (constants_at(omega), start_of(power, course))
         for omega, power, course in product(OMEGAS, POWERS, COURSES)
