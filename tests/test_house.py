@@ -13,9 +13,9 @@ from rooms import Rooms, circles_in
 LIBRARY = SCRIPTS / "pendula"
 STOREYS = (
     ("workflow",),
-    ("live",),
     ("notebook",),
     ("article", "own_cases"),
+    ("live",),
     ("jobs",),
     ("studies",),
     ("drawing",),

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from helpers import package, skip
+from made_pages import make_article, make_live_page
 
 FLAGS = (
     *("--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars"),
@@ -42,6 +43,18 @@ def browser(tmp_path_factory) -> Iterator:
     started = driver(tmp_path_factory.mktemp("profile"))
     yield started
     started.quit()
+
+
+@pytest.fixture(scope="session")
+def live_page(browser, tmp_path_factory) -> Path:
+    """Return the path of the live page on the paper's cases."""
+    return make_live_page(tmp_path_factory.mktemp("pages"))
+
+
+@pytest.fixture(scope="session")
+def article_page(live_page) -> Path:
+    """Return the path of the article, beside the live page."""
+    return make_article(live_page)
 
 
 @pytest.fixture(scope="session")

@@ -4,9 +4,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from facts import Accepted
 from helpers import skip
-from pendula.article.write import ARTICLE
 from test_report_in_browser import resize
 
 THEMES = "light", "dark"
@@ -24,11 +22,8 @@ def axe() -> str:
 
 
 @pytest.fixture(scope="module")
-def pages(full_run, tmp_path_factory) -> dict[str, Path]:
-    article = tmp_path_factory.mktemp("article") / "article.html"
-    article.write_text(ARTICLE.page(Accepted()), encoding="utf-8")
-    run = full_run / "results"
-    return {"article": article, "live": run / "live.html"}
+def pages(full_run, live_page, article_page) -> dict[str, Path]:
+    return {"article": article_page, "live": live_page, "report": full_run / "results/report.html"}
 
 
 def find_violations(browser, axe: str) -> list[str]:

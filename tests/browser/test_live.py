@@ -4,45 +4,16 @@ import csv
 import json
 
 import numpy as np
-import problems
 import pytest
 import yaml
 from helpers import ROOT, snakemake
-from latticode.datasets.netcdf import read, write
+from latticode.datasets.netcdf import read
 from latticode.measures.difference import first_above, norm_difference
 from latticode.simulation.simulate import simulate
-from oracle import CASES
-from pendula.live.write import write_live
-from pendula.problem import Problem
+from made_pages import problem_of
 from pendula.studies.breathers.fates import is_localised, power_by_distance
-from pendula.studies.paper.runs import run_case
-from replication.figure_diff import hashes
 from test_report_in_browser import resize, run
 from waiting import wait_for
-
-BASELINE = ROOT / "tests/baseline"
-
-
-def problem_of(case: str, **changes) -> Problem:
-    """Return a problem as the page solves it."""
-    solver = {"name": "ode45", "rtol": 1e-7, "atol": 1e-9}
-    return problems.problem_of(case, **{"end_time": 50.0, "solver": solver, **changes})
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """Return the page on the paper's cases, made of runs that are found to be the accepted ones."""
-    folder = tmp_path_factory.mktemp("live")
-    accepted = json.loads((BASELINE / "hashes.json").read_text())["files"]
-    runs = [folder / f"{case}.nc" for case in CASES]
-    for case, path in zip(CASES, runs, strict=True):
-        write(path, *run_case(case, problem_of(case, snapshot_every=4)))
-        variables = accepted[f"trajectories/{path.name}"]["variables"]
-        assert hashes.of(read(path))["variables"] == variables
-    page = folder / "live.html"
-    write_live([*map(str, runs)], BASELINE / "checks/trust.nc", str(page))
-    assert page.stat().st_size < 400_000
-    return page
 
 
 def open_page(browser, address: str, motion: str = "reduce") -> None:
@@ -56,16 +27,16 @@ def open_page(browser, address: str, motion: str = "reduce") -> None:
 
 
 @pytest.fixture
-def live(browser, made):
+def live(browser, live_page):
     """Return the browser with the page just opened; afterwards nothing may be wrong with it."""
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-    open_page(browser, made.as_uri())
+    open_page(browser, live_page.as_uri())
     yield browser
     assert browser.get_log("browser") == [] and text(browser, "fault") == ""
     told = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
     requests = [one["params"] for one in told if one["method"] == "Network.requestWillBeSent"]
     asked = {one["request"]["url"] for one in requests}
-    assert {url for url in asked if not url.startswith(("data:", "blob:"))} == {made.as_uri()}
+    assert {url for url in asked if not url.startswith(("data:", "blob:"))} == {live_page.as_uri()}
 
 
 def text(page, name: str) -> str:
@@ -270,12 +241,20 @@ def test_a_long_chain_plays_without_solving_it_again(live, slowed, least):
     assert frames > least / 2
 
 
+def test_numbers_of_a_link_are_taken_with_all_their_digits(live):
+    """So a case between the steps of a slider, as of the map of fates, is that case."""
+    live.execute_script("location.hash = 'case=fig3_large&omega=-4&a_re=4.623684211&end_time=70'")
+    wait_for(lambda: run(live, "[settings.a_re, settings.end_time]") == [4.623684211, 70])
+    settle(live)
+    assert "a_re=4.623684211" in run(live, "String(linkOf())") and text(live, "fault") == ""
+
+
 @pytest.mark.parametrize(
     ("link", "said"),
     [
         ("omega=abc", "omega = abc; this page can show -12 to 12 (step 0.1), and shows 8."),
         ("omega=99", "omega = 99; this page can show -12 to 12 (step 0.1), and shows 8."),
-        ("omega=1.23", "omega = 1.23; "), ("omega=", "omega = ; "), ("mu=9", "mu = 9; "),
+        ("half_width=2.5", "half_width = 2.5; "), ("omega=", "omega = ; "), ("mu=9", "mu = 9; "),
         ("case=fig4_small&omega=99", ", and shows 0."), ("tau=51", "can show 0 to 50 "),
         ("case=fig7", "fig4_large, and shows fig2_small."), ("boundary=", "boundary = ; "),
         ("detuning=1", "detuning, which is no setting."),

@@ -37,6 +37,7 @@ use rule job as article with:
         datasets=DATASETS,
         pictures=expand("<results>/figures/{name}.{kind}", name=FIGURES, kind=["nc", "png", "pdf"]),
         ledger="<results>/claims.json",
+        live="<results>/live.html",
     output:
         html="<results>/article.html",
         pdf="<results>/article.pdf",
@@ -50,6 +51,7 @@ use rule job as article with:
             also=[version(name) for name in ("typst", "pypandoc_binary")],
         ),
         committed_results=[committed(path) for path in QUOTED],
+        references=references(*PAPER_CASES),
         differs=DIFFERS,
 
 

@@ -9,6 +9,7 @@ from replication.report.results import Results
 
 from pendula import RELEASED
 
+from .live_figures import gather_live_parts
 from .long_studies import LONG_STUDIES
 from .values import gather
 
@@ -34,12 +35,16 @@ def write_article(
     pdf: str,
     metadata: str,
     quoted: list[str],
+    live: str,
+    references: list[str],
 ) -> None:
     """Write the three files of the article, and `quoted`, copies of `committed_results` beside it.
 
     `differs` says where the configuration is not the
-    paper's: then there is a notice in place of the article, which is on the paper's cases.
+    paper's: then there is a notice in place of the article, which is on the paper's cases. `live`
+    is the live page, whose solver runs below figures, beside `references` in multiprecision.
     """
     copy_quoted(committed_results, quoted)
     results = Results([*datasets, *pictures, ledger, *quoted], html, differs=differs)
-    ARTICLE.write(results, html, pdf, metadata)
+    parts = None if differs else gather_live_parts(results, live, references)
+    ARTICLE.write(results, html, pdf, metadata, parts)

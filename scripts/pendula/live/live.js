@@ -92,6 +92,12 @@ const apply = (chosen) => {
 };
 const readControl = (key) => (key === "boundary" ? byId(key).value : Number(byId(key).value));
 
+// Whether a text is a number that the page can integrate with, even if its slider has no such step.
+const isInRange = (key, text) => {
+  const { min, max, step } = byId(key);
+  const number = Number(text);
+  return text.trim() && number >= min && number <= max && (step < 1 || Number.isInteger(number));
+};
 // Set a control; if it would silently show something else, let the page say so, and return false.
 const setControl = (key, text) => {
   const { options, value, min, max, step } = byId(key);
@@ -106,12 +112,17 @@ const setControl = (key, text) => {
 const show = (link) => {
   const values = new URLSearchParams(link);
   const accept = (keys) => keys.filter((key) => values.has(key) && setControl(key, values.get(key)));
+  const read = (key) => {
+    const isExact = key !== "boundary" && isInRange(key, values.get(key) ?? "");
+    if (isExact) return [[key, Number(values.get(key))]];
+    return accept([key]).map(() => [key, readControl(key)]);
+  };
   rejected = [];
   byId("case").selectedIndex = 0;
   accept(["case"]);
   const keys = Object.keys(chosenCase().settings);
   apply({ ...chosenCase().settings });
-  apply({ ...settings, ...Object.fromEntries(accept(keys).map((key) => [key, readControl(key)])) });
+  apply({ ...settings, ...Object.fromEntries(keys.flatMap(read)) });
   const isPlaying = !values.has("tau") && !isStill.matches;
   byId("mu").value = 0.5 / largestOf(PARTS.map((part) => Math.abs(settings[part]))); // it begins with a radian
   byId("perturbation").value = 0;

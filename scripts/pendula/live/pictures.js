@@ -4,37 +4,19 @@ let run, perturbed, divergence; // the run, one from perturbed data or null, and
 let outputIndex = 0; // of the time that is shown
 let phase = 0; // of the swings in the picture of the pendula
 
-// A number with a few digits, as a text that minus signs and powers do not make unreadable.
-const formatNumber = (number, digits = 4) => {
-  const isSmall = number && Math.abs(number) < 1e-3;
-  return (isSmall ? number.toExponential(2) : String(Number(number.toPrecision(digits)))).replaceAll("-", "−");
-};
-const polyline = (kind, ...points) => `<polyline class="${kind}" points="${points.join(" ")}"/>`;
-const label = (x, y, anchor, value) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${formatNumber(value)}</text>`;
-const ticks = (least, most, count) => {
-  const unit = 10 ** Math.floor(Math.log10((most - least) / count));
-  const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most - least);
-  const first = Math.ceil(least / step);
-  return Array.from({ length: Math.floor(most / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
-};
-
-// Draw axes against time, from least to most upwards, the curves, and marks of some times.
+// Draw axes against time in an SVG element, with curves of A and B, then of the perturbed A and B.
 const drawPanel = (id, least, most, curves) => {
   const end = run.tau.at(-1);
-  const x = (tau) => Math.round(400 + (3400 * tau) / end) / 10;
-  const y = (value) => Math.round(1700 - (1600 * (value - least)) / (most - least)) / 10;
-  const upright = (kind, tau, from, to) => polyline(kind, [x(tau), from], [x(tau), to]);
   const horizon = horizonOfPaper();
-  byId(id).innerHTML = [
-    ...ticks(least, most, 4).map((value) => polyline("rule", [36, y(value)], [curves.length ? 380 : 40, y(value)])
-      + label(34, y(value) + 4, "end", value)),
-    ...ticks(0, end, 5).map((tau) => upright("rule", tau, 170, 174) + label(x(tau), 188, "middle", tau)),
-    ...curves.map((values, i) => polyline(`${"ab"[i % 2]} ${i < 2 ? "" : "dashed"}`,
-      ...Array.from(values, (value, k) => [x(run.tau[k]), y(value)]))),
-    horizon && horizon < end ? upright("dashed", horizon, 10, 170) : "",
-    divergence ? upright("dotted", divergence, 10, 170) : "",
-    upright("now", 0, 10, 170), // live.css moves it
-  ].join("");
+  byId(id).innerHTML = writePanel(
+    { end, least, most, hasGrid: curves.length > 0 },
+    curves.map((values, i) => [`${"ab"[i % 2]} ${i < 2 ? "" : "dashed"}`, run.tau, values]),
+    [
+      ...(horizon && horizon < end ? [["dashed", horizon]] : []),
+      ...(Number.isFinite(divergence) ? [["dotted", divergence]] : []),
+      ["now", 0], // live.css moves it
+    ],
+  );
 };
 const drawNorm = (norm) => {
   const curves = [...run[norm], ...(perturbed ? perturbed[norm] : [])];

@@ -16,7 +16,7 @@ const describeHorizon = () => {
 };
 const describePerturbed = () => {
   if (!perturbed) return "";
-  const when = divergence ? `at τ = ${formatNumber(divergence)} (the dotted line)` : "at no time";
+  const when = Number.isFinite(divergence) ? `at τ = ${formatNumber(divergence)} (the dotted line)` : "at no time";
   return `If the initial data are multiplied by the factor 1 + ${perturbation().toExponential(0)} (dashed curves), `
     + `the norms differ by ${100 * data.visible} % of full scale ${when}.`;
 };

@@ -27,7 +27,9 @@ from .experiments import EXPERIMENTS
 from .kernel import ODE45, compile_for_any_processor
 
 HERE = Path(__file__).parent
-SCRIPTS = "runs.js", "pictures.js", "words.js", "live.js"
+SCRIPTS = "runs.js", "panels.js", "pictures.js", "words.js", "live.js"
+DATA = '<script type="application/json" id="data"'
+"""How the element begins that holds the page's data."""
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
 """Of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), which takes words here, not bytes. Any
 change of one word changes it."""
@@ -60,13 +62,23 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
         data=Markup(json.dumps(data, ensure_ascii=False)),
         experiments=EXPERIMENTS,
         style=Markup(style),
-        worker=Markup(loader() + _read(HERE / "solver.js")),
+        worker=Markup(worker_text()),
         script=Markup(script),
         style_hash=page.digest(style),
         script_hash=page.digest(script),
     )
     with complete_or_absent(html) as partial:
         Path(partial).write_text(text, encoding="utf-8")
+
+
+def data_of(page: str) -> str:
+    """Return the data of the page in JSON: its solver, its cases and their marks."""
+    return page.partition(f"{DATA}>")[2].partition("</script>")[0]
+
+
+def worker_text() -> str:
+    """Return the script of the worker that runs the solver."""
+    return loader() + _read(HERE / "solver.js")
 
 
 def marks(run: xr.Dataset) -> np.ndarray:

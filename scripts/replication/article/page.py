@@ -1,9 +1,13 @@
 """The page of an article: its cards, its script, and what runs in it."""
 
+import base64
 import re
 from collections.abc import Iterable, Mapping
+from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
+
+from PIL import Image
 
 from replication.report import page
 
@@ -13,6 +17,9 @@ HERE = Path(__file__).parent
 SCRIPT = "cards.js"
 ANNOTATION = re.compile(r"<annotation .*?</annotation>")
 """The TeX of a formula, which readers aloud, and whoever copies it, would get as well."""
+
+PICTURE = re.compile(r'<img src="([^":]*\.png)"([^>]*)>')
+COLOURS = 256
 
 
 class LiveParts(NamedTuple):
@@ -24,10 +31,18 @@ class LiveParts(NamedTuple):
     style: str
 
 
-def complete_page(html: str, cards: Iterable[Card], live: LiveParts | None) -> str:
-    """Return a page that Pandoc made with its cards and its script, and with live figures."""
+def complete_page(
+    html: str, folder: Path, cards: Iterable[Card], live: LiveParts | None = None
+) -> str:
+    """Return a page that Pandoc made with its pictures, cards and scripts, and with live figures.
+
+    The pictures lie below `folder`.
+    """
     cards = list(cards)
-    script = (HERE / SCRIPT).read_text(encoding="utf-8") + (live.script if live else "")
+    script = "".join(
+        f"{{\n{text}}}\n"  # each in a block, since both have names of their own
+        for text in ((HERE / SCRIPT).read_text(encoding="utf-8"), live.script if live else "")
+    )
     for figure, below in live.below_figures.items() if live else ():
         html = re.sub(
             rf'(<figure id="{figure}">.*?</figure>)',
@@ -45,6 +60,23 @@ def complete_page(html: str, cards: Iterable[Card], live: LiveParts | None) -> s
         "(hash of the script)": page.digest(script),
     }
     html = ANNOTATION.sub("", html)
+    html = PICTURE.sub(lambda picture: _enlargeable(folder, *picture.groups()), html)
     for place, content in parts.items():
         html = html.replace(place, content)
     return html
+
+
+def _enlargeable(folder: Path, picture: str, attributes: str) -> str:
+    """Return a picture that leads to its file, which browsers enlarge."""
+    return f'<a href="{picture}"><img src="{embed(folder / picture)}"{attributes}></a>'
+
+
+def embed(picture: Path) -> str:
+    """Return a picture as an address that holds it, in 256 colours, a third of the bytes.
+
+    Drawings have few colours, and the shades at the edges of lines hardly change.
+    """
+    content = BytesIO()
+    with Image.open(picture) as drawing:
+        drawing.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(content, "PNG")
+    return f"data:image/png;base64,{base64.b64encode(content.getvalue()).decode()}"

@@ -78,8 +78,8 @@ class Article(NamedTuple):
         """Return the article as a page of HTML with its pictures and a card for each number."""
         cards = Cards(results, self.long_studies)
         text = self.source(results, "figures/{}.png", cards)
-        options = ["--mathml", "--embed-resources", f"--resource-path={_folder(results)}"]
-        return complete_page(self.convert(text, "html", *options), cards.describe(), live)
+        html = self.convert(text, "html", "--mathml", "--standalone")
+        return complete_page(html, _folder(results), cards.describe(), live)
 
     def pdf(self, results: Results, pictures: str) -> bytes:
         """Return the article as PDF; an appendix says where its numbers come from.
