@@ -12,17 +12,15 @@ import json
 import sys
 from pathlib import Path
 
+import pendula.names  # noqa: F401, so that datasets have the paper's words
 import xarray as xr
 import yaml
+from latticode.datasets.netcdf import read, save
+from pendula.configuration import paper
+from pendula.configuration.messages import STUDIES, load
+from pendula.studies.breathers.figures import SAME_RUNS
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "scripts")]
-
-import pendula.names  # noqa: E402, F401, so that datasets have the paper's words
-from latticode.datasets.netcdf import read, save  # noqa: E402
-from pendula.configuration import paper  # noqa: E402
-from pendula.configuration.messages import STUDIES, load  # noqa: E402
-from pendula.studies.breathers.figures import SAME_RUNS  # noqa: E402
 
 QUOTED = ROOT / "tests/baseline/quoted"
 

@@ -5,17 +5,14 @@ Run as `python docs/render.py` from anywhere. A template takes its numbers from 
 test fails where a page is not what its template gives.
 """
 
-import sys
 from pathlib import Path
 
+import facts
+import moving_chain
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from pendula.article.write import ARTICLE
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs"), str(ROOT)]
-
-import facts  # noqa: E402
-import moving_chain  # noqa: E402
-from pendula.article.write import ARTICLE  # noqa: E402
 
 SOURCE = ROOT / "docs/source"
 PAGES = {

@@ -9,15 +9,14 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "scripts")]
+from latticode.datasets.json_files import write_json
+from latticode.datasets.netcdf import read
+from replication.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn
+from replication.ledger.claim import Claim
+from replication.ledger.criterion import Finding, Verdict
+from replication.ledger.verdicts import all_claims, look, needed
 
-from latticode.datasets.json_files import write_json  # noqa: E402
-from latticode.datasets.netcdf import read  # noqa: E402
-from replication.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn  # noqa: E402
-from replication.ledger.claim import Claim  # noqa: E402
-from replication.ledger.criterion import Finding, Verdict  # noqa: E402
-from replication.ledger.verdicts import all_claims, look, needed  # noqa: E402
+ROOT = Path(__file__).resolve().parents[1]
 
 KEPT = ROOT / "tests/baseline/quoted/right_runs.json"
 

@@ -23,8 +23,6 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-import llvmlite
-import numba
 import platformdirs
 
 from .sources import digest_of_modules
@@ -177,5 +175,8 @@ def _digest(*parts) -> str:
 
 def _compiler() -> list[str]:
     """Return the versions and the settings that machine code depends on."""
+    import llvmlite  # here, since a workflow asks for the folder alone
+    import numba
+
     settings = sorted(f"{k}={v}" for k, v in os.environ.items() if k.startswith("NUMBA_"))
     return [platform.python_version(), numba.__version__, llvmlite.__version__, *settings]
