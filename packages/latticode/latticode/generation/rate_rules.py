@@ -82,7 +82,8 @@ class Rule:
                 return f"-{self.value(a)}"
             case "mul", a, b:
                 a, b = (b, a) if self.is_scalar(b) else (a, b)
-                return f"{self.value(a)} * {self.value(b)}"
+                factor = self._factor if a.level == b.level == MOTION else self.value
+                return f"{factor(a)} * {factor(b)}"
             case "add" | "sub" as how, a, b:
                 return self._sum(a, b, "+" if how == "add" else "-")
             case "sin" | "cos" as which, a:
@@ -100,6 +101,10 @@ class Rule:
                 name = {"log": "logarithm", "sqrt": "root"}[which]
                 return f"{name}_and_inverse({self.value(a)})[0]"
         raise ModelError(f"{one.operation} of a field or of the time has no rule")
+
+    def _factor(self, one: Node) -> str:
+        """Return the name of a factor of a product, which is zero where it is tiny: see `rest`."""
+        return self.code.name(("factor", one), lambda: f"zero_below(TINY, {self.value(one)})")
 
     def _sum(self, a: Node, b: Node, sign: str) -> str:
         first, second = self.value(a), self.value(b)

@@ -151,6 +151,7 @@ class Series:
                 to = f"i{i // 2} + (k + 1) * ORDER_STRIDE + {'XY'[i % 2]}"
             else:
                 to = self.place(carried(i - len(self.rates)), "k + 1")
+                found = f"zero_below(TINY, {found})"
             code(f"store(m, {to}, {found})")
         return [f"        {name} = {text}" for text, name in factors.items()], code.lines
 
@@ -173,7 +174,7 @@ class Series:
 
     def _store(self, one: Node, text: str) -> str:
         """Return the statement that keeps the coefficient of order k."""
-        return f"store(m, {self.place(one, 'k')}, {text})"
+        return f"store(m, {self.place(one, 'k')}, zero_below(TINY, {text}))"
 
     def _start_carried(self, code: Code) -> None:
         """Write the functions that are carried along at order 0, from their arguments."""
@@ -183,7 +184,8 @@ class Series:
             names, text = STARTS[group.kind]
             code(f"{', '.join(names)} = {text.format(argument)}", 1)
             for row, name in enumerate(names):
-                code(f"store(m, {self.place(carried(group.first + row), '0')}, {name})", 1)
+                place = self.place(carried(group.first + row), "0")
+                code(f"store(m, {place}, zero_below(TINY, {name}))", 1)
 
     def _start(self, one: Node, code: Code) -> str:
         """Return the expression of the coefficient of order 0."""

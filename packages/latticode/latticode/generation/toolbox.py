@@ -14,6 +14,7 @@ from latticode.integrators.taylor import EXTRA, ORDER, ORDER_STRIDE, X, Y, block
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import (
     LANES,
+    TINY,
     define_shift,
     fill,
     left_neighbours,
@@ -24,6 +25,7 @@ from latticode.kernels.simd import (
     square_root,
     store,
     whole_exponent,
+    zero_below,
 )
 from latticode.numerics import elementary
 from latticode.numerics.elementary import HALF_PI, LN2
@@ -58,9 +60,11 @@ class System(NamedTuple):
 
 # --- Sine and cosine of numbers or vectors of sites, with the same bits on every machine ----------
 
-sine_near_zero, cosine_near_zero = map(
-    inlined_by_llvm, (elementary.sine_near_zero, elementary.cosine_near_zero)
+sine_less_angle, cosine_near_zero = map(
+    inlined_by_llvm, (elementary.sine_less_angle, elementary.cosine_near_zero)
 )
+STRAIGHT = 1e-65
+"""For smaller angles sin x = x and cos x = 1 to the last bit; their fourth powers underflow."""
 
 
 @inlined_by_llvm
@@ -83,7 +87,8 @@ def _reduced(x):
     odd = quarters - 2.0 * halves
     parity = halves - 2.0 * _whole(0.5 * halves)
     sign = 1.0 - 2.0 * (parity * parity)
-    return sine_near_zero(near, rest), cosine_near_zero(near, rest), odd, sign
+    bent = zero_below(STRAIGHT, near)
+    return near + sine_less_angle(bent, rest), cosine_near_zero(bent, rest), odd, sign
 
 
 @inlined_by_llvm

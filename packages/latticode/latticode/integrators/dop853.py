@@ -24,6 +24,7 @@ from latticode.kernels.simd import largest_magnitude
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .autonomous import at_any_time
 from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
+from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
 from .tiles import count_tiles, give, take, tile_length, tile_place
 from .weighted_sums import table, write_sum
 
@@ -73,13 +74,11 @@ def weighted_norm(v, y, w, spare, tolerances, columns):
     # unsigned, so that no code asks whether an index counts from the end of a row
     first, count = np.uint64(columns[0]), np.uint64(columns[1] - columns[0])
     for re in range(0, v.shape[0], 2):
-        im = re + 1
         for i in range(count):
             j = first + i
-            before = y[re, j] * y[re, j] + y[im, j] * y[im, j]
-            after = w[re, j] * w[re, j] + w[im, j] * w[im, j]
-            scale = atol + rtol * sqrt(max(before, after))
-            squares[size + i] = (v[re, j] * v[re, j] + v[im, j] * v[im, j]) / (scale * scale)
+            size2 = max(square_modulus(y, re, j), square_modulus(w, re, j))
+            scale = atol + rtol * sqrt(size2)
+            squares[size + i] = square_modulus(v, re, j) / (scale * scale)
         size += count
     return sqrt(largest_magnitude(squares[:size]))
 
@@ -218,15 +217,20 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
 
     @uncached
-    def take_stages(system, first, last, t, y, h, k, w):
-        """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`."""
+    def take_stages(system, first, last, t, y, h, rest, k, w):
+        """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`.
+
+        In the solution, numbers below `rest` become zero before its slope is taken.
+        """
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(16, -1), w.reshape(-1)
         for stage in range(first, last + 1):
             combine(stage, y_flat, h, k_flat, w_flat)
+            if stage == 13:
+                set_to_rest(w, rest)
             rates(at_time(system, t + NODES[stage] * h), w, k[stage - 1])
 
     @uncached
-    def step(system, count, work, t, y, slope, h, tolerances, due, w, new_slope, c):
+    def step(system, count, work, t, y, slope, h, rest, tolerances, due, w, new_slope, c):
         """Write state and slope after a step, in `count` tiles, into `w` and `new_slope`.
 
         Return the error of the step; `work` holds TILE_WORK arrays of the size of a tile. Where an
@@ -245,7 +249,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
             take(slope, left, k[0])
             if not alone:
                 take(y, left, start)
-            take_stages(here, 2, 13, t, start, h, k, end)
+            take_stages(here, 2, 13, t, start, h, rest, k, end)
             own = (1 + first - left, 1 + stop - left)
             near = error_estimates(start, end, k, scratch, spare, tolerances, own)
             fifth, third = worse(fifth, near[0]), worse(third, near[1])
@@ -254,7 +258,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
             if not alone:
                 give(end, left, first, stop, w)
             if due and (error <= 1.0 or not alone):
-                take_stages(here, 14, 16, t, start, h, k, scratch)
+                take_stages(here, 14, 16, t, start, h, rest, k, scratch)
                 prepare_interpolant(start, end, h, k, curve)
                 for m in range(0 if alone else c.shape[0]):
                     give(curve[m], left, first, stop, c[m])
@@ -269,6 +273,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         columns = tile_length(y.shape[1] - 2, count) + 2
         tiles = work[WHOLE_WORK:].reshape(-1)[: TILE_WORK * y.shape[0] * columns]
         part = tiles.reshape((TILE_WORK, y.shape[0], columns))
+        rest = rest_level(y, OF_STAGES)
         rates(at_time(system, t), y, slope)
         h = initial_step(system, t, y, slope, c, controls, end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
@@ -292,7 +297,9 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
             if driven:
                 h = t_new - t
             due = times[i] <= t_new
-            error = step(system, count, part, t, state, slope, h, controls, due, w, new_slope, c)
+            error = step(
+                system, count, part, t, state, slope, h, rest, controls, due, w, new_slope, c
+            )
             evaluations += 12
             overflowed = error == np.inf
             factor = step_factor(error)

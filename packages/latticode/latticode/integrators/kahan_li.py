@@ -11,9 +11,11 @@ energy of a system that has one errs but does not drift.
 import numpy as np
 
 from latticode.kernels.compiled import inlined_by_numba, kernel
+from latticode.kernels.simd import zero_below
 
 from . import DONE, INTERRUPTED, Outcome
 from .autonomous import at_any_time
+from .rest import OF_STAGES, rest_level
 
 WORK = 1
 """Work arrays of the size of a state."""
@@ -38,11 +40,12 @@ NODES = np.cumsum(KICKS) - 0.5 * KICKS
 
 
 @kernel
-def add_rows(y, first, slope, other, h):
+def add_rows(y, first, slope, other, h, rest):
     """Add h times every second row of `slope`, from `other` on, to those of `y` from `first` on."""
     for row in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
-            y[row + first, j] += h * slope[row + other, j]
+            value = y[row + first, j] + h * slope[row + other, j]
+            y[row + first, j] = zero_below(rest, value)
 
 
 def build(rates, observe, at_time=at_any_time):
@@ -54,7 +57,7 @@ def build(rates, observe, at_time=at_any_time):
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
         (step,) = controls
-        slope, steps = work[0], 0
+        slope, steps, rest = work[0], 0, rest_level(y, OF_STAGES)
         for i in range(times.size):
             start = times[max(i - 1, 0)]
             span = times[i] - start
@@ -67,12 +70,12 @@ def build(rates, observe, at_time=at_any_time):
                 for stage in range(KICKS.size):
                     # the last drift of a step and the first of the next are one
                     joined = 2.0 if stage == 0 and part > 0 else 1.0
-                    add_rows(y, 0, y, 1, joined * DRIFTS[stage] * h)
+                    add_rows(y, 0, y, 1, joined * DRIFTS[stage] * h, rest)
                     rates(at_time(system, t + NODES[stage] * h), y, slope)
-                    add_rows(y, 1, slope, 1, KICKS[stage] * h)
+                    add_rows(y, 1, slope, 1, KICKS[stage] * h, rest)
                 steps += 1
             if parts > 0:
-                add_rows(y, 0, y, 1, DRIFTS[0] * h)
+                add_rows(y, 0, y, 1, DRIFTS[0] * h, rest)
             observe(system, y, np.int64(i), record)
         return Outcome(DONE, times[-1], steps, 0, KICKS.size * steps)
 

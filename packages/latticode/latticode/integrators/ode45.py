@@ -30,6 +30,7 @@ from latticode.numerics import elementary
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .autonomous import at_any_time
+from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
 from .weighted_sums import table, write_sum
 
 WORK = 9
@@ -82,10 +83,8 @@ def relative_error(y, w, k, threshold, scratch):
                     + E5 * k5[row, j] + E6 * k6[row, j] + E7 * k7[row, j]
                 )  # fmt: skip
         for j in range(1, y.shape[1] - 1):
-            before = y[re, j] * y[re, j] + y[im, j] * y[im, j]
-            after = w[re, j] * w[re, j] + w[im, j] * w[im, j]
-            error = scratch[re, j] * scratch[re, j] + scratch[im, j] * scratch[im, j]
-            scratch[re // 2, j] = error / max(max(before, after), floor)
+            size2 = max(square_modulus(y, re, j), square_modulus(w, re, j))
+            scratch[re // 2, j] = square_modulus(scratch, re, j) / max(size2, floor)
     return sqrt(largest_in_rows(scratch, y.shape[0] // 2))
 
 
@@ -172,6 +171,7 @@ def build(rates, observe, at_time=at_any_time, of_reals=False):
         longest, refused = 0.1 * (end - t), SMALLEST_PART * (end - t)
         k, w, out = work[:7], work[7], work[8]
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
+        rest = rest_level(y, OF_STAGES)
         rates(at_time(system, t), y, k[0])
         rate = rate_of(y, k[0], threshold)
         h = initial_step(rate, rtol, min(longest, times[1] - times[0]))
@@ -194,6 +194,8 @@ def build(rates, observe, at_time=at_any_time, of_reals=False):
                     h = (t + h) - t
                 for stage in range(2, 8):
                     combine(stage, y_flat, h, k_flat, w_flat)
+                    if stage == 7:
+                        set_to_rest(w, rest)
                     rates(at_time(system, t + NODES[stage] * h), w, k[stage - 1])
                 evaluations += 6
                 error = h * measure(y, w, k, threshold, out)

@@ -24,10 +24,19 @@ from typing import NamedTuple
 import numpy as np
 
 from latticode.kernels.compiled import inlined_by_llvm, inlined_by_numba, kernel
-from latticode.kernels.simd import LANES, fill, larger_magnitude, largest_lane, load, store
+from latticode.kernels.simd import (
+    LANES,
+    fill,
+    larger_magnitude,
+    largest_lane,
+    load,
+    store,
+    zero_below,
+)
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .autonomous import at_any_time
+from .rest import OF_SERIES, rest_level
 
 # --- A power series in memory -------------------------------------------------------------------
 
@@ -124,13 +133,16 @@ def sum_at(m, i, h):
 
 
 @inlined_by_llvm
-def advance(series, h):
-    """Replace order 0 by the sum of the series at the time `h`: the state after the step."""
+def advance(series, h, rest):
+    """Replace order 0 by the sum of the series at the time `h`, the state after the step.
+
+    Numbers below `rest` become zero.
+    """
     m = series.memory
     for block in range(series.components * series.blocks):
         for part in range(X, Y + 1, Y - X):
             i = block * BLOCK_SIZE + part
-            store(m, i, sum_at(m, i, h))
+            store(m, i, zero_below(rest, sum_at(m, i, h)))
 
 
 @kernel
@@ -237,7 +249,7 @@ def build(continue_series, observe, at_time=at_any_time):
         rtol, atol = controls
         t, end = times[0], times[-1]
         series = lay_out(work, y)
-        shortest = SMALLEST_PART * (end - t)
+        shortest, rest = SMALLEST_PART * (end - t), rest_level(y, OF_SERIES)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
         i += 1
@@ -261,7 +273,7 @@ def build(continue_series, observe, at_time=at_any_time):
                 evaluate(series, times[i] - t, y)
                 observe(system, y, i, record)
                 i += 1
-            advance(series, h)
+            advance(series, h, rest)
             t = t_new
         return Outcome(DONE, t, steps, 0, ORDER * steps)
 

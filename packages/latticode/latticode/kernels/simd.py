@@ -4,10 +4,11 @@ What there is. A `Vector` is eight doubles in a vector register, its lanes, numb
 `load` and `store` move one between a register and eight neighbouring numbers of an array, `fill`
 repeats one number, + - * / and unary - work lane by lane. `left_neighbours` and `right_neighbours`
 shift lanes, so that each site sees the one beside it. `keep_lanes` replaces the lanes behind the
-last site, `larger_magnitude` and `largest_lane` find the largest absolute value. A `VectorView` is
-a state (row, column) seen a vector at a time: `y[row, j]` of the view reads or writes the vector
-that begins at column j. A formula that is written once for `y[row, j]` therefore serves for one
-site, if it is given the array, and for a vector of sites, if it is given the view.
+last site, `zero_below` those with tiny numbers, `larger_magnitude` and `largest_lane` find the
+largest absolute value. A `VectorView` is a state (row, column) seen a vector at a time: `y[row, j]`
+of the view reads or writes the vector that begins at column j. A formula that is written once for
+`y[row, j]` therefore serves for one site, if it is given the array, and for a vector of sites, if
+it is given the view.
 
 Why eight. A processor with AVX-512 takes eight doubles in one instruction. For one with AVX2, LLVM
 makes two instructions that do not wait for each other: they gain a little on long rows, and lose a
@@ -201,13 +202,18 @@ def of_either(generated):
     return function
 
 
+def call_llvm(builder, name, value):
+    """Return a function of LLVM of a vector or of one number."""
+    suffix = "v8f64" if value.type == VECTOR else "f64"
+    kind = ir.FunctionType(value.type, [value.type])
+    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.{suffix}")
+    return builder.call(function, [value])
+
+
 @of_either
 def square_root(builder, value, wide):
     """Return the square root, which is rounded alike everywhere; NaN below zero."""
-    suffix = "v8f64" if value.type == VECTOR else "f64"
-    kind = ir.FunctionType(value.type, [value.type])
-    root = cgutils.get_or_insert_function(builder.module, kind, f"llvm.sqrt.{suffix}")
-    return builder.call(root, [value])
+    return call_llvm(builder, "sqrt", value)
 
 
 @of_either
@@ -253,6 +259,32 @@ def select_positive(typing_context, condition, one, other):
         return builder.select(above, values[1], values[2])
 
     return kind(*arguments), generate
+
+
+# --- Numbers too small to compute with ----------------------------------------------------------
+
+TINY = 1e-150
+"""Down to this size the square of a number is a normal double. Smaller factors count as zero."""
+
+
+@intrinsic
+def zero_below(typing_context, level, value):
+    """Return a number, or a vector lane by lane, with zero where its size is below `level`.
+
+    NaN stays.
+    """
+    if value not in (vector, types.float64):
+        return None
+
+    def generate(context, builder, signature, arguments):
+        level, value = arguments
+        size = call_llvm(builder, "fabs", value)
+        if value.type == VECTOR:
+            level = repeat(builder, level)
+        is_below = builder.fcmp_ordered("<", size, level)
+        return builder.select(is_below, ir.Constant(value.type, None), value)
+
+    return value(types.float64, value), generate
 
 
 # --- What passes between the lanes --------------------------------------------------------------

@@ -178,11 +178,16 @@ def fifth_root(x: float) -> float:
 # --- Sines and cosines --------------------------------------------------------------------------
 
 
-def sine_near_zero(x, low=0.0):
-    """Return sin(x + low) for abs(x) <= 1 and a tiny `low`; also for kernels."""
+def sine_less_angle(x, low=0.0):
+    """Return sin(x + low) - x for abs(x) <= 1 and a tiny `low`; also for kernels."""
     z = x * x
     far = S9 + z * (S11 + z * (S13 + z * (S15 + S17 * z)))
-    return x + (x * z * (S3 + z * (S5 + z * (S7 + z * far))) + low * (1.0 - 0.5 * z))
+    return x * z * (S3 + z * (S5 + z * (S7 + z * far))) + low * (1.0 - 0.5 * z)
+
+
+def sine_near_zero(x, low=0.0):
+    """Return sin(x + low) for abs(x) <= 1 and a tiny `low`."""
+    return x + sine_less_angle(x, low)
 
 
 def cosine_near_zero(x, low=0.0):
