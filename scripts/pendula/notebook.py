@@ -7,15 +7,24 @@ keeps the energy H of equation (8). Those of the pendula are "x" and "y" in rad,
 their parts "angle" and "velocity". Figures are matplotlib's.
 """
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, Unpack
+
 import xarray as xr
-from latticode import notebook
+from latticode import Model, notebook
+from latticode.configuration import cases as library_cases
 from latticode.configuration.initial import end_of_run
+from latticode.configuration.keys import Initial, Numbers, RunKeys, show_keys
 from latticode.notebook import draw_breather, draw_survey, read, simulate, survey, sweep
 
 from pendula.configuration import cases
 from pendula.configuration.cases import takes_model
 from pendula.configuration.messages import Sections
 from pendula.own_cases.checks import KEPT, check_run
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = [
     "Case",
@@ -30,6 +39,22 @@ __all__ = [
     "survey",
     "sweep",
 ]
+
+
+class ChangedKeys(RunKeys, total=False):
+    """The keys of a case of the paper's equations, or of a model of one's own."""
+
+    omega: float
+    epsilon: float
+    gamma: float
+    mu: float | None
+    initial: Initial
+    model: Literal["amplitudes", "pendula"] | Model | str | Path
+    parameters: Mapping[str, Numbers]
+    sites: int | None
+
+
+CaseKeys = ChangedKeys  # a model of one's own has no omega
 
 
 class Case(cases.Case):
@@ -65,14 +90,14 @@ class Case(cases.Case):
       omgea: is not a known key; did you mean 'omega'?
     """
 
-    def __new__(cls, /, **keys):
+    def __new__(cls, /, **keys: Any) -> Any:
         """Return a case of the kind that its model asks for."""
         return notebook.Case(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
 
-    def __init__(self, /, **keys):
+    def __init__(self, /, **keys: Unpack[CaseKeys]) -> None:
         notebook.made(super().__init__, keys, root=Sections)
 
-    def changed(self, **keys) -> notebook.Case:
+    def changed(self, **keys: Unpack[ChangedKeys]) -> "Case":
         """Return the case with other values under `keys`, checked anew.
 
         >>> Case(omega=-4).changed(omega=8, half_width=10).half_width
@@ -84,7 +109,10 @@ class Case(cases.Case):
         return Case(**{**known, **keys})
 
 
-def check(case: Case, run=None):
+show_keys(Case, ("omega", "epsilon", "gamma", "initial"))
+
+
+def check(case: library_cases.Case, run: xr.Dataset | None = None) -> xr.Dataset:
     """Set a run beside the paper's lemmas and theorems, and measure how far it can be trusted.
 
     `run` is what `simulate` made of the case; if it is left out, the case is integrated here.
@@ -95,11 +123,12 @@ def check(case: Case, run=None):
     >>> str(found["region"].values), bool(found["ratio"] < 1)
     ('theorem 1', True)
     """
-    kept = KEPT.get(getattr(case, "model", None), ())
-    return notebook.check(case, run, check_run, *kept)
+    model: Any = getattr(case, "model", "")
+    variables = KEPT.get(model, ())
+    return notebook.check(case, run, check_run, *variables)
 
 
-def draw_norms(run, checks=None):
+def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
     """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
 
     With the `checks` that `pendula.check` made of a run, their second run is drawn below it in pale
@@ -109,26 +138,28 @@ def draw_norms(run, checks=None):
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
     2
     """
-    from .own_cases import figures  # here, so that who draws nothing does without it
+    from .own_cases import figures  # here: importing matplotlib takes half a second
 
     notebook.require_norms(run, checks)
     return figures.draw_norms(figures.gather_norms(run, checks))
 
 
-def draw_spacetime(run):
+def draw_spacetime(run: xr.Dataset) -> "Figure":
     """Draw |A_n| (left) and |B_n| (right) over tau and sites, from a run that keeps `modulus`.
 
     >>> from pendula import Case, simulate
     >>> len(draw_spacetime(simulate(Case(omega=8, end_time=10))).axes)
     3
     """
-    from .own_cases import figures  # here, so that who draws nothing does without it
+    from .own_cases import figures  # here: importing matplotlib takes half a second
 
     notebook.require(run, xr.Dataset, notebook.SNAPSHOTS, "modulus")
     return figures.draw_spacetime(figures.gather_spacetime(run))
 
 
-def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):
+def draw_sweep(
+    sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None
+) -> "Figure":
     """Draw the norms of the pair (A, B) against the half-width M: l-infinity left, l2 right.
 
     Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`; where
@@ -138,6 +169,6 @@ def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = N
     >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)
     2
     """
-    from .own_cases import figures  # here, so that who draws nothing does without it
+    from .own_cases import figures  # here: importing matplotlib takes half a second
 
     return figures.draw_sweep(notebook.gathered_sweep(sweep, max_window, mean_window))

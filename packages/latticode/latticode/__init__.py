@@ -5,35 +5,68 @@ public names are listed in `latticode.__all__` and explained in `help(latticode.
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-__version__ = "0.1.0"
+if TYPE_CHECKING:  # what type checkers and editors read; a test compares it with _HOMES
+    from latticode.configuration.files import ConfigurationError as ConfigurationError
+    from latticode.datasets import DatasetError as DatasetError
+    from latticode.datasets.netcdf import save as save
+    from latticode.equations.model import Model as Model
+    from latticode.equations.model import ModelError as ModelError
+    from latticode.equations.model import abs2 as abs2
+    from latticode.equations.model import conj as conj
+    from latticode.equations.model import cos as cos
+    from latticode.equations.model import exp as exp
+    from latticode.equations.model import lap as lap
+    from latticode.equations.model import log as log
+    from latticode.equations.model import shift as shift
+    from latticode.equations.model import sin as sin
+    from latticode.equations.model import sqrt as sqrt
+    from latticode.equations.symbols import abs as abs
+    from latticode.equations.symbols import max as max
+    from latticode.equations.symbols import sign as sign
+    from latticode.equations.symbols import where as where
+    from latticode.notebook import Case as Case
+    from latticode.notebook import check as check
+    from latticode.notebook import draw_breather as draw_breather
+    from latticode.notebook import draw_norms as draw_norms
+    from latticode.notebook import draw_spacetime as draw_spacetime
+    from latticode.notebook import draw_survey as draw_survey
+    from latticode.notebook import draw_sweep as draw_sweep
+    from latticode.notebook import read as read
+    from latticode.notebook import simulate as simulate
+    from latticode.notebook import survey as survey
+    from latticode.notebook import sweep as sweep
+    from latticode.simulation.simulate import IntegrationError as IntegrationError
 
+__version__ = "0.2.0"
+
+_EQUATIONS = "Model ModelError abs2 conj cos exp lap log shift sin sqrt"
+_NOTEBOOK = (
+    "Case check draw_breather draw_norms draw_spacetime draw_survey draw_sweep read simulate survey"
+    " sweep"
+)
 _HOMES = {
-    "latticode.equations.model": (
-        *("Model", "ModelError", "lap", "abs2", "conj", "shift"),
-        *("sin", "cos", "exp", "log", "sqrt"),
-    ),
-    "latticode.equations.symbols": ("abs", "max", "sign", "where"),
-    "latticode.notebook": (
-        *("Case", "simulate", "sweep", "survey", "check", "read"),
-        *("draw_breather", "draw_norms", "draw_spacetime", "draw_survey", "draw_sweep"),
-    ),
-    "latticode.datasets.netcdf": ("save",),
-    "latticode.datasets": ("DatasetError",),
-    "latticode.configuration.files": ("ConfigurationError",),
-    "latticode.simulation.simulate": ("IntegrationError",),
+    "latticode.configuration.files": "ConfigurationError",
+    "latticode.datasets": "DatasetError",
+    "latticode.datasets.netcdf": "save",
+    "latticode.equations.model": _EQUATIONS,
+    "latticode.equations.symbols": "abs max sign where",
+    "latticode.notebook": _NOTEBOOK,
+    "latticode.simulation.simulate": "IntegrationError",
 }
 """The public names by their module. A module is loaded when a name of it is first asked for, so
 that nobody waits for modules that he does not use."""
 
-__all__ = sorted(name for names in _HOMES.values() for name in names)
+__all__ = sorted(name for names in _HOMES.values() for name in names.split())
 
+if not TYPE_CHECKING:
 
-def __getattr__(name: str):
-    for home, names in _HOMES.items():
-        if name in names:
-            return getattr(import_module(home), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    def __getattr__(name: str):
+        for home, names in _HOMES.items():
+            if name in names.split():
+                return getattr(import_module(home), name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

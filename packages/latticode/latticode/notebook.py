@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from numbers import Integral
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -22,6 +23,7 @@ from latticode.checks import UNSTABLE_REST, check_run
 from latticode.configuration import cases, cost, values
 from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.initial import end_of_run
+from latticode.configuration.keys import CaseKeys, ChangedKeys, show_keys
 from latticode.configuration.messages import in_words
 from latticode.configuration.schema import Configuration, Limits, load
 from latticode.configuration.solvers import DEFAULT, with_controls
@@ -38,6 +40,9 @@ from latticode.simulation.problem import Problem
 from latticode.simulation.progress import shown
 from latticode.simulation.runs import Retained, run_until_interrupted
 from latticode.simulation.survey import Survey, names_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = [
     "Case",
@@ -94,10 +99,10 @@ class Case(cases.Case):
       initail: is not a known key; did you mean 'initial'?
     """
 
-    def __init__(self, /, **keys):
+    def __init__(self, /, **keys: Unpack[CaseKeys]) -> None:
         made(super().__init__, keys)
 
-    def changed(self, **keys) -> "Case":
+    def changed(self, **keys: Unpack[ChangedKeys]) -> "Case":
         """Return the case with other values under `keys`, checked anew."""
         values = self.model_dump()
         if end_of_run(keys.get("initial")) is not None:
@@ -108,7 +113,10 @@ class Case(cases.Case):
         return type(self)(**{**values, **keys})
 
 
-def made(initialise: Callable, keys: dict, root: type[Configuration] = Configuration) -> None:
+show_keys(Case, ("model", "parameters", "initial"))
+
+
+def made(initialise: Callable, keys: Mapping, root: type[Configuration] = Configuration) -> None:
     """Make a case of its keys, which belong to a configuration of the type `root`.
 
     Raises ConfigurationError with all that is wrong with them.
@@ -152,7 +160,7 @@ def _as_argument(text: str) -> str:
     return text
 
 
-def _load(sections: Mapping, limits: Mapping[str, float]):
+def _load(sections: Mapping, limits: Mapping[str, float]) -> Configuration:
     """Return a configuration of a notebook's case; errors name arguments in place of keys."""
     try:
         return load({**sections, "limits": limits})
@@ -194,7 +202,7 @@ def _require_run_of(case: cases.Case, run: xr.Dataset) -> None:
         )
 
 
-def require(given, kind: type, what: str, *variables: str) -> None:
+def require(given: Any, kind: type[Any], what: str, *variables: str) -> None:
     """Raise ConfigurationError unless an argument is of a kind, and a dataset has `variables`."""
     if not isinstance(given, kind):
         raise ConfigurationError(f"this takes {what}, and not {values.shown(given)}")
@@ -205,10 +213,11 @@ def require(given, kind: type, what: str, *variables: str) -> None:
 
 CASE = "a case, as `Case` makes it"
 RUN = "a run, as `simulate` and `read` return it"
+SURVEY = "a survey, as `survey` returns it"
 
 
 def simulate(
-    case: Case, name: str = "case", hours: float | None = None, gigabytes: float | None = None
+    case: cases.Case, name: str = "case", hours: float | None = None, gigabytes: float | None = None
 ) -> xr.Dataset:
     """Integrate a case and return its trajectory.
 
@@ -271,7 +280,7 @@ def timed(data: xr.Dataset) -> xr.Dataset:
 
 
 def sweep(
-    case: Case,
+    case: cases.Case,
     half_widths: Iterable[int],
     windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
     name: str = "sweep",
@@ -311,7 +320,7 @@ def sweep(
 
 
 def survey(
-    case: Case,
+    case: cases.Case,
     axes: Mapping[str, Iterable] | None = None,
     members: Mapping | None = None,
     keep: Iterable[str | Callable] = ("max_l2",),
@@ -393,7 +402,7 @@ def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Surve
     differ += [
         key
         for key, value in expected.attrs.items()
-        if key not in known and not np.array_equal(value, resume.attrs.get(key))
+        if key not in known and not np.array_equal(value, resume.attrs.get(key, ""))
     ]
     if differ:
         raise ConfigurationError(
@@ -403,7 +412,7 @@ def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Surve
     return runs_in(resume, names, plan.shape)
 
 
-def _listed(given):
+def _listed(given: Any) -> Any:
     """Return a list of what can be iterated, such as a range, and all else as it is."""
     return (
         [_listed(one) for one in given]
@@ -413,7 +422,7 @@ def _listed(given):
 
 
 def check(
-    case: Case, run: xr.Dataset | None = None, checks: Callable = check_run, *variables: str
+    case: cases.Case, run: xr.Dataset | None = None, checks: Callable = check_run, *variables: str
 ) -> xr.Dataset:
     """Measure how far a run of a case can be trusted, and whether its motion is chaotic.
 
@@ -438,13 +447,13 @@ def check(
     return found
 
 
-def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None):
+def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
     """Draw the norms of all fields against time: l-infinity left, l2 right.
 
     `run` is a trajectory as `simulate` or `read` return it. With the `checks` that `check` made of
     it, their second run is drawn below it where the two differ, and a mark shows from when on.
     """
-    from .drawing import runs  # here, so that who draws nothing does without it
+    from .drawing import runs  # here: importing matplotlib takes half a second
 
     require_norms(run, checks)
     return runs.draw_norms(runs.gather_norms(run, checks))
@@ -457,12 +466,12 @@ def require_norms(run: xr.Dataset, checks: xr.Dataset | None) -> None:
         require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
 
 
-def draw_spacetime(run: xr.Dataset):
+def draw_spacetime(run: xr.Dataset) -> "Figure":
     """Draw all fields over time and sites: moduli, or the values of real fields with their signs.
 
     The run must keep snapshots, and for signs the `state`.
     """
-    from .drawing import runs  # here, so that who draws nothing does without it
+    from .drawing import runs  # here: importing matplotlib takes half a second
 
     require(run, xr.Dataset, SNAPSHOTS, "modulus")
     return runs.draw_spacetime(runs.gather_spacetime(run))
@@ -471,42 +480,48 @@ def draw_spacetime(run: xr.Dataset):
 SNAPSHOTS = f"{RUN}, with snapshots (its case keeps moduli or the state)"
 
 
-def draw_breather(checks: xr.Dataset):
+def draw_breather(checks: xr.Dataset) -> "Figure":
     """Draw the localised state that `check` found, and its stability.
 
     Left are the moduli of all fields over sites; right its Floquet multipliers beside the unit
     circle, or the exponents of perturbations where the state is steady.
     Where there is no such state, the figure says why.
     """
-    from .drawing import runs  # here, so that who draws nothing does without it
+    from .drawing import runs  # here: importing matplotlib takes half a second
 
     require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
     return runs.draw_breather(runs.gather_breather(checks))
 
 
-def draw_survey(found: xr.Dataset):
+def draw_survey(survey: xr.Dataset) -> "Figure":
     """Draw what a survey kept, as `survey` returns it: against one axis, or over two as maps.
 
     Of further axes the first value is shown, and of members the mean with its 95 % limits.
     """
-    from .drawing import surveys  # here, so that who draws nothing does without it
+    from .drawing import surveys  # here: importing matplotlib takes half a second
 
-    require(found, xr.Dataset, "a survey, as `survey` returns it", "component")
-    return surveys.draw_survey(surveys.gather_survey(found))
+    require(survey, xr.Dataset, SURVEY, "component")
+    if "failed_runs" not in survey.attrs:
+        raise ConfigurationError(f"this takes {SURVEY}; the dataset is of something else")
+    return surveys.draw_survey(surveys.gather_survey(survey))
 
 
-def draw_sweep(sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None):
+def draw_sweep(
+    sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None
+) -> "Figure":
     """Draw the norms of all fields together against the half-width M: l-infinity left, l2 right.
 
     Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`. Windows
     are named as in the dataset; where one is left out, the first is taken.
     """
-    from .drawing import runs  # here, so that who draws nothing does without it
+    from .drawing import runs  # here: importing matplotlib takes half a second
 
     return runs.draw_sweep(gathered_sweep(sweep, max_window, mean_window))
 
 
-def gathered_sweep(sweep: xr.Dataset, max_window: str | None, mean_window: str | None):
+def gathered_sweep(
+    sweep: xr.Dataset, max_window: str | None, mean_window: str | None
+) -> xr.Dataset:
     """Return what `draw_sweep` draws, or raise ConfigurationError for what is no sweep."""
     from .drawing import runs
 

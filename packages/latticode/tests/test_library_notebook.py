@@ -2,8 +2,11 @@
 
 import doctest
 import os
+import pydoc
+import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import latticode
@@ -54,6 +57,22 @@ def test_every_public_name_is_there_and_explained():
         assert name in dir(latticode)
     with pytest.raises(AttributeError, match="no attribute 'simulat'"):
         _ = latticode.simulat
+
+
+def test_type_checkers_see_the_names_that_there_are():
+    text = Path(latticode.__file__).read_text()
+    seen = re.findall(r"^    from (\S+) import (\w+) as \2$", text, re.M)
+    assert sorted(name for _, name in seen) == latticode.__all__
+    assert {home for home, _ in seen} == latticode._HOMES.keys()
+    for home, name in seen:
+        assert getattr(latticode, name) is getattr(import_module(home), name)
+    assert (Path(latticode.__file__).parent / "py.typed").exists()
+
+
+def test_help_on_a_case_begins_with_its_keys():
+    shown = pydoc.plaintext.document(latticode.Case).splitlines()
+    assert shown[1].startswith(" |  Case(*, model, parameters={}, initial, half_width=30,")
+    assert "model: a Model, or the path of its file." in shown[7]
 
 
 def test_the_examples_in_the_docstrings_run():

@@ -6,6 +6,8 @@ instead, and what the expansion (3) makes of them at the end is compared with th
 pendulum that passes the top has left the range of (3) for good.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 from latticode import checks
@@ -20,7 +22,7 @@ from pendula.problem import AMPLITUDES, PENDULA, Problem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 
 TITLE = "A case beside the paper's statements"
-KEPT = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
+KEPT: Mapping[str, tuple[str, ...]] = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
 """What the statements read of a run beside its norms."""
 
 

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from math import prod
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from .netcdf import Variable
 from .registry import NAMES
 from .stated import describe_run
 from .trajectories import Contents
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 ABOUT = {
     "max": "largest {norm} in the window",
@@ -101,7 +104,7 @@ def survey_contents(
     return variables, {"title": f"The survey {name}", **about, **said}
 
 
-def runs_in(survey: Mapping[str, Any], names: Iterable[str], shape: Sequence[int]) -> Retained:
+def runs_in(survey: "Dataset", names: Iterable[str], shape: Sequence[int]) -> Retained:
     """Return what an interrupted survey, in its dataset, kept of the runs that are done."""
     texts = np.full(prod(shape), "", object)
     for kind in (kind for kind in TEXTS if kind in survey):
