@@ -28,14 +28,14 @@ A4 = 21.0
 """The width of a page in centimetres."""
 
 
-def gather_own_norms(run, other):
+def gather_own_norms(run, second_run):
     """Return a run with a second one of the same case, which it leaves at tau = 2."""
-    second = other[["linf", "l2"]].rename(linf="second_linf", l2="second_l2")
-    about = {"long_name": "first tau at which the runs differ", "units": "1"}
-    return own.gather_norms(run, second.assign(divergence_time=((), 2.0, about)))
+    second = second_run[["linf", "l2"]].rename(linf="second_linf", l2="second_l2")
+    attributes = {"long_name": "first tau at which the runs differ", "units": "1"}
+    return own.gather_norms(run, second.assign(divergence_time=((), 2.0, attributes)))
 
 
-OWN = {
+USER_FIGURES = {
     "own_norms": (
         own.draw_norms,
         gather_own_norms,
@@ -45,7 +45,7 @@ OWN = {
     "own_spacetime": (own.draw_spacetime, own.gather_spacetime, "trajectories/fig2_small"),
     "own_sweep": (
         own.draw_sweep,
-        lambda one: runs.gather_sweep(one, mean_window="[10, 50]"),
+        lambda sweep: runs.gather_sweep(sweep, mean_window="[10, 50]"),
         "sweeps/fig5_left",
     ),
 }
@@ -58,11 +58,15 @@ def described(figure, data=None) -> dict:
     return describe(figure, xr.Dataset() if data is None else data)
 
 
-def without(keys: set[str], part):
+def without(keys: set[str], description):
     """Return a description without some entries of curves and areas."""
-    if isinstance(part, dict):
-        return {key: without(keys, each) for key, each in part.items() if key not in keys}
-    return [without(keys, each) for each in part] if isinstance(part, list) else part
+    if isinstance(description, dict):
+        return {key: without(keys, each) for key, each in description.items() if key not in keys}
+    return (
+        [without(keys, each) for each in description]
+        if isinstance(description, list)
+        else description
+    )
 
 
 OF_ROWS = {"shows", "x leaves", "y leaves"}
@@ -74,16 +78,16 @@ class Plot(NamedTuple):
 
     name: str
     figure: Figure
-    shown: dict
+    displayed: dict
     file: Path
 
 
 USERS = {"font.size": 20, "lines.linewidth": 9, "axes.grid": True}
 
 
-@pytest.fixture(scope="module", params=FIGURES | OWN)
+@pytest.fixture(scope="module", params=FIGURES | USER_FIGURES)
 def plot(request, tmp_path_factory):
-    draw, gather, *names = (FIGURES | OWN)[request.param]
+    draw, gather, *names = (FIGURES | USER_FIGURES)[request.param]
     if request.param in not_accepted():
         skip(f"{request.param} is not accepted yet", "snakemake accept_figures")
     file = tmp_path_factory.mktemp(request.param) / "data.nc"
@@ -103,17 +107,17 @@ def not_accepted() -> list[str]:
 
 def accepted(name: str) -> dict:
     """Return the accepted description of a figure; what shows a user's own run is drawn again."""
-    if name in OWN:
-        draw, gather, *names = OWN[name]
+    if name in USER_FIGURES:
+        draw, gather, *names = USER_FIGURES[name]
         return described(draw(gather(*map(dataset, names)))) | {"data": ""}
     return json.loads((BASELINE / f"figures/{name}.json").read_text()) | {"data": ""}
 
 
 def test_saved_data_show_what_is_accepted_whatever_the_users_style(plot):
     """Each text, colour, stroke and axis, and the ranges of each curve."""
-    kept, shown = (without(OF_ROWS, each) for each in (accepted(plot.name), plot.shown))
-    apart = differing(kept, shown | {"data": ""}, 1e-3)
-    assert apart == {}, "if this is meant, look at it and type `snakemake accept_figures`"
+    expected, displayed = (without(OF_ROWS, each) for each in (accepted(plot.name), plot.displayed))
+    difference = differing(expected, displayed | {"data": ""}, 1e-3)
+    assert difference == {}, "if this is meant, look at it and type `snakemake accept_figures`"
 
 
 LEAST = 100
@@ -123,8 +127,8 @@ LEAST = 100
 def test_each_curve_names_the_rows_that_it_shows(plot):
     if plot.name == "growth_law":  # its curves are of fewer points
         return
-    curves = [one for panel in plot.shown["panels"] for one in panel.get("curves", ())]
-    assert all(one.get("shows") for one in curves if one["points"] >= LEAST)
+    curves = [curve for panel in plot.displayed["panels"] for curve in panel.get("curves", ())]
+    assert all(curve.get("shows") for curve in curves if curve["points"] >= LEAST)
 
 
 def test_a_curve_that_is_reversed_or_hidden_or_cut_off_is_told():
@@ -133,10 +137,13 @@ def test_a_curve_that_is_reversed_or_hidden_or_cut_off_is_told():
     axes = figure.subplots()
     for component in "AB":
         axes.plot(data["tau"], data["l2"].sel(component=component))
-    told = lambda: [one.get("shows") for one in described(figure, data)["panels"][0]["curves"]]  # noqa: E731
-    assert told() == ["l2 [A] over tau", "l2 [B] over tau"]
+
+    def described_rows() -> list[str]:
+        return [curve.get("shows") for curve in described(figure, data)["panels"][0]["curves"]]
+
+    assert described_rows() == ["l2 [A] over tau", "l2 [B] over tau"]
     axes.lines[0].set_ydata(axes.lines[0].get_ydata()[::-1])
-    assert told() == ["tau", "l2 [B] over tau"]
+    assert described_rows() == ["tau", "l2 [B] over tau"]
     axes.lines[1].set_visible(False)
     axes.set_ylim(5, 10)
     (curve,) = described(figure, data)["panels"][0]["curves"]
@@ -235,11 +242,14 @@ def test_a_key_of_what_is_red_and_blue_has_both_colours(name, label):
     (legend,) = drawn(name).legends
     place = [text.get_text() for text in legend.texts].index(label)
     key = [
-        one for column in legend._legend_handle_box.get_children() for one in column.get_children()
+        artist
+        for column in legend._legend_handle_box.get_children()
+        for artist in column.get_children()
     ][place]
     artists = key.get_children()[0].get_children()
     colours = [
-        one.get_facecolor() if hasattr(one, "get_facecolor") else one.get_color() for one in artists
+        artist.get_facecolor() if hasattr(artist, "get_facecolor") else artist.get_color()
+        for artist in artists
     ]
     red, blue = map(to_rgb, colours)
     assert red[0] > red[2] and blue[2] > blue[0]
@@ -255,13 +265,15 @@ def test_the_law_of_growth_has_a_panel_in_which_a_tenth_is_seen():
 def test_fronts_have_the_predicted_speed_of_the_second_one_for_the_chain_of_the_long_study_alone():
     fronts, long = dataset("unbounded/fronts"), dataset("quoted/unbounded")
     gather = FIGURES["fronts"][1]
-    shown = gather(fronts, long)["predicted_second_speed"]
-    np.testing.assert_array_equal(shown, long["predicted_second_speed"].sel(omega=shown["omega"]))
+    gathered = gather(fronts, long)["predicted_second_speed"]
+    np.testing.assert_array_equal(
+        gathered, long["predicted_second_speed"].sel(omega=gathered["omega"])
+    )
     assert gather(fronts)["predicted_second_speed"].isnull().all()
-    other = fronts.assign_attrs(gamma=2.0)
-    assert gather(other, long)["predicted_second_speed"].isnull().all()
+    another_chain = fronts.assign_attrs(gamma=2.0)
+    assert gather(another_chain, long)["predicted_second_speed"].isnull().all()
     lines = drawn("fronts").axes[0].lines
-    assert any(np.array_equal(one.get_ydata(), shown, equal_nan=True) for one in lines)
+    assert any(np.array_equal(speeds.get_ydata(), gathered, equal_nan=True) for speeds in lines)
 
 
 def test_an_axis_of_time_has_no_ticks_beyond_the_end_and_equal_shares_are_seen():

@@ -14,19 +14,19 @@ def of(folder, names):
     return {name: dataset(f"{folder}/{name}") for name in names}
 
 
-MADE = {
+RECOMPUTED = {
     "checks/cases": lambda: xr.Dataset.from_dict(check_cases(of("trajectories", PAPER_CASES))),
     "unbounded/fronts": lambda: measure_fronts(*of("unbounded", ("omegas", "thermal")).values()),
 }
 
 
-@pytest.mark.parametrize("name", MADE)
+@pytest.mark.parametrize("name", RECOMPUTED)
 def test_a_dataset_comes_out_as_accepted(name):
-    made, accepted = MADE[name](), dataset(name)
-    for key, one in made.variables.items():
+    recomputed, accepted = RECOMPUTED[name](), dataset(name)
+    for key, variable in recomputed.variables.items():
         known = accepted[key].variable
-        if one.dtype.kind == "f":  # what is kept of long runs has single precision
+        if variable.dtype.kind == "f":  # what is kept of long runs has single precision
             off = 2e-5 * float(np.abs(known).max()) if name.startswith("unbounded") else 0.0
-            np.testing.assert_allclose(one, known, rtol=1e-3, atol=off, err_msg=key)
+            np.testing.assert_allclose(variable, known, rtol=1e-3, atol=off, err_msg=key)
         else:
-            np.testing.assert_array_equal(one, known, err_msg=key)
+            np.testing.assert_array_equal(variable, known, err_msg=key)

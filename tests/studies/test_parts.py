@@ -36,15 +36,17 @@ def endless():
     return spread_case("one", ENDLESS, 1e-20, 3, 0.5, 1)
 
 
-def in_parts(count, problems, make):
-    return joined([run_part(problems, make, part, count) for part in range(count)])
+def in_chunks(count, problems, make):
+    return joined([run_part(problems, make, chunk, count) for chunk in range(count)])
 
 
 @pytest.mark.parametrize("study", [maps, ensembles, sweeps, endless])
 def test_the_number_of_parts_changes_no_bit(study):
-    made = (study().make(partial(in_parts, count)) for count in (1, 3, 8))
-    whole, *others = (one[0] if isinstance(one, tuple) else one for one in made)
-    for name, variable in whole.items():
-        for other in others:
-            found, expected = (getattr(one, "values", one) for one in (other[name], variable))
-            np.testing.assert_array_equal(found, expected, err_msg=name)
+    results = (study().make(partial(in_chunks, count)) for count in (1, 3, 8))
+    unsplit, *split = (result[0] if isinstance(result, tuple) else result for result in results)
+    for name, variable in unsplit.items():
+        for joined_result in split:
+            computed, expected = (
+                getattr(values, "values", values) for values in (joined_result[name], variable)
+            )
+            np.testing.assert_array_equal(computed, expected, err_msg=name)

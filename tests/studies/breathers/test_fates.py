@@ -23,10 +23,10 @@ def pair_problem(omega, a, b, end_time=30.0, **changes):
 
 def state_of(power: dict[int, float], half_width: int = 8) -> np.ndarray:
     """Return a state with this P on some sites."""
-    found = np.zeros((2, 2 * half_width + 1), complex)
+    state = np.zeros((2, 2 * half_width + 1), complex)
     for site, value in power.items():
-        found[0, half_width + site] = 1j * value**0.5
-    return found
+        state[0, half_width + site] = 1j * value**0.5
+    return state
 
 
 @pytest.mark.parametrize(
@@ -57,8 +57,8 @@ def test_what_the_end_of_a_run_shows(power, expected):
 )
 def test_the_place_is_that_of_the_middle_of_three_pairs(power, half_width, place):
     with np.errstate(invalid="ignore"):
-        found = fates.place_of(fates.power_by_distance(state_of(power, half_width)))
-    assert found == place
+        computed = fates.place_of(fates.power_by_distance(state_of(power, half_width)))
+    assert computed == place
 
 
 def test_linear_waves_stay_below_their_bound_and_come_near_it():
@@ -68,7 +68,7 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
         assert fates.largest_linear_gain(constants) == gain
     grown = []
     for start in (1e-6, 1e-6j):
-        one = pair_problem(
+        problem = pair_problem(
             -4.0,
             start,
             -start,
@@ -78,7 +78,7 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
             output_step=0.01,
             solver={"name": "taylor", "rtol": 1e-12, "atol": 1e-24},
         )
-        power = (simulate(one).l2 ** 2).sum(axis=0)
+        power = (simulate(problem).l2 ** 2).sum(axis=0)
         grown.append(float((power / power[0]).max()))
     assert max(grown) == pytest.approx(3.0, rel=1e-4)
 
@@ -96,8 +96,8 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
     assert fates.keep_fate(problem) == {"fate": expected}
-    found = as_xarray(*sensitivity.sensitivity_contents("one", problem, [0.0], 2, 1).make())
-    assert found["share"].values.tolist() == [float(expected == SPREADS)]
+    shares = as_xarray(*sensitivity.sensitivity_contents("one", problem, [0.0], 2, 1).make())
+    assert shares["share"].values.tolist() == [float(expected == SPREADS)]
 
 
 def maps(points, **changes):
@@ -108,11 +108,11 @@ def maps(points, **changes):
 
 
 def test_a_map_has_the_fate_of_each_of_its_data():
-    found = maps(3).sel(omega=-4)
-    for a in found["a0"].values:
-        for b in found["b0"].values:
+    fates_at_omega = maps(3).sel(omega=-4)
+    for a in fates_at_omega["a0"].values:
+        for b in fates_at_omega["b0"].values:
             alone = fates.keep_fate(pair_problem(-4, a, b, 10.0))["fate"]
-            assert found["fate"].sel(a0=a, b0=b) == alone
+            assert fates_at_omega["fate"].sel(a0=a, b0=b) == alone
 
 
 def test_a_finer_map_is_drawn_if_it_is_of_the_same_runs():
@@ -120,6 +120,6 @@ def test_a_finer_map_is_drawn_if_it_is_of_the_same_runs():
     assert figures.gather_fates(coarse)["fate"].shape == (2, 3, 3)
     assert figures.gather_fates(coarse, fine)["fate"].shape == (2, 9, 9)
     assert (fine["fate"][:, 1::3, 1::3].values == coarse["fate"].values).all()
-    for other in (maps(9, half_width=29), fine.sel(omega=[8])):
-        assert figures.gather_fates(coarse, other)["fate"].shape == (2, 3, 3)
+    for another_map in (maps(9, half_width=29), fine.sel(omega=[8])):
+        assert figures.gather_fates(coarse, another_map)["fate"].shape == (2, 3, 3)
     assert [name.split()[0] for name in figures.KINDS] == list(fates.FATES)

@@ -17,13 +17,13 @@ def test_multipliers_are_those_of_the_nonlinear_flow(family, parity):
     period, first = 4.0 * breather.quarter, int(parity == "odd")
     sign = (-1.0) ** first
     columns = []
-    for part, row, site in np.ndindex(2, 2, m + 1 - first):
+    for re_or_im, row, site in np.ndindex(2, 2, m + 1 - first):
         change = np.zeros((2, 2 * m + 1), complex)
-        change[row, m + first + site] = 1e-6 * (1.0, 1j)[part]
+        change[row, m + first + site] = 1e-6 * (1.0, 1j)[re_or_im]
         change[row, m - first - site] = sign * change[row, m + first + site]
         ends = [
-            run_from(constants, unfolded(breather.data) + one * change, period, period).final
-            for one in (1.0, -1.0)
+            run_from(constants, unfolded(breather.data) + sign * change, period, period).final
+            for sign in (1.0, -1.0)
         ]
         moved = (ends[0] - ends[1])[:, m + first :] / 2e-6
         columns.append([moved.real, moved.imag])
@@ -59,5 +59,5 @@ def test_growth_of_traces(nu, rate):
 )
 def test_a_breather_has_one_verdict_on_two_chains(constants, family, frequency, stable):
     for half_width in (20, 40):
-        one = find_breather(family, constants, frequency, half_width)
-        assert (multipliers.growth_rate(one) == 0.0) is stable
+        breather = find_breather(family, constants, frequency, half_width)
+        assert (multipliers.growth_rate(breather) == 0.0) is stable

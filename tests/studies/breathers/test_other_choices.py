@@ -35,8 +35,10 @@ def test_shares_are_those_of_as_many_runs_with_another_choice():
     sizes, members = [1e-6, 0.3], 5
     data = vary_shares("fig3_large", PROBLEM, sizes, members, RUNS | {"seed": 4}, {"seed": [5]})
     for seed, share in ((4, data["share"]), (5, data["share_varied"].sel(variation="seed = 5"))):
-        again = as_xarray(*sensitivity_contents("fig3_large", PROBLEM, sizes, members, seed).make())
-        np.testing.assert_array_equal(share, again["share"])
+        recomputed = as_xarray(
+            *sensitivity_contents("fig3_large", PROBLEM, sizes, members, seed).make()
+        )
+        np.testing.assert_array_equal(share, recomputed["share"])
     assert (data["share_low"] <= data["share_varied"].min("variation")).all()
 
 

@@ -86,8 +86,8 @@ def test_a_soliton_turns_with_its_frequency_by_the_taylor_method(frequency):
 def test_the_power_of_a_soliton_vanishes_towards_the_waves_as_that_of_the_continuum():
     """There phi is the soliton 2 sqrt(k) / cosh(sqrt(k) n), k = lambda - Omega: P = 16 sqrt(k)."""
     for k, accuracy in ((0.2, 0.03), (0.1, 0.015)):
-        found = power(find_soliton(BELOW_AT_4, BELOW_AT_4.omega + k, 40).data).sum()
-        assert found == pytest.approx(16.0 * np.sqrt(k), rel=accuracy)
+        computed = power(find_soliton(BELOW_AT_4, BELOW_AT_4.omega + k, 40).data).sum()
+        assert computed == pytest.approx(16.0 * np.sqrt(k), rel=accuracy)
 
 
 def test_a_difference_of_a_and_b_grows_on_a_soliton_at_the_rate_of_its_multiplier():
@@ -107,6 +107,6 @@ def test_a_difference_of_a_and_b_grows_on_a_soliton_at_the_rate_of_its_multiplie
         atol=1e-14,
     )
     a, b = run.y.reshape(2, -1, 3)
-    apart = np.sqrt((np.abs(a - b) ** 2).sum(axis=0))
-    rate = np.log(apart[2] / apart[1]) / period
+    difference = np.sqrt((np.abs(a - b) ** 2).sum(axis=0))
+    rate = np.log(difference[2] / difference[1]) / period
     assert growth_rate(soliton) == pytest.approx(rate, rel=0.01)

@@ -39,5 +39,5 @@ def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
 )
 def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, epsilon, omega, stable):
     for half_width in (20, 40):
-        found = localised(family, numbers(epsilon, 1.0, omega), half_width)
-        assert bool(exponents(*found).real.max() <= 0.0) is stable
+        breather = localised(family, numbers(epsilon, 1.0, omega), half_width)
+        assert bool(exponents(*breather).real.max() <= 0.0) is stable

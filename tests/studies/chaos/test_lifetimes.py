@@ -17,8 +17,13 @@ WINDOW = (15.0, 20.0)
 
 
 def problem(case="fig4_small", a0=1.0, **changes):
-    given = {"solver": SOLVER, "end_time": 20.0, "output_step": 0.1, "initial": {0: (a0, 0.2 * a0)}}
-    return problem_of(case, **given | changes)
+    settings = {
+        "solver": SOLVER,
+        "end_time": 20.0,
+        "output_step": 0.1,
+        "initial": {0: (a0, 0.2 * a0)},
+    }
+    return problem_of(case, **settings | changes)
 
 
 @pytest.mark.parametrize("a0", [1.0, 9.0])
@@ -38,18 +43,18 @@ def test_scipy_sees_the_transition_at_the_same_time(a0):
     )
     power = (np.abs(run.y) ** 2).sum(axis=0)
     first = tau[np.argmax(power >= 0.25 * power[tau >= WINDOW[0]].mean())]
-    found = lifetimes.follow(problem(a0=a0), WINDOW, 0.25)
-    assert found["transition"] == pytest.approx(first, abs=0.3) and 3.0 < first < 5.0
-    assert found["l2"] == pytest.approx(np.sqrt(power[tau >= WINDOW[0]]).mean(), rel=0.05)
+    computed = lifetimes.follow(problem(a0=a0), WINDOW, 0.25)
+    assert computed["transition"] == pytest.approx(first, abs=0.3) and 3.0 < first < 5.0
+    assert computed["l2"] == pytest.approx(np.sqrt(power[tau >= WINDOW[0]]).mean(), rel=0.05)
 
 
 def test_a_life_is_the_same_in_pieces_as_in_one_run():
     """The window ends before the life does, which a second piece follows."""
     case = problem(a0=5.0)
-    whole = simulate(case.changed(snapshot_every=1))
-    first = np.flatnonzero(lifetimes.centre_is_average(whole.modulus))[0]
+    full_run = simulate(case.changed(snapshot_every=1))
+    first = np.flatnonzero(lifetimes.centre_is_average(full_run.modulus))[0]
     time = lifetimes.follow(case, (3.0, 4.0), 0.5)["life"]
-    assert time == pytest.approx(whole.tau[first]) and 4.0 < time < 14.0
+    assert time == pytest.approx(full_run.tau[first]) and 4.0 < time < 14.0
 
 
 def test_a_centre_outlives_the_transition_from_a_large_amplitude_and_not_from_a_small_one():
@@ -61,8 +66,12 @@ def test_a_centre_outlives_the_transition_from_a_large_amplitude_and_not_from_a_
 
 def test_in_a_stable_case_nothing_is_outlived():
     """At Omega = 8 the large oscillation stays at the centre: P has its final value at once."""
-    found = lifetimes.follow(problem("fig2_large", 5.0), WINDOW, 0.5)
-    assert found["life"] == np.inf and found["transition"] == 0.0 and found["centre_share"] > 0.5
+    computed = lifetimes.follow(problem("fig2_large", 5.0), WINDOW, 0.5)
+    assert (
+        computed["life"] == np.inf
+        and computed["transition"] == 0.0
+        and computed["centre_share"] > 0.5
+    )
 
 
 def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
@@ -78,9 +87,9 @@ def test_limits_are_medians_of_times_and_means_of_the_rest():
     lives = np.append(np.arange(1.0, 11.0), np.inf)[None, ::-1]
     over = ("start_amplitude", "member")
     names = dict.fromkeys(clocks.NUMBERS, (over, lives.clip(max=20.0)))
-    found = clocks.limits_of(xr.Dataset(names).assign(life=(over, lives)))
-    assert [float(limit[0]) for limit in found["life"]] == [6.0, 2.0, 10.0]
-    assert found["l2"].value == pytest.approx(75.0 / 11.0)
+    computed = clocks.limits_of(xr.Dataset(names).assign(life=(over, lives)))
+    assert [float(limit[0]) for limit in computed["life"]] == [6.0, 2.0, 10.0]
+    assert computed["l2"].value == pytest.approx(75.0 / 11.0)
 
 
 def test_members_of_the_long_study_are_measured_with_each_choice_changed():
@@ -88,13 +97,13 @@ def test_members_of_the_long_study_are_measured_with_each_choice_changed():
     chosen |= {"window": (10.0, 12.0), "level": 0.5, "multiple": 1.0}
     case, changes = problem(end_time=12.0), {"level": [0.25], "seed": [4]}
     data = lifetimes.vary_lifetimes(case, [2.0, 9.0], 0.2, 6, chosen, changes)
-    again = as_xarray(
+    recomputed = as_xarray(
         *lifetimes.measure_lifetimes(
             case, [2.0, 9.0], 0.2, 0.01, 6, 4, (10.0, 12.0), 0.5, 1.0
         ).make()
     )
     assert data["variation"].values.tolist() == ["seed = 4", "level = 0.25"]
-    expected = np.median(again["transition"], axis=1)
+    expected = np.median(recomputed["transition"], axis=1)
     np.testing.assert_allclose(data["transition_varied"].sel(variation="seed = 4"), expected)
     assert (data["transition_varied"].sel(variation="level = 0.25") < data["transition"]).all()
 
@@ -105,13 +114,15 @@ def test_an_upper_limit_that_no_run_reached_is_an_arrow_and_no_end_of_a_bar():
     lives[0, 8:] = lives[2, 4:] = np.inf
     over = ("start_amplitude", "member")
     data = xr.Dataset(dict.fromkeys(clocks.NUMBERS, (over, lives.clip(max=9.0))))
-    said = dict.fromkeys(("omega", "ratio", "window_start", "window_end", "perturbation"), 1.0)
+    attributes = dict.fromkeys(
+        ("omega", "ratio", "window_start", "window_end", "perturbation"), 1.0
+    )
     data = data.assign(life=(over, lives)).assign_coords(start_amplitude=[1.0, 2.0, 3.0])
-    data = data.assign_attrs(said, members=11, end_time=20.0, half_width=30)
-    shown = figures.gather_lifetimes(data)
-    assert shown["life_open"].values == pytest.approx([20.0, np.nan, np.nan], nan_ok=True)
-    assert shown["life_later"].values == pytest.approx([np.nan, np.nan, 20.0], nan_ok=True)
-    left, _ = figures.draw_lifetimes(shown).axes
+    data = data.assign_attrs(attributes, members=11, end_time=20.0, half_width=30)
+    drawn = figures.gather_lifetimes(data)
+    assert drawn["life_open"].values == pytest.approx([20.0, np.nan, np.nan], nan_ok=True)
+    assert drawn["life_later"].values == pytest.approx([np.nan, np.nan, 20.0], nan_ok=True)
+    left, _ = figures.draw_lifetimes(drawn).axes
     arrows = [line for line in left.lines if line.get_marker() == CARETUPBASE]
     assert [y for line in arrows for y in line.get_ydata() if np.isfinite(y)] == [20.0]
     ends = [line.get_ydata() for line in left.lines if line.get_marker() == "_"]
@@ -121,7 +132,7 @@ def test_an_upper_limit_that_no_run_reached_is_an_arrow_and_no_end_of_a_bar():
 def test_the_accepted_life_of_the_centre_is_varied_by_the_power_that_ends_it():
     """Half of the mean power ends a life later, and twice the mean power earlier."""
     quoted = dataset("quoted/chaos").sel(start_amplitude=slice(3.0, 7.0))
-    again = quoted["life_varied"]
-    later, earlier = (again.sel(variation=f"multiple = {one}") for one in ("0.5", "2"))
+    lives = quoted["life_varied"]
+    later, earlier = (lives.sel(variation=f"multiple = {multiple}") for multiple in ("0.5", "2"))
     assert (earlier < quoted["life"]).all() and (quoted["life"] < later).all()
     assert (quoted["life_low"] <= earlier).all() and (later <= quoted["life_high"]).all()

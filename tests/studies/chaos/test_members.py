@@ -20,7 +20,7 @@ def test_every_case_has_all_numbers():
     runs = members.member_numbers({"a": PROBLEM, "b": PROBLEM}, WINDOWS, 1e-3, 3, 7)
     data = as_xarray(*runs.make())
     assert data["window"].values.tolist() == ["[1, 2]", "[2, 4]"]
-    l2 = np.array([pair_l2(simulate(one)) for one in draw_members(PROBLEM, 1e-3, 3, 7)])
+    l2 = np.array([pair_l2(simulate(member)) for member in draw_members(PROBLEM, 1e-3, 3, 7)])
     late = l2[:, 2, 8:]
     width = np.sqrt(np.var(late, axis=0, ddof=1).mean()) / np.mean(late)
     np.testing.assert_allclose(data["relative_width"], width)

@@ -21,8 +21,10 @@ KNOWS = ("never", "not by", "0 |", "reference lies", "multiprecision")
 
 def labels(figure) -> str:
     """Return all that is written in the panels of a figure and in its legend."""
-    found = [text.get_text() for axes in figure.axes for text in axes.texts]
-    return " ".join([*found, *(t.get_text() for one in figure.legends for t in one.get_texts())])
+    texts = [text.get_text() for axes in figure.axes for text in axes.texts]
+    return " ".join(
+        [*texts, *(t.get_text() for legend in figure.legends for t in legend.get_texts())]
+    )
 
 
 def trusted(trajectories, **edited) -> xr.Dataset:
@@ -55,8 +57,8 @@ def test_after_the_end_of_a_reference_nothing_is_said_of_it(trajectories):
     assert (data["known_until"] == 3.0).all()
     drawn = figures.gather_norms(long, [true, true])
     lines = [line for axes in figures.draw_norms(drawn).axes for line in axes.lines]
-    shown = [line.get_xdata()[np.isfinite(line.get_ydata())] for line in lines]
-    ends = [float(tau[-1]) for tau in shown if len(tau) > 2]
+    drawn_times = [line.get_xdata()[np.isfinite(line.get_ydata())] for line in lines]
+    ends = [float(tau[-1]) for tau in drawn_times if len(tau) > 2]
     assert ends.count(3.0) == 8 and max(ends) > 3.0  # of A and of B in four panels
 
 

@@ -17,14 +17,18 @@ def measured():
     """Return a short case of each kind by all solvers, reduced."""
     case = problem_of("fig2_small", half_width=6, end_time=2.0, output_step=0.02).plain()
     del case["solver"]
-    given = {name: SOLVERS[name] for name in ("ode45", "crank_nicolson", "delfour_fortin_payre")}
-    return solvers.compare_solvers({"fig2_small": solvers.run_by_all("fig2_small", case, given)})
+    compared_solvers = {
+        name: SOLVERS[name] for name in ("ode45", "crank_nicolson", "delfour_fortin_payre")
+    }
+    return solvers.compare_solvers(
+        {"fig2_small": solvers.run_by_all("fig2_small", case, compared_solvers)}
+    )
 
 
 def test_the_second_solver_tends_to_the_first_as_the_square_of_its_step(measured):
     assert measured["second_step"].values.tolist() == [0.005, 0.0025]
-    whole, half = measured["second_difference"].values[0]
-    assert whole / half == pytest.approx(4.0, rel=0.05)
+    full_step, half_step = measured["second_difference"].values[0]
+    assert full_step / half_step == pytest.approx(4.0, rel=0.05)
     drift = measured["largest_drift"].sel(case="fig2_small", of="absolute")
     assert (
         drift.sel(solver="delfour_fortin_payre") < 1e-8 < 1e-5 < drift.sel(solver="crank_nicolson")
@@ -75,12 +79,12 @@ def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, ver
 def test_each_solver_has_its_horizon():
     bad = run(changes={("l2", 1, 2): 1.008, ("l2", 1, 6): 1.02})
     runs = {"case": {"taylor": run(), "ode45": bad, "crank_nicolson": run(omega=7.0)}}
-    found = solvers.trust_solvers(runs, {"case": run()}).sel(case="case")
-    horizons = found["horizon"]
+    computed = solvers.trust_solvers(runs, {"case": run()}).sel(case="case")
+    horizons = computed["horizon"]
     assert horizons.sel(solver="ode45") == 3.0
     assert (horizons.sel(solver="taylor") == np.inf).all()
     assert horizons.sel(solver="crank_nicolson").isnull().all()
-    assert found["visible"] == VISIBLE
+    assert computed["visible"] == VISIBLE
 
 
 @pytest.mark.parametrize(("omega", "known"), [(8.0, [0.02, 0.4, 0.8]), (7.0, [np.nan] * 3)])
@@ -91,8 +95,8 @@ def test_a_bound_is_proved_of_a_curve_of_the_same_case(omega, known):
     proved = (right + rising - 0.008).assign(bound=xr.full_like(right["tau"], 0.02))
     proved = proved.assign_attrs(right.attrs | {"omega": omega})
     reference = right + rising
-    found = solvers.trust_solvers(
+    computed = solvers.trust_solvers(
         {"case": {"ode45": run()}}, {"case": reference.assign_attrs(right.attrs)}, {"case": proved}
     )
-    values = [float(found[name][0]) for name in ("l2_bound", "distance", "late_distance")]
+    values = [float(computed[name][0]) for name in ("l2_bound", "distance", "late_distance")]
     assert values == pytest.approx(known, nan_ok=True)

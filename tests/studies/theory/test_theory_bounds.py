@@ -24,8 +24,10 @@ from problems import constants_of
 from scipy.integrate import solve_ivp
 
 NEGATIVE, POSITIVE = constants_of((1.0, 1.0, -4.0)), constants_of((1.0, 1.0, 8.0))
-OTHERS = ((0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0))
-each_constants = pytest.mark.parametrize("constants", [NEGATIVE, *map(constants_of, OTHERS)])
+OTHER_CONSTANTS = ((0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0))
+each_constants = pytest.mark.parametrize(
+    "constants", [NEGATIVE, *map(constants_of, OTHER_CONSTANTS)]
+)
 
 
 def start_of(omega, pair):
@@ -69,21 +71,21 @@ def test_the_widened_bound_is_where_the_energy_allows_no_more(constants):
     top, barrier = widened_barrier(constants)
     assert (top, barrier) == pytest.approx((powers[depths.argmax()], depths.max()), rel=1e-3)
     for energy in (-0.01 * barrier, -0.99 * barrier):
-        found = widened_bound(energy, 0.0, constants)
-        depth = a * found - found**3 / (64.0 * constants.epsilon)
-        assert depth == pytest.approx(-energy) and found < top
+        bound = widened_bound(energy, 0.0, constants)
+        depth = a * bound - bound**3 / (64.0 * constants.epsilon)
+        assert depth == pytest.approx(-energy) and bound < top
     assert widened_bound(-1.01 * barrier, 0.0, constants) == np.inf
 
 
 @each_constants
 def test_signs_that_a_change_of_variables_turns_do_not_matter(constants):
     """Amplitudes times i turn the sign of the drive, every second one times -1 that of epsilon."""
-    other = replace(constants, gamma=-constants.gamma)
+    negative = replace(constants, gamma=-constants.gamma)
     omega = constants.omega - 4.0 * constants.epsilon
     staggered = replace(constants, epsilon=-constants.epsilon, omega=omega)
     assert with_positive_coupling(staggered) == constants
     for bound in (widened_barrier, theorem_2_constants, extent):
-        assert bound(other) == bound(staggered) == bound(constants)
+        assert bound(negative) == bound(staggered) == bound(constants)
 
 
 # --- What data reach ------------------------------------------------------------------------------
@@ -96,12 +98,12 @@ def test_a_tiny_wave_reaches_what_the_linear_equations_say(monkeypatch, sites):
     -H / P is kappa - 2 gamma where P is largest; at the other end of the band all signs turn.
     """
     monkeypatch.setattr(theorems, "LONG", sites)
-    found = {name: one["data"] for name, one in check_sharpness()["data_vars"].items()}
+    computed = {name: variable["data"] for name, variable in check_sharpness()["data_vars"].items()}
     kappa = 4.0 + 4.0 * np.sin(0.5 * np.pi / (sites + 1)) ** 2  # as far from the band at both Omega
     growth = (kappa + 2.0) / (kappa - 2.0)
-    assert found["reached"][:2] == pytest.approx(2 * [2 / (kappa - 2)], rel=1e-6)
-    assert found["least_constant"] == pytest.approx([growth, growth], rel=1e-6)
-    assert found["proof_constant"].tolist() == [5.0, 5.0]  # (8 + 2) / 2 and (4 + 2 + 4) / 2
+    assert computed["reached"][:2] == pytest.approx(2 * [2 / (kappa - 2)], rel=1e-6)
+    assert computed["least_constant"] == pytest.approx([growth, growth], rel=1e-6)
+    assert computed["proof_constant"].tolist() == [5.0, 5.0]  # (8 + 2) / 2 and (4 + 2 + 4) / 2
 
 
 @pytest.mark.parametrize(("theorem", "omega"), [(0, 8.0), (1, -4.0)])
@@ -149,8 +151,10 @@ def test_the_largest_power_of_an_energy_has_that_energy():
     sites, energy = 7, -2.5
     power = largest_of_energy(constants_of((1.0, 1.0, 0.0)), sites, energy)
     wave = np.sqrt(0.5 * power / sites) * (-1.0) ** np.arange(sites)
-    found = total_energy(constants_of((1.0, 1.0, 0.0)), "dirichlet", np.stack([wave, -wave]) + 0j)
-    assert found == pytest.approx(energy)
+    computed = total_energy(
+        constants_of((1.0, 1.0, 0.0)), "dirichlet", np.stack([wave, -wave]) + 0j
+    )
+    assert computed == pytest.approx(energy)
 
 
 # --- Lemma 1 --------------------------------------------------------------------------------------

@@ -22,10 +22,10 @@ def solved(start: np.ndarray, end_time: float) -> np.ndarray:
     def rates(_, z):
         return slope(z.reshape(2, -1), (1.0, 1.0, OMEGA), "dirichlet").ravel()
 
-    found = solve_ivp(
+    solution = solve_ivp(
         rates, (0.0, end_time), start.ravel(), method="DOP853", rtol=1e-12, atol=1e-12
     )
-    return found.y[:, -1].reshape(2, -1)
+    return solution.y[:, -1].reshape(2, -1)
 
 
 @pytest.mark.parametrize(("course", "sign"), [("forward", 1), ("backward", -1)])
@@ -34,8 +34,8 @@ def test_distances_are_those_of_scipy_in_both_directions_of_time(check, course, 
     """Backward in time SciPy takes the data themselves, and the study their conjugates."""
     start = well_posed.start_of(POWER, course)
     near = well_posed.perturbed(start, direction, 1e-4)
-    start, near = (one.conj() if sign < 0 else one for one in (start, near))
-    ends = [solved(one, sign * well_posed.CLOSE_TIME) for one in (start, near)]
+    start, near = (state.conj() if sign < 0 else state for state in (start, near))
+    ends = [solved(state, sign * well_posed.CLOSE_TIME) for state in (start, near)]
     ratio = well_posed.distance_of(*ends) / well_posed.distance_of(start, near)
     cell = {"omega": OMEGA, "initial_power": POWER, "course": course, "direction": direction}
     assert float(check["distance_ratio"].sel(cell).sel(perturbation_size=1e-4)) == pytest.approx(
@@ -49,13 +49,13 @@ def test_a_perturbation_has_its_size_and_moves_only_what_it_names():
         change = well_posed.perturbed(start, direction, 1e-3) - start
         size = np.sqrt((np.abs(change) ** 2).sum() / (np.abs(start) ** 2).sum())
         assert size == pytest.approx(1e-3)
-        still = change[1] if direction == "A alone" else change[:, :10]
-        assert np.all(still == 0.0) != (direction == "all sites")
+        unperturbed = change[1] if direction == "A alone" else change[:, :10]
+        assert np.all(unperturbed == 0.0) != (direction == "all sites")
 
 
 def test_rows_on_lemma_2_are_decided_by_every_cell(check):
     """One cell that contradicts them is enough, whatever its Omega, size and direction."""
-    claims = {one.name: one for one in all_claims("theory/claims_nonlinear")}
+    claims = {claim.name: claim for claim in all_claims("theory/claims_nonlinear")}
     terms = xr.DataArray(
         np.zeros((2, 1)),
         {"identity": ["distance of two solutions", "(19)"], "boundary": ["free"]},

@@ -17,7 +17,7 @@ from pendula.studies.unbounded.sums import in_sums, turned
 from problems import problem_of
 
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
-REST = 1e-20
+REST_THRESHOLD = 1e-20
 LOPSIDED = {-2: (1.0, 0.1), 0: (0.0, 0.5j)}
 
 
@@ -27,27 +27,27 @@ LOPSIDED = {-2: (1.0, 0.1), 0: (0.0, 0.5j)}
     ids=["as in the paper", "A = B, and both components are kept", "not even"],
 )
 def test_the_norms_of_a_regular_case_are_those_of_a_long_chain(changes):
-    given = {"half_width": None, "end_time": 40.0, "output_step": 0.5, "solver": TIGHT}
-    endless = problem_of("fig3_small", **given | changes)
-    whole = simulate(endless.changed(half_width=150), WHOLE)
-    one = run_long(endless, REST)
-    np.testing.assert_allclose(one["tau"], whole.tau, rtol=1e-14)
-    np.testing.assert_allclose(one["l2"], np.hypot(*whole.l2), rtol=1e-12)
-    np.testing.assert_allclose(one["linf"], whole.linf.max(axis=0), atol=1e-12)
-    *_, (*_, sites) = integrate_intervals(in_sums(endless), REST)
+    settings = {"half_width": None, "end_time": 40.0, "output_step": 0.5, "solver": TIGHT}
+    endless = problem_of("fig3_small", **settings | changes)
+    full_chain = simulate(endless.changed(half_width=150), WHOLE)
+    series = run_long(endless, REST_THRESHOLD)
+    np.testing.assert_allclose(series["tau"], full_chain.tau, rtol=1e-14)
+    np.testing.assert_allclose(series["l2"], np.hypot(*full_chain.l2), rtol=1e-12)
+    np.testing.assert_allclose(series["linf"], full_chain.linf.max(axis=0), atol=1e-12)
+    *_, (*_, sites) = integrate_intervals(in_sums(endless), REST_THRESHOLD)
     rows = turned(sites)
-    amplitudes, right = rows[0::2] + 1j * rows[1::2], whole.final[:, 150:]
+    amplitudes, right = rows[0::2] + 1j * rows[1::2], full_chain.final[:, 150:]
     shared = min(amplitudes.shape[1], right.shape[1])
     np.testing.assert_allclose(amplitudes[:, :shared], right[:, :shared], atol=1e-10)
-    assert one["front"][-1] == find_front((np.abs(right) ** 2).sum(axis=0))
-    assert one["second_front"][-1] == find_front(np.abs(right[0] + right[1]) ** 2 / 2.0)
+    assert series["front"][-1] == find_front((np.abs(right) ** 2).sum(axis=0))
+    assert series["second_front"][-1] == find_front(np.abs(right[0] + right[1]) ** 2 / 2.0)
 
 
 @pytest.mark.parametrize(("end_time", "output_step"), [(25.0, 0.25), (3.0, 0.25), (20.1, 0.3)])
 def test_a_run_ends_at_the_time_that_it_was_given(end_time, output_step):
     """Also where it is no whole number of pieces: outputs and looks at the fronts reach it."""
     times = {"end_time": end_time, "output_step": output_step}
-    run = run_long(problem_of("fig3_small", half_width=None, solver=TIGHT, **times), REST)
+    run = run_long(problem_of("fig3_small", half_width=None, solver=TIGHT, **times), REST_THRESHOLD)
     count = round(end_time / output_step)
     np.testing.assert_allclose(run["tau"], np.linspace(0.0, end_time, count + 1), rtol=1e-14)
     assert run["piece_tau"][-1] == run["tau"][-1] and np.diff(run["piece_tau"]).max() <= 2.0
@@ -89,11 +89,11 @@ def test_several_levels_and_edges_are_looked_at_in_one_run():
     problem = problem_of(
         "fig4_small", half_width=None, solver=TIGHT, end_time=40.0, output_step=2.0
     )
-    one = run_long(problem, REST, levels=(1e-2,), edges=(5,))
-    several = run_long(problem, REST, levels=(1e-2, 1e-6), edges=(5, 20))
-    np.testing.assert_array_equal(several["second_front"][:, 0], one["second_front"])
-    np.testing.assert_array_equal(several["means"][:, 0], one["means"])
-    np.testing.assert_array_equal(several["front"], one["front"])
+    single = run_long(problem, REST_THRESHOLD, levels=(1e-2,), edges=(5,))
+    several = run_long(problem, REST_THRESHOLD, levels=(1e-2, 1e-6), edges=(5, 20))
+    np.testing.assert_array_equal(several["second_front"][:, 0], single["second_front"])
+    np.testing.assert_array_equal(several["means"][:, 0], single["means"])
+    np.testing.assert_array_equal(several["front"], single["front"])
     assert (several["second_front"][-1, 1] > several["second_front"][-1, 0]).all()
     assert several["means"].shape == (20, 2, 2, 2)
     assert abs(several["means"][-1, 1] - several["means"][-1, 0]).max() > 0.0

@@ -23,8 +23,8 @@ def of_wave(k, numbers):
 @pytest.mark.parametrize("numbers", [(0.8, 0.3, -1.5), (1.3, 0.6, 9.0), (0.7, 0.9, 0.4)])
 def test_waves_grow_as_the_matrix_of_each_says(numbers):
     for k in (0.4, 1.3, 2.9, 0.4 + 0.7j):
-        found = growth_rate(k.real, k.imag, constants_of(numbers))
-        assert found == pytest.approx(of_wave(k, numbers), abs=1e-12)
+        computed = growth_rate(k.real, k.imag, constants_of(numbers))
+        assert computed == pytest.approx(of_wave(k, numbers), abs=1e-12)
 
 
 @pytest.mark.parametrize("numbers", [*PAPER, (0.7, 0.9, 0.4)])

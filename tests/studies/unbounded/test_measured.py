@@ -33,8 +33,8 @@ def test_the_speed_of_a_made_up_front_and_the_slope_of_a_made_up_law():
     assert speed == pytest.approx(run["predicted_speed"].values, rel=1e-12)
     assert error[0] == resolution(TAU) == pytest.approx(1.5 / 133.3, rel=1e-3)
     for alone in (19.0, 38.0):
-        apart = speed[0] - 1.5
-        slope = (1.5 * 18.0 + apart * 19.0) / (1.5 * 18.0 + apart * alone)
+        difference = speed[0] - 1.5
+        slope = (1.5 * 18.0 + difference * 19.0) / (1.5 * 18.0 + difference * alone)
         powers = {"power": ("omega", [18.0]), "antisymmetric_power": ("omega", [alone])}
         thermal = xr.Dataset(powers, {"omega": [0.0]})
         (ratio,) = slope_ratios(run, thermal)
@@ -43,9 +43,11 @@ def test_the_speed_of_a_made_up_front_and_the_slope_of_a_made_up_law():
 
 def test_members_differ_by_little_and_are_the_same_every_time():
     drawn = ((1e-6, 2017, 1), (1e-6, 2017, 1), (1e-6, 2017, 2), (1e-6, 1, 1), (1e-3, 2017, 1))
-    first, again, second, other, larger = (member(PROBLEM, *one).initial for one in drawn)
+    first, first_again, second, other_seed, larger = (
+        member(PROBLEM, *arguments).initial for arguments in drawn
+    )
     assert member(PROBLEM, 1e-6, 2017, 0) is PROBLEM
-    np.testing.assert_array_equal(first, again)
-    assert (first != second).all() and (other != first).all()
+    np.testing.assert_array_equal(first, first_again)
+    assert (first != second).all() and (other_seed != first).all()
     np.testing.assert_allclose(larger - PROBLEM.initial, 1e3 * (first - PROBLEM.initial), rtol=1e-8)
     assert first[0, 0] == pytest.approx(1.0, rel=1e-5)

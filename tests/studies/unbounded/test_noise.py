@@ -6,7 +6,7 @@ from pendula.studies.unbounded.noise import LEVELS, ROUNDING, places_of
 from problems import problem_of
 
 FAST = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
-REST = 1e-150
+REST_THRESHOLD = 1e-150
 
 
 def chain(end_time: float):
@@ -15,8 +15,8 @@ def chain(end_time: float):
 
 
 def test_without_noise_the_fronts_are_those_of_long_runs():
-    tau, fronts, seconds = places_of(chain(40.0), 0.0, REST, 1)
-    run = run_long(chain(40.0), REST, levels=LEVELS)
+    tau, fronts, seconds = places_of(chain(40.0), 0.0, REST_THRESHOLD, 1)
+    run = run_long(chain(40.0), REST_THRESHOLD, levels=LEVELS)
     np.testing.assert_array_equal(tau, run["piece_tau"])
     np.testing.assert_array_equal(fronts, run["front"])
     np.testing.assert_array_equal(seconds, run["second_front"])
@@ -26,7 +26,7 @@ def test_the_more_noise_the_nearer_is_the_second_front():
     """At Omega = 2 the fronts without noise are apart by one site per unit of tau."""
     distances = {}
     for noise in (0.0, 1e-16, 1e-4, ROUNDING):
-        tau, fronts, seconds = places_of(chain(160.0), noise, REST, 1)
+        tau, fronts, seconds = places_of(chain(160.0), noise, REST_THRESHOLD, 1)
         distances[noise] = (fronts - seconds[:, 0])[tau > 120.0].mean()
     assert distances[1e-4] < 0.5 * distances[1e-16] < 0.5 * distances[0.0]
     assert abs(distances[ROUNDING] - distances[1e-16]) < 0.5 * distances[1e-16]

@@ -33,7 +33,7 @@ def test_a_pair_alone_is_a_plain_integral(alone):
     x = np.linspace(-7.0, 7.0, 29)
     a, b, c, d = np.ix_(x, x, x, x)
     if alone:
-        a, b = (one.reshape(29, 29) for one in (a + 0.0 * b, b + 0.0 * a))
+        a, b = (grid.reshape(29, 29) for grid in (a + 0.0 * b, b + 0.0 * a))
         c, d = -a, -b
     first, second = a * a + b * b, c * c + d * d
     energy = 0.25 * (first * first + second * second) - 1.5 * (first + second)
@@ -91,12 +91,12 @@ HASH = "2bdb683494d790c2"
 
 
 def test_the_bits_of_thermal_states_are_those_of_every_machine():
-    told = []
+    numbers = []
     for omega, energy, alone in ((0.0, 0.0, False), (2.0, 0.0, True), (-4.0, 3.0, False)):
         state = state_of((1.0, 1.0, omega), energy, 8, alone)
-        told += [state.beta, state.power, state.power_error]
+        numbers += [state.beta, state.power, state.power_error]
     # adding zero makes -0 and 0 the same number
-    bits = (np.array(told) + 0.0).tobytes()
+    bits = (np.array(numbers) + 0.0).tobytes()
     assert hashlib.sha256(bits).hexdigest()[:16] == HASH
 
 

@@ -33,9 +33,9 @@ def test_exponents_are_those_of_the_linear_equation_by_another_solver():
     start = np.zeros((2, 2 * SITES + 1), complex)
     start[:, SITES] = (PROBLEM.initial[0, 0] - PROBLEM.initial[1, 0]) / np.sqrt(2.0)
     times = np.arange(0.0, END + 1.0, 2.0)
-    given = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14, "t_eval": times}
+    controls = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14, "t_eval": times}
     flat = start.ravel().view(float)
-    states = solve_ivp(linear_rates, (0.0, END), flat, **given).y.T.copy()
+    states = solve_ivp(linear_rates, (0.0, END), flat, **controls).y.T.copy()
     s = states.view(complex).reshape(len(times), 2, -1)[:, 1, SITES:]
     sizes = np.maximum(np.abs(s.real), np.abs(s.imag))
     speed, late = linear_front(PROBLEM.constants).speed, times > 0.5 * END
@@ -46,8 +46,8 @@ def test_exponents_are_those_of_the_linear_equation_by_another_solver():
         largest = [sizes[n, max(0, at - near) : at + near + 1].max() for n, at in enumerate(places)]
         expected.append(np.polyfit(times[late], np.log(largest)[late], 1)[0])
     shape = (len(transverse.SHORTER), len(transverse.LATE), len(transverse.NEAR), -1)
-    found = transverse.exponents_of(PROBLEM, 1e-150)["exponents"].reshape(shape)
-    np.testing.assert_allclose(found[0, 0, 0], expected, atol=2e-3)
+    computed = transverse.exponents_of(PROBLEM, 1e-150)["exponents"].reshape(shape)
+    np.testing.assert_allclose(computed[0, 0, 0], expected, atol=2e-3)
     assert max(expected) > 0.2 > 0.0 > min(expected)
 
 

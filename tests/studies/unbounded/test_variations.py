@@ -46,7 +46,7 @@ def made_up(tolerance: float, relaxing: float = 0.0, second: float = 1.5, power:
     series["l2"] = np.ones(shape) * np.sqrt(squares**power)
     series["second_front"] = second * np.ones((*shape, len(LEVELS))) * TAU[:, None]
     between = [ALONE - relaxing / edge for edge in EDGES]
-    means = [[[BOTH, 0.5 * BOTH], [one, 0.0]] for one in between]
+    means = [[[BOTH, 0.5 * BOTH], [power, 0.0]] for power in between]
     series["means"] = np.broadcast_to(means, (*shape, *np.shape(means)))
     run = as_xarray(run_variables([PROBLEM], series, LEVELS, EDGES), {})
     return run.assign_attrs(solver_rtol=tolerance)
@@ -83,15 +83,15 @@ def test_the_law_is_that_of_predicted_speeds(predicted, ratio):
         assert law.value == pytest.approx([ratio], abs=1e-3) and law.error < 1e-3
     else:
         expected = 1.5 * BOTH + (FRONT.speed - 1.5) * ALONE
-        other = predicted * BOTH + (FRONT.speed - predicted) * ALONE
-        assert law.value == pytest.approx([expected / other], abs=1e-3)
-        assert law.error == pytest.approx([abs(1.0 - expected / other)], rel=0.05)
+        slope = predicted * BOTH + (FRONT.speed - predicted) * ALONE
+        assert law.value == pytest.approx([expected / slope], abs=1e-3)
+        assert law.error == pytest.approx([abs(1.0 - expected / slope)], rel=0.05)
 
 
 def test_the_row_on_the_law_says_how_little_one_state_behind_both_fronts_would_change():
     """With v_2 = 1.5 and states of 18 and 19 that is 3 %, with equal states nothing."""
     law = 1.5 * BOTH + (FRONT.speed - 1.5) * ALONE
-    expected = max(abs(FRONT.speed * one / law - 1.0) for one in (BOTH, ALONE))
+    expected = max(abs(FRONT.speed * factor / law - 1.0) for factor in (BOTH, ALONE))
     assert (
         largest_change(with_first_choices(made_up(1e-8)), THERMAL) == pytest.approx(expected)
         and expected > 0.02
@@ -139,7 +139,7 @@ def test_what_two_noises_have_in_common_cancels_in_the_difference_of_their_dista
 
     distance = Printed(("noise", "omega"), vary(measure, {"level": [1.0, 2.0]}), "distance")
     noise = as_dataset({"distance": distance}, {"noise": ("noise", labels), **omega})
-    numbers = {name: one.number for name, one in differences(noise, growth).items()}
+    numbers = {name: number.number for name, number in differences(noise, growth).items()}
     for number in numbers.values():
         assert number.value == pytest.approx([16.0 * np.log(10.0)])
     assert numbers["distance_difference"].error == pytest.approx([5.0])

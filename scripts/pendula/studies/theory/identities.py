@@ -159,7 +159,7 @@ def sign_of_gamma(ends, image: Callable):
 def of_a_wave(ends, kappa):
     """Return the linear rates of a site whose neighbours are cos theta times it, minus (14).
 
-    Here cos theta = 1 - 2 s^2, (14) is i A' + kappa A = gamma (conj B - conj A), and s = sin(theta / 2).
+    The linear equation (14) is i A' + kappa A = gamma (conj B - conj A), and s = sin(theta / 2).
     """
     site = STATE[..., :1]
     neighbour = scaled(1 - 2 * SINE**2, site)
