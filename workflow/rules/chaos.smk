@@ -22,9 +22,9 @@ use rule dataset as measure_lyapunov with:
             SPECTRUM.tolerance,
             "dop853",
             half_width=SPECTRUM.half_width,
-            end_time=SPECTRUM.lengths * SETTINGS.latest_end(SPECTRUM.cases),
+            end_time=SPECTRUM.duration_factor * SETTINGS.latest_end(SPECTRUM.cases),
         ),
-        undriven_end=SPECTRUM.undriven_lengths * SETTINGS.latest_end(SPECTRUM.cases),
+        undriven_end=SPECTRUM.undriven_duration_factor * SETTINGS.latest_end(SPECTRUM.cases),
 
 
 use rule dataset as run_ensembles with:

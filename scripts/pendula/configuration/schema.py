@@ -27,6 +27,8 @@ class Configuration(schema.Configuration):
     cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
     FORMER_KEYS: ClassVar[Mapping[str, str]] = {
         "pendula": "newton",
+        "chaos.lyapunov.spectrum.lengths": "duration_factor",
+        "chaos.lyapunov.spectrum.undriven_lengths": "undriven_duration_factor",
         "certified.own": "default_frames",
         "certified.breathers.wrong": "control_omegas",
         "unbounded.short.rest": "rest_threshold",

@@ -75,11 +75,11 @@ class Settings(Model):
 
         from .fixed_point import NotEvenError, make_half_chain
 
-        plain = settings.problem(case, snapshot_step=None)
-        if plain.get("model", AMPLITUDES) != AMPLITUDES:
+        values = settings.problem(case, snapshot_step=None)
+        if values.get("model", AMPLITUDES) != AMPLITUDES:
             text = "proofs are of curves of the amplitudes, equations (4)"
             raise ConfigurationError(f"cases.{case}.model: {text}")
-        problem = {**plain, "solver": {"name": "polynomials"}}
+        problem = {**values, "solver": {"name": "polynomials"}}
         try:
             make_half_chain(Problem.of(problem), 1)
         except NotEvenError as error:

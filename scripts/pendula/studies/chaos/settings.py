@@ -25,16 +25,16 @@ from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 
 
 class Spectrum(Model):
-    """All Lyapunov exponents, on a short chain; `lengths` are in units of the longest end time.
+    """All Lyapunov exponents, on a short chain; `duration_factor` times the latest end time.
 
-    The chain is also integrated without a drive, for `undriven_lengths`.
+    The chain is also integrated without a drive, for `undriven_duration_factor`.
     """
 
     cases: Names
     half_width: Count
     tolerance: Tolerance
-    lengths: Positive
-    undriven_lengths: Positive
+    duration_factor: Positive
+    undriven_duration_factor: Positive
 
 
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
@@ -135,7 +135,7 @@ class Settings(Model):
         if not absent:
             for runs in self.runs_of(settings):
                 yield from settings.faults_of_runs(runs)
-            yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
+            yield from settings.excess("lyapunov.spectrum.duration_factor", self._spectra(settings))
 
     def member_of(self, settings: Configuration, sweep: str) -> dict:
         """Return the problem of a sweep's ensemble as plain values, and the drawn windows."""
@@ -232,7 +232,9 @@ class Settings(Model):
         for case in spectrum.cases:
             cost = estimate(settings.problem(case, half_width=spectrum.half_width))
             vectors = (
-                2 * (2 * spectrum.half_width + 1) * (spectrum.lengths + spectrum.undriven_lengths)
+                2
+                * (2 * spectrum.half_width + 1)
+                * (spectrum.duration_factor + spectrum.undriven_duration_factor)
             )
             costs.append(Cost(vectors * cost.seconds, cost.memory))
         return costs
