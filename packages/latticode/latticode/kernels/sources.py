@@ -120,10 +120,15 @@ def bare(text: str) -> str:
     return _EMPTY.sub("\n", f"\n{without}\n")
 
 
+_FOR_TYPE_CHECKERS = re.compile(r"^if TYPE_CHECKING:.*\n(?:(?: .*)?\n)+", re.MULTILINE)
+"""Imports that are never executed."""
+
+
 @cache
 def _imports_of(file: Path) -> frozenset[Path]:
     names = set()
-    for node in _statements(_tree_of(file.read_text(encoding="utf-8"))):
+    text = _FOR_TYPE_CHECKERS.sub("", file.read_text(encoding="utf-8"))
+    for node in _statements(_tree_of(text)):
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

@@ -112,3 +112,15 @@ def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monke
     monkeypatch.setattr(sources, "version", lambda name: "0")
     found.append(digest())
     assert len(set(found)) == 4
+
+
+def test_an_import_for_type_checkers_is_none(tmp_path, monkeypatch):
+    """It is never executed, and what it names decides no number."""
+    monkeypatch.setitem(sources.ROOTS, "small", tmp_path)
+    (tmp_path / "small").mkdir()
+    for name in ("__init__", "used", "named"):
+        (tmp_path / f"small/{name}.py").write_text("")
+    text = "if TYPE_CHECKING:  # names\n    from small import named\n\nfrom small import used\n"
+    (tmp_path / "small/made.py").write_text(text)
+    found = {path.name for path in sources.modules_of(tmp_path / "small/made.py")}
+    assert found == {"made.py", "used.py", "__init__.py"}
