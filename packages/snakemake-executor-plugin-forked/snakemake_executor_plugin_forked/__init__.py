@@ -21,10 +21,10 @@ HELP = (
 
 @dataclass
 class ExecutorSettings(ExecutorSettingsBase):
-    """What the user may set, as `--forked-modules` or in a profile."""
+    """The executor's options, as `--forked-modules` or in a profile."""
 
     modules: str = field(default="", metadata={"help": HELP})
 
     def __post_init__(self):
-        """Begin the imports now, since Snakemake takes a while to read the workflow."""
+        """Start the imports while Snakemake reads the workflow."""
         self.forks = Forks(self.modules.split())

@@ -12,10 +12,11 @@ import threading
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from types import FrameType
 
 SERVER = Path(__file__).with_name("server.py")
-LETTER = 65536
-"""Bytes that are more than any message has."""
+MAX_MESSAGE_BYTES = 65536
+"""More bytes than any message has."""
 END = b"end"
 """The last message, without which the process takes Snakemake for killed."""
 PATH = "PYTHONPATH"
@@ -24,13 +25,13 @@ INTERRUPTED = 128 + signal.SIGINT
 LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM", "NUMEXPR_NUM")
 THREADS = {f"{library}_THREADS": "1" for library in LIBRARIES}
 """The environment variables that Snakemake sets for a job of one thread."""
-LOOKS = r"-[A-Za-z]*n[A-Za-z]*|--dry-?run"
-"""What a word of a command line looks like, such as -n or -np, that asks for a run without jobs."""
-PLACES = ("TMPDIR", "TMP", "TEMPDIR", "TEMP")
-"""Those that it sets to the folder for temporary files. No module reads them at its import."""
+DRY_RUN_OPTION = r"-[A-Za-z]*n[A-Za-z]*|--dry-?run"
+"""Pattern of an option for a run without jobs, such as -n or -np."""
+TMPDIR_VARIABLES = ("TMPDIR", "TMP", "TEMPDIR", "TEMP")
+"""Variables that Snakemake sets to the folder for temporary files; no import reads them."""
 
 
-class RefusedError(Exception):
+class CannotForkError(Exception):
     """A job cannot be a fork; the message says why."""
 
 
@@ -38,8 +39,8 @@ class Parent:
     """A process that imports modules and forks jobs, and the socket for requests to it."""
 
     def __init__(self, modules: list[str]):
-        """Start it, with the environment as it is now."""
-        self.found = surroundings()
+        """Start the process with the present environment."""
+        self.start_environment = folder_and_variables()
         self.control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             self.process = subprocess.Popen(
@@ -49,28 +50,28 @@ class Parent:
                 start_new_session=True,  # Ctrl-C is for Snakemake, which ends the jobs
             )
 
-    def tell(self, path: str) -> None:
-        """Tell it before the first job where modules are beside the folders that it knows."""
-        with suppress(OSError):  # it has ended, as the first job will hear
+    def send_path(self, path: str) -> None:
+        """Before the first job, send it the workflow's PYTHONPATH (empty: nothing to add)."""
+        with suppress(OSError):  # it has ended, as the first job will find
             self.control.send(json.dumps(path).encode())
 
-    def ask(self, request: dict) -> socket.socket:
-        """Return the socket on which it answers a request, or which ends if it has died."""
-        own, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    def send_request(self, request: dict) -> socket.socket:
+        """Return the socket on which it answers a request, or which closes if it has died."""
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs, suppress(OSError):
             socket.send_fds(self.control, [json.dumps(request).encode()], [theirs.fileno()])
-        return own
+        return ours
 
-    def hang_up(self) -> None:
-        """Have it end its jobs, which have a moment for it, and itself."""
-        with suppress(OSError):  # it has ended, or was told before
+    def request_end(self) -> None:
+        """Send it the last message: its jobs get SIGINT and 3 seconds, then it ends."""
+        with suppress(OSError):  # it has ended, or the message was sent before
             self.control.send(END, socket.MSG_DONTWAIT)
         self.control.close()
 
     def end(self, kill: bool) -> None:
-        """End it and its jobs, which have a moment for it unless it is killed."""
+        """Stop it and its jobs: at once if `kill`, else jobs get SIGINT and 3 seconds."""
         if self.process.returncode is None:
-            self.hang_up()
+            self.request_end()
             if kill:
                 with suppress(ProcessLookupError):  # another thread was faster
                     os.killpg(self.process.pid, signal.SIGKILL)
@@ -79,7 +80,7 @@ class Parent:
 
 @dataclass
 class Fork:
-    """A job: its number, the socket on which `parent` tells of it, and this parent."""
+    """A job: its process ID, the socket for messages on it, and the process that forked it."""
 
     pid: int
     socket: socket.socket
@@ -87,99 +88,103 @@ class Fork:
 
 
 class Forks:
-    """The process that forks jobs, and the one that takes its place if it dies."""
+    """The process that forks jobs, and its replacement if it dies."""
 
     parent, begun, interrupted, replaced = None, False, False, False
 
     def __init__(self, modules: list[str]):
-        """Start the process, which imports modules; from now on Ctrl-C shows no traceback.
+        """Start the process, which imports modules; from then on Ctrl-C shows no traceback.
 
-        A dry run, where Snakemake shall be quick and needs no module, starts none.
+        A dry run needs no module and starts no process.
         """
         self.modules, self.lock = modules, threading.Lock()
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, self._interrupt)
         if sys.platform == "linux":
             atexit.register(self.end)
-            if not any(re.fullmatch(LOOKS, word) for word in sys.argv):
+            if not any(re.fullmatch(DRY_RUN_OPTION, word) for word in sys.argv):
                 self.parent = Parent(modules)
 
-    def _interrupt(self, number, frame) -> None:
+    def _interrupt(self, number: int, frame: FrameType | None) -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         self.interrupted = True
         if self.parent:
-            self.parent.hang_up()
+            self.parent.request_end()
         raise SystemExit(INTERRUPTED)
 
     def begin(self) -> None:
-        """Tell the process, before the first job, where the workflow has its modules.
+        """Send the process, before the first job, the folders of the workflow's modules.
 
-        If the workflow has set more than PYTHONPATH, the imports begin anew.
+        If the workflow has set other variables than PYTHONPATH, start a new process.
         """
         if self.begun or sys.platform != "linux":
             return
         self.begun = True
-        if self.parent:  # else what looked like a dry run is none
-            path = "" if PATH in self.parent.found[1] else os.environ.get(PATH, "")
-            if surroundings(without=path and PATH) == self.parent.found:
-                return self.parent.tell(path)
+        if self.parent:  # none where an option only looked like that of a dry run
+            _, variables = self.parent.start_environment
+            path = "" if PATH in variables else os.environ.get(PATH, "")
+            if folder_and_variables(without=path and PATH) == self.parent.start_environment:
+                return self.parent.send_path(path)
             self.end()
         self.parent = Parent(self.modules)
-        self.parent.tell("")
+        self.parent.send_path("")
 
-    def fork(self, script: str, place: str | None) -> Fork:
-        """Return a process that runs `script`, once its socket is shut down."""
+    def fork(self, script: str, tmpdir: str | None) -> Fork:
+        """Return a process that runs `script` once its socket is shut down for writing."""
         if not self.parent:
-            raise RefusedError(f"forks are not safe on {sys.platform}")
-        environment = dict.fromkeys(PLACES, place) if place else {}
+            raise CannotForkError(f"forks are not safe on {sys.platform}")
+        environment = dict.fromkeys(TMPDIR_VARIABLES, tmpdir) if tmpdir else {}
         request = {"script": os.path.abspath(script), "environment": environment}
         while True:
             parent = self.parent
-            fork = Fork(0, parent.ask(request), parent)
+            fork = Fork(0, parent.send_request(request), parent)
             try:
-                answer = self.hear(fork)
+                answer = self.receive(fork)
             except ChildProcessError as death:
                 self.replace(parent, death)
                 continue
             if not answer.isdigit():
-                raise RefusedError(answer)
+                raise CannotForkError(answer)
             fork.pid = int(answer)
             return fork
 
-    def hear(self, fork: Fork) -> str:
-        """Return the next message of its parent on a job."""
-        if message := fork.socket.recv(LETTER).decode():
+    def receive(self, fork: Fork) -> str:
+        """Return the next message on a job. Raises ChildProcessError if its parent has died."""
+        if message := fork.socket.recv(MAX_MESSAGE_BYTES).decode():
             return message
         fork.parent.end(kill=not self.interrupted)
-        how = in_words(fork.parent.process.returncode)
-        raise ChildProcessError(f"the process that jobs are forked from {how}")
+        end = describe_end(fork.parent.process.returncode)
+        raise ChildProcessError(f"the process that jobs are forked from {end}")
 
     def replace(self, dead: Parent, death: ChildProcessError) -> None:
-        """Start a process in the place of the first that died; what has died twice would again."""
+        """Replace the process the first time it dies; later raise, since the cause remains."""
         with self.lock:
             if self.interrupted:
                 raise death
             if self.parent is not dead:  # another thread was faster
                 return
             if self.replaced:
-                raise RefusedError(str(death))
+                raise CannotForkError(str(death))
             self.replaced = True
             self.parent = Parent(self.modules)
-            self.parent.tell("")
+            self.parent.send_path("")
 
     def end(self) -> None:
-        """End the process and its jobs, which have a moment for it after Ctrl-C."""
+        """Stop the process and its jobs, which have 3 seconds after Ctrl-C."""
         if self.parent:
             self.parent.end(kill=not self.interrupted)
 
 
-def surroundings(without: str = "") -> tuple[str, dict[str, str]]:
-    """Return what a module may read at its import: the folder, and all other variables."""
+def folder_and_variables(without: str = "") -> tuple[str, dict[str, str]]:
+    """Return the working directory and the environment, but for one variable.
+
+    A module may read them when it is imported.
+    """
     return os.getcwd(), {name: text for name, text in os.environ.items() if name != without}
 
 
-def in_words(status: int) -> str:
-    """Say how a process ended that should not have."""
+def describe_end(status: int) -> str:
+    """Return how a process with this exit status ended, as the end of a sentence."""
     if status >= 0:
         return f"ended with exit status {status}"
     hint = ": out of memory?" if status == -signal.SIGKILL else ""

@@ -1,6 +1,6 @@
-"""All that forks take of the inside of Snakemake, which its interface for executors does not offer.
+"""All that uses private parts of Snakemake, which its interface for executors does not offer.
 
-The tests run all of this, so that they tell what a new Snakemake has changed.
+The tests exercise all of it, so they fail where a new Snakemake version changes it.
 """
 
 from copy import copy
@@ -12,14 +12,14 @@ from snakemake.exceptions import SpawnedJobError
 from snakemake.script import PythonScript, script
 from snakemake.shell import shell
 
-from snakemake_executor_plugin_forked.forks import INTERRUPTED, RefusedError, in_words
+from snakemake_executor_plugin_forked.forks import INTERRUPTED, CannotForkError, describe_end
 
-UNASKED = 100, 1
-"""Snakemake's own limit, where the user gives none: so many jobs may begin in so many seconds."""
+DEFAULT_LIMIT = 100, 1
+"""Snakemake's limit where the user gives none: jobs that may start, in so many seconds."""
 
 
 def with_names(function, **names):
-    """Return a function that finds other things under these names."""
+    """Return a copy of a function in which these global names have other values."""
     names = {**function.__globals__, **names}
     return FunctionType(
         function.__code__, names, function.__name__, function.__defaults__, function.__closure__
@@ -29,7 +29,7 @@ def with_names(function, **names):
 class Executor(snakemake.executors.local.Executor):
     """Snakemake's own executor for jobs on this machine, except that it forks Python scripts."""
 
-    told = False
+    fallback_reported = False
 
     def __post_init__(self):
         """Have Python scripts run by forks."""
@@ -49,7 +49,7 @@ class Executor(snakemake.executors.local.Executor):
         self.forks.begin()
         scheduler = self.workflow.scheduler
         limiter = scheduler.job_rate_limiter
-        if limiter and (limiter.max_jobs, limiter.timespan) == UNASKED:
+        if limiter and (limiter.max_jobs, limiter.timespan) == DEFAULT_LIMIT:
             scheduler.job_rate_limiter = None
             scheduler.resources["_job_count"] = scheduler.global_resources["_job_count"]
         super().run_jobs(jobs)
@@ -58,22 +58,22 @@ class Executor(snakemake.executors.local.Executor):
         """Start a job, and return the future of its end."""
         if not job.is_script or job.is_shadow or job.pipe_group:
             return super().run_single_job(job)
-        given = self.job_args_and_prepare(job)
-        return self.pool.submit(self.cached_or_run, job, self.run_script, *given)
+        arguments = self.job_args_and_prepare(job)
+        return self.pool.submit(self.cached_or_run, job, self.run_script, *arguments)
 
-    def run_script(self, rule, *given):
-        """Run a job with another function for its script."""
+    def run_script(self, rule, *arguments):
+        """Run a job whose script is a fork."""
         rule = copy(rule)
         rule.run_func = with_names(rule.run_func, script=self.script)
         try:
-            snakemake.executors.local.run_wrapper(rule, *given)
-        except SystemExit as end:  # what is wrong has been said, and Snakemake shall not
+            snakemake.executors.local.run_wrapper(rule, *arguments)
+        except SystemExit as end:  # the reason was printed, and Snakemake adds none
             raise SpawnedJobError from end
 
-    def print_job_error(self, job_info, msg=None, **others):
-        """Tell that a job failed, unless the user has ended all."""
+    def print_job_error(self, job_info, msg=None, **options):
+        """Report that a job failed, unless the user has interrupted the run."""
         if not self.forks.interrupted:
-            super().print_job_error(job_info, msg, **others)
+            super().print_job_error(job_info, msg, **options)
 
     def cancel(self):
         """End all jobs: Snakemake alone would wait for them."""
@@ -88,40 +88,40 @@ class Executor(snakemake.executors.local.Executor):
 
 
 class ForkedScript(PythonScript):
-    """A Python script in a file, with all that Snakemake puts before it."""
+    """A Python script in a file, with the code that Snakemake puts before it."""
 
     executor: Executor
 
     def execute_script(self, fname, edit=False):
-        """Run the file as a fork, or as Snakemake does where this would not be the same."""
+        """Run the file as a fork, or as Snakemake does where a fork would differ."""
         forks, logger = self.executor.forks, self.executor.logger
         try:
-            self.refuse_what_differs()
+            self.check_that_a_fork_is_the_same()
             job = forks.fork(fname, self.resources.get("tmpdir"))
             measured = benchmarked(self.bench_record is not None and job.pid, self.bench_record)
             with job.socket, measured:
                 job.socket.shutdown(1)  # so that it begins
-                if not 0 <= (status := int(forks.hear(job))) <= 1:
-                    raise ChildProcessError(f"it {in_words(status)}")
+                if not 0 <= (status := int(forks.receive(job))) <= 1:
+                    raise ChildProcessError(f"it {describe_end(status)}")
         except ChildProcessError as error:
             status = 1
             if not forks.interrupted:
                 logger.error(f"forked: rule {self.rulename} failed: {error}")
-        except RefusedError as error:
-            if not self.executor.told:
-                self.executor.told = True
-                why = f"rule {self.rulename} starts a Python of its own, since {error}"
-                logger.info(f"forked: {why}. Others may too, which is told once.")
+        except CannotForkError as error:
+            if not self.executor.fallback_reported:
+                self.executor.fallback_reported = True
+                why = f"rule {self.rulename} runs in a separate Python process because {error}"
+                logger.info(f"forked: {why}. Other rules may too; this is reported only once.")
             return super().execute_script(fname, edit)
         if status:
             raise SystemExit(status)
 
-    def refuse_what_differs(self):
-        """Refuse a job whose command would not be Python and the file, or of several threads."""
-        around = shell._get_process_prefix() + shell._process_suffix
+    def check_that_a_fork_is_the_same(self):
+        """Raise CannotForkError for a job of several threads or of another command than Python."""
+        prefix_and_suffix = shell._get_process_prefix() + shell._process_suffix
         if self.threads != 1:
-            raise RefusedError(f"it has {self.threads} threads")
+            raise CannotForkError(f"it has {self.threads} threads")
         if self.conda_env or self.container_img or self.env_modules:
-            raise RefusedError("it has an environment of its own")
-        if self.resources.get("shell_exec") or around not in ("", "set -euo pipefail; "):
-            raise RefusedError("the workflow changes how commands are run")
+            raise CannotForkError("it has an environment of its own")
+        if self.resources.get("shell_exec") or prefix_and_suffix not in ("", "set -euo pipefail; "):
+            raise CannotForkError("the workflow changes how commands are run")

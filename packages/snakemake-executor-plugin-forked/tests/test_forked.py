@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from snakemake_executor_plugin_forked.forks import LETTER, Parent
+from snakemake_executor_plugin_forked.forks import MAX_MESSAGE_BYTES, Parent
 from starting import Run
 
 if sys.platform != "linux":
@@ -32,7 +32,7 @@ def folder(tmp_path):
 
 
 def run(folder, *targets, modules="json", executor="forked", meanwhile=None, path=True):
-    """Return the exit status of a run and what it said; `meanwhile` is done with its process.
+    """Return the exit status of a run and what it output; `meanwhile` is done with its process.
 
     Each of its processes has the pipe that is read here to the end: none is left when this returns.
     """
@@ -45,11 +45,11 @@ def run(folder, *targets, modules="json", executor="forked", meanwhile=None, pat
 
 
 def hear(process, words, times=1):
-    """Read what a run says until it has said these words so many times."""
-    said = ""
-    while said.count(words) < times:
-        said += (line := process.stdout.readline())
-        assert line, f"it has ended: {said}"
+    """Read what a run says until it has output these words so many times."""
+    output = ""
+    while output.count(words) < times:
+        output += (line := process.stdout.readline())
+        assert line, f"it has ended: {output}"
 
 
 SETS = "import os; os.environ['PYTHONPATH'] = os.path.abspath('..')\n"
@@ -73,12 +73,12 @@ def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder, sets, modules):
     alone, forked, _ = json.loads((folder / "a.json").read_text())
     (folder / "a.json").unlink()
     targets = ("a.json", "b.json", "--cores", "1")
-    status, said = run(folder, *targets, modules=modules, path=path)
+    status, output = run(folder, *targets, modules=modules, path=path)
     assert not forked and status == 0
-    assert said.count("forked: ") == said.count("forked: cannot import no_such_module: ") == 1
+    assert output.count("forked: ") == output.count("forked: cannot import no_such_module: ") == 1
     # the file that their parent holds open is at its old place for the second one too
-    told, *others = json.loads((folder / "a.json").read_text())
-    assert {name: told[name] for name in alone if told[name] != alone[name]} == {}
+    reports, *others = json.loads((folder / "a.json").read_text())
+    assert {name: reports[name] for name in alone if reports[name] != alone[name]} == {}
     assert others == json.loads((folder / "b.json").read_text())[1:] == [True, "lett"]
 
 
@@ -92,8 +92,13 @@ def test_a_benchmark_measures_the_job(folder):
 @pytest.mark.parametrize(
     ("kind", "modules", "edit", "why"),
     [
-        ("wide", "json", "", "rule wide starts a Python of its own, since it has 2 threads"),
-        ("json", "threaded", "", "since what it imported runs 2 threads"),
+        (
+            "wide",
+            "json",
+            "",
+            "rule wide runs in a separate Python process because it has 2 threads",
+        ),
+        ("json", "threaded", "", "because what it imported runs 2 threads"),
         ("json", "json", "shell.prefix('nice ')", "the workflow changes how commands are run"),
     ],
 )
@@ -101,8 +106,8 @@ def test_a_job_that_cannot_be_a_fork_says_so_once(folder, kind, modules, edit, w
     with open(folder / "Snakefile", "a") as file:
         file.write(f"\n{edit}\n")
     targets = [f"{n}.{kind}" for n in range(2)]
-    status, said = run(folder, *targets, modules=modules)
-    assert status == 0 and said.count("forked: ") == said.count(why) == 1
+    status, output = run(folder, *targets, modules=modules)
+    assert status == 0 and output.count("forked: ") == output.count(why) == 1
     assert not any(json.loads((folder / name).read_text())[1] for name in targets)
 
 
@@ -118,28 +123,28 @@ DIES = "import os; os.kill(os.getpid(), 9)"
 KILLED = "the process that jobs are forked from was killed by signal 9 (SIGKILL)"
 
 
-@pytest.mark.parametrize(("module", "forked", "told"), [(DIES_FIRST, True, 0), (DIES, False, 1)])
+@pytest.mark.parametrize(("module", "forked", "reports"), [(DIES_FIRST, True, 0), (DIES, False, 1)])
 def test_a_parent_that_dies_is_started_again_and_given_up_if_it_dies_again(
-    folder, module, forked, told
+    folder, module, forked, reports
 ):
     (folder.parent / "fatal.py").write_text(module)
     targets = [f"{n}.json" for n in range(4)]
-    status, said = run(folder, *targets, modules="fatal")
-    assert status == 0 and said.count("forked: ") == said.count(KILLED) == told
+    status, output = run(folder, *targets, modules="fatal")
+    assert status == 0 and output.count("forked: ") == output.count(KILLED) == reports
     assert [json.loads((folder / name).read_text())[1] for name in targets] == [forked] * 4
 
 
 def test_jobs_after_one_that_killed_their_parent_are_forks(folder):
-    status, said = run(folder, "--keep-going", "--cores", "1", "server.end", "a.json", "b.json")
-    assert status == 1 and said.count("forked: ") == said.count(KILLED) == 1
+    status, output = run(folder, "--keep-going", "--cores", "1", "server.end", "a.json", "b.json")
+    assert status == 1 and output.count("forked: ") == output.count(KILLED) == 1
     assert [json.loads((folder / f"{n}.json").read_text())[1] for n in "ab"] == [True, True]
 
 
 def test_an_import_that_ends_python_is_told_and_ends_nothing(folder):
     (folder.parent / "leaves.py").write_text("import sys; sys.exit('not meant to be imported')")
-    status, said = run(folder, "a.json", modules="leaves json")
-    told = "forked: cannot import leaves: SystemExit('not meant to be imported')"
-    assert status == 0 and said.count("forked: ") == said.count(told) == 1
+    status, output = run(folder, "a.json", modules="leaves json")
+    reports = "forked: cannot import leaves: SystemExit('not meant to be imported')"
+    assert status == 0 and output.count("forked: ") == output.count(reports) == 1
     assert json.loads((folder / "a.json").read_text())[1]
 
 
@@ -161,10 +166,10 @@ SERVER_FAILS = {"server": KILLED}
 
 def test_jobs_that_fail_say_why_once_and_the_next_run_goes_on(folder):
     for fails in (FAILS, SERVER_FAILS):
-        status, said = run(folder, "--keep-going", *(f"{how}.end" for how in fails))
-        assert status == 1 and [said.count(says) for says in fails.values()] == [1] * len(fails)
+        status, output = run(folder, "--keep-going", *(f"{how}.end" for how in fails))
+        assert status == 1 and [output.count(says) for says in fails.values()] == [1] * len(fails)
         for noise in ("CalledProcessError", "server.py", "inside.py", sys.executable, "SystemExit"):
-            assert noise not in said
+            assert noise not in output
     assert not list(folder.glob("*.end"))
     (folder / "mended").touch()
     assert run(folder, *(f"{how}.end" for how in FAILS | SERVER_FAILS))[0] == 0
@@ -184,23 +189,23 @@ def test_ctrl_c_ends_all_without_a_traceback(folder, targets, words, heard, pres
         for _ in range(pressed):
             os.killpg(process.pid, signal.SIGINT)
 
-    ended, said = run(folder, *targets, meanwhile=interrupt)
-    assert ended == status and "Traceback" not in said and "Error in rule" not in said
+    ended, output = run(folder, *targets, meanwhile=interrupt)
+    assert ended == status and "Traceback" not in output and "Error in rule" not in output
 
 
 def test_no_job_outlives_snakemake_that_was_killed_and_the_last_line_says_how_to_go_on(folder):
-    _, said = run(folder, "1.wait", meanwhile=lambda run: hear(run, "pid") or run.kill())
-    assert said.splitlines()[-1].startswith("forked: Snakemake was killed")
-    assert "snakemake --unlock" in said and "Traceback" not in said
+    _, output = run(folder, "1.wait", meanwhile=lambda run: hear(run, "pid") or run.kill())
+    assert output.splitlines()[-1].startswith("forked: Snakemake was killed")
+    assert "snakemake --unlock" in output and "Traceback" not in output
 
 
 def test_a_job_ends_without_a_word_if_snakemake_is_killed_as_it_begins(tmp_path, capfd):
     """Then the system resets the connection, since the number of the job was not read."""
     (tmp_path / "job.py").write_text("print('begun')")
-    (parent := Parent([])).tell("")
-    answer = parent.ask({"script": str(tmp_path / "job.py"), "environment": {}})
+    (parent := Parent([])).send_path("")
+    answer = parent.send_request({"script": str(tmp_path / "job.py"), "environment": {}})
     select.select([answer], [], [])
-    job = int(answer.recv(LETTER, socket.MSG_PEEK))
+    job = int(answer.recv(MAX_MESSAGE_BYTES, socket.MSG_PEEK))
     answer.close()
     while os.path.exists(f"/proc/{job}"):
         time.sleep(0.01)
