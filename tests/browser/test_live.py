@@ -108,7 +108,7 @@ def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     problem = problem_of("fig2_small", **keys, initial={0: pair}, snapshot_every=4)
     perturbed = problem.changed(initial=problem.initial * (1 + 1e-7))
     one, two = simulate(problem), simulate(perturbed)
-    assert np.array_equal(run(live, "Array.from(run.energy)"), one.energy)
+    assert np.array_equal(run(live, "Array.from(run.energy)"), one.conserved["energy"])
     states = np.moveaxis(one.modulus, -1, 0)
     left = [i for i, state in enumerate(states) if not is_localised(power_by_distance(state))]
     until = f"stays localised until τ = {one.tau[4 * left[0]]:.4g}." if left else "to the end."

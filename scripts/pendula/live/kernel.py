@@ -27,7 +27,7 @@ ANY_PROCESSOR = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
 def observe_states(chain, y, i, record):
     """Keep the norms, the energy and all amplitudes of the state `y` at output `i`."""
     observe_fields(chain, y, i, record)
-    record.energy[i] = energy_with_scratch(chain, y, record.scratch)
+    record.conserved[0, i] = energy_with_scratch(chain, y, record.scratch)
 
 
 ODE45 = METHODS["ode45"]
@@ -43,8 +43,7 @@ def compile_to_webassembly() -> bytes:
     """Return the WebAssembly of the solver on half a chain; its sizes are arguments of it."""
     y = np.zeros((4, 4))
     chain = Chain(1.0, 1.0, 0.0, MIRROR, DIRICHLET)
-    record = blank_record(2, 2, 2, 1)
-    record = record._replace(kept=np.empty((2, *record.kept.shape)))
+    record = blank_record(2, 2, 2, 1, quantities=1, parts=2)
     controls, stop = (0.0,) * len(ODE45.controls), np.zeros(1, np.bool_)
     work = aligned((ODE45.work_arrays(y.shape[1] - 2, in_tiles=False), *y.shape))
     return webassembly(run_keeping_states, chain, y, np.zeros(2), controls, work, record, stop)

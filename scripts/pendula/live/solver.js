@@ -20,12 +20,12 @@ const loadSolver = async ({ code, controls, work }, faults) => {
     start.slice(0, rows).forEach((value, row) => { y.values[row * width + 1] = value; });
     times.values.forEach((_, i) => { times.values[i] = (settings.end_time * i) / outputs; });
     const [linf, l2] = [array(components, outputs + 1), array(components, outputs + 1)];
-    const energy = array(outputs + 1);
+    const energy = array(1, outputs + 1);
     const states = array(2, components, sites, outputs + 1);
     const error = call(
       outcome, settings.epsilon, settings.gamma, settings.omega, MIRROR, ENDS[settings.boundary],
       y, times, ...controls, array(work, rows, width),
-      linf, l2, energy, states, 1n, array(2, width), array(1),
+      linf, l2, states, 1n, array(2, width), energy, array(1),
     );
     const [status] = new BigInt64Array(outcome.values.buffer, outcome.place, 1);
     if (error || status) {

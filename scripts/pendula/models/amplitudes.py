@@ -165,5 +165,5 @@ def energies(chain, states, scratch, out):
 def observe(chain, y, i, record):
     """Reduce the state `y` of (4) to the observables of output `i`, its energy among them."""
     observe_moduli(chain, y, i, record)
-    if record.energy.size > 0:
-        record.energy[i] = energy_with_scratch(chain, y, record.scratch)
+    if record.conserved.size > 0:
+        record.conserved[0, i] = energy_with_scratch(chain, y, record.scratch)

@@ -12,7 +12,7 @@ from latticode.datasets.registry import NAMES
 from latticode.numerics.elementary import complex_of, modulus
 from latticode.simulation.equations import CompiledMethod, Equations, ResultNames
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unfold, unpack
-from latticode.simulation.observables import blank_record
+from latticode.simulation.observables import Record, blank_record
 
 from pendula import names  # noqa: F401, whose words stand below
 from pendula.feasibility import clock_of, rates_of
@@ -58,7 +58,13 @@ class AmplitudeEquations(PaperEquations):
     @property
     def names(self) -> ResultNames:
         """What datasets call the results."""
-        return ResultNames(("A", "B"), title="Norms and energy", component=NAMES["component"])
+        return ResultNames(
+            ("A", "B"),
+            title="Norms and energy",
+            component=NAMES["component"],
+            quantities=("energy",),
+            time="tau",
+        )
 
     def describe(self) -> dict[str, Any]:
         """Return the constants, as attributes of a dataset."""
@@ -72,13 +78,16 @@ class AmplitudeEquations(PaperEquations):
         """Return the parameters of the kernels."""
         return make_chain(self.constants, self.problem.boundary, cut)
 
-    def record(self, components: int, sites: int, times: int, every: int, energy: bool) -> Any:
+    def record(
+        self, components: int, sites: int, times: int, every: int, conserved: bool
+    ) -> Record:
         """Return empty arrays for moduli, norms and energy at so many times."""
-        return blank_record(components, sites, times, every, energy)
+        return blank_record(components, sites, times, every, quantities=int(conserved))
 
-    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return energy, moduli or states, and final amplitudes of the whole chain."""
-        results = {"energy": record.energy, "final": unpack(y, cut)}
+        conserved = dict(zip(("energy",), record.conserved, strict=False))
+        results = {"conserved": conserved, "final": unpack(y, cut)}
         if record.kept.ndim == 3:
             return {**results, "modulus": unfold(record.kept, cut)}
         state = np.array([unfold(part, cut) for part in record.kept])
@@ -103,6 +112,7 @@ class PendulumEquations(PaperEquations):
             ("angle", "velocity"),
             title="Norms of the angles",
             units="rad",
+            time="tau",
             norms=", of the angles",
             component=NAMES["component"],
             modulus=f"{NAMES['modulus']}: the angle to which a pendulum swings",
@@ -147,11 +157,10 @@ class PendulumEquations(PaperEquations):
         """Return tau at a time t."""
         return 0.5 * self.mu * self.mu * time
 
-    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return swings, angles and velocities of the whole chain."""
         snapshots = np.array([unfold(part, cut) for part in record.kept])
         return {
-            "energy": record.energy,
             # a snapshot finds all pendula at one phase of their swing, so angles alone would show
             # the phase
             "modulus": swings_of(*snapshots, self.constants.omega, self.mu),

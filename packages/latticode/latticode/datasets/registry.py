@@ -43,7 +43,6 @@ NAMES = {
     # the solution
     "linf": "l-infinity norm over the chain",
     "l2": "l2 norm over the chain",
-    "energy": "conserved energy",
     "modulus": "modulus of a field on a site",
     "final": "field at the end time",
     "state": "field at the snapshots",

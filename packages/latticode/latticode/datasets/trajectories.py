@@ -25,7 +25,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
     variables = trajectory_variables(problem, trajectory)
     if equations.stores_final:
         variables |= final_state(problem, trajectory)
-    if trajectory.conserved:
+    if trajectory.conserved and not equations.names.quantities:
         variables |= _conserved(trajectory)
     attributes = describe_run(name, problem, trajectory.solver)
     title = f"{equations.names.title} of {name} against time, by {trajectory.solver['name']}"
@@ -33,7 +33,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
-    """Return the norms, the energy if there is one, and what the run kept of its snapshots."""
+    """Return norms, conserved quantities that have variables of their own, and snapshots."""
     names, every = problem.equations.names, len(trajectory.snapshot_tau)
     variables = {
         "tau": Variable(("tau",), trajectory.tau),
@@ -41,8 +41,9 @@ def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, 
         "linf": _norm("linf", ("component", "tau"), trajectory.linf, names),
         "l2": _norm("l2", ("component", "tau"), trajectory.l2, names),
     }
-    if trajectory.energy.size:
-        variables["energy"] = Variable(("tau",), trajectory.energy)
+    for quantity in names.quantities:
+        if quantity in trajectory.conserved:
+            variables[quantity] = Variable(("tau",), trajectory.conserved[quantity])
     if every:
         grid, moduli = ("component", "site", "snapshot"), trajectory.modulus.astype(np.float32)
         variables |= {

@@ -41,6 +41,8 @@ write_densities = at_every_site(densities_at_site, {rows})
 @kernel
 def observe(system, y, i, record):
     {observe}(system, y, i, record)
+    if record.conserved.size == 0:
+        return
     sums = system.sums
     unfold(system, y, sums.wide)
     write_densities(sums, (sums.wide{at},), sums.terms)

@@ -15,7 +15,7 @@ from latticode.generation.chain import can_be_tiled
 from latticode.integrators.method import Method
 
 from .lattice import Reduction, aligned, find_reduction, pack
-from .observables import blank_state_record
+from .observables import Record, blank_record
 
 
 class IntegrationError(RuntimeError):
@@ -63,6 +63,8 @@ class ResultNames(NamedTuple):
     part: str = ""
     final: str = ""
     state: str = ""
+    quantities: tuple[str, ...] = ()  # conserved, finite, and variables of their own
+    time: str = "t"
 
 
 class Equations:
@@ -136,10 +138,12 @@ class Equations:
         """Return a time of the kernels in the time of the problem."""
         return time
 
-    def record(self, components: int, sites: int, times: int, every: int, energy: bool) -> Any:
+    def record(
+        self, components: int, sites: int, times: int, every: int, conserved: bool
+    ) -> Record:
         """Return empty arrays for what is observed at so many times."""
-        return blank_state_record(components, sites, times, every, energy)
+        return blank_record(components, sites, times, every, parts=2)
 
-    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return what a `Trajectory` holds of the whole chain, from record and final state."""
         raise NotImplementedError

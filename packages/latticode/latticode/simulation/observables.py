@@ -1,4 +1,4 @@
-"""What a run keeps at each output time: norms, energy if there is one, and the chain on request."""
+"""What a run keeps at each output time: norms, what is conserved, and the chain on request."""
 
 from math import sqrt
 from typing import NamedTuple
@@ -15,49 +15,30 @@ class Record(NamedTuple):
 
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    energy: np.ndarray  # (time,), or empty where it is not asked for
     kept: np.ndarray  # moduli (component, site, snapshot), or states with (part, ...) before that
     every: int
     scratch: np.ndarray  # (component, column), two rows at least
+    conserved: np.ndarray  # (quantity, time), empty if no run asks for it
 
 
 def blank_record(
-    components: int, sites: int, times: int, every: int, energy: bool = True
+    components: int, sites: int, times: int, every: int, quantities: int = 0, parts: int = 0
 ) -> Record:
-    """Return empty arrays for a run of `times` outputs, with moduli at each `every`-th of them.
+    """Return empty arrays for a run of `times` outputs, with snapshots at each `every`-th of them.
 
-    The energy takes half of the time that an output takes; who asks for norms alone may leave it.
+    Snapshots are moduli, or states of so many `parts`. Conserved `quantities` may take half of the
+    time of an output; a run whose norms alone are wanted asks for none.
     """
     snapshots = (times - 1) // every + 1 if every else 0
+    kept = (components, sites, snapshots)
     return Record(
         np.empty((components, times)),
         np.empty((components, times)),
-        np.empty(times if energy else 0),
-        np.empty((components, sites, snapshots)),
+        np.empty((parts, *kept) if parts else kept),
         every,
         np.empty((max(2, components), sites + 2)),
+        np.empty((quantities, times)),
     )
-
-
-class StateRecord(NamedTuple):
-    """A `Record` of whole states, which have no energy, with the sums of a model's densities."""
-
-    linf: np.ndarray
-    l2: np.ndarray
-    energy: np.ndarray
-    kept: np.ndarray
-    every: int
-    scratch: np.ndarray
-    conserved: np.ndarray  # (quantity, time)
-
-
-def blank_state_record(
-    components: int, sites: int, times: int, every: int, energy: bool = False, quantities: int = 0
-) -> StateRecord:
-    """Return the same for whole states, without energy: what is driven conserves none."""
-    blank = blank_record(components, sites, times, every, energy=False)
-    states = blank._replace(kept=np.empty((2, *blank.kept.shape)))
-    return StateRecord(*states, np.empty((quantities, times)))
 
 
 @inlined_by_llvm

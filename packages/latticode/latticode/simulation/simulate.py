@@ -49,7 +49,6 @@ class Trajectory(NamedTuple):
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    energy: np.ndarray  # (time,), empty where the equations conserve none, or if not asked for
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
     final: np.ndarray  # at the end time: complex (component, site); real fields as snapshots are
     outcome: Outcome
@@ -63,38 +62,38 @@ class Trajectory(NamedTuple):
 
 
 def simulate(
-    problem: Problem, reduction: Reduction | None = None, energy: bool = True
+    problem: Problem, reduction: Reduction | None = None, conserved: bool = True
 ) -> Trajectory:
     """Integrate a problem and reduce it to observables at its output times.
 
     `reduction` says how much of the chain is integrated; by default it is the least that the exact
-    symmetries of the data allow. Without `energy` the trajectory has none. The solver is one of
-    those that take the model, or {"name": "auto", "error": ...}. Where `taylor` is the solver only
-    by default and gives up, `dop853` makes the run. Raises IntegrationError where the run would not
-    end, the solver gives up, or the result is not finite.
+    symmetries of the data allow. Without `conserved` no conserved quantity is computed.
+    The solver is one of those that take the model, or {"name": "auto", "error": ...}. Where
+    `taylor` is the solver only by default and gives up, `dop853` makes the run. Raises
+    IntegrationError where the run would not end, the solver gives up, or the result is not finite.
     """
     if problem.snapshots_at:
         return chosen_snapshots(
-            simulate(problem.changed(snapshots_at=()), reduction, energy), problem
+            simulate(problem.changed(snapshots_at=()), reduction, conserved), problem
         )
     if problem.solver["name"] == "auto":
-        return _simulate_to_error(problem, lambda one: _simulate_once(one, reduction, energy))
+        return _simulate_to_error(problem, lambda one: _simulate_once(one, reduction, conserved))
     try:
-        return _simulate_once(problem, reduction, energy)
+        return _simulate_once(problem, reduction, conserved)
     except GaveUpError as error:
         if not problem.solver.get("by_default"):
             raise
         controls = {**instead_of_taylor(problem.solver), "instead_of_taylor": str(error)}
         try:
-            return _simulate_once(problem.changed(solver=controls), reduction, energy)
+            return _simulate_once(problem.changed(solver=controls), reduction, conserved)
         except IntegrationError:
             raise error from None  # the motion itself ends there
 
 
-def _simulate_once(problem: Problem, reduction: Reduction | None, energy: bool) -> Trajectory:
+def _simulate_once(problem: Problem, reduction: Reduction | None, conserved: bool) -> Trajectory:
     equations = problem.equations
     cut = equations.find_reduction() if reduction is None else reduction
-    record, y, outcome = integrate(equations, cut, energy)
+    record, y, outcome = integrate(equations, cut, conserved)
     both = Reduction(even=False, synchronised=cut.synchronised)
     return Trajectory(
         tau=problem.times,
@@ -120,7 +119,7 @@ def remark_on_start(problem: Problem) -> str:
 
 
 def integrate(
-    equations: Equations, cut: Reduction, energy: bool = True
+    equations: Equations, cut: Reduction, conserved: bool = True
 ) -> tuple[Any, np.ndarray, Outcome]:
     """Return the observables of the part that `cut` leaves, its final state, and the outcome.
 
@@ -137,7 +136,7 @@ def integrate(
     compiled = equations.compiled(name)
     y, times, system = equations.start(cut), equations.times, equations.system(cut)
     size = y.shape[0] // 2, y.shape[1] - 2, len(times)
-    record = equations.record(*size, problem.snapshot_every, energy)
+    record = equations.record(*size, problem.snapshot_every, conserved)
     if problem.keep == "state" and record.kept.ndim == 3:
         record = record._replace(kept=np.empty((2, *record.kept.shape)))
     follow(record.linf[0], name)
@@ -146,9 +145,12 @@ def integrate(
     outcome = interruptible(compiled.run, system, y, times, controls, work, record)
     if outcome.status != DONE:
         raise _gave_up(problem, equations.time_of_problem(outcome.time), outcome)
-    for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
+    must_be_finite = [record.linf, record.l2, y[:, 1:-1]]
+    must_be_finite += [record.conserved] if equations.names.quantities else []
+    for values in must_be_finite:
         if not np.isfinite(values).all():
-            raise _stopped(problem, problem.end_time, "the state, its norms or its energy overflow")
+            why = "the state, its norms or what it conserves overflow"
+            raise _stopped(problem, problem.end_time, why)
     return record, y, outcome
 
 
@@ -177,7 +179,8 @@ def find_obstacle(equations: Equations) -> str | None:
 
 
 def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
-    return IntegrationError(f"{problem.solver['name']} stopped at tau = {time:.6g}: {reason}")
+    name, symbol = problem.solver["name"], problem.equations.names.time
+    return IntegrationError(f"{name} stopped at {symbol} = {time:.6g}: {reason}")
 
 
 # --- A run to an error ----------------------------------------------------------------------------
@@ -223,6 +226,11 @@ class _Runs(NamedTuple):
     error: float
     make: Callable[[Problem], Trajectory]
 
+    @property
+    def symbol(self) -> str:
+        """The symbol of the time in messages."""
+        return self.problem.equations.names.time
+
     def by(self, name: str, tolerance: float) -> Trajectory:
         """Return the trajectory by a method at a tolerance."""
         solver = {"name": name, "rtol": tolerance, "atol": tolerance}
@@ -250,8 +258,8 @@ class _Runs(NamedTuple):
             before, tolerance = pair, next_tolerance(tolerance, self.error / between.largest)
         lost = between.first_above(self.error / MARGIN)
         raise IntegrationError(
-            f"auto: runs in double precision agree to {self.error:g} only before tau = {lost:g}: "
-            "end the run earlier, or ask for a larger error"
+            f"auto: runs in double precision agree to {self.error:g} only before"
+            f" {self.symbol} = {lost:g}: end the run earlier, or ask for a larger error"
         )
 
     def accepted(self, one: Trajectory, other: Trajectory, **more: str) -> Trajectory:
@@ -280,8 +288,8 @@ class _Runs(NamedTuple):
         supports = f"and {third} supports neither" if third else "and no third method can decide"
         since = between.first_above(self.error / MARGIN)
         raise IntegrationError(
-            f"auto: {differ}, from tau = {since:g} on, {supports}: ask for a larger error, or run "
-            "both by name and compare"
+            f"auto: {differ}, from {self.symbol} = {since:g} on, {supports}: ask for a larger"
+            " error, or run both by name and compare"
         )
 
 

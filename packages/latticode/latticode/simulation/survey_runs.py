@@ -70,7 +70,8 @@ def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:
     """Return what is kept of one run."""
     fields = len(problem.initial)
     try:
-        run, text = simulate(problem, energy=False), ""
+        functions = any(map(callable, survey.keep))  # they may read what is conserved
+        run, text = simulate(problem, conserved=functions), ""
         if remark := remark_on(run.solver):
             text = f"remark: {remark}"
     except IntegrationError as error:
@@ -114,7 +115,7 @@ def _divergence(problem: Problem, run: Trajectory) -> float:
     other = other_family(run.solver["name"], problem.equations.methods)
     try:
         again = simulate(
-            problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), energy=False
+            problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), conserved=False
         )
     except IntegrationError:
         return np.nan

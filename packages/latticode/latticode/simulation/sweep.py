@@ -43,7 +43,7 @@ def runs_of_sweep(
         nonlocal enough, inside, printed
         if one.half_width >= enough:
             return inside
-        trajectory = simulate(one, energy=False)
+        trajectory = simulate(one, conserved=False)
         if (remark := remark_on(trajectory.solver)) and not printed:
             print(f"half-width {one.half_width}: {remark}", flush=True)
             printed = True

@@ -25,7 +25,7 @@ from latticode.numerics.elementary import complex_of, modulus
 from .equations import CompiledMethod, Equations, ResultNames
 from .feasibility import rates_of
 from .lattice import Reduction, choose_ends, find_reduction, unfold
-from .observables import blank_state_record
+from .observables import Record, blank_record
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
@@ -238,21 +238,22 @@ class TracedEquations(Equations):
         """Return the parameters of the kernels, at time 0."""
         return make_system(self.problem, cut)
 
-    def record(self, components: int, sites: int, times: int, every: int, energy: bool) -> Any:
+    def record(
+        self, components: int, sites: int, times: int, every: int, conserved: bool
+    ) -> Record:
         """Return empty arrays for what is observed at so many times."""
-        quantities = len(self.problem.model.conserved)
-        return blank_state_record(components, sites, times, every, quantities=quantities)
+        quantities = len(self.problem.model.conserved) if conserved else 0
+        return blank_record(components, sites, times, every, quantities, parts=2)
 
-    def collect(self, record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return what a `Trajectory` holds of the whole chain, from record and final state."""
         model, count = self.problem.model, len(self.names.parts)
         parts = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
         state = np.array([unfold(part, cut) for part in record.kept[:count]])
         real = model.real
         return {
-            "energy": record.energy,
             "modulus": np.abs(state[0]) if real else modulus(complex_of(*state)),
             "final": parts if real else complex_of(*parts),
             "state": state,
-            "conserved": dict(zip(model.conserved, record.conserved, strict=True)),
+            "conserved": dict(zip(model.conserved, record.conserved, strict=False)),
         }

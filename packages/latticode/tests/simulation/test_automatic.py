@@ -27,7 +27,7 @@ def test_the_error_that_was_asked_for_is_kept(case, error):
 
 
 def test_what_double_precision_cannot_do_is_refused_with_the_time_it_lasts():
-    with pytest.raises(IntegrationError, match=r"^auto: .* agree to 1e-06 only before tau = 1\d"):
+    with pytest.raises(IntegrationError, match=r"^auto: .* agree to 1e-06 only before t = 1\d"):
         run("fig4_small", 1e-6, 50.0)
 
 

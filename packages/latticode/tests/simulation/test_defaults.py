@@ -17,7 +17,7 @@ SINGULAR = Model(  # a root that vanishes at rest, though it is not one of squar
 )  # fmt: skip
 ROOTS = Model(fields="u", parameters={"k": 1.0}, i_dt=lambda p, u: p.k * lap(u) + sqrt(abs2(u)) * u)
 SMOOTH = Model(fields="u", parameters={"k": 1.0}, i_dt=lambda p, u: p.k * lap(u) + abs2(u) * u)
-NO_SERIES, AT_REST = "which has no power series at 0", "taylor stopped at tau = 0: the state is no"
+NO_SERIES, AT_REST = "which has no power series at 0", "taylor stopped at t = 0: the state is no"
 
 
 def case_of(model, **keys):
@@ -54,7 +54,7 @@ def test_taylor_by_name_is_rejected_with_the_names_of_those_that_work():
 
 def test_motion_that_ends_by_itself_is_no_fault_of_the_solver(capsys):
     escaping = Model(fields="x", parameters={}, d2_dt2=lambda p, x: x * x * x)
-    with pytest.raises(IntegrationError, match=r"^taylor stopped at tau = 1\.3"):
+    with pytest.raises(IntegrationError, match=r"^taylor stopped at t = 1\.3"):
         simulate(case_of(escaping, end_time=5, initial={0: [2**0.5]}))
     assert capsys.readouterr().out == ""
 

@@ -67,7 +67,7 @@ class LongRun:
         self.compiled, self.outcomes = equations.compiled(name), []
         self.controls = SOLVERS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
         self.state = pack(problem.amplitudes, WHOLE)
-        self.record = equations.record(2, problem.sites, self.times.size, 0, False)
+        self.record = equations.record(2, problem.sites, self.times.size, 0, conserved=False)
         self.record.l2[:] = np.nan
         self.system = equations.system(WHOLE)
         self.kernel = self.call  # one object, so that a second run finds the first

@@ -136,7 +136,7 @@ def test_data_that_cannot_be_integrated_end_in_an_error(name):
     for value in (np.nan, np.inf, complex(0, np.nan), 1e100, 1e200):
         z = random_chain(2)
         z[1, 3] = value
-        with pytest.raises(IntegrationError, match=rf"^{name} stopped at tau = 0: the "):
+        with pytest.raises(IntegrationError, match=rf"^{name} stopped at t = 0: the "):
             run(name, z)
 
 

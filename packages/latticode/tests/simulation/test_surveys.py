@@ -56,9 +56,9 @@ def test_cores_change_no_bit_and_an_interrupt_ends_all_of_them(cores, monkeypatc
         made.append(problem)
         if len(made) == 4:
             raise KeyboardInterrupt
-        return simulate(problem, energy=False)
+        return simulate(problem, conserved=False)
 
-    monkeypatch.setattr(survey_runs, "simulate", lambda problem, energy: interrupted(problem))
+    monkeypatch.setattr(survey_runs, "simulate", lambda problem, conserved: interrupted(problem))
     with pytest.raises(KeyboardInterrupt):
         run_survey(problem, survey, run)
     assert len(made) < 30  # of all runs, which would be made if nothing ended them
@@ -135,7 +135,7 @@ def test_failed_runs_are_counted_and_each_has_its_reason(capsys):
     )
     failed = np.isnan(found["max_l2"]).all(axis=-1)
     assert ((found["failure"] != "") == failed).all() and failed.sum() == 2
-    assert "taylor stopped at tau = 0" in found["failure"][1, 0]
+    assert "taylor stopped at t = 0" in found["failure"][1, 0]
     data = as_xarray(*survey_contents("own", dimers(), survey, found))
     assert data.attrs["failed_runs"] == 2 and data["failure"].dims == ("omega", "gamma")
     whole = run_survey(dimers(), Survey({"omega": [1.0]}, ("max_l2",)))

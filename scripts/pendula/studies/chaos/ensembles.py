@@ -44,7 +44,7 @@ def draw_swept(
 
 def read_norms(problem: Problem, windows) -> dict[str, np.ndarray]:
     """Return both READINGS of the pair's norms in a run, (reading,), each over its window."""
-    norms, pair = windowed(simulate(problem, energy=False), windows), QUANTITIES.index("pair")
+    norms, pair = windowed(simulate(problem, conserved=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]
     return {name: norms[name][pair, places, range(len(places))] for name in NORMS}
 

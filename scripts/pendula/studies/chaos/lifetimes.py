@@ -38,7 +38,7 @@ def follow(
     Returns NUMBERS of the run; the transition is over at the share `level` of the final P. `window`
     must end before the run.
     """
-    first = simulate(problem.changed(end_time=window[1], snapshot_every=1), energy=False)
+    first = simulate(problem.changed(end_time=window[1], snapshot_every=1), conserved=False)
     numbers = in_window(first, window, level)
     ended = np.flatnonzero(centre_is_average(first.modulus, multiple))
     if ended.size:
@@ -71,7 +71,7 @@ def measure_later_life(problem: Problem, run: Trajectory, start: float, multiple
     spans = max(1, round(remaining / SPAN))
     span = problem.changed(end_time=remaining / spans, snapshot_every=1)
     for done in range(spans):
-        run = simulate(span.changed(initial=run.final), energy=False)
+        run = simulate(span.changed(initial=run.final), conserved=False)
         ended = np.flatnonzero(centre_is_average(run.modulus, multiple))
         if ended.size:
             return float(start + done * span.end_time + run.tau[ended[0]])

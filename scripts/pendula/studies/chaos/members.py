@@ -46,7 +46,7 @@ def reduce_run(problem: Problem, windows: list[Window], reach: int) -> dict[str,
 
     Moduli are padded with NaN to the sites -reach..reach.
     """
-    run = simulate(problem, energy=False)
+    run = simulate(problem, conserved=False)
     inside = [(run.tau >= start) & (run.tau <= end) for start, end in windows]
     l2, linf, squares = pair_l2(run), pair_linf(run), run.modulus**2
     rms = np.sqrt([squares[..., window].mean(axis=-1) for window in inside])

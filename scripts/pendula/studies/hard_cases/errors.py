@@ -65,7 +65,9 @@ def miss_of_linear_flow(solver, omega, gamma, size, tau=10.0) -> float:
 
 def drift_of_energy(solver, tau) -> float:
     """Return max |H / H(0) - 1| from the data of the small cases on three sites."""
-    energy = integrate(solver, place(on_sites({0: (1.0, 0.1)}), 1), tau, outputs=1000).energy
+    energy = integrate(solver, place(on_sites({0: (1.0, 0.1)}), 1), tau, outputs=1000).conserved[
+        "energy"
+    ]
     return float(np.abs(energy / energy[0] - 1.0).max())
 
 

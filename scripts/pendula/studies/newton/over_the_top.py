@@ -52,7 +52,7 @@ def measure_passage(problem: Problem) -> dict[str, float]:
 
 def measure_amplitude_power(problem: Problem) -> dict[str, float]:
     """Return P per site by the amplitude equations, the mean over the late half of the run."""
-    return {"site_power": late_mean_square(simulate(problem, energy=False), problem)}
+    return {"site_power": late_mean_square(simulate(problem, conserved=False), problem)}
 
 
 def late_mean_square(run: Trajectory, problem: Problem) -> float:

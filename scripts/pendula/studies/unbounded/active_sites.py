@@ -16,7 +16,7 @@ from latticode.equations.initial_values import place
 from latticode.integrators import DONE, FAULTS
 from latticode.simulation.interrupts import interruptible
 from latticode.simulation.lattice import Reduction, pack
-from latticode.simulation.observables import Record, blank_state_record
+from latticode.simulation.observables import Record, blank_record
 from latticode.simulation.simulate import IntegrationError
 from latticode.simulation.traced import TracedEquations
 
@@ -71,7 +71,7 @@ def advance(
         rooms.clear()
         rooms[state.shape] = compiled, system, compiled.work_for(system, state)
     compiled, system, room = rooms[state.shape]
-    record = blank_state_record(2, state.shape[1] - 2, len(times), 1)
+    record = blank_record(2, state.shape[1] - 2, len(times), 1, parts=2)
     controls = compiled.controls_of(solver)
     outcome = interruptible(compiled.run, system, state, times, controls, room, record)
     if outcome.status != DONE:
