@@ -1,5 +1,6 @@
 """Claims about breathers: the paper's conclusion, and its large case at Omega = -4."""
 
+import xarray as xr
 from replication.ledger.changes import exchange, put, scale
 from replication.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
 from replication.ledger.claim import Control, claim
@@ -32,7 +33,7 @@ them."""
 SAME_GROWTH = Cutoff(1e-3, "a rate that adds less than 10 % by the end of the paper's runs")
 
 
-def at_omega(dataset, omega: float):
+def at_omega(dataset: xr.Dataset, omega: float) -> xr.Dataset:
     """Return a dataset at one detuning. Raises UndecidableError if it has none."""
     if omega not in dataset["omega"].values:
         raise UndecidableError(f"no breathers were computed at Omega = {omega:g}")
@@ -45,7 +46,7 @@ def at_omega(dataset, omega: float):
     (STEADY,),
     (Control("the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names="growth")),),
 )
-def steady_unstable(steady) -> Finding:
+def steady_unstable(steady: xr.Dataset) -> Finding:
     """Require a growing perturbation of each family of steady states."""
     states = at_omega(steady, OF_FIG_3)
     if states[["power", "growth"]].isnull().to_dataarray().any():
@@ -60,7 +61,7 @@ def steady_unstable(steady) -> Finding:
     return judge(measured, criterion)
 
 
-def breathers_of_fig3(periodic):
+def breathers_of_fig3(periodic: xr.Dataset) -> xr.Dataset:
     """Return the breathers at Omega of Fig 3. Raises UndecidableError if some are unknown."""
     breathers = at_omega(periodic, OF_FIG_3)
     if breathers[["power", "growth"]].isnull().to_dataarray().any():
@@ -75,7 +76,7 @@ def breathers_of_fig3(periodic):
     (PERIODIC,),
     (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
 )
-def periodic_stable(periodic) -> Finding:
+def periodic_stable(periodic: xr.Dataset) -> Finding:
     """Decide by the two families with A != B."""
     breathers = breathers_of_fig3(periodic).sel(family=["A only", "A = -B"])
     measured = {
@@ -99,7 +100,7 @@ def periodic_stable(periodic) -> Finding:
     (PERIODIC,),
     (Control("solitons that no perturbation leaves", put("soliton_growth", 0.0)),),
 )
-def solitons_unstable(periodic) -> Finding:
+def solitons_unstable(periodic: xr.Dataset) -> Finding:
     """Decide by the growth rate on the longer chain; near Omega it depends on the length."""
     away = periodic.where(periodic["soliton_frequency"] >= FAR_FROM_THE_WAVES, drop=True)
     short, long = (away["soliton_growth"].isel(soliton_half_width=i) for i in (0, -1))
@@ -133,7 +134,7 @@ def solitons_unstable(periodic) -> Finding:
         Control("a family with half of its P", scale("least_power", 0.5, family="A only")),
     ),
 )
-def data_below_breathers(periodic) -> Finding:
+def data_below_breathers(periodic: xr.Dataset) -> Finding:
     """Compare P of the large data with the least P of a stable breather.
 
     Data with less P cannot become one of these breathers unless the drive adds P.
@@ -153,7 +154,7 @@ def data_below_breathers(periodic) -> Finding:
     (FAR_AS_NEAR, Control("runs that all spread", ALL_SPREAD)),
     on=("fig3_large",),
 )
-def spreading_is_an_accident(sensitivity) -> Finding:
+def spreading_is_an_accident(sensitivity: xr.Dataset) -> Finding:
     """Require that most runs perturbed by up to 1e-6 spread, and most with 1e-2 or more do not."""
     sizes = sensitivity["size"].values
     small, large = sizes <= 1e-6, sizes >= 1e-2
@@ -175,7 +176,7 @@ def spreading_is_an_accident(sensitivity) -> Finding:
     return judge(measured, criterion, some if spread > 0 else "")
 
 
-def one_that_disperses(fates):
+def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
     """Return the maps with another fate of the most unequal data at Omega = 0, as a control."""
     return put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(fates)
 
@@ -190,7 +191,7 @@ def one_that_disperses(fates):
         Control("one initial condition at Omega = 0 that disperses", one_that_disperses),
     ),
 )
-def detuning_decides(fates) -> Finding:
+def detuning_decides(fates: xr.Dataset) -> Finding:
     """Count fates on the map; the diagonal A = B conserves P, has no area, and is left out."""
     spreads = fates["fate"].attrs["flag_meanings"].split().index("spreads")
     unequal = (fates["fate"] == spreads).astype(float).where(fates["a0"] != fates["b0"])

@@ -23,7 +23,9 @@ DIGITS, GROWTH_DIGITS = 10, 7
 RATE = "largest rate of growth of a perturbation"
 
 
-def rounded_variable(dimensions, values, words: str, digits: int = DIGITS) -> Variable:
+def rounded_variable(
+    dimensions: tuple[str, ...], values: np.ndarray, words: str, digits: int = DIGITS
+) -> Variable:
     """Return a variable rounded to `digits` significant digits, NaN where there is no state."""
     attributes = {"significant_digits": digits, **missing("there is no such state")}
     return Variable(dimensions, rounded(values, digits), words, attributes=attributes)

@@ -1,5 +1,6 @@
 """Claims that rest on proofs: of the curves of Figs 2 to 4, and of steady breathers."""
 
+import xarray as xr
 from replication.ledger.changes import put
 from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import (
@@ -31,7 +32,7 @@ NEAR = Cutoff(1e-12, "twelve correct digits of a state")
         ),
     ),
 )
-def curves_certified(trust) -> Finding:
+def curves_certified(trust: xr.Dataset) -> Finding:
     """Require small bounds, and that no norm differs from the reference by more than its bound."""
     proved = trust.where(trust["l2_bound"].notnull(), drop=True)
     if not proved.sizes["case"]:
@@ -63,7 +64,7 @@ def curves_certified(trust) -> Finding:
         ),
     ),
 )
-def breathers_exist(proved) -> Finding:
+def breathers_exist(proved: xr.Dataset) -> Finding:
     """Require a proof for each computed state that a true one lies within a small radius."""
     measured = {
         "proofs": proved.sizes["proof"],

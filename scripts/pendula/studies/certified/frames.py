@@ -65,6 +65,7 @@ fewer than a million roundings in a step, which the factor `UP` covers; TINY cov
 may lose.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import sqrt
 from typing import NamedTuple
@@ -377,7 +378,7 @@ def sum_pairwise(values: np.ndarray) -> np.ndarray:
     return values[0]
 
 
-def round_up(values) -> np.ndarray:
+def round_up(values: Sequence[float]) -> np.ndarray:
     """Return the numbers rounded up to DIGITS binary digits."""
     mantissa, exponent = np.frexp(values)
     return np.ldexp(np.ceil(mantissa * 2.0**DIGITS), exponent - DIGITS)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+import xarray as xr
 from latticode.measures.confidence import (
     CONFIDENCE,
     Limits,
@@ -53,7 +54,7 @@ PAPERS_LARGEST = 5.0
 
 
 @once
-def members_of(members, case: str):
+def members_of(members: xr.Dataset, case: str) -> xr.Dataset:
     """Return the dataset of the members of a case. Raises UndecidableError if there are too few."""
     if case not in members["case"].values or not {EARLIER, LATER} <= set(members["window"].values):
         raise UndecidableError(f"there is no ensemble of {case} on {EARLIER} and {LATER}")
@@ -62,7 +63,7 @@ def members_of(members, case: str):
     return members.sel(case=case)
 
 
-def mean_limits_of(members, case: str, reduce: Callable, *arguments) -> Limits:
+def mean_limits_of(members: xr.Dataset, case: str, reduce: Callable, *arguments) -> Limits:
     """Return the mean over the members of a case, with confidence limits.
 
     `reduce` returns one number for each member, from the dataset of the case and `arguments`.
@@ -79,22 +80,22 @@ def largest_limit(limit: Limits) -> float:
 
 
 @once
-def level(case, norm: str, window: str = LATER, quantity: str = "pair") -> np.ndarray:
+def level(case: xr.Dataset, norm: str, window: str = LATER, quantity: str = "pair") -> np.ndarray:
     """Return the mean of a norm over a window, (member,)."""
     return case[f"{norm}_level"].sel(window=window, quantity=quantity).values
 
 
-def over_start(case, norm: str) -> np.ndarray:
+def over_start(case: xr.Dataset, norm: str) -> np.ndarray:
     """Return the late mean of a norm over its initial value, (member,)."""
     return level(case, norm) / float(case[f"{norm}_start"])
 
 
-def change(case, norm: str) -> np.ndarray:
+def change(case: xr.Dataset, norm: str) -> np.ndarray:
     """Return the relative change of a norm between the two halves, (member,)."""
     return level(case, norm) / level(case, norm, EARLIER) - 1.0
 
 
-def pendula(case) -> np.ndarray:
+def pendula(case: xr.Dataset) -> np.ndarray:
     """Return the late root mean square amplitudes of all pendula, (member, component, site)."""
     late = case["rms"].sel(window=LATER).dropna("site", how="all")
     return late.transpose("member", "component", "site").values
@@ -131,7 +132,7 @@ def fig3(statement: str, *wrongs: str) -> Callable:
 
 
 @fig3("As a result, the l2 norm of the solution grows.", "fig3_small")
-def ensemble_fig3_grows(members, sensitivity) -> Finding:
+def ensemble_fig3_grows(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
     grown = mean_limits_of(members, "fig3_large", over_start, "l2")
     label = f"lower confidence limit of the mean l2 on {LATER} over its initial value"
@@ -141,10 +142,10 @@ def ensemble_fig3_grows(members, sensitivity) -> Finding:
 @fig3(
     "The central pendulum excites large oscillations of other pendula in the chain.", "fig2_large"
 )
-def ensemble_fig3_excites(members, sensitivity) -> Finding:
+def ensemble_fig3_excites(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
-    def excited(case):
+    def excited(case: xr.Dataset):
         amplitudes = pendula(case)
         neighbours = np.delete(amplitudes, amplitudes.shape[2] // 2, axis=2)
         return (neighbours > float(case["linf_start"]) / MUCH.value).sum(axis=(1, 2))
@@ -155,13 +156,13 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
 
 
 @fig3("The A and B modes mix up.", "fig2_large", "fig2_small")
-def ensemble_fig3_mixes(members, sensitivity) -> Finding:
+def ensemble_fig3_mixes(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
-    def ratio(case):
+    def ratio(case: xr.Dataset):
         return level(case, "l2", LATER, "A") / level(case, "l2", LATER, "B")
 
-    def correlation(case):
+    def correlation(case: xr.Dataset):
         return case["norm_correlation"].sel(window=LATER).values
 
     ratios = mean_limits_of(members, "fig3_large", ratio)
@@ -175,7 +176,7 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
 
 
 @fig3("The l-infinity norm stays at its initial level.", "fig4_small", "fig2_small")
-def ensemble_fig3_maximum(members, sensitivity) -> Finding:
+def ensemble_fig3_maximum(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
     ratio = mean_limits_of(members, "fig3_large", over_start, "linf")
     measured = {"ratio": ratio.value, "low": ratio.low, "high": ratio.high}
@@ -190,7 +191,7 @@ BOTH = ("fig4_small", "fig4_large")
 fig4 = partial(claim, "Section 5, Fig 4, in ensembles", needs=NEEDS, on=BOTH)
 
 
-def lows(members, name: str, reduce: Callable) -> dict[str, float]:
+def lows(members: xr.Dataset, name: str, reduce: Callable) -> dict[str, float]:
     """Return the lower confidence limits of both panels of Fig 4, as measured numbers."""
     return {f"{case}_{name}_low": mean_limits_of(members, case, reduce).low for case in BOTH}
 
@@ -200,7 +201,7 @@ def lows(members, name: str, reduce: Callable) -> dict[str, float]:
     " the l2 norm is significantly larger than the l-infinity norm.",
     controls=(wrong_case("fig4_small", "fig3_small"), wrong_case("fig4_large", "fig2_large")),
 )
-def ensemble_fig4_settles(members) -> Finding:
+def ensemble_fig4_settles(members: xr.Dataset) -> Finding:
     changes = {
         f"{case}_change": largest_limit(mean_limits_of(members, case, change, "linf"))
         for case in BOTH
@@ -222,8 +223,8 @@ def ensemble_fig4_settles(members) -> Finding:
     controls=(wrong_case("fig4_large", "fig2_large"), wrong_case("fig4_small", "fig2_small")),
     on=BOTH,
 )
-def ensemble_fig4_many(members) -> Finding:
-    def share(case):
+def ensemble_fig4_many(members: xr.Dataset) -> Finding:
+    def share(case: xr.Dataset):
         amplitudes = pendula(case)
         centre = amplitudes[:, :, amplitudes.shape[2] // 2].max(axis=1)[:, None, None]
         large = amplitudes > float(case["linf_start"]) / MUCH.value
@@ -246,7 +247,7 @@ def ensemble_fig4_many(members) -> Finding:
         ),
     ),
 )
-def ensemble_fig4_alike(members) -> Finding:
+def ensemble_fig4_alike(members: xr.Dataset) -> Finding:
     """Compare the means of both panels with the scatter of runs.
 
     Each panel shows a single run, so a difference is visible only if it is wider than their
@@ -276,13 +277,13 @@ def ensemble_fig4_alike(members) -> Finding:
     controls=(wrong_case("fig4_small", "fig2_small"),),
     on=("fig4_small",),
 )
-def ensemble_equilibrium(members) -> Finding:
-    def least(case):
+def ensemble_equilibrium(members: xr.Dataset) -> Finding:
+    def least(case: xr.Dataset):
         amplitudes = pendula(case)
         share = float(case["l2_start"]) / np.sqrt(amplitudes[0].size)
         return amplitudes.min(axis=(1, 2)) / share
 
-    def power_change(case):
+    def power_change(case: xr.Dataset):
         return np.square(change(case, "l2") + 1.0) - 1.0
 
     measured = {
@@ -300,7 +301,7 @@ def ensemble_equilibrium(members) -> Finding:
     return judge(measured, AllOf(everywhere, settled), caveat)
 
 
-def slower_from_one(lifetimes):
+def slower_from_one(lifetimes: xr.Dataset) -> xr.Dataset:
     """Return the dataset with later transitions from the smallest amplitude, as a control."""
     smallest = lifetimes["start_amplitude"].values.min()
     return scale("transition", 2.5, start_amplitude=smallest)(lifetimes)
@@ -315,7 +316,7 @@ def slower_from_one(lifetimes):
         Control("runs from one amplitude that take 2.5 times as long", slower_from_one),
     ),
 )
-def transition_amplitude(lifetimes) -> Finding:
+def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
     """Require the same time of the transition, and the same final state, from each amplitude.
 
     A centre that stays excited inside the chaotic chain is a caveat.
@@ -341,7 +342,7 @@ def transition_amplitude(lifetimes) -> Finding:
     return judge(measured, criterion, excited_centre(lifetimes, limits["centre_share"]))
 
 
-def excited_centre(lifetimes, share: Limits) -> str:
+def excited_centre(lifetimes: xr.Dataset, share: Limits) -> str:
     """Return a sentence on the amplitudes from which the centre keeps a larger share."""
     a0, pairs = lifetimes["start_amplitude"].values, 2 * int(lifetimes.attrs["half_width"]) + 1
     excited = a0[share.low > FACTOR.value / pairs]

@@ -13,6 +13,7 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 from latticode.measures.confidence import Limits, ratio_limits, student
 from latticode.measures.levels import relative_range
 from latticode.measures.norms import total_power
@@ -95,7 +96,7 @@ class Means(NamedTuple):
 
 
 @once
-def means_of(ensembles, sweep: str, norm: str = "l2", reading: str = "text") -> Means:
+def means_of(ensembles: xr.Dataset, sweep: str, norm: str = "l2", reading: str = "text") -> Means:
     """Return the means of a norm of the pair, by the reading of the text or the caption.
 
     By the text these are means of maxima. Raises UndecidableError if there are too few.
@@ -118,14 +119,14 @@ def flat(name: str) -> Control:
     Their relative errors stay the same.
     """
 
-    def changed(ensembles):
+    def changed(ensembles: xr.Dataset):
         to_shortest = ensembles["l2_mean"].isel(half_width=0) / ensembles["l2_mean"]
         return scale(("l2_mean", "l2_error"), to_shortest, sweep=name)(ensembles)
 
     return Control("means that do not depend on M", {NEEDS[0]: changed})
 
 
-def at_the_start(ensembles):
+def at_the_start(ensembles: xr.Dataset) -> xr.Dataset:
     """Return the ensembles with all means at the initial norm of the large data, as a control."""
     to_start = np.sqrt(DATA_POWER) / ensembles["l2_mean"]
     return scale("l2_mean", to_start, sweep="fig6_right")(ensembles)
@@ -145,7 +146,7 @@ fig5 = partial(claim, "Section 5, Fig 5 right, in ensembles", needs=NEEDS, on=("
     "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
     controls=(flat("fig5_right"),),
 )
-def ensemble_fig5_grows(ensembles) -> Finding:
+def ensemble_fig5_grows(ensembles: xr.Dataset) -> Finding:
     means = means_of(ensembles, "fig5_right")
     quantile = student(2 * (means.members - 1), LEVEL.value)
     noise = quantile * np.sqrt(means.error[1:] ** 2 + means.error[:-1] ** 2)
@@ -203,7 +204,7 @@ def explain_no_growth(means: Means) -> str:
     ),
     kind=Kind.CONCLUSION,
 )
-def ensemble_fig5_conjecture(ensembles) -> Finding:
+def ensemble_fig5_conjecture(ensembles: xr.Dataset) -> Finding:
     """Require that the norm still grows on the longest chains."""
     means = means_of(ensembles, "fig5_right")
     measured = {"growth_low": means.over(slice(1), slice(-1, None)).low, **last_growth_of(means)}
@@ -224,7 +225,7 @@ def ensemble_fig5_conjecture(ensembles) -> Finding:
         Control("the l2 norm, which grows", take(linf_mean="l2_mean", linf_error="l2_error")),
     ),
 )
-def ensemble_fig5_maximum(ensembles) -> Finding:
+def ensemble_fig5_maximum(ensembles: xr.Dataset) -> Finding:
     """Compare the level on long chains with that on short ones: single means are too uncertain."""
     means = means_of(ensembles, "fig5_right", "linf")
     half = len(means.mean) // 2
@@ -256,7 +257,7 @@ def fig6(
     "At Omega = -4 and from the large initial condition the maximal l2 norm grows with M.",
     wrong=flat("fig6_right"),
 )
-def ensemble_fig6_grows(ensembles, sensitivity) -> Finding:
+def ensemble_fig6_grows(ensembles: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
     means = means_of(ensembles, "fig6_right")
     ratio, peak = means.over(slice(1), slice(1, None)), int(np.argmax(means.mean))
@@ -285,7 +286,7 @@ def ensemble_fig6_grows(ensembles, sensitivity) -> Finding:
     on=("fig6_right",),
     kind=Kind.CONCLUSION,
 )
-def ensemble_fig6_diverges(ensembles) -> Finding:
+def ensemble_fig6_diverges(ensembles: xr.Dataset) -> Finding:
     """Require that the norm still grows on the longest chains."""
     means = means_of(ensembles, "fig6_right")
     fails = (
@@ -300,7 +301,9 @@ def ensemble_fig6_diverges(ensembles) -> Finding:
     *CASE,
     wrong=SMALL,
 )
-def ensemble_fig6_not_technical(ensembles, sensitivity, run) -> Finding:
+def ensemble_fig6_not_technical(
+    ensembles: xr.Dataset, sensitivity: xr.Dataset, run: xr.Dataset
+) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
     c_0 = theorem_2_constants(Constants.of(run.attrs))[1]
     means = means_of(ensembles, "fig6_right")
@@ -316,7 +319,7 @@ def ensemble_fig6_not_technical(ensembles, sensitivity, run) -> Finding:
     wrong=SMALL,
     place="Section 5, Fig 6, in ensembles",
 )
-def ensemble_fig6_time(ensembles, sensitivity, run) -> Finding:
+def ensemble_fig6_time(ensembles: xr.Dataset, sensitivity: xr.Dataset, run: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
     means = means_of(ensembles, "fig6_right")
     measured = {"low": (means.mean - means.off).min() / np.sqrt(total_power(run)[0])}
@@ -336,7 +339,7 @@ def ensemble_fig6_time(ensembles, sensitivity, run) -> Finding:
     ),
     on=("fig6_left", "fig6_right"),
 )
-def fig6_caption(left, ensembles) -> Finding:
+def fig6_caption(left: xr.Dataset, ensembles: xr.Dataset) -> Finding:
     """Compare both readings: l2 is constant on the left, and grows on the right."""
     measured, criteria = {}, {}
     for reading, quantity in READINGS_6.items():

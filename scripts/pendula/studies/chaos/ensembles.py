@@ -31,7 +31,7 @@ MOMENTS = {
 
 
 def draw_swept(
-    problem: Problem, half_widths, size: float, members: int, seed: int
+    problem: Problem, half_widths: Sequence[int], size: float, members: int, seed: int
 ) -> list[Problem]:
     """Return the members of a sweep, all of one half-width and then of the next.
 
@@ -42,7 +42,7 @@ def draw_swept(
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
 
 
-def read_norms(problem: Problem, windows) -> dict[str, np.ndarray]:
+def read_norms(problem: Problem, windows: Sequence[tuple[float, float]]) -> dict[str, np.ndarray]:
     """Return both READINGS of the pair's norms in a run, (reading,), each over its window."""
     norms, pair = windowed(simulate(problem, conserved=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]

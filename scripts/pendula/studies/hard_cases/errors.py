@@ -36,7 +36,13 @@ def random_data(sites: int, size: float) -> np.ndarray:
 
 
 def integrate(
-    solver: dict, data: np.ndarray, tau: float, outputs=5, epsilon=1.0, gamma=1.0, omega=-4.0
+    solver: dict,
+    data: np.ndarray,
+    tau: float,
+    outputs: int = 5,
+    epsilon: float = 1.0,
+    gamma: float = 1.0,
+    omega: float = -4.0,
 ) -> Trajectory:
     """Return the trajectory from `data` (2, N) to `tau`, Dirichlet ends, constants of Fig 3."""
     problem = Problem(
@@ -56,14 +62,16 @@ def reference_solver(solver: dict) -> dict:
     return REFERENCE_SOLVERS["dop853" if solver["name"] == "taylor" else "taylor"]
 
 
-def miss_of_linear_flow(solver, omega, gamma, size, tau=10.0) -> float:
+def miss_of_linear_flow(
+    solver: dict, omega: float, gamma: float, size: float, tau: float = 10.0
+) -> float:
     """Return the error against the exact linear flow, from tiny random data on 21 sites."""
     data = random_data(21, size)
     exact = flow(data, tau, 1.0, gamma, omega, "dirichlet")
     return state_error(integrate(solver, data, tau, gamma=gamma, omega=omega).final, exact)
 
 
-def drift_of_energy(solver, tau) -> float:
+def drift_of_energy(solver: dict, tau: float) -> float:
     """Return max |H / H(0) - 1| from the data of the small cases on three sites."""
     energy = integrate(solver, place(on_sites({0: (1.0, 0.1)}), 1), tau, outputs=1000).conserved[
         "energy"
@@ -71,7 +79,7 @@ def drift_of_energy(solver, tau) -> float:
     return float(np.abs(energy / energy[0] - 1.0).max())
 
 
-def miss_of_other(solver, sites) -> float:
+def miss_of_other(solver: dict, sites: int) -> float:
     """Return the error against `reference_solver`, from random data."""
     data = random_data(sites, 0.3)
     final, exact = (
@@ -80,7 +88,7 @@ def miss_of_other(solver, sites) -> float:
     return state_error(final, exact)
 
 
-def miss_of_scaled(solver, power) -> float:
+def miss_of_scaled(solver: dict, power: int) -> float:
     """Return the error of the run scaled by s = 2^power against the unscaled one.
 
     If A(tau) solves (4), then s A(s^2 tau) solves it with all constants times s^2.
@@ -92,7 +100,7 @@ def miss_of_scaled(solver, power) -> float:
     return state_error(integrate(solver, s * data, tau / square, **scaled).final / s, exact)
 
 
-def miss_of_short_chain(solver, half_width) -> float:
+def miss_of_short_chain(solver: dict, half_width: int) -> float:
     """Return the error at the centre of a long chain against a chain of 61 sites.
 
     To tau = 1 no motion reaches the ends of either.
@@ -103,7 +111,9 @@ def miss_of_short_chain(solver, half_width) -> float:
     return state_error(final[:, half_width - short : half_width + short + 1], exact)
 
 
-def run_anyway(solver, amplitude=1.0, tau=1.0, omega=-4.0) -> float:
+def run_anyway(
+    solver: dict, amplitude: float = 1.0, tau: float = 1.0, omega: float = -4.0
+) -> float:
     """Start a run that must be rejected; returning 0.0 means that it finished instead."""
     data = random_data(5, 1.0)
     data[1, 2] = amplitude

@@ -3,6 +3,7 @@
 from itertools import product
 
 import numpy as np
+import xarray as xr
 from replication.ledger.changes import repeat
 from replication.ledger.claim import Control, checks, claim
 from replication.ledger.criterion import (
@@ -22,7 +23,7 @@ EARLIEST = 20.0
 """Shorter runs show no drift that could be compared."""
 
 
-def drifts(solvers, size: str) -> Finding:
+def drifts(solvers: xr.Dataset, size: str) -> Finding:
     """Return the finding of a claim on the energy over the cases with data of this size.
 
     The paper gives the order of the drift and the tolerances of the solver. It says neither whether
@@ -76,7 +77,7 @@ OF_HIGH_ORDER = Control(
     controls=(OF_HIGH_ORDER,),
     on=("fig2_small", "fig3_small", "fig4_small"),
 )
-def energy_small(solvers) -> Finding:
+def energy_small(solvers: xr.Dataset) -> Finding:
     return drifts(solvers, "small")
 
 
@@ -92,5 +93,5 @@ def energy_small(solvers) -> Finding:
     ),
     on=("fig2_large", "fig3_large", "fig4_large"),
 )
-def energy_large(solvers) -> Finding:
+def energy_large(solvers: xr.Dataset) -> Finding:
     return drifts(solvers, "large")

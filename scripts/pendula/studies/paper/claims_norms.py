@@ -3,6 +3,7 @@
 from functools import partial
 
 import numpy as np
+import xarray as xr
 from latticode.measures.levels import correlation
 from latticode.measures.norms import largest, total_power
 from latticode.numerics.elementary import log
@@ -62,7 +63,7 @@ UNSTABLE = 3.0
         ),
     ),
 )
-def fig2_bounded(small, large, sweep) -> Finding:
+def fig2_bounded(small: xr.Dataset, large: xr.Dataset, sweep: xr.Dataset) -> Finding:
     """Compare P with the bound by the energy of the same data, and the sweep with that bound."""
     bounds = [
         theorem_1_bound(float(ds["energy"][0]), Constants.of(ds.attrs)) for ds in (small, large)
@@ -84,7 +85,7 @@ fig2_upper = partial(claim, "Section 5, Fig 2 upper", needs=runs("fig2_small"))
     "The central pendulum excites other pendula in the chain, so that its oscillation decreases.",
     controls=(Control("the large case, which stays at the centre", "fig2_large"),),
 )
-def fig2_excites(small) -> Finding:
+def fig2_excites(small: xr.Dataset) -> Finding:
     a = late(small)["linf"].sel(component="A").max() / small["linf"].sel(component="A")[0]
     measured = {
         "least_share_elsewhere": (1.0 - share_at_maxima(late(small))).min(),
@@ -101,7 +102,7 @@ def fig2_excites(small) -> Finding:
     return judge(measured, criterion)
 
 
-def share_at_maxima(trajectory) -> np.ndarray:
+def share_at_maxima(trajectory: xr.Dataset) -> np.ndarray:
     """Return the share of P on the largest |A_n| and the largest |B_n|, (time,)."""
     return (trajectory["linf"] ** 2).sum("component").values / total_power(trajectory)
 
@@ -110,7 +111,7 @@ def share_at_maxima(trajectory) -> np.ndarray:
     "The l2 norm oscillates between A and B.",
     controls=(Control("the large case, where A and B are separate", "fig2_large"),),
 )
-def fig2_exchange(small) -> Finding:
+def fig2_exchange(small: xr.Dataset) -> Finding:
     a, b = late(small)["l2"].values ** 2
     against = Below(ANTICORRELATED, "correlation", says="correlation of |A|^2 and |B|^2")
     return judge({"correlation": correlation(a, b)}, against)
@@ -124,7 +125,7 @@ def fig2_exchange(small) -> Finding:
         Control("the large case at Omega = 0, whose norms do not fall", "fig4_large"),
     ),
 )
-def fig2_maxima(small) -> Finding:
+def fig2_maxima(small: xr.Dataset) -> Finding:
     settled = late(small)["linf"]
     means = settled.mean("tau")
     measured = {
@@ -147,7 +148,7 @@ def fig2_maxima(small) -> Finding:
     runs("fig2_large"),
     controls=(Control("the small case, where A and B exchange P and spread", "fig2_small"),),
 )
-def fig2_separate(large) -> Finding:
+def fig2_separate(large: xr.Dataset) -> Finding:
     settled, start = late(large), float(large["linf"].sel(component="A")[0])
     a = large.sel(component="A")
     measured = {
@@ -168,7 +169,7 @@ def fig2_separate(large) -> Finding:
     return judge(measured, criterion)
 
 
-def with_growth_of(run, growing):
+def with_growth_of(run: xr.Dataset, growing: xr.Dataset) -> xr.Dataset:
     """Return a run whose norms grow like those of another run, from its own initial norm."""
     to_start = np.sqrt(total_power(run)[0] / total_power(growing)[0])
     return take_from("l2", "linf")(run, growing.assign({n: to_start * growing[n] for n in NORMS}))
@@ -227,7 +228,7 @@ def stable_oscillations(*trajectories) -> Finding:
     runs("fig2_small", "fig3_small"),
     controls=(Control("the unstable case at Omega = 0", {"fig3_small": "fig4_small"}),),
 )
-def fig3_alike(eight, four) -> Finding:
+def fig3_alike(eight: xr.Dataset, four: xr.Dataset) -> Finding:
     if eight.attrs["omega"] == four.attrs["omega"]:
         raise UndecidableError("both runs are at one Omega")
     l2 = np.sqrt(total_power(late(four)).mean() / total_power(late(eight)).mean())
@@ -247,7 +248,7 @@ def fig3_alike(eight, four) -> Finding:
         Control("the large case in place of the small one", {"fig3_small": "fig3_large"}),
     ),
 )
-def fig3_only_small(small, large) -> Finding:
+def fig3_only_small(small: xr.Dataset, large: xr.Dataset) -> Finding:
     at_one_omega(small, large)
     regions = [region_of(small), region_of(large)]
     covered = [region.startswith("theorem 2") for region in regions]
@@ -260,7 +261,7 @@ def fig3_only_small(small, large) -> Finding:
     return judge(measured, criterion, widened if regions[0] == "theorem 2 widened" else "")
 
 
-def region_of(run) -> str:
+def region_of(run: xr.Dataset) -> str:
     """Return the name of the theorem that covers the data of a run, or "none"."""
     start, energy = float(total_power(run)[0]), float(run["energy"][0])
     return proven_region(energy, start, Constants.of(run.attrs), str(run.attrs["boundary"]))
@@ -272,7 +273,7 @@ def region_of(run) -> str:
     runs("fig4_small"),
     controls=(Control("a stable run at Omega = -4", "fig3_small"),),
 )
-def fig4_unstable(small) -> Finding:
+def fig4_unstable(small: xr.Dataset) -> Finding:
     """Require growth of small data: once cubic terms matter, growth is no instability of zero."""
     if not largest(small)[0] ** 2 <= Constants.of(small.attrs).gamma:
         raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")

@@ -1,5 +1,6 @@
 """Sections 5 and 6: claims on norms that stay bounded and on regular motion."""
 
+import xarray as xr
 from replication.ledger.changes import exchange
 from replication.ledger.claim import Control, checks, claim
 from replication.ledger.criterion import AtMost, Finding, judge
@@ -18,7 +19,7 @@ GAMMA = EPSILON = 1.0
     checks("lyapunov", "cases"),
     controls=(Control("exponents of the cases in reverse order", {"lyapunov": exchange("case")}),),
 )
-def stable_is_regular(lyapunov, cases) -> Finding:
+def stable_is_regular(lyapunov: xr.Dataset, cases: xr.Dataset) -> Finding:
     grown = lyapunov["chaotic"].sel(case=cases["case"]) == 1
     covered = cases["region"] != "none"
     measured = {

@@ -7,6 +7,7 @@ right, are not, as some runs spread late: there the run is compared with the ran
 """
 
 import numpy as np
+import xarray as xr
 from latticode.measures.confidence import student
 from latticode.measures.difference import VISIBLE
 from replication.ledger import missing
@@ -43,7 +44,7 @@ SECOND = tuple(f"{name}.crank_nicolson" for name in FIRST)
 # --- Figs 2 to 4 ----------------------------------------------------------------------------------
 
 
-def late_distance(solvers, members, case: str) -> tuple[float, int]:
+def late_distance(solvers: xr.Dataset, members: xr.Dataset, case: str) -> tuple[float, int]:
     """Return how far the second solver is from the mean of its ensemble, and the number of members.
 
     The number is the late mean of the l2 norm, after the solvers diverge. Its distance is in
@@ -71,7 +72,7 @@ def late_distance(solvers, members, case: str) -> tuple[float, int]:
         Control("chaotic cases required to agree as single runs", {"lyapunov": put("chaotic", 0)}),
     ),
 )
-def second_solver(solvers, lyapunov, members) -> Finding:
+def second_solver(solvers: xr.Dataset, lyapunov: xr.Dataset, members: xr.Dataset) -> Finding:
     chaos, cases = lyapunov["chaotic"], list(map(str, solvers["case"].values))
     if unknown := [case for case in cases if case not in chaos["case"].values]:
         raise UndecidableError(f"it is not known whether {', '.join(unknown)} is chaotic")
@@ -113,7 +114,7 @@ def second_solver(solvers, lyapunov, members) -> Finding:
 # --- Figs 5 and 6 ---------------------------------------------------------------------------------
 
 
-def largest_difference(first, second) -> float:
+def largest_difference(first: xr.Dataset, second: xr.Dataset) -> float:
     """Return the largest relative difference of the norms of the pair over a sweep."""
     if first.sizes["half_width"] < FEWEST:
         raise UndecidableError(f"the sweeps have fewer than {FEWEST} half-widths")
@@ -123,7 +124,7 @@ def largest_difference(first, second) -> float:
     )
 
 
-def shares_inside(right) -> np.ndarray:
+def shares_inside(right: xr.Dataset) -> np.ndarray:
     """Return the share of runs of the second solver within the range of the first, (solver_step,).
 
     It is the smallest share over all half-widths.
@@ -135,7 +136,7 @@ def shares_inside(right) -> np.ndarray:
     return inside.mean("member").min("half_width").values
 
 
-def first_as_second(right):
+def first_as_second(right: xr.Dataset) -> xr.Dataset:
     """Return a control: the ensembles with the first solver's runs as those of the second."""
     drawn = right["first_l2"].isel(first_member=slice(right.sizes["member"]))
     drawn = drawn.rename(first_member="member").broadcast_like(right["l2"])
@@ -145,7 +146,7 @@ def first_as_second(right):
     )
 
 
-def coarse_alone(right):
+def coarse_alone(right: xr.Dataset) -> xr.Dataset:
     """Return the ensembles with the runs of the coarse step in place of all, as a control."""
     largest = right["solver_step"].max()
     return repeat("solver_step", float(largest), at=slice(None), names="l2")(right)
@@ -169,7 +170,13 @@ def coarse_alone(right):
     ),
     on=("fig5_left", "fig6_left", "fig6_right"),
 )
-def second_solver_sweeps(left_5, left_6, second_5, second_6, right) -> Finding:
+def second_solver_sweeps(
+    left_5: xr.Dataset,
+    left_6: xr.Dataset,
+    second_5: xr.Dataset,
+    second_6: xr.Dataset,
+    right: xr.Dataset,
+) -> Finding:
     """Compare regular sweeps point by point, and a chaotic one by ensembles and with two steps.
 
     If the two steps give different outcomes the claim is undecided, because the paper gives no

@@ -5,6 +5,7 @@ once the front does not reach the ends within the window, a longer chain changes
 """
 
 import numpy as np
+import xarray as xr
 from latticode.measures import levels
 from latticode.measures.levels import levelling, relative_range
 from latticode.measures.norms import total_power
@@ -42,12 +43,14 @@ TEXT_6 = "[10, 70]"
 """Window of Fig 6, according to the text."""
 
 
-def with_a_hump(sweep):
+def with_a_hump(sweep: xr.Dataset) -> xr.Dataset:
     """Return a control: a sweep, or the check at Omega = 8, whose l2 rises before it falls."""
     return scale("l2", 1.3, half_width=sweep["half_width"][1:5])(sweep)
 
 
-def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], AllOf]:
+def falls_to_a_level(
+    half_widths: np.ndarray, values: np.ndarray, fall: str
+) -> tuple[dict[str, float], AllOf]:
     """Return the measured numbers of a curve against M that falls to a level, and the criterion."""
     measured = {
         fall: 1.0 - values[-1] / values[0],
@@ -68,7 +71,7 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
         Control("norms 30 % higher at the second to the fifth M", with_a_hump),
     ),
 )
-def fig5_decreases(sweep) -> Finding:
+def fig5_decreases(sweep: xr.Dataset) -> Finding:
     """Require a fall over all M, and no rise of the curve before it reaches its level."""
     m, highest = swept(sweep, "l2", "max", WINDOW)
     _, average = swept(sweep, "l2", "mean", WINDOW)
@@ -87,7 +90,7 @@ def fig5_decreases(sweep) -> Finding:
     (*runs("fig3_small"), *sweeps("fig5_left")),
     controls=(Control("the sweep of the large case", {"fig5_left": "fig6_right"}),),
 )
-def fig5_theorem_2(case, sweep) -> Finding:
+def fig5_theorem_2(case: xr.Dataset, sweep: xr.Dataset) -> Finding:
     start, energy = float(total_power(case)[0]), float(case["energy"][0])
     parameters, boundary = Constants.of(case.attrs), str(case.attrs["boundary"])
     region = proven_region(energy, start, parameters, boundary)
@@ -117,11 +120,11 @@ def fig5_theorem_2(case, sweep) -> Finding:
         Control("norms 30 % higher at the second to the fifth M", with_a_hump),
     ),
 )
-def fig5_not_shown(check) -> Finding:
+def fig5_not_shown(check: xr.Dataset) -> Finding:
     return judge(*falls_to_a_level(check["half_width"].values, check["l2"].values, "fall"))
 
 
-def maxima_of(sweep):
+def maxima_of(sweep: xr.Dataset) -> xr.Dataset:
     """Return the maxima of a sweep over Fig 5's window, named as in the check at Omega = 8."""
     chosen = {"quantity": "pair", "statistic": "max", "window": WINDOW}
     return sweep[["l2"]].sel(chosen, drop=True)
@@ -133,7 +136,7 @@ def maxima_of(sweep):
     sweeps("fig6_left"),
     controls=(Control("the large case at Omega = -4, which grows", "fig6_right"),),
 )
-def fig6_constant(sweep) -> Finding:
+def fig6_constant(sweep: xr.Dataset) -> Finding:
     _, l2 = swept(sweep, "l2", "max", TEXT_6)
     criterion = Below(CONSTANT, "relative_range", says="range of the maxima over their mean")
     return judge({"relative_range": relative_range(l2)}, criterion)

@@ -1,6 +1,7 @@
 """Section 3: claims on the linear stability of the chain at rest, Lemma 1 and its proof."""
 
 import numpy as np
+import xarray as xr
 from latticode.numerics.elementary import log
 from replication.ledger.changes import exchange, roll, shift, take
 from replication.ledger.claim import Control, Kind, checks, claim
@@ -29,7 +30,7 @@ RESOLVED_EXPONENT = Cutoff(0.05, "exponents are measured to one decimal")
         "(15)": "the roots for half of the drive",
     },
 )
-def dispersion():
+def dispersion() -> None:
     """By (14) and its factors the squares of the roots are kappa^2 and kappa^2 - 4 gamma^2."""
 
 
@@ -40,7 +41,7 @@ def dispersion():
     controls=(Control("gamma_0 of another Omega", roll("gamma_0", {"omega": 4})),),
     kind=Kind.THEOREM,
 )
-def stable_below(chart) -> Finding:
+def stable_below(chart: xr.Dataset) -> Finding:
     """Require above gamma_0 half of the rate of N sites, if the run is long enough for it."""
     below, above = (chart["gamma"] < chart["gamma_0"]), (chart["gamma"] > chart["gamma_0"])
     is_resolved = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
@@ -66,7 +67,7 @@ def stable_below(chart) -> Finding:
     controls=(Control("growth at another Omega", roll("measured", {"omega": 4})),),
     kind=Kind.THEOREM,
 )
-def unstable_band(chart) -> Finding:
+def unstable_band(chart: xr.Dataset) -> Finding:
     slowest = chart["measured"].where((chart["gamma_0"] == 0.0) & (chart["gamma"] > 0.0)).min()
     largest = float(chart["finite_curve"].where(chart["infinite_curve"] == 0.0).max())
     caveat = (
@@ -84,7 +85,7 @@ def unstable_band(chart) -> Finding:
     controls=(Control("gamma_0 of an Omega that is 0.1 farther off", shift("excess", 0.05)),),
     kind=Kind.THEOREM,
 )
-def sharp_threshold(check) -> Finding:
+def sharp_threshold(check: xr.Dataset) -> Finding:
     """Require that the thresholds of longer and longer chains tend to gamma_0."""
     excess, sites = check["excess"], check["sites"].values + 1.0
     steps = log(excess.isel(sites=0) / excess.isel(sites=-1)) / log(sites[-1] / sites[0])
@@ -101,7 +102,7 @@ def sharp_threshold(check) -> Finding:
     controls=(Control("the waves of an Omega on the other side of the band", exchange("omega")),),
     kind=Kind.THEOREM,
 )
-def unstable_waves(check) -> Finding:
+def unstable_waves(check: xr.Dataset) -> Finding:
     edge = abs(check["leading_wave"] - np.pi * (check["omega"] > 0.0)).max(skipna=False)
     label = "distance of the leading wave from its edge"
     return judge({"from_its_edge": edge}, Below(0.5 * np.pi, "from_its_edge", says=label))
@@ -114,7 +115,7 @@ def unstable_waves(check) -> Finding:
     controls=(Control("a drive that exceeds gamma_0", take(wave_exponent="exponent_above")),),
     kind=Kind.THEOREM,
 )
-def threshold_growth(threshold) -> Finding:
+def threshold_growth(threshold: xr.Dataset) -> Finding:
     measured = {"wave_exponent": threshold["wave_exponent"].max(skipna=False)}
     caveat = "on N sites at their own threshold: at gamma_0, which is lower, none grows"
     criterion = Near(1.0, RESOLVED_EXPONENT, "wave_exponent", says="exponent of tau of a wave")

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from functools import wraps
 
+import xarray as xr
 from latticode.measures.confidence import student
 from latticode.measures.growth import PARTS
 from replication.ledger import changes
@@ -25,7 +26,11 @@ IDENTITIES = checks("identities")
 
 
 def by_algebra(
-    place: str, statement: str, twins: Mapping[str, str], kind=Kind.IDENTITY, caveat=""
+    place: str,
+    statement: str,
+    twins: Mapping[str, str],
+    kind: Kind = Kind.IDENTITY,
+    caveat: str = "",
 ) -> Callable:
     """Return a decorator: the claim holds if no terms are left of the statements in `twins`.
 
@@ -35,7 +40,7 @@ def by_algebra(
 
     def declare(function: Callable) -> Callable:
         @wraps(function)
-        def decide(identities) -> Finding:
+        def decide(identities: xr.Dataset) -> Finding:
             left = terms_left(identities, *twins)
             return judge(left, nothing_left(left), caveat)
 
@@ -45,7 +50,7 @@ def by_algebra(
     return declare
 
 
-def terms_left(identities, *names: str) -> dict[str, float]:
+def terms_left(identities: xr.Dataset, *names: str) -> dict[str, float]:
     """Return the number of terms left of each of these statements, as measured numbers."""
     terms = identities["terms"]
     return {f"terms_left_of_{name}": terms.sel(identity=name).max() for name in names}
@@ -59,7 +64,7 @@ def nothing_left(left: Mapping[str, float]) -> AtMost:
 def twin(name: str, description: str) -> Control:
     """Return the control that puts the wrong twin of this statement in its place."""
 
-    def wrong(identities):
+    def wrong(identities: xr.Dataset):
         is_named = identities["identity"] == name
         terms = identities["terms"].where(~is_named, identities["twin_terms"])
         return identities.assign(terms=terms)
@@ -75,7 +80,7 @@ def twin(name: str, description: str) -> Control:
         "conservation of (8)": "the energy of another Omega: its rate",
     },
 )
-def hamiltonian():
+def hamiltonian() -> None:
     """The rates of (4) are those by the gradient of H, and the rate of H along them vanishes."""
 
 
@@ -88,7 +93,7 @@ def hamiltonian():
     ),
     kind=Kind.IDENTITY,
 )
-def no_gauge(identities) -> Finding:
+def no_gauge(identities: xr.Dataset) -> Finding:
     """Without the drive a change of all phases is a symmetry; with it terms must be left."""
     left = identities["twin_terms"].min("boundary")
     measured = {
@@ -98,7 +103,7 @@ def no_gauge(identities) -> Finding:
     return judge(measured, Above(0, *measured, says="terms left if all phases are turned"))
 
 
-def without_drive(lyapunov):
+def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
     """Return a control: the table with the spectra at gamma = 0 in place of the driven ones."""
     if "exponents_undriven" not in lyapunov:
         raise UndecidableError("there are no spectra at gamma = 0")
@@ -112,7 +117,7 @@ def without_drive(lyapunov):
     checks("lyapunov"),
     controls=(Control("spectra at gamma = 0, where l2 is an integral too", without_drive),),
 )
-def one_integral(lyapunov) -> Finding:
+def one_integral(lyapunov: xr.Dataset) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
     # With a second integral at least four exponents of a spectrum vanish, and a single one outside
     # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
@@ -153,7 +158,7 @@ def one_integral(lyapunov) -> Finding:
     },
     caveat="the symmetry is that of P and T together; P alone is none",
 )
-def pt_form():
+def pt_form() -> None:
     """The change (9) turns (4) into (10), and H / 8 is the energy of (10)."""
 
 
@@ -162,7 +167,7 @@ def pt_form():
     "The equations are invariant under the exchange of A and B.",
     {"exchange of A and B": "the exchange of A and iB"},
 )
-def exchange():
+def exchange() -> None:
     """The rates of the exchanged state are the exchanged rates."""
 
 
@@ -175,7 +180,7 @@ def exchange():
         "phases on A = B": "a gauge symmetry where A = -B",
     },
 )
-def synchronised():
+def synchronised() -> None:
     """The exchange keeps A = B, where the rates are those of (5), without a drive."""
 
 
@@ -184,7 +189,7 @@ def synchronised():
     "In Newton's equations a chain with x = y keeps x = y, and the drive does not affect it.",
     {"x = y is kept": "x = -y, which is kept but driven"},
 )
-def pendula_synchronised():
+def pendula_synchronised() -> None:
     """If x = y both accelerations are equal and contain no drive."""
 
 
@@ -193,7 +198,7 @@ def pendula_synchronised():
     "H is inherited from the energy of Newton's equations.",
     {"H from the energy of (1)": "the energy of another Omega"},
 )
-def inherited():
+def inherited() -> None:
     """In the frame that rotates with the pendula, averaged over a period, it is -H at mu^4."""
 
 
@@ -202,7 +207,7 @@ def inherited():
     "The drive acts at the 1:2 resonance with the frequency of each pendulum.",
     {"1:2 resonance": "a drive at the frequency of the pendula"},
 )
-def resonance():
+def resonance() -> None:
     """Only a drive at twice the frequency gives the terms of (4)."""
 
 
@@ -212,5 +217,5 @@ def resonance():
     " mu^2 cos 2 omega t gives the term gamma (conj B - conj A).",
     {"(4) from (1) by (3)": "the slow time mu^2 t"},
 )
-def amplitude_equations():
+def amplitude_equations() -> None:
     """The residual of (1) at mu^3 has no first harmonic, and only with (4) and this tau."""

@@ -3,6 +3,7 @@
 from functools import partial
 
 import numpy as np
+import xarray as xr
 from latticode.numerics.elementary import log
 from replication.ledger.changes import exchange, put, scale, take
 from replication.ledger.claim import Control, Kind, checks, claim, number
@@ -38,7 +39,7 @@ RESOLVED_ORDER = Cutoff(0.05, "orders are measured to one decimal")
     {name: f"{name} with 3/4 of the right side" for name in ("(17)", "(18)")},
     kind=Kind.THEOREM,
 )
-def local_existence():
+def local_existence() -> None:
     """Picard's method requires Lipschitz rates: the linear ones by (17), the cubic ones by (18)."""
 
 
@@ -48,7 +49,7 @@ of_lemma_2 = partial(claim, "Lemma 2", needs=checks("identities", "well_posed"),
 HALF_OF_THE_RATE = twin(DISTANCE, "a rate of half of the drive")
 
 
-def of_a_neighbour(well_posed):
+def of_a_neighbour(well_posed: xr.Dataset) -> xr.Dataset:
     """Return a control: runs in which a solution from nearby data is that of the second solver."""
     near = well_posed.sel(perturbation_size=well_posed["perturbation_size"].min(), drop=True)
     return well_posed.assign(
@@ -57,13 +58,13 @@ def of_a_neighbour(well_posed):
     )
 
 
-def of_one_distance(well_posed):
+def of_one_distance(well_posed: xr.Dataset) -> xr.Dataset:
     """Return a control: runs in which all distances are those of the largest perturbation."""
     sizes = well_posed["perturbation_size"]
     return well_posed.assign(distance_ratio=well_posed["distance_ratio"] * sizes.max() / sizes)
 
 
-def beyond_runs(well_posed, time: str) -> str:
+def beyond_runs(well_posed: xr.Dataset, time: str) -> str:
     """Return the caveat on what is known from runs only, up to the time of the attribute `time`."""
     largest, end = well_posed["initial_power"].max(), well_posed.attrs[time]
     return (
@@ -82,7 +83,7 @@ def beyond_runs(well_posed, time: str) -> str:
         ),
     ),
 )
-def global_existence(identities, well_posed) -> Finding:
+def global_existence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     """By (19) no norm becomes infinite at a finite time, so the local solution continues."""
     left = terms_left(identities, GROWTH)
     measured = {name: well_posed[name].max(skipna=False) for name in ("from_start", "steepest")}
@@ -105,7 +106,7 @@ def global_existence(identities, well_posed) -> Finding:
         ),
     ),
 )
-def uniqueness(identities, well_posed) -> Finding:
+def uniqueness(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d: from 0 it stays 0.
 
     M is the largest amplitude on the straight line between both states, along which the rates are
@@ -136,7 +137,7 @@ RATE = "largest growth of the log of a distance over (2 gamma + M^2 / 2) tau"
         Control("distances that do not depend on the size", {"well_posed": of_one_distance}),
     ),
 )
-def continuous_dependence(identities, well_posed) -> Finding:
+def continuous_dependence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     """The same rate bounds the distance at any later time by a multiple of the initial one.
 
     So the later distance shrinks with the initial one, and in proportion to it, since the rates are
@@ -167,7 +168,7 @@ def continuous_dependence(identities, well_posed) -> Finding:
     {"(19)": "the bound exp(2 |gamma tau|)"},
     kind=Kind.THEOREM,
 )
-def growth_bound():
+def growth_bound() -> None:
     """The rate of P is at most 4 |gamma| P, in both directions of time."""
 
 
@@ -176,7 +177,7 @@ def growth_bound():
     "The l2 norm obeys the balance equation.",
     {"balance of P": "the balance equation with twice the drive"},
 )
-def balance():
+def balance() -> None:
     """The rate of P along the equations is that of the balance equation."""
 
 
@@ -185,7 +186,7 @@ def balance():
     "It suffices to consider gamma > 0.",
     {"sign of gamma": "(A, B) -> (-A, -B) in place of (iA, iB)"},
 )
-def sign_of_gamma():
+def sign_of_gamma() -> None:
     """Multiplying all amplitudes by i changes the sign of gamma."""
 
 
@@ -196,7 +197,7 @@ def sign_of_gamma():
     "norm, which on N sites is at most N^(1/4) times the l4 norm.",
     {name: f"{name} with 3/4 of the right side" for name in ("(17)", "(18)", "(22)", "(27)")},
 )
-def norm_inequalities():
+def norm_inequalities() -> None:
     """The right side minus the left side is a sum of squares."""
 
 
@@ -210,7 +211,7 @@ HALF_OF_THE_DRIVE = "a bound of the energy with half of the drive"
     " order of P where P is small.",
     dict.fromkeys(("(21)", "(25)", "size of H"), HALF_OF_THE_DRIVE),
 )
-def energy_bounds():
+def energy_bounds() -> None:
     """H minus its lower bound, and its upper bound minus H, are sums of squares."""
 
 
@@ -223,7 +224,7 @@ CONSERVED = {"conservation of (8)": "the energy of another Omega"}
     {**CONSERVED, "(21)": HALF_OF_THE_DRIVE},
     kind=Kind.THEOREM,
 )
-def theorem_1():
+def theorem_1() -> None:
     """H is conserved, and by (21) it is at least a multiple of P."""
 
 
@@ -233,7 +234,7 @@ def theorem_1():
     {**CONSERVED, "(25)": HALF_OF_THE_DRIVE},
     kind=Kind.THEOREM,
 )
-def theorem_2():
+def theorem_2() -> None:
     """By (25) no state of small energy is on the barrier that the continuous P would cross."""
 
 
@@ -243,7 +244,7 @@ def theorem_2():
     {"(25)": HALF_OF_THE_DRIVE},
     kind=Kind.THEOREM,
 )
-def positive_depth():
+def positive_depth() -> None:
     """By (25) -H / P is at least a - P / 4 with a = |Omega| - 2 gamma > 0."""
 
 
@@ -260,7 +261,7 @@ def positive_depth():
     ),
     kind=Kind.THEOREM,
 )
-def bootstrap(check) -> Finding:
+def bootstrap(check: xr.Dataset) -> Finding:
     measured = {name: number(check, name) for name in ("largest_power", "allowed_power")}
     largest, allowed = measured.values()
     fails = (
@@ -278,7 +279,7 @@ def bootstrap(check) -> Finding:
     {**CONSERVED, "lower bound for Theorem 3": HALF_OF_THE_DRIVE},
     kind=Kind.THEOREM,
 )
-def theorem_3():
+def theorem_3() -> None:
     """H is conserved, and P^2 / (8 N) - c P is at most H, by the bound and (27)."""
 
 
@@ -289,7 +290,7 @@ def theorem_3():
     controls=(Control("2 gamma in place of gamma", take(printed="corrected"), confirms=True),),
     kind=Kind.THEOREM,
 )
-def theorem_3_proof(check) -> Finding:
+def theorem_3_proof(check: xr.Dataset) -> Finding:
     measured = {name: check[name].min() for name in ("printed", "corrected")}
     measured["smallest_chain"] = smallest = number(check, "smallest")
     fails = (
@@ -308,7 +309,7 @@ ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)
     checks("chain_growth"),
     controls=(Control("Omega = 8, where Theorem 1 bounds P on any chain", ABOVE_THE_BAND),),
 )
-def bound_grows(check) -> Finding:
+def bound_grows(check: xr.Dataset) -> Finding:
     """Require that C_N grows, and that the largest P of data of one energy does."""
     measured = {
         name: number(check, name, omega=0.0) for name in ("constant_exponent", "shell_exponent")
@@ -327,7 +328,7 @@ def bound_grows(check) -> Finding:
     checks("chain_growth"),
     controls=(Control("Omega = 8, where the energy bounds P", ABOVE_THE_BAND),),
 )
-def energy_not_useful(check) -> Finding:
+def energy_not_useful(check: xr.Dataset) -> Finding:
     measured = {"shell_exponent": number(check, "shell_exponent", omega=0.0)}
     label = "exponent of N in the largest P of one energy"
     return judge(measured, Above(IN_PROPORTION, "shell_exponent", says=label))
@@ -352,7 +353,7 @@ SIZES = ("theorem_1", "theorem_2")
         Control("bounds in terms of H that are 25 % too large", scale("reached", 0.8)),
     ),
 )
-def sharp_theorems(check) -> Finding:
+def sharp_theorems(check: xr.Dataset) -> Finding:
     """Compare the bounds C delta of small data, delta = P(0), with the largest growth of P.
 
     The paper prints no constants: they may be the least ones, or those of the inequalities in its

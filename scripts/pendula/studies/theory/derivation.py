@@ -13,7 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
 from pendula.models.equations import KERNEL_MODEL
 
@@ -44,13 +44,13 @@ SINES = SimpleNamespace(sin=lambda x: x - fmpq(1, 6) * x * x * x)
 """The sine of an angle of order mu, up to mu^4."""
 
 
-def at_order(polynomial, order: int):
+def at_order(polynomial: fmpq_mpoly, order: int) -> fmpq_mpoly:
     """Return the coefficient of mu^order of a polynomial."""
     terms = {e: c for e, c in polynomial.to_dict().items() if e[MU_AT] == order}
     return polynomial.context().from_dict(terms).subs({"mu": 1})
 
 
-def averaged(polynomial):
+def averaged(polynomial: fmpq_mpoly) -> fmpq_mpoly:
     """Return the mean of a polynomial in cos and sin of the fast time over a period."""
     mean = ZERO
     for powers, coefficient in polynomial.to_dict().items():
@@ -70,7 +70,7 @@ def mean_of_powers(j: int, k: int) -> fmpq:
     return fmpq(prod(odd), prod(even))
 
 
-def angles(state=STATE) -> np.ndarray:
+def angles(state: np.ndarray = STATE) -> np.ndarray:
     """Return x and y of (3), (component, site)."""
     return scaled(2 * MU, turning(state[:, 0], state[:, 1]))
 
@@ -80,14 +80,14 @@ def turning(re: np.ndarray, im: np.ndarray) -> np.ndarray:
     return scaled(COSINE, re) - scaled(SINE, im)
 
 
-def accelerations(ends, x: np.ndarray, drive=DOUBLE) -> np.ndarray:
+def accelerations(ends: str, x: np.ndarray, drive=DOUBLE) -> np.ndarray:
     """Return x'' and y'' of the traced equations (1) at the angles x and y, (component, site)."""
     state = np.stack([x, 0 * x], axis=1)
     constants = {"coupling": EPSILON * MU**2, "drive": 2 * GAMMA * MU**2 * drive}
     return rates(ends, state, KERNEL_MODEL, SINES, **constants)[:, 1]
 
 
-def first_harmonic(ends, slow, drive=DOUBLE) -> list:
+def first_harmonic(ends: str, slow: fmpq, drive=DOUBLE) -> list:
     """Return the first harmonic, by cos and by sin, of the residual of (1) at mu^3.
 
     The amplitudes obey (4) in a time whose rate is `slow` in mu^2 t.
@@ -104,12 +104,12 @@ def first_harmonic(ends, slow, drive=DOUBLE) -> list:
     ]
 
 
-def resonance(ends, drive) -> list:
+def resonance(ends: str, drive) -> list:
     """Return the first harmonic for another drive."""
     return first_harmonic(ends, SLOW, drive)
 
 
-def newtons_energy(ends, x: np.ndarray):
+def newtons_energy(ends: str, x: np.ndarray) -> fmpq_mpoly:
     """Return the potential energy of (1) up to the fourth order of the angles."""
     right, left = joined(ends, x)
     squares = x * x
@@ -118,7 +118,7 @@ def newtons_energy(ends, x: np.ndarray):
     return gravity + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
 
 
-def inherited(ends, omega) -> list:
+def inherited(ends: str, omega) -> list:
     """Return the residuals of H as the averaged Newton energy, and of (1) as its equations."""
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
@@ -134,7 +134,7 @@ def inherited(ends, omega) -> list:
     return [averaged(at_order(turning, 4)) + energy(ends, omega=omega), *left]
 
 
-def synchronised(ends, sign: int) -> list:
+def synchronised(ends: str, sign: int) -> list:
     """Return the residual of (1) on y = `sign` x, and what the drive contributes there.
 
     The symbol for the sine acts on each angle alone, so the result holds for any odd function.

@@ -30,6 +30,7 @@ from .polynomials import (
     SITES,
     STATE,
     ZERO,
+    Residual,
     conjugate,
     energy,
     gradient,
@@ -83,15 +84,15 @@ def from_pt(w: np.ndarray) -> np.ndarray:
 # --- Symmetries -----------------------------------------------------------------------------------
 
 
-def exchanged(state):
+def exchanged(state: np.ndarray) -> np.ndarray:
     return state[::-1]
 
 
-def turned(state):
+def turned(state: np.ndarray) -> np.ndarray:
     return times(*TURN, state)
 
 
-def times_i(state):
+def times_i(state: np.ndarray) -> np.ndarray:
     return times(0, 1, state)
 
 
@@ -100,55 +101,57 @@ def equal_phases(factor: int) -> np.ndarray:
     return np.stack([STATE[0], factor * STATE[0]])
 
 
-def equivariance(ends, image: Callable, state=STATE, direction: int = 1, **constants):
+def equivariance(
+    ends: str, image: Callable, state: np.ndarray = STATE, direction: int = 1, **constants
+) -> Residual:
     """Return the residual of the equations under w -> image(w), with time in this `direction`."""
     return rates(ends, image(state), **constants) - direction * image(
         rates(ends, state, **constants)
     )
 
 
-def p_and_t(ends, direction: int):
+def p_and_t(ends: str, direction: int) -> Residual:
     """Return the residual of (10) under P T, or under P alone with time in its own direction."""
     image = exchanged if direction > 0 else lambda w: conjugate(exchanged(w))
     return equivariance(ends, image, direction=direction, model=PT)
 
 
-def phases(ends, gamma, **constants):
+def phases(ends: str, gamma, **constants) -> Residual:
     """Return the residual of (4) under a change of all phases, with this drive."""
     return equivariance(ends, turned, gamma=gamma, **constants)
 
 
-def phases_alike(ends, factor: int):
+def phases_alike(ends: str, factor: int) -> Residual:
     """Return the residual of gauge symmetry of (4) on B = `factor` A."""
     return equivariance(ends, turned, equal_phases(factor))
 
 
-def hamiltonian(ends, omega):
+def hamiltonian(ends: str, omega) -> Residual:
     """Return the rates of (4) minus those by (7): the gradient by conj A is half that by rows."""
     return rates(ends) - HALF * times(0, -1, gradient(energy(ends, omega=omega)))
 
 
-def rate_of_energy(ends, omega):
+def rate_of_energy(ends: str, omega) -> Residual:
     return (gradient(energy(ends, omega=omega)) * rates(ends)).sum()
 
 
-def reduction(ends, factor: int):
+def reduction(ends: str, factor: int) -> Residual:
     """Return the rates of A in (4) on B = `factor` A, minus those of the scalar equation."""
     return rates(ends, equal_phases(factor))[0] - rates(ends, STATE[:1], SCALAR)[0]
 
 
-def of_pt(ends, gamma):
+def of_pt(ends: str, gamma) -> Residual:
     """Return the rates of (4) minus those of (10) transformed by (9)."""
     return from_pt(rates(ends, model=PT)) - rates(ends, from_pt(STATE), gamma=gamma)
 
 
-def pt_hamiltonian(ends, image: Callable):
+def pt_hamiltonian(ends: str, image: Callable) -> Residual:
     """Return the rates of (10) minus those of K = H / 8, by i u' = dK/d(conj v) and the like."""
     slope = gradient(fmpq(1, 8) * put(energy(ends), from_pt(STATE)))
     return rates(ends, model=PT) - HALF * times(0, -1, image(slope))
 
 
-def sign_of_gamma(ends, image: Callable):
+def sign_of_gamma(ends: str, image: Callable) -> Residual:
     """Return the residual of w -> image(w) as a change of the sign of gamma."""
     return rates(ends, image(STATE), gamma=-GAMMA) - image(rates(ends))
 
@@ -156,7 +159,7 @@ def sign_of_gamma(ends, image: Callable):
 # --- The linear equations -------------------------------------------------------------------------
 
 
-def of_a_wave(ends, kappa):
+def of_a_wave(ends: str, kappa) -> Residual:
     """Return the linear rates of a site whose neighbours are cos theta times it, minus (14).
 
     The linear equation (14) is i A' + kappa A = gamma (conj B - conj A), and s = sin(theta / 2).
@@ -170,7 +173,7 @@ def of_a_wave(ends, kappa):
     return at_site - times(0, -1, scaled(GAMMA, flipped) - scaled(kappa, site))
 
 
-def determinant(ends, drive: int):
+def determinant(ends: str, drive: int) -> Residual:
     """Return the determinant printed before (15) minus its factors, with `drive` times gamma."""
     k, g, w = KAPPA, GAMMA, OMEGA
     rows = [[k - w, g, ZERO, -g], [g, k + w, -g, ZERO], [ZERO, -g, k - w, g], [-g, ZERO, g, k + w]]
@@ -182,7 +185,7 @@ def determinant(ends, drive: int):
     return total - difference * (difference + (drive * g) ** 2)
 
 
-def balance(ends, factor: int):
+def balance(ends: str, factor: int) -> Residual:
     """Return dP/dtau minus `factor` times the balance equation in the proof of Lemma 2."""
     x, y = STATE[0] - STATE[1]
     return 2 * (STATE * rates(ends)).sum() - factor * 4 * GAMMA * (x * y).sum()

@@ -11,7 +11,7 @@ from itertools import combinations, permutations
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
 from .polynomials import (
     EPSILON,
@@ -21,6 +21,7 @@ from .polynomials import (
     SITES,
     STATE,
     ZERO,
+    Residual,
     bonds,
     densities,
     energy,
@@ -32,25 +33,25 @@ from .polynomials import (
 HALF, QUARTER, LESS = fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)
 
 
-def sums(ends, state=STATE):
+def sums(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
     """Return 4 P minus the bonds as a sum of squares."""
     right, left = joined(ends, state)
     ends_twice = 2 * densities(state)[:, [0, -1]].sum() if ends == "free" else ZERO
     return ((right + left) ** 2).sum() + ends_twice
 
 
-def along_drive(sign: int):
+def along_drive(sign: int) -> fmpq_mpoly:
     """Return 2 P + `sign` drive() as a sum of squares."""
     together, (x, y) = STATE[0] + STATE[1], STATE[0] - STATE[1]
     return (together**2).sum() + 2 * ((x if sign > 0 else y) ** 2).sum()
 
 
-def pairs(values: np.ndarray):
+def pairs(values: np.ndarray) -> fmpq_mpoly:
     """Return the sum of the products of two different values, each pair once."""
     return sum((a * b for a, b in combinations(np.ravel(values), 2)), start=ZERO)
 
 
-def driven(change, state, factor: int) -> list:
+def driven(change, state: np.ndarray, factor: int) -> list:
     """Return `factor` gamma |state|^2 minus and plus `change`, minus the squares of the drive."""
     together, (x, y) = state[0] + state[1], state[0] - state[1]
     power = factor * GAMMA * densities(state).sum()
@@ -60,12 +61,12 @@ def driven(change, state, factor: int) -> list:
     ]
 
 
-def growth(ends, factor: int):
+def growth(ends: str, factor: int) -> Residual:
     """Return the residual of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
     return driven(2 * (STATE * rates(ends)).sum(), STATE, factor)
 
 
-def parting(ends, factor: int):
+def parting(ends: str, factor: int) -> Residual:
     """Return the residual of a bound on the rate of |d|^2, for solutions at a small distance d.
 
     The bound is `factor` gamma |d|^2, plus the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
@@ -82,32 +83,32 @@ def parting(ends, factor: int):
     ]
 
 
-def laplacian(ends, share):
+def laplacian(ends: str, share) -> Residual:
     """Return the residual of (17), with `share` of the larger side."""
     return 4 * share * densities().sum() - bonds(ends) - sums(ends)
 
 
-def of_products(ends, share):
+def of_products(ends: str, share) -> Residual:
     """Return the residual of (18), squared, with `share` of the larger side."""
     a, b = densities()
     both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
     return share * a.sum() * b.sum() - (a * b).sum() - both
 
 
-def embedding(ends, share):
+def embedding(ends: str, share) -> Residual:
     """Return the residual of (22), to the fourth power, with `share` of the larger side."""
     a = densities()[0]
     return share * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
 
-def embedding_reversed(ends, share):
+def embedding_reversed(ends: str, share) -> Residual:
     """Return the residual of (27), to the fourth power, with `share` of the larger side."""
     a = densities()[0]
     differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
     return share * len(a) * (a**2).sum() - a.sum() ** 2 - differences
 
 
-def above_band(ends, gammas: int):
+def above_band(ends: str, gammas: int) -> Residual:
     """Return the residual of (21), with `gammas` times gamma in it."""
     squares = densities()
     power, quartic = squares.sum(), (squares**2).sum()
@@ -115,7 +116,7 @@ def above_band(ends, gammas: int):
     return energy(ends) - bound - QUARTER * quartic - GAMMA * along_drive(-1) - EPSILON * sums(ends)
 
 
-def below_band(ends, gammas: int):
+def below_band(ends: str, gammas: int) -> Residual:
     """Return the residual of (25), where Omega = -|Omega|."""
     squares = densities()
     power = squares.sum()
@@ -124,7 +125,7 @@ def below_band(ends, gammas: int):
     return -energy(ends) - bound - dropped
 
 
-def size_of_energy(ends, gammas: int):
+def size_of_energy(ends: str, gammas: int) -> Residual:
     """Return the residuals of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4, by four signs."""
     squares, h, left = densities(), energy(ends), []
     power, quartic = squares.sum(), (squares**2).sum()
@@ -138,7 +139,7 @@ def size_of_energy(ends, gammas: int):
     return left
 
 
-def quadratic_part(ends, gammas: int):
+def quadratic_part(ends: str, gammas: int) -> Residual:
     """Return the residuals of the lower bound of H in the proof of Theorem 3, by two signs."""
     squares, left = densities(), []
     power, quartic = squares.sum(), (squares**2).sum()

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 import numpy as np
-from flint import fmpq, fmpq_mpoly_ctx
+from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from latticode.equations.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbours
 from latticode.equations.graph import evaluate
 from latticode.equations.model import Model
@@ -28,8 +28,11 @@ GENS = CONTEXT.gens()
 EPSILON, GAMMA, OMEGA, MU, COSINE, SINE, KAPPA = GENS[:7]
 ZERO = 0 * GAMMA
 
+Residual = fmpq_mpoly | np.ndarray | list
+"""What is left of a statement: a polynomial, or several; they vanish if it holds."""
 
-def object_array(values: Iterable, shape=(2, 2, SITES)) -> np.ndarray:
+
+def object_array(values: Iterable, shape: tuple[int, ...] = (2, 2, SITES)) -> np.ndarray:
     """Return an array of polynomials, which NumPy would take for sequences of terms."""
     array = np.empty(shape, object)
     for at, value in zip(np.ndindex(*shape), values, strict=True):
@@ -53,7 +56,11 @@ def rational(x: float) -> fmpq:
 
 
 def rates(
-    ends: str, state=STATE, model: Model = AMPLITUDE_MODEL, functions=None, **constants
+    ends: str,
+    state: np.ndarray = STATE,
+    model: Model = AMPLITUDE_MODEL,
+    functions=None,
+    **constants,
 ) -> np.ndarray:
     """Return the rates of a state, of the same shape; `constants` replace their indeterminates.
 
@@ -75,7 +82,7 @@ def rates(
     return object_array((rate for row in rows for rate in row), shape)
 
 
-def linear_rates(ends: str, state=STATE, at=None) -> np.ndarray:
+def linear_rates(ends: str, state: np.ndarray = STATE, at: np.ndarray | None = None) -> np.ndarray:
     """Return the rates of (4), linearised at zero or `at` a state: its derivative along `state`."""
     both = np.concatenate([0 * state if at is None else at, state])
     return rates(ends, both, AMPLITUDE_MODEL.tangent())[len(state) :]
@@ -93,7 +100,7 @@ def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return padded[..., 1:], padded[..., :-1]
 
 
-def energy(ends: str, state=STATE, omega=OMEGA):
+def energy(ends: str, state: np.ndarray = STATE, omega=OMEGA) -> fmpq_mpoly:
     """Return H of (8) as a polynomial."""
     squares = densities(state)
     return (
@@ -104,24 +111,24 @@ def energy(ends: str, state=STATE, omega=OMEGA):
     )
 
 
-def densities(state=STATE) -> np.ndarray:
+def densities(state: np.ndarray = STATE) -> np.ndarray:
     """Return |A_n|^2 and |B_n|^2, (component, site)."""
     return (state**2).sum(axis=1)
 
 
-def bonds(ends: str, state=STATE):
+def bonds(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
     """Return the sum of |A_{n+1} - A_n|^2 + |B_{n+1} - B_n|^2 over the bonds of a chain."""
     right, left = joined(ends, state)
     return ((right - left) ** 2).sum()
 
 
-def drive(state=STATE):
+def drive(state: np.ndarray = STATE) -> fmpq_mpoly:
     """Return the real part of the sum of (A - B)^2, which gamma multiplies in -H."""
     x, y = state[0] - state[1]
     return (x**2 - y**2).sum()
 
 
-def gradient(of) -> np.ndarray:
+def gradient(of: fmpq_mpoly) -> np.ndarray:
     """Return the derivatives of a polynomial by the rows of the state."""
     return object_array(of.derivative(GENS.index(symbol)) for symbol in STATE.ravel())
 
@@ -136,7 +143,7 @@ def conjugate(state: np.ndarray) -> np.ndarray:
     return state * np.array([1, -1], object)[:, None]
 
 
-def put(polynomial, state: np.ndarray):
+def put(polynomial: fmpq_mpoly, state: np.ndarray) -> fmpq_mpoly:
     """Return a polynomial with another state in place of the indeterminate one."""
     return polynomial.compose(*GENS[:7], *state.ravel(), *GENS[19:])
 

@@ -8,6 +8,7 @@ fitted as well, and all limits are those of Student's t over the members of an e
 from collections.abc import Callable
 
 import numpy as np
+import xarray as xr
 from latticode.measures.confidence import Limits, mean_limits, share_limits
 from latticode.measures.spreading import exponent_with_offset
 from replication.ledger.changes import take
@@ -38,7 +39,7 @@ def sure(tries: int = 1) -> float:
     return 1.0 - (1.0 - SURE.value) / tries
 
 
-def times_of(run) -> np.ndarray:
+def times_of(run: xr.Dataset) -> np.ndarray:
     """Return the times of a run. Raises UndecidableError if it is too short."""
     tau = run["tau"].values
     if tau[-1] < SHORTEST:
@@ -46,20 +47,20 @@ def times_of(run) -> np.ndarray:
     return tau
 
 
-def curves_of(run, name: str, variant: int = 0) -> np.ndarray:
+def curves_of(run: xr.Dataset, name: str, variant: int = 0) -> np.ndarray:
     """Return a norm of one variant of a run, (member, tau)."""
     return run[name].isel(variant=variant).transpose("member", "tau").values
 
 
 @once
-def exponents_of(run, variant: int) -> np.ndarray:
+def exponents_of(run: xr.Dataset, variant: int) -> np.ndarray:
     """Return the exponent of tau in l2 of each member over the last OCTAVES, (member,)."""
     tau = times_of(run)
     is_late = tau >= tau[-1] * 0.5**OCTAVES
     return exponent_with_offset(tau[is_late], curves_of(run, "l2", variant)[:, is_late] ** 2)
 
 
-def growths_of(run) -> tuple[list[Limits], list[float]]:
+def growths_of(run: xr.Dataset) -> tuple[list[Limits], list[float]]:
     """Return for each variant the exponent, and the lower limit of the growth since tau = SETTLED.
 
     They are limits of the mean over members, and hold for all variants together.
@@ -80,7 +81,7 @@ GROWS = AllOf(
 """Criteria on lower limits that hold if l2 grows."""
 
 
-def growth_of(run) -> dict[str, float]:
+def growth_of(run: xr.Dataset) -> dict[str, float]:
     """Return the measured numbers of the growth of l2 of a run with one variant."""
     (exponent,), (factor,) = growths_of(run)
     return {
@@ -92,7 +93,7 @@ def growth_of(run) -> dict[str, float]:
     }
 
 
-def late_growths(run, name: str) -> np.ndarray:
+def late_growths(run: xr.Dataset, name: str) -> np.ndarray:
     """Return the relative growth of a norm to the last octave from two before, (member,)."""
     tau, curves = times_of(run), curves_of(run, name)
     before = curves[:, (tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)].mean(axis=1)
@@ -105,7 +106,7 @@ def late_growths(run, name: str) -> np.ndarray:
 def following(law: Callable) -> Callable:
     """Return a change that lets both norms of a run follow law(tau), keeping their scatter."""
 
-    def changed(run):
+    def changed(run: xr.Dataset):
         curve = law(run["tau"].clip(min=1.0))
         return run.assign(
             {name: run[name] / run[name].mean("member") * curve for name in ("l2", "linf")}
@@ -131,7 +132,7 @@ SLOWEST = Control(
     unbounded("fig4_small"),
     (Control("the stable run fig2_large", "fig2_large"), SLOWEST),
 )
-def unbounded_in_time(run) -> Finding:
+def unbounded_in_time(run: xr.Dataset) -> Finding:
     measured = growth_of(run)
     caveat = f"shown up to tau = {measured['end']:.0f}; the growth would end if the front stopped"
     if abs(measured["exponent"] - HALF) > measured["error"]:
@@ -146,7 +147,7 @@ def unbounded_in_time(run) -> Finding:
     unbounded("omegas"),
     (SLOWEST,),
 )
-def unbounded_band(run) -> Finding:
+def unbounded_band(run: xr.Dataset) -> Finding:
     omegas, (growths, factors) = run["omega"].values, growths_of(run)
     measured = {
         "least_exponent": min(limits.value for limits in growths),
@@ -171,7 +172,7 @@ def unbounded_band(run) -> Finding:
         FAR_AS_NEAR,
     ),
 )
-def unbounded_large(run, sensitivity) -> Finding:
+def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     """Require that the median member grows, and still grows over the last octaves.
 
     Of the members, whose initial data differ by 1e-6, some do not spread: they would decide a mean
@@ -204,7 +205,7 @@ def unbounded_large(run, sensitivity) -> Finding:
     unbounded("starts"),
     (Control("the stable run fig3_small", "fig3_small"), SLOWER),
 )
-def unbounded_starts(run) -> Finding:
+def unbounded_starts(run: xr.Dataset) -> Finding:
     """Require that most runs grow, over all members: not all perturbed runs spread."""
     tau, norms = times_of(run), run["l2"].transpose("tau", "variant", "member").values
     factors = norms[-1] / norms[np.searchsorted(tau, SETTLED)]
@@ -230,7 +231,7 @@ def unbounded_starts(run) -> Finding:
     unbounded("fig2_large"),
     (Control("the spreading run fig4_small", "fig4_small"), SLOWER),
 )
-def unbounded_stable(run) -> Finding:
+def unbounded_stable(run: xr.Dataset) -> Finding:
     measured = {"growth": late_growths(run, "l2").max()}
     label = "largest relative growth of the mean of l2 of an octave of tau within two octaves"
     return judge(measured, Below(CONSTANT, "growth", says=label))
@@ -245,7 +246,7 @@ def unbounded_stable(run) -> Finding:
         SLOWER,
     ),
 )
-def unbounded_maximum(run) -> Finding:
+def unbounded_maximum(run: xr.Dataset) -> Finding:
     """Require that the norm hardly changes while the front moves on.
 
     The largest amplitude of N sites in thermal equilibrium has no bound: an amplitude m has the

@@ -4,6 +4,7 @@ Only the errors of measured numbers count: limits of means over members, by Stud
 """
 
 import numpy as np
+import xarray as xr
 from latticode.measures.confidence import Limits, mean_limits
 from replication.ledger.changes import roll, scale, take
 from replication.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
@@ -31,7 +32,7 @@ FEW = 3
 OMEGAS = "unbounded/omegas"
 
 
-def a_stop(run):
+def a_stop(run: xr.Dataset) -> xr.Dataset:
     """Return the run with fronts that stop at half of the time, as a control."""
     tau = run["piece_tau"]
     middle = run["front"].sel(piece_tau=0.5 * float(tau[-1]), method="nearest")
@@ -47,7 +48,7 @@ def a_stop(run):
         Control("fronts that stop", a_stop),
     ),
 )
-def unbounded_front(run) -> Finding:
+def unbounded_front(run: xr.Dataset) -> Finding:
     times_of(run)
     off = np.abs(speeds(run)[0] - run["predicted_speed"].values).max()
     known = resolution(run["piece_tau"].values)
@@ -60,7 +61,7 @@ def unbounded_front(run) -> Finding:
     return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", says=label), fails=fails)
 
 
-def both_between(run):
+def both_between(run: xr.Dataset) -> xr.Dataset:
     """Return the run with equal powers of both fields between the fronts, as a control."""
     means = run["region_mean"]
     half = 0.5 * means.sel(kind=KINDS[0], drop=True)
@@ -78,7 +79,7 @@ def both_between(run):
         Control("both fields excited between the fronts", both_between),
     ),
 )
-def second_front(run) -> Finding:
+def second_front(run: xr.Dataset) -> Finding:
     times_of(run)
     speed, error = second_speeds(run)
     between, omegas = mean_powers(run, BETWEEN).mean(axis=1), run["omega"].values
@@ -111,7 +112,7 @@ def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Limi
     return ratios
 
 
-def next_states(thermal):
+def next_states(thermal: xr.Dataset) -> xr.Dataset:
     """Return the thermal states with the powers of the next Omega, as a control."""
     return roll(("power", "antisymmetric_power"), {"omega": 1})(thermal)
 
@@ -123,7 +124,7 @@ def next_states(thermal):
     unbounded("omegas", "thermal"),
     (Control("the thermal states of the next Omega", {"thermal": next_states}),),
 )
-def unbounded_equilibrium(run, thermal) -> Finding:
+def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     """Require that P behind the second fronts is near that of the thermal state.
 
     Between the fronts P relaxes over hundreds of sites, of which short runs have few: these runs
@@ -151,7 +152,7 @@ def unbounded_equilibrium(run, thermal) -> Finding:
     return judge(measured, Near(1.0, CHANGE, "at_least", "at_most", says=label), caveat)
 
 
-def largest_change(run, thermal) -> float:
+def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
     """Return the largest change of the law's slope if both fronts had one state behind them."""
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     first, second = run["predicted_speed"].values, np.nan_to_num(second_speeds(run)[0])
@@ -171,7 +172,7 @@ def largest_change(run, thermal) -> float:
         ),
     ),
 )
-def unbounded_slope(run, thermal) -> Finding:
+def unbounded_slope(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     times_of(run)
     omegas = run["omega"].values
     ratios = slope_ratios(run, thermal, sure(len(omegas)))

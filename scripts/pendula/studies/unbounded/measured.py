@@ -33,7 +33,9 @@ FIRST_OF_LINE = 0.25
 """The line through l2^2 starts at this fraction of a run."""
 
 
-def mean_powers(run, region: str, kind: str = KINDS[0], late: float = LATE) -> np.ndarray:
+def mean_powers(
+    run: xr.Dataset, region: str, kind: str = KINDS[0], late: float = LATE
+) -> np.ndarray:
     """Return a mean over a region and the fraction `late` of a run, at its end, (variant, member).
 
     States in which the region has no sites are left out; it is NaN if there are no others.
@@ -60,7 +62,7 @@ def resolution(tau: np.ndarray, settled: float = SETTLED) -> float:
     return 1.5 / ((1.0 - settled) * float(tau[-1]))
 
 
-def speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
+def speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     """Return the speed of the first front of each variant, with limits.
 
     The delay of a pulled front is added back.
@@ -69,14 +71,14 @@ def speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     return _slopes(run, run["front"] + lost, settled)
 
 
-def second_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
+def second_speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     """Return the speed of the second front with its error, NaN if |S|^2 stays below LEVEL."""
     filled = mean_powers(run, BEHIND, KINDS[1]).mean(axis=1) > LEVEL
     slopes = level_speeds(run, settled)
     return tuple(np.where(filled, speeds, np.nan) for speeds in slopes)
 
 
-def level_speeds(run, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
+def level_speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
     """Return the speed of the last site where |S|^2 has reached a level, NaN if there is none."""
     reached = (run["second_front"].isel(piece_tau=-1) >= 0.0).all("member").values
     slopes = _slopes(run, run["second_front"], settled)
@@ -104,7 +106,7 @@ def _known(halves, otherwise: float = np.nan):
 # --- The law of l2^2 ------------------------------------------------------------------------------
 
 
-def thermal_powers(thermal, run, name: str = "power") -> np.ndarray:
+def thermal_powers(thermal: xr.Dataset, run: xr.Dataset, name: str = "power") -> np.ndarray:
     """Return P of the thermal states at each Omega of a run, (variant,), NaN if none was solved.
 
     That of A = -B has the name "antisymmetric_power".
@@ -112,7 +114,7 @@ def thermal_powers(thermal, run, name: str = "power") -> np.ndarray:
     return thermal[name].reindex(omega=run["omega"].values, method="nearest", tolerance=1e-9).values
 
 
-def law_of(run, thermal, second: np.ndarray | None = None) -> np.ndarray:
+def law_of(run: xr.Dataset, thermal: xr.Dataset, second: np.ndarray | None = None) -> np.ndarray:
     """Return l2^2 by thermal states and speeds of fronts, (variant, tau), without a fit.
 
     It is 2 (v_2 P + (v_1 - v_2) P') tau minus 2 P' delay ln tau, the delay of a pulled front; v_1
@@ -129,8 +131,8 @@ def law_of(run, thermal, second: np.ndarray | None = None) -> np.ndarray:
 
 
 def slope_ratios(
-    run,
-    thermal,
+    run: xr.Dataset,
+    thermal: xr.Dataset,
     confidence: float = CONFIDENCE,
     second: np.ndarray | None = None,
     first: float = FIRST_OF_LINE,
