@@ -7,7 +7,7 @@ samples of one distribution, so that means of ensembles agree within their confi
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
-from latticode.simulation.ensembles import draw_members
+from latticode.equations.ensembles import draw_members
 from pendula.problem import PENDULA
 from pendula.studies.breathers.fates import map_fates
 from pendula.studies.breathers.sensitivity import sensitivity_contents

@@ -18,7 +18,7 @@ STOREYS = (
 )
 """The rooms from the top down: an import points down, or stays in its room."""
 FOR_ALL = [
-    *(f"simulation/{n}.py" for n in ("__init__", "problem", "feasibility", "survey", "ensembles")),
+    *(f"simulation/{n}.py" for n in ("__init__", "problem", "feasibility", "survey")),
     *(f"datasets/{n}.py" for n in ("__init__", "netcdf")),
 ]
 """What the configuration takes of rooms above it: a problem, which no solver can follow, and how

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
-from latticode.simulation.ensembles import draw_members
+from latticode.equations.ensembles import draw_members
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import pair_l2
 from pendula.studies.chaos import members

@@ -7,8 +7,8 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BeforeValidator, Field, ValidationError, model_validator
 
+from latticode.equations.ensembles import PERTURBATIONS
 from latticode.simulation import survey
-from latticode.simulation.ensembles import PERTURBATIONS
 
 from .cases import Case
 from .messages import lines_of

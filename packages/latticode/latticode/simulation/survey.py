@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .ensembles import perturbed
+from latticode.equations.ensembles import perturbed
+
 from .problem import Problem
 
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")

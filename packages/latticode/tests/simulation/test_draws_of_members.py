@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from latticode.equations.ensembles import perturb, perturb_unevenly
 from latticode.equations.initial_values import on_sites
-from latticode.simulation.ensembles import perturb, perturb_unevenly
 
 
 def test_the_perturbation_has_the_required_relative_size():

@@ -12,8 +12,8 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
+from latticode.equations.ensembles import draw_members
 from latticode.measures.confidence import Limits, share_limits
-from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns
 from replication.variables import CHAOTIC
 

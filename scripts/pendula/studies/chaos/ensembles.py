@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.registry import NAMES
+from latticode.equations.ensembles import draw_members
 from latticode.equations.initial_values import name_window
 from latticode.measures.levels import moments
-from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, STATISTICS, windowed

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
-from latticode.simulation.ensembles import draw_members
+from latticode.equations.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC

@@ -10,10 +10,10 @@ sign, sum to zero, and two of them vanish: those along the flow and across the e
 import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
+from latticode.equations.ensembles import draw_members
 from latticode.localised.tangents import Growth, grow, random_tangent
 from latticode.measures.confidence import mean_limits, student
 from latticode.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
-from latticode.simulation.ensembles import draw_members
 from replication.variables import REGULAR, SCATTERED
 
 from pendula.many_cases import describe_cases

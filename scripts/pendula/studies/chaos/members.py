@@ -11,10 +11,10 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.registry import NAMES
 from latticode.datasets.trajectories import Contents
+from latticode.equations.ensembles import draw_members
 from latticode.equations.initial_values import name_window
 from latticode.measures.levels import bands, correlation
 from latticode.numerics.elementary import square_modulus
-from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns, shaped
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, pair_l2, pair_linf

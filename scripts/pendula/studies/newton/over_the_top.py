@@ -19,8 +19,8 @@ import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
+from latticode.equations.ensembles import draw_members
 from latticode.measures.confidence import Limits, difference_limits, event_rate, share_limits
-from latticode.simulation.ensembles import draw_members
 from latticode.simulation.runs import ManyRuns, run_all, shaped
 from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC, FEW_CHOICES, missing

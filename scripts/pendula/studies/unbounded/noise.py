@@ -11,13 +11,13 @@ import xarray as xr
 from latticode.measures.confidence import mean_limits
 from latticode.measures.spreading import lay_line
 from latticode.numerics.draws import normal
+from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
 from pendula.varied import Estimate, Printed, as_dataset, vary_several
 
-from .active_sites import integrate_intervals
-from .bulk import LEVEL, find_front, site_powers
+from .bulk import LEVEL, SLICE_LENGTH, find_front, site_powers
 from .long_runs import members_of
 from .sums import in_sums, turned
 
@@ -130,7 +130,9 @@ def places_of(
     """
     in_doubles = noise == ROUNDING
     rng = np.random.default_rng([seed, *problem.initial.view(np.uint64).ravel()])
-    pieces = integrate_intervals(problem if in_doubles else in_sums(problem), rest_threshold)
+    pieces = integrate_intervals(
+        problem if in_doubles else in_sums(problem), rest_threshold, SLICE_LENGTH
+    )
     tau, fronts, seconds = [], [], []
     for times, _, _, sites in pieces:
         sums = turned(sites) if in_doubles else sites

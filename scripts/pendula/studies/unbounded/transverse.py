@@ -21,12 +21,13 @@ import xarray as xr
 from latticode.measures.confidence import mean_limits
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
+from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
 from pendula.varied import Estimate, Printed, as_dataset, vary_several
 
-from .active_sites import integrate_intervals
+from .bulk import SLICE_LENGTH
 from .front import linear_front
 from .long_runs import members_of
 from .sums import in_sums
@@ -110,7 +111,7 @@ def exponents_of(problem: Problem, rest_threshold: float) -> dict[str, np.ndarra
     d = start.initial[1]
     start = start.changed(initial=np.array([SMALL * d, d]))
     grown, tau, logs = 0.0, [], []
-    for times, _, state, sites in integrate_intervals(start, rest_threshold):
+    for times, _, state, sites in integrate_intervals(start, rest_threshold, SLICE_LENGTH):
         sizes = np.abs(sites[:2]).max(axis=0)  # squares would underflow
         places = (velocities() * speed * times[-1]).astype(int)
         logs.append([_log_near(sizes, places, near) + grown for near in NEAR])

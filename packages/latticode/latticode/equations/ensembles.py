@@ -4,7 +4,8 @@ import numpy as np
 
 from latticode.numerics.draws import complex_normal
 from latticode.numerics.elementary import modulus, product
-from latticode.simulation.problem import Problem
+
+from .initial_values import InitialValueProblem
 
 
 def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
@@ -37,7 +38,11 @@ def perturb_each(initial: np.ndarray, size: float, rng: np.random.Generator) -> 
 
 
 def perturbed(
-    problem: Problem, initial: np.ndarray, size: float, rng: np.random.Generator, kind: str
+    problem: InitialValueProblem,
+    initial: np.ndarray,
+    size: float,
+    rng: np.random.Generator,
+    kind: str,
 ) -> np.ndarray:
     """Return data of a problem as a member of an ensemble has them."""
     # a chain of the sites 0..N-1 has no middle to be even about
@@ -51,8 +56,12 @@ an ordinary solver loses evenness by rounding, and what it draws is one of the u
 
 
 def draw_members(
-    problem: Problem, size: float, members: int, seed: int | list[int], kind: str = "even"
-) -> list[Problem]:
+    problem: InitialValueProblem,
+    size: float,
+    members: int,
+    seed: int | list[int],
+    kind: str = "even",
+) -> list[InitialValueProblem]:
     """Return as many copies of `problem` with perturbed data; `seed` is that of NumPy."""
     rng = np.random.default_rng(seed)
     drawn = (perturbed(problem, problem.initial, size, rng, kind) for _ in range(members))

@@ -2,16 +2,11 @@
 
 import numpy as np
 import pytest
+from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.lattice import WHOLE
 from latticode.simulation.simulate import simulate
 from oracle import random_chain
-from pendula.studies.unbounded.active_sites import (
-    BLOCK,
-    GUARD,
-    integrate_intervals,
-    run_long,
-    widen,
-)
+from pendula.studies.unbounded.active_sites import run_long
 from pendula.studies.unbounded.bulk import find_front, region_means
 from pendula.studies.unbounded.sums import in_sums, turned
 from problems import problem_of
@@ -51,24 +46,6 @@ def test_a_run_ends_at_the_time_that_it_was_given(end_time, output_step):
     count = round(end_time / output_step)
     np.testing.assert_allclose(run["tau"], np.linspace(0.0, end_time, count + 1), rtol=1e-14)
     assert run["piece_tau"][-1] == run["tau"][-1] and np.diff(run["piece_tau"]).max() <= 2.0
-
-
-def test_a_chain_is_widened_where_its_last_sites_are_above_rest():
-    """What is added is at rest, whatever the ghosts held: the one at the right becomes a site."""
-    state = np.zeros((4, 2 * GUARD + 2))
-    state[0, 1], state[2, [0, -1]] = 2.0, 7.0
-    for site, amplitude, grows in (
-        (GUARD, 2.01e-6, True),
-        (GUARD, 2e-6, False),
-        (GUARD - 1, 1.0, False),
-        (2 * GUARD - 1, 2.01e-6, True),
-    ):
-        moved = state.copy()
-        moved[1, 1 + site] = amplitude
-        wider = widen(moved, 1e-6)
-        assert wider.shape[1] == state.shape[1] + BLOCK * grows
-        np.testing.assert_array_equal(wider[:, 1 : 2 * GUARD + 1], moved[:, 1:-1])
-        assert not grows or not (wider[:, 2 * GUARD + 1 :].any() or wider[:, 0].any())
 
 
 def test_means_are_those_of_the_sites_well_behind_and_well_between_the_fronts():
