@@ -93,7 +93,7 @@ class Accepted(Results):
 
 def topics(accepted: Results) -> dict[str, Any]:
     """Return the facts of every topic."""
-    kept = BASELINE / "quoted/reproduction.json"
+    reproduction_times = BASELINE / "quoted/reproduction.json"
     return {
         "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
         "largest_bound": largest_bound(accepted),
@@ -101,17 +101,17 @@ def topics(accepted: Results) -> dict[str, Any]:
         "speed": speed(accepted["speed/work_precision"]),
         "speeds": speeds(accepted),
         "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
-        "full_run": full_run(json.loads(kept.read_text(encoding="utf-8"))),
+        "full_run": full_run(json.loads(reproduction_times.read_text(encoding="utf-8"))),
         "variations": variations(accepted),
     }
 
 
-def right_runs(kept: dict) -> dict:
+def right_runs(record: dict) -> dict:
     """Return the chances that a right run turns a verdict: the largest, and those by design."""
-    rows = sorted(kept["rows"], key=lambda row: -row["chance"])
-    shown = [row for row in rows if row["chance"] >= SMALLEST_SHOWN]
+    rows = sorted(record["rows"], key=lambda row: -row["chance"])
+    likely_rows = [row for row in rows if row["chance"] >= SMALLEST_SHOWN]
     return {
-        "runs": str(kept["runs"]),
+        "runs": str(record["runs"]),
         "claims": str(sum(not row["control"] for row in rows)),
         "controls": str(sum(bool(row["control"]) for row in rows)),
         "allowed": number(ALLOWED),
@@ -119,9 +119,11 @@ def right_runs(kept: dict) -> dict:
         "rows": [
             [f"`{row['claim']}`", row["control"] or "(the claim)", plainly(row["nearest"]),
              number(row["chance"], 1)]
-            for row in shown
+            for row in likely_rows
         ],
-        "designed": [[f"`{claim}`", what, number(chance, 1)] for claim, what, chance in designed()],
+        "designed": [
+            [f"`{claim}`", event, number(chance, 1)] for claim, event, chance in designed()
+        ],
     }  # fmt: skip
 
 
@@ -165,21 +167,26 @@ def variations(accepted: Results) -> dict:
 
 def number_and_variations(data: xr.Dataset, name: str) -> dict:
     """Return what a number means, its choices, and a table of its values at all labels."""
-    places = [here for varied, here in single_numbers(data) if varied == name]
-    labels = [variations_of(here, name) for here in places]
+    places = [at_place for varied, at_place in single_numbers(data) if varied == name]
+    labels = [variations_of(at_place, name) for at_place in places]
     changed = [
         label
-        for label in dict.fromkeys(label for again in labels for label in again)
+        for label in dict.fromkeys(
+            label for values_by_choice in labels for label in values_by_choice
+        )
         if label.partition(" = ")[0] not in WITHOUT_EFFECT.get(name, ())
     ]
     rows = [
         [
-            place_of(data[name], here),
-            with_error(*(float(here[part]) for part in names_of(name)[:2]), DIGITS),
-            number(here[names_of(name)[2]], 2),
-            *(number(again[label], DIGITS) if label in again else "" for label in changed),
+            place_of(data[name], at_place),
+            with_error(*(float(at_place[variable]) for variable in names_of(name)[:2]), DIGITS),
+            number(at_place[names_of(name)[2]], 2),
+            *(
+                number(values_by_choice[label], DIGITS) if label in values_by_choice else ""
+                for label in changed
+            ),
         ]
-        for here, again in zip(places, labels, strict=True)
+        for at_place, values_by_choice in zip(places, labels, strict=True)
     ]
     head = ["at", "value", "statistical error", *map(choice_in_words, changed)]
     meaning = symbols(MEANINGS.get(name) or data[name].attrs["long_name"])
@@ -194,7 +201,7 @@ def choices_of(variable: xr.DataArray) -> str:
     """Return in words the choices of a number that can change it."""
     choices = re.findall(r"(\w[\w ]*) = (\([^)]*\)|[^,]*)", variable.attrs["choices"])
     without = WITHOUT_EFFECT.get(str(variable.name), ())
-    texts = [choice_in_words(f"{key} = {what}") for key, what in choices if key not in without]
+    texts = [choice_in_words(f"{key} = {value}") for key, value in choices if key not in without]
     return ", ".join(texts) or "the choices of what it follows from"
 
 
@@ -206,9 +213,9 @@ def choice_in_words(label: str) -> str:
     return symbols(f"{CHOICES.get(name) or name.replace('_', ' ')} = {value}")
 
 
-def place_of(variable: xr.DataArray, here: xr.Dataset) -> str:
+def place_of(variable: xr.DataArray, at_place: xr.Dataset) -> str:
     """Return the labels of a single number, such as Ω = 2."""
-    values = {dim: here[dim].item() for dim in variable.dims}
+    values = {dim: at_place[dim].item() for dim in variable.dims}
     texts = [
         f"{CHOICES.get(dim, dim)} = {number(value) if isinstance(value, float) else value}"
         for dim, value in values.items()
@@ -224,7 +231,7 @@ def speed(data: xr.Dataset) -> dict:
     wins = f"in {winners.count(fastest)} of {len(winners)} cases"
     titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
     peers = sorted((data.sel(peer=peer) for peer in data["peer"].values),
-                   key=lambda one: not one["reached_cases"])  # fmt: skip
+                   key=lambda peer: not peer["reached_cases"])  # fmt: skip
     return {
         "fastest": f"{SOLVER_NAMES[fastest]} is the fastest solver here {wins}.",
         "head": ["case", "error", *(SOLVER_NAMES[str(name)] for name in best["solver"].values)],
@@ -235,10 +242,10 @@ def speed(data: xr.Dataset) -> dict:
             for case in best["case"].values
         ],
         "peers": [
-            [str(titles[str(one["peer"].values)]), number(ratio := float(one["mean_ratio"]))
+            [str(titles[str(peer["peer"].values)]), number(ratio := float(peer["mean_ratio"]))
              + (f" ({number(1 / ratio)} times faster)" if ratio < 1 else ""),
-             number(one["reached_cases"])]
-            for one in peers
+             number(peer["reached_cases"])]
+            for peer in peers
         ],
     }  # fmt: skip
 
@@ -251,12 +258,13 @@ def speeds(accepted: Results) -> dict:
         "processor": accepted["speed/work_precision"].attrs["processor"],
         "target": pendula.attrs["compared_at"],
         "peers": [
-            [titles[str(one["peer"].values)], " and ".join(map(number, one.dropna("case").values))]
-            for one in ratios if one.notnull().any()
+            [titles[str(ratio["peer"].values)],
+             " and ".join(map(number, ratio.dropna("case").values))]
+            for ratio in ratios if ratio.notnull().any()
         ],
         "sites": [
-            [str(sites), *(number(1e6 * cost.sel(sites=sites, solver=one))
-                           for one in ("dop853", "taylor"))]
+            [str(sites), *(number(1e6 * cost.sel(sites=sites, solver=entry))
+                           for entry in ("dop853", "taylor"))]
             for sites in cost["sites"].values
         ],
     }  # fmt: skip
@@ -277,8 +285,12 @@ def scale(measured: dict) -> dict:
         "sites": f"{chains[0]['sites']:,}",
         "chain_end": number(chains[0]["end_time"]),
         "chains": [
-            [SOLVER_NAMES[name], number(one["microseconds_a_site"], 2), f"{one['megabytes']:.0f}"]
-            for name, one in zip(solvers, chains, strict=True)
+            [
+                SOLVER_NAMES[name],
+                number(chain["microseconds_a_site"], 2),
+                f"{chain['megabytes']:.0f}",
+            ]
+            for name, chain in zip(solvers, chains, strict=True)
         ],
     }
 
@@ -291,7 +303,7 @@ def full_run(measured: dict) -> dict:
         "cold": f"{measured['runs']['cold']['wall']:.0f}",
         **{name: str(size) for name, size in measured["megabytes"].items()},
         "rows": [
-            [reproduction.RUNS[name], f"{one['wall']:.0f}", f"{one['processor']:.0f}"]
-            for name, one in measured["runs"].items()
+            [reproduction.RUNS[name], f"{times['wall']:.0f}", f"{times['processor']:.0f}"]
+            for name, times in measured["runs"].items()
         ],
     }

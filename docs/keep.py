@@ -33,7 +33,7 @@ def of_unbounded(folder: Path) -> xr.Dataset:
 def of_numbers(path: Path, *names: str) -> xr.Dataset:
     """Return the numbers of a study with their variations, and attributes that are named."""
     study = read(path)
-    return _about(study, study, "members", "end_time", *names)
+    return _with_attributes_of(study, study, "members", "end_time", *names)
 
 
 def of_breathers(folder: Path) -> xr.Dataset:
@@ -41,17 +41,21 @@ def of_breathers(folder: Path) -> xr.Dataset:
     fates = read(folder / "fates.nc")
     studies = [read(folder / f"{name}.nc") for name in ("areas", "shares", "least_power")]
     # text of a fixed length would be cut to the shortest
-    studies = [one.assign_coords(variation=one["variation"].astype(object)) for one in studies]
-    kept = _about(
+    studies = [
+        study.assign_coords(variation=study["variation"].astype(object)) for study in studies
+    ]
+    maps_and_numbers = _with_attributes_of(
         xr.merge([fates[["fate"]], *studies], join="outer", compat="no_conflicts"),
         fates,
         *SAME_RUNS,
         "solver",
     )
-    return kept.assign_attrs(points=fates.sizes["a0"], members=studies[1].attrs["members"])
+    return maps_and_numbers.assign_attrs(
+        points=fates.sizes["a0"], members=studies[1].attrs["members"]
+    )
 
 
-def _about(data: xr.Dataset, study: xr.Dataset, *names: str) -> xr.Dataset:
+def _with_attributes_of(data: xr.Dataset, study: xr.Dataset, *names: str) -> xr.Dataset:
     """Return the data with the attributes of a study that are named, alone."""
     return data.drop_attrs(deep=False).assign_attrs({name: study.attrs[name] for name in names})
 
@@ -65,13 +69,13 @@ def configuration() -> dict:
     """Return what config/*.yaml say of SECTIONS, but for long studies, which no claim reads."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
-    whole = json.loads(load(raw).model_dump_json())
-    kept = {name: whole[name] for name in SECTIONS}
-    breathers = (kept["breathers"][name] for name in ("sensitivity", "fates"))
-    others = (kept["newton"]["over_the_top"], kept["chaos"]["lifetimes"])
-    for long in (kept["unbounded"], *breathers, *others):
+    settings = json.loads(load(raw).model_dump_json())
+    sections = {name: settings[name] for name in SECTIONS}
+    breathers = (sections["breathers"][name] for name in ("sensitivity", "fates"))
+    long_sections = (sections["newton"]["over_the_top"], sections["chaos"]["lifetimes"])
+    for long in (sections["unbounded"], *breathers, *long_sections):
         del long["long"]
-    return kept
+    return sections
 
 
 def keep_configuration() -> None:

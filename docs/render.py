@@ -32,11 +32,11 @@ def render() -> dict[Path, str]:
         loader=FileSystemLoader(SOURCE), undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    *others, article = PAGES
+    *pages, article = PAGES
     values = facts.topics(accepted)
-    found = {page: environment.get_template(PAGES[page].name).render(**values) for page in others}
+    texts = {page: environment.get_template(PAGES[page].name).render(**values) for page in pages}
     picture = {ROOT / "docs/moving_chain.svg": moving_chain.draw()}
-    return found | picture | {article: ARTICLE.markdown(accepted)}
+    return texts | picture | {article: ARTICLE.markdown(accepted)}
 
 
 if __name__ == "__main__":

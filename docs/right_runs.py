@@ -18,7 +18,7 @@ from replication.ledger.verdicts import all_claims, look, needed
 
 ROOT = Path(__file__).resolve().parents[1]
 
-KEPT = ROOT / "tests/baseline/quoted/right_runs.json"
+RECORD = ROOT / "tests/baseline/quoted/right_runs.json"
 
 
 def look_at(folder: Path) -> dict[str, dict[str, Finding]]:
@@ -27,10 +27,10 @@ def look_at(folder: Path) -> dict[str, dict[str, Finding]]:
     return {claim.name: look(claim, sources) for claim in all_claims()}
 
 
-def verdict_of(found: Mapping[str, Finding], moves: Sequence[str]) -> Verdict:
+def verdict_of(findings: Mapping[str, Finding], moves: Sequence[str]) -> Verdict:
     """Return the verdict on a claim, which has a caveat if a moved cut-off turns it."""
-    verdict = found[""].verdict
-    turns = any(found[move].verdict != verdict for move in moves)
+    verdict = findings[""].verdict
+    turns = any(findings[move].verdict != verdict for move in moves)
     return Verdict.CAVEAT if turns and verdict == Verdict.CONFIRMED else verdict
 
 
@@ -39,21 +39,24 @@ def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[di
     controls = [control.says for control in claim.controls]
     moves = [name for name in looks[0] if name and name not in controls]
     chances = {"": chance_of_claim(looks, moves)}
-    chances |= {says: chance_to_turn([found[says] for found in looks]) for says in controls}
-    for says, chance in chances.items():
+    chances |= {
+        control: chance_to_turn([findings[control] for findings in looks]) for control in controls
+    }
+    for control, chance in chances.items():
         verdicts = dict.fromkeys(
-            str(found[says].verdict if says else verdict_of(found, moves)) for found in looks
+            str(findings[control].verdict if control else verdict_of(findings, moves))
+            for findings in looks
         )
         yield {
             "claim": claim.name,
-            "control": says,
+            "control": control,
             "verdicts": list(verdicts),
             "chance": chance.value,
             "nearest": chance.nearest,
         }
 
 
-def keep_chances(folders: Sequence[Path], path: Path = KEPT) -> list[dict]:
+def keep_chances(folders: Sequence[Path], path: Path = RECORD) -> list[dict]:
     """Write the rows of all claims, and return those that another right run may turn."""
     runs = [look_at(folder) for folder in folders]
     rows = [

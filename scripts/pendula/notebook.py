@@ -57,7 +57,7 @@ class ChangedKeys(RunKeys, total=False):
 CaseKeys = ChangedKeys  # a model of one's own has no omega
 
 
-class Case(cases.Case):
+class Case(cases.PaperCaseSection):
     """One initial-value problem of the paper's equations, checked when it is made.
 
     Keys and defaults are those of a case in YAML:

@@ -5,7 +5,7 @@ import re
 import pytest
 import yaml
 from helpers import ROOT, package, planned, run_ready
-from pendula.configuration.cases import Case
+from pendula.configuration.cases import PaperCaseSection
 from pendula.configuration.cost import estimate
 from pendula.workflow.slurm_requests import requests_above_limits
 
@@ -76,7 +76,7 @@ def test_a_run_asks_for_what_it_is_estimated_to_take_and_for_more_when_tried_aga
     lines = re.findall(r"(?m)^asks (\d+) (\d+) (\d+) (\d+)$", plan)
     short, long = (tuple(map(int, line)) for line in lines)
     assert short == (1001, 16, 2002, 32)
-    cost = estimate(Case(**CASES["long"]).shown_problem())
+    cost = estimate(PaperCaseSection(**CASES["long"]).shown_problem())
     assert long[0] > 1e-6 * cost.memory + 300 and long[1] > 3 * cost.seconds / 60 > 20
     assert long[2:] == (2 * long[0], 2 * long[1])
     assert len(re.findall(r"(?m)^of \w+ mem_mb runtime$", plan)) == 5

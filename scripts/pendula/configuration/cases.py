@@ -36,7 +36,7 @@ from . import cost
 CONSTANTS = ("omega", "epsilon", "gamma", "mu")
 
 
-class Case(cases.Case):
+class PaperCaseSection(cases.Case):
     """One initial-value problem of the paper's equations, and the solver that integrates it.
 
     The equations are (4) of the amplitudes, or with `model: pendula` Newton's equations (1), which
@@ -121,34 +121,31 @@ class Case(cases.Case):
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
         constants = Constants(epsilon=self.epsilon, gamma=self.gamma, omega=self.omega)
-        found = find_fault(constants, peak, span, solver, self.mu)
-        return found, rate(constants, peak, self.mu)
+        obstacle = find_fault(constants, peak, span, solver, self.mu)
+        return obstacle, rate(constants, peak, self.mu)
 
     def problem(self, **changes) -> dict:
         """Return the case as plain values of a Problem, some of them changed.
 
-        The constants come first, as they stand in datasets.
+        The constants come first, as in datasets.
         """
-        found = self._plain(**changes)
-        values = {key: found[key] for key in CONSTANTS if key in found} | found
+        plain_values = self._plain(**changes)
+        values = {key: plain_values[key] for key in CONSTANTS if key in plain_values} | plain_values
         if values["model"] == AMPLITUDES:
             del values["model"], values["mu"]
         return values
 
     def cost(self, problem: Mapping) -> Cost:
-        """Return what such a problem of the case takes, given as plain values."""
+        """Return the cost of a problem of the case, given as plain values."""
         return cost.estimate(problem)
 
     def cost_with_checks(self, problem: Mapping) -> Cost:
-        """Return what a run and its checks take."""
+        """Return the cost of a run and its checks."""
         return cost.with_checks(problem)
 
 
 def takes_model(value: Any) -> bool:
-    """Return whether what stands at `model` is a model or its file, and not the paper's equations.
-
-    This is the one place that asks.
-    """
+    """Return whether the key `model` holds a model or its file, not the paper's equations."""
     named = isinstance(value, str) and value.endswith(OF_MODELS)
     return named or isinstance(value, Mapping | Model)
 
@@ -159,16 +156,16 @@ def of_its_kind(raw: dict) -> type[cases.Case]:
     Raises the faults of constants of the paper beside a model.
     """
     if not takes_model(raw.get("model")):
-        return Case
+        return PaperCaseSection
     text = "belongs to the paper's equations; give the model's own below parameters"
-    if given := [(key, text) for key in CONSTANTS if key in raw]:
-        raise faults(given)
+    if constants := [(key, text) for key in CONSTANTS if key in raw]:
+        raise faults(constants)
     return cases.Case
 
 
 def _validated(value: Any, handler) -> cases.Case:
-    kind = of_its_kind(value) if isinstance(value, dict) else Case
-    if kind is Case:
+    kind = of_its_kind(value) if isinstance(value, dict) else PaperCaseSection
+    if kind is PaperCaseSection:
         return handler(value)
     try:
         return kind.model_validate(value)
@@ -177,5 +174,5 @@ def _validated(value: Any, handler) -> cases.Case:
         raise faults([line.partition(": ")[::2] for line in lines]) from None
 
 
-AnyCase = Annotated[SerializeAsAny[Case], WrapValidator(_validated)]
+AnyCase = Annotated[SerializeAsAny[PaperCaseSection], WrapValidator(_validated)]
 """A case of the paper's equations, or of a traced model."""

@@ -1,4 +1,4 @@
-"""What a run of the paper's equations takes, as these are known better than by their trace."""
+"""Cost of a run of the paper's equations, which are known better than by their trace."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -38,9 +38,9 @@ def with_checks(problem: Mapping) -> Cost:
     """
     checks = cost.runs_of_checks(problem)
     if problem.get("mu"):
-        plain = {key: value for key, value in problem.items() if key not in ("mu", "model")}
+        amplitudes = {key: value for key, value in problem.items() if key not in ("mu", "model")}
         solver = {"name": "taylor", "rtol": METHODS["taylor"].tightest}
-        checks = [*checks[:2], plain | {"solver": solver, "snapshot_every": 0}]
+        checks = [*checks[:2], amplitudes | {"solver": solver, "snapshot_every": 0}]
     return cost.of_checked(map(estimate, [problem, *checks]))
 
 

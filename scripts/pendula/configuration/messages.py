@@ -13,16 +13,18 @@ from pendula.problem import AMPLITUDES
 from pendula.studies import modules_named
 
 from .cost import demand
-from .schema import Configuration
+from .schema import PaperConfiguration
 
 STUDIES = {name: module.Settings for name, module in modules_named("settings").items()}
 Sections = create_model(
-    "Sections", __base__=Configuration, **{name: (of | None, None) for name, of in STUDIES.items()}
+    "Sections",
+    __base__=PaperConfiguration,
+    **{name: (of | None, None) for name, of in STUDIES.items()},
 )
 """The whole configuration: with a section for each study, None where none is given."""
 
 
-def load(raw: dict) -> Configuration:
+def load(raw: dict) -> PaperConfiguration:
     """Return the validated configuration, or raise ConfigurationError with every fault."""
     try:
         settings = Sections.model_validate(raw)
@@ -40,7 +42,7 @@ def load(raw: dict) -> Configuration:
 
 
 def require(
-    settings: Configuration, cases: list[str], sweeps: list[str], solvers: list[str]
+    settings: PaperConfiguration, cases: list[str], sweeps: list[str], solvers: list[str]
 ) -> None:
     """Raise ConfigurationError unless all that the figures need is there and fits.
 
@@ -60,28 +62,28 @@ def require(
                 steps.setdefault(f"solvers.{solver}.step: {text}", name)
     lines += [f"{text} (in cases.{name})" for text, name in steps.items()]
     lines += _unlike_panels(settings.sweeps, sweeps)
-    there = [name for name in cases if name in settings.cases]
-    lines += _too_coarse_steps(settings, there) if "ode45" in solvers else []
+    known_cases = [name for name in cases if name in settings.cases]
+    lines += _too_coarse_steps(settings, known_cases) if "ode45" in solvers else []
     if lines:
         raise list_faults(lines, "the configuration")
 
 
 def _faults_of_figures(name: str, case: Case) -> Iterator[str]:
-    """Yield why a case cannot take the place of one of the paper's, of which all studies are."""
-    other = "give a case of another name"
+    """Yield why a case cannot replace one of the paper's, to which all studies belong."""
+    way_out = "give a case of another name"
     if case.model != AMPLITUDES:
-        yield f"cases.{name}.model: the figures of the paper are of the amplitudes; {other}"
+        yield f"cases.{name}.model: the figures of the paper are of the amplitudes; {way_out}"
         return
     if not any(z for pair in case.data.values() for z in pair):
-        yield f"cases.{name}.initial: is zero everywhere, and figures show what moves; {other}"
+        yield f"cases.{name}.initial: is zero everywhere, and figures show what moves; {way_out}"
     if case.epsilon < 0.0:
         text = "and pendula that push each other apart speed up without bound"
-        yield f"cases.{name}.epsilon: is {case.epsilon:g}, {text}; {other}"
+        yield f"cases.{name}.epsilon: is {case.epsilon:g}, {text}; {way_out}"
     if case.half_width == 0:
-        yield f"cases.{name}.half_width: is 0, and the figures are of a chain of pairs; {other}"
+        yield f"cases.{name}.half_width: is 0, and the figures are of a chain of pairs; {way_out}"
 
 
-def _faults_of_short_chains(name: str, settings: Configuration) -> Iterator[str]:
+def _faults_of_short_chains(name: str, settings: PaperConfiguration) -> Iterator[str]:
     """Yield why a case does not fit on the chains of studies that are shorter than its own."""
     reach = max(map(abs, settings.cases[name].data), default=0)
     shorter = settings.chaos.shorter_chains(settings, name) if settings.chaos else {}
@@ -92,7 +94,7 @@ def _faults_of_short_chains(name: str, settings: Configuration) -> Iterator[str]
             return
 
 
-def _too_coarse_steps(settings: Configuration, names: list[str]) -> Iterator[str]:
+def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterator[str]:
     """Yield a tolerance of ode45 at which its runs of the paper's cases may blow up.
 
     The error of a step is up to `rtol` of the data. Once all of them together are as large as the
@@ -101,10 +103,10 @@ def _too_coarse_steps(settings: Configuration, names: list[str]) -> Iterator[str
     runs = {}
     for case in names:
         swept = [
-            settings.swept_problem(key) for key, one in settings.sweeps.items() if one.case == case
+            settings.swept_problem(key) for key, run in settings.sweeps.items() if run.case == case
         ]
         runs[case] = settings.problem(case, "ode45")
-        runs[case]["end_time"] = max(one["end_time"] for one in (runs[case], *swept))
+        runs[case]["end_time"] = max(run["end_time"] for run in (runs[case], *swept))
     rtol = settings.solvers.ode45.rtol
     name = max(runs, key=lambda case: _sum_of_errors(runs[case], rtol), default="")
     if name and (total := _sum_of_errors(runs[name], rtol)) > 1.0:
@@ -124,10 +126,10 @@ def _sum_of_errors(problem: dict, rtol: float) -> float:
 
 def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:
     """Return the faults of panels whose windows are not those of the panel to their left."""
-    beside = {name: f"{name.partition('_')[0]}_left" for name in names}
+    left_panels = {name: f"{name.partition('_')[0]}_left" for name in names}
     return [
         f"sweeps.{name}.draw: has other windows than sweeps.{left}, the panel beside it: give both "
         "the same windows and draw"
-        for name, left in beside.items()
+        for name, left in left_panels.items()
         if {name, left} <= set(sweeps) and sweeps[name].drawn != sweeps[left].drawn
     ]

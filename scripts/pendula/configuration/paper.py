@@ -38,15 +38,15 @@ def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
 
     Cases and sweeps beside the paper's are no difference.
     """
-    found: dict[str, str] = {}
+    sentences: dict[str, str] = {}
     for section, of_paper in paper().items():
-        own = configuration.get(section)
+        section_now = configuration.get(section)
         for name, value in of_paper.items():
             path = (section, name)
-            now = own.get(name, "absent") if isinstance(own, Mapping) else "absent"
+            now = section_now.get(name, "absent") if isinstance(section_now, Mapping) else "absent"
             for place, pair in _unlike(value, now, path):
-                found[".".join(place)] = _in_words(place, *pair)
-    return found
+                sentences[".".join(place)] = _in_words(place, *pair)
+    return sentences
 
 
 def _unlike(was: Any, now: Any, place: tuple) -> Iterable[tuple[tuple, tuple]]:
@@ -59,7 +59,7 @@ def _unlike(was: Any, now: Any, place: tuple) -> Iterable[tuple[tuple, tuple]]:
             yield place, (was["name"], now["name"])
             return
         for inner in dict.fromkeys([*was, *now]):
-            pair = (one.get(inner, "absent") for one in (was, now))
+            pair = (mapping.get(inner, "absent") for mapping in (was, now))
             yield from _unlike(*pair, (*place, inner))
     elif not (
         all(isinstance(value, int | float) for value in (was, now))
@@ -69,10 +69,10 @@ def _unlike(was: Any, now: Any, place: tuple) -> Iterable[tuple[tuple, tuple]]:
 
 
 def _in_words(place: tuple, was: Any, now: Any) -> str:
-    shown = place[1:] if place[0] in ("cases", "sweeps") else place
+    keys = place[1:] if place[0] in ("cases", "sweeps") else place
     short, of_paper = _short(now), _short(was)
-    told = str(now) if short == of_paper else short  # else they seem the same
-    return f"{'.'.join(shown)} ({told} in place of {of_paper})"
+    value = str(now) if short == of_paper else short  # else they seem the same
+    return f"{'.'.join(keys)} ({value} in place of {of_paper})"
 
 
 def _short(value: Any) -> str:
@@ -132,8 +132,8 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     All of a case decides what is computed on its chain. `on` leaves of a dataset of many cases and
     sweeps these alone.
     """
-    folder, _, rest = name.partition("/")
-    stem, _, solver = rest.partition(".")
+    folder, _, name_in_folder = name.partition("/")
+    stem, _, solver = name_in_folder.partition(".")
     by = (f"solvers.{solver}",) if solver else ()
     if folder == "sweeps":
         return (*_swept([stem]), *by)
@@ -144,10 +144,12 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         ensemble = paper()["unbounded"]["starts" if stem == "starts" else "omegas"]
         return _unbounded([ensemble["case"]])
     sections = _sections(folder, stem)
-    part = _at(sections[-1]) if sections else {}
-    named = paper()["cases"] if stem in ALL_CASES else part.get("cases", ())
-    cases = [part["case"]] if "case" in part else [case for case in named if not on or case in on]
-    swept = [part["sweep"]] if "sweep" in part else part.get("sweeps", ())
+    section = _at(sections[-1]) if sections else {}
+    named = paper()["cases"] if stem in ALL_CASES else section.get("cases", ())
+    cases = (
+        [section["case"]] if "case" in section else [case for case in named if not on or case in on]
+    )
+    swept = [section["sweep"]] if "sweep" in section else section.get("sweeps", ())
     sweeps = [sweep for sweep in swept if not on or sweep in on]
     return (*sections, *_swept(sweeps), *(f"cases.{case}" for case in cases))
 
@@ -172,15 +174,15 @@ def _sections(folder: str, stem: str) -> list[str]:
     if folder == "checks":
         return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # those of the theory rest on none
     if folder == "breathers":
-        return [f"breathers.{part}" for part in ("epsilon", "gamma", stem)]
+        return [f"breathers.{key}" for key in ("epsilon", "gamma", stem)]
     if folder == "pendula":
         return [f"newton.{stem}"]
     return [f"{folder}.{stem}"]
 
 
 def _at(path: str) -> Any:
-    """Return what stands at a dotted path, nothing if there is nothing."""
-    found = paper()
+    """Return the value at a dotted path of the paper's configuration, {} if there is none."""
+    value = paper()
     for key in path.split("."):
-        found = found.get(key, {})
-    return found
+        value = value.get(key, {})
+    return value

@@ -1,4 +1,4 @@
-"""Many runs of a study: whether a solver can follow them, and what they take together."""
+"""Many runs of a study: whether a solver can integrate them, and their cost together."""
 
 from collections.abc import Iterator, Mapping
 from math import sqrt
@@ -30,7 +30,7 @@ class Runs(NamedTuple):
     size: float = 0.0
 
     def faults(self) -> Iterator[tuple[str, str]]:
-        """Yield the first key that keeps a run from being followed to its end, and why."""
+        """Yield the first key because of which a run cannot be integrated to its end, and why."""
         for problem in self.problems:
             if fault := fault_of(problem):
                 yield self.many if fault[0] == "end_time" else self.tolerance, fault[1]
@@ -40,14 +40,14 @@ class Runs(NamedTuple):
                 return
 
     def costs(self) -> list[Cost]:
-        """Return what each problem takes, with data as large as those of members are on average."""
+        """Return the cost of each problem, with data as large as those of members on average."""
         mean = sqrt(1.0 + 2.0 * self.size * self.size)
-        return [estimate(enlarged(one, mean)) for one in self.problems]
+        return [estimate(enlarged(problem, mean)) for problem in self.problems]
 
     def total(self) -> Cost:
-        """Return what all runs take, one after another."""
-        one = cost.total(self.costs())
-        return one._replace(seconds=self.times * one.seconds)
+        """Return the cost of all runs, one after another."""
+        total = cost.total(self.costs())
+        return total._replace(seconds=self.times * total.seconds)
 
 
 def enlarged(problem: Mapping, factor: float) -> dict:
@@ -57,7 +57,7 @@ def enlarged(problem: Mapping, factor: float) -> dict:
 
 
 def fault_of(problem: Mapping) -> Obstacle | None:
-    """Return the key of a problem that no solver can follow to its end, and why."""
+    """Return the key because of which no solver can integrate a problem to its end, and why."""
     amplitudes = [z for data in problem["initial"].values() for z in data]
     peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
     constants, solver = Constants.of(problem), problem["solver"]

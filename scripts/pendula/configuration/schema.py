@@ -1,4 +1,4 @@
-"""The configuration of cases and sweeps, as the studies of the paper ask for them."""
+"""The configuration of cases and sweeps, with what the paper's studies need of it."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, ClassVar
@@ -21,7 +21,7 @@ AS_A_STUDY = 10.0
 """All runs of a study together may take this many times as long as one run may."""
 
 
-class Configuration(schema.Configuration):
+class PaperConfiguration(schema.Configuration):
     """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
     cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
@@ -83,16 +83,16 @@ class Configuration(schema.Configuration):
         return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in coupled})
 
     def faults_of_runs(self, runs: Runs) -> Faults:
-        """Yield the key of runs of a study that no solver can follow, or that take too much."""
-        if found := list(runs.faults()):
-            yield from found
+        """Yield the key of runs of a study that no solver can integrate, or that cost too much."""
+        if faults := list(runs.faults()):
+            yield from faults
             return
-        found = list(self.excess(runs.many, runs.costs(), runs.times))
-        if found and runs.size:
-            plain = runs._replace(size=0.0)
-            if not list(self.excess(runs.many, plain.costs(), runs.times)):
-                found = [(runs.perturbed, f"is {runs.size:g}, and {found[0][1]}")]
-        yield from found
+        faults = list(self.excess(runs.many, runs.costs(), runs.times))
+        if faults and runs.size:
+            unperturbed = runs._replace(size=0.0)
+            if not list(self.excess(runs.many, unperturbed.costs(), runs.times)):
+                faults = [(runs.perturbed, f"is {runs.size:g}, and {faults[0][1]}")]
+        yield from faults
 
     def long_runs(self) -> list[str]:
         """Return a sentence on each run that will last for minutes, those of studies together."""
@@ -103,12 +103,14 @@ class Configuration(schema.Configuration):
             if hasattr(section, "runs_of")
             for runs in section.runs_of(self)
         }
-        long = {what: one for what, one in totals.items() if one.seconds > cost.WORTH_SAYING}
-        return [*super().long_runs(), *(f"{what} {one}" for what, one in long.items())]
+        long = {
+            label: total for label, total in totals.items() if total.seconds > cost.WORTH_SAYING
+        }
+        return [*super().long_runs(), *(f"{label} {total}" for label, total in long.items())]
 
     def excess(self, key: str, costs: list[Cost], times: float = 1.0) -> Faults:
         """Yield `key` and why, if the runs of a study, each made `times` times, cost too much."""
-        total = cost.total(costs)._replace(memory=max((one.memory for one in costs), default=0.0))
+        total = cost.total(costs)._replace(memory=max((each.memory for each in costs), default=0.0))
         total = total._replace(seconds=times * total.seconds)
         limits = self.limits.model_dump()
         limits["hours"] *= AS_A_STUDY

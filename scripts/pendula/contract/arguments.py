@@ -65,10 +65,10 @@ def load_arguments(function: Callable, job: Any, kinds: Mapping[type, Callable])
     `kinds` gives for a type of annotation what makes it of a path or of plain values. Outputs are
     arguments where they have names. Raises RuleError if a name is unknown, missing or given twice.
     """
-    given = _named(function, job)
+    rule_values = _named(function, job)
     hints = get_type_hints(function)
     values, sources = {}, {}
-    for name, value in given.items():
+    for name, value in rule_values.items():
         container, kind = _kind_of(hints.get(name))
         located = locate(value)
         values[name] = _load(located, container, kinds[kind]) if kind in kinds else located
@@ -81,29 +81,29 @@ def _named(function: Callable, job: Any) -> dict[str, Any]:
     """Return the values of a rule by the names of the function's parameters, after a check."""
     parameters = signature(function).parameters
     places = [dict(place.items()) for place in (job.input, job.params, job.output)]
-    given: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for place in places:
         for name, value in place.items():
             if name in OF_THE_JOB:
                 continue
-            if name in given:
+            if name in values:
                 raise RuleError(f"{_rule(job)} gives {name!r} twice, as an input and a parameter")
             if not (_is_left_out(value) and _has_default(parameters.get(name))):
-                given[name] = value
-    check_names(function, given, _rule(job))
-    return given
+                values[name] = value
+    check_names(function, values, _rule(job))
+    return values
 
 
 def check_names(function: Callable, names: Iterable[str], rule: str) -> None:
     """Raise RuleError unless `names` are parameters of `function`, and all that it requires."""
     parameters = signature(function).parameters
     called = f"{function.__module__}.{function.__name__}"
-    takes = f"it takes {', '.join(parameters)}" if parameters else "it takes none"
+    parameter_list = f"it takes {', '.join(parameters)}" if parameters else "it takes none"
     for name in names:
         if name not in parameters:
             near = get_close_matches(name, parameters, 1)
             meant = f"; did you mean {near[0]!r}?" if near else ""
-            raise RuleError(f"{rule}: {called} has no parameter {name!r}{meant} ({takes})")
+            raise RuleError(f"{rule}: {called} has no parameter {name!r}{meant} ({parameter_list})")
     required = [name for name, parameter in parameters.items() if not _has_default(parameter)]
     if missing := [name for name in required if name not in names]:
         raise RuleError(f"{rule} does not give {', '.join(missing)}, which {called} needs")
@@ -124,7 +124,7 @@ def _rule(job: Any) -> str:
 def _kind_of(hint: Any) -> tuple[str, Any]:
     """Return how values of an annotation are held ("one", "list" or "mapping"), and their type."""
     if get_origin(hint) in (Union, UnionType):
-        hint = next(part for part in get_args(hint) if part is not NoneType)
+        hint = next(alternative for alternative in get_args(hint) if alternative is not NoneType)
     origin, inner = get_origin(hint), get_args(hint)
     if not isinstance(origin, type) or not inner:
         return "one", hint

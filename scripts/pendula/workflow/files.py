@@ -7,7 +7,7 @@ from typing import Any
 from latticode.configuration.files import ConfigurationError
 
 from pendula.configuration.paper import Differences, concerning
-from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS, Configuration
+from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS, PaperConfiguration
 from pendula.contract.arguments import name_of
 from pendula.problem import MODELS
 
@@ -100,32 +100,32 @@ def process_of_survey(name: str) -> str:
     return f"survey_{name}"
 
 
-def runs_by(settings: Configuration, solver: str) -> list[str]:
+def runs_by(settings: PaperConfiguration, solver: str) -> list[str]:
     """Return the trajectories of all cases of the paper by a solver, most cases' own."""
 
     def run_by(case: str) -> str:
-        own = settings.problem(case)["solver"] == settings.problem(case, solver)["solver"]
-        return case if own else f"{case}.{solver}"
+        is_own_solver = settings.problem(case)["solver"] == settings.problem(case, solver)["solver"]
+        return case if is_own_solver else f"{case}.{solver}"
 
     return datasets("trajectories", *map(run_by, PAPER_CASES))
 
 
-def own_files(settings: Configuration) -> list[str]:
+def own_files(settings: PaperConfiguration) -> list[str]:
     """Return every figure, table and dataset of a user's cases, sweeps and surveys.
 
     Raises ConfigurationError if there are none.
     """
     cases = [case for case in settings.cases if case not in PAPER_CASES]
     sweeps = [sweep for sweep in settings.sweeps if sweep not in PAPER_SWEEPS]
-    made = {"trajectories": cases, "sweeps": sweeps, "surveys": settings.surveys}
-    if not any(made.values()):
+    names_by_folder = {"trajectories": cases, "sweeps": sweeps, "surveys": settings.surveys}
+    if not any(names_by_folder.values()):
         raise ConfigurationError(
             "the configuration has no case, sweep or survey of your own: give some by "
             "--configfile, as docs/own_cases.md shows"
         )
-    places = [f"{folder}/{name}" for folder, names in made.items() for name in names]
+    places = [f"{folder}/{name}" for folder, names in names_by_folder.items() for name in names]
     of_models = [case for case in cases if settings.cases[case].model not in MODELS]
-    figures = [f"cases/{case}{part}" for case in cases for part in ("", ".spacetime")]
+    figures = [f"cases/{case}{ending}" for case in cases for ending in ("", ".spacetime")]
     figures += [f"cases/{case}.breather" for case in of_models]
     figures += [place for place in places if not place.startswith("trajectories/")]
     return [
@@ -143,6 +143,8 @@ def differs_of(differs: Differences, wildcards: Any, input: Iterable[str]) -> li
     """
     names = [name_of(path) for path in input if path.endswith(".nc")]
     names = [name for name in names if not name.startswith(("long/", "own/"))]
-    parts = [name.split("/", 1) for name in names]
-    shown = [name for folder, name in parts if folder in ("trajectories", "sweeps")]
-    return list(concerning(differs, names, shown).values())
+    split_names = [name.split("/", 1) for name in names]
+    cases_and_sweeps = [
+        name for folder, name in split_names if folder in ("trajectories", "sweeps")
+    ]
+    return list(concerning(differs, names, cases_and_sweeps).values())

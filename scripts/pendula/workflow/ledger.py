@@ -21,14 +21,14 @@ def parts_of_ledger() -> dict[str, list[str]]:
     Each study with claims is a part, but for `paper`, which has two: its claims on the figures, and
     all others. So each module of a study whose name begins with "claims" is in a part.
     """
-    parts: dict[str, list[str]] = {"figures": [], "solvers": []}
+    modules_by_part: dict[str, list[str]] = {"figures": [], "solvers": []}
     for path in files_with_prefix(f"{PAPER}/{CLAIMS}"):
-        part = "figures" if path.stem in ON_FIGURES else "solvers"
-        parts[part].append(f"{PAPER}/{path.stem}")
+        part_of_paper = "figures" if path.stem in ON_FIGURES else "solvers"
+        modules_by_part[part_of_paper].append(f"{PAPER}/{path.stem}")
     for study in STUDIES:
         if study != PAPER and files_with_prefix(f"{study}/{CLAIMS}"):
-            parts[study] = [f"{study}/{CLAIMS}"]
-    return parts
+            modules_by_part[study] = [f"{study}/{CLAIMS}"]
+    return modules_by_part
 
 
 def modules_of(beginnings: list[str]) -> list[str]:
@@ -44,16 +44,16 @@ def datasets_of_claims(modules: list[str], digest: str) -> list[str]:
     of compiled kernels, by the digest of the modules' code.
     """
     folder = kept_in()
-    kept = folder and folder / CLAIMS / f"{digest[:32]}.json"
-    if kept:
+    cache_file = folder and folder / CLAIMS / f"{digest[:32]}.json"
+    if cache_file:
         with suppress(OSError, ValueError):
-            return json.loads(kept.read_text(encoding="utf-8"))
+            return json.loads(cache_file.read_text(encoding="utf-8"))
     from replication.ledger.verdicts import needed  # here: it imports all that claims compute with
 
     names = needed(*modules)
-    if kept:
+    if cache_file:
         with suppress(OSError):
-            _write_whole(kept, json.dumps(names))
+            _write_whole(cache_file, json.dumps(names))
     return names
 
 

@@ -20,14 +20,14 @@ class Options(NamedTuple):
     accept: list[str]
 
 
-def take_options(config: dict[str, Any], given: Mapping[str, Any]) -> Options:
-    """Return the options in `given`, the values of --config, and remove them from `config`.
+def take_options(config: dict[str, Any], values: Mapping[str, Any]) -> Options:
+    """Return the options in `values`, the values of --config, and remove them from `config`.
 
     Raises ConfigurationError for a value that an option cannot have.
     """
     for name in NAMES:
         config.pop(name, None)
-    baseline, bits, accept = (given.get(name) for name in NAMES)
+    baseline, bits, accept = (values.get(name) for name in NAMES)
     if not isinstance(baseline, str | None):
         text = "give the path of a folder, as in baseline=./7"
         raise ConfigurationError(f"--config baseline={baseline}: {text}")
@@ -36,9 +36,11 @@ def take_options(config: dict[str, Any], given: Mapping[str, Any]) -> Options:
             f"--config bits={bits}: the only value is bits=any: compare numbers where bits differ. "
             "By default such files fail in the accepted environment"
         )
-    if "chunks" in given:
+    if "chunks" in values:
         text = "the number of chunks is an option of Snakemake now"
-        raise ConfigurationError(f"--config chunks={given['chunks']}: {text}: --set-scatter runs=8")
+        raise ConfigurationError(
+            f"--config chunks={values['chunks']}: {text}: --set-scatter runs=8"
+        )
     return Options(baseline, bits == "any", str(accept or "").split())
 
 
@@ -54,5 +56,7 @@ def read_configuration(project: Path, files: Iterable[str], entries: Iterable[st
     Snakemake gives no line number for invalid YAML, silently takes the last of two duplicate keys,
     reads 010 as ten, and merges initial data.
     """
-    own = read_entries(entry for entry in entries if entry.partition("=")[0] not in NAMES)
-    return gather([*project_files(project), *files], own)
+    from_command_line = read_entries(
+        entry for entry in entries if entry.partition("=")[0] not in NAMES
+    )
+    return gather([*project_files(project), *files], from_command_line)

@@ -8,11 +8,11 @@ from latticode.configuration.values import Model, Steps
 
 def values_of(section: Model, *names: str) -> dict[str, Any]:
     """Return the settings of these names as plain values, or all but those of a longer study."""
-    plain = section.model_dump()
-    chosen = names or [name for name in plain if name != "long"]
+    values_by_name = section.model_dump()
+    chosen = names or [name for name in values_by_name if name != "long"]
     settings = {name: getattr(section, name) for name in chosen}
     return {
-        name: setting.values if isinstance(setting, Steps) else plain[name]
+        name: setting.values if isinstance(setting, Steps) else values_by_name[name]
         for name, setting in settings.items()
     }
 

@@ -22,7 +22,7 @@ from latticode.configuration.values import (
 from pydantic import Field
 
 from pendula.configuration.runs import Runs
-from pendula.configuration.schema import Configuration, Faults
+from pendula.configuration.schema import Faults, PaperConfiguration
 
 OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
 """Choices of runs that the long studies change."""
@@ -89,7 +89,7 @@ class Settings(Model):
     sensitivity: Sensitivity
     fates: Fates
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield faults of families and cases, and of runs that take too long."""
         solitons = self.periodic.solitons
         if not (lowest := min(solitons.frequencies)) > solitons.omega:
@@ -101,7 +101,7 @@ class Settings(Model):
             for runs in self.runs_of(settings):
                 yield from settings.faults_of_runs(runs)
 
-    def runs_of(self, settings: Configuration) -> Iterator[Runs]:
+    def runs_of(self, settings: PaperConfiguration) -> Iterator[Runs]:
         """Yield the runs of the ensembles, and those of the smallest and largest data mapped."""
         sensitivity, fates = self.sensitivity, self.fates
         run = settings.run_of(

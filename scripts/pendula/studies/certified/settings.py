@@ -14,7 +14,7 @@ from latticode.configuration.values import (
 )
 from pydantic import Field
 
-from pendula.configuration.schema import Configuration, Faults
+from pendula.configuration.schema import Faults, PaperConfiguration
 from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import AMPLITUDES
 
@@ -66,7 +66,7 @@ class Settings(Model):
         """Return how the curve of a case is made."""
         return self.frames.get(case, self.default_frames)
 
-    def problem(self, settings: Configuration, case: str) -> dict:
+    def problem(self, settings: PaperConfiguration, case: str) -> dict:
         """Return a case as plain values of a Problem whose curve is given, so that no solver runs.
 
         Raises ConfigurationError for a case whose curve no proof takes.
@@ -86,7 +86,7 @@ class Settings(Model):
             raise ConfigurationError(f"cases.{case}: {error}") from None
         return problem
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield faults of missing cases, and of states that do not exist."""
         yield from settings.absent("cases", "frames", self.frames)
         for key, fault in self.breathers.faults():

@@ -21,7 +21,7 @@ from pydantic import Field
 
 from pendula.configuration.cost import Cost, estimate
 from pendula.configuration.runs import Runs
-from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
+from pendula.configuration.schema import PAPER_CASES, Faults, PaperConfiguration
 
 
 class Spectrum(Model):
@@ -116,7 +116,7 @@ class Settings(Model):
     members: Members
     lifetimes: Lifetimes
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield faults of cases, sweeps and windows, and of runs that take too long."""
         absent = [
             *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
@@ -137,7 +137,7 @@ class Settings(Model):
                 yield from settings.faults_of_runs(runs)
             yield from settings.excess("lyapunov.spectrum.duration_factor", self._spectra(settings))
 
-    def member_of(self, settings: Configuration, sweep: str) -> dict:
+    def member_of(self, settings: PaperConfiguration, sweep: str) -> dict:
         """Return the problem of a sweep's ensemble as plain values, and the drawn windows."""
         drawn = settings.sweeps[sweep].drawn
         windows = [list(window) for window in (drawn.max, drawn.mean)]
@@ -148,7 +148,7 @@ class Settings(Model):
         case, tolerance = settings.sweeps[sweep].case, self.ensembles.tolerance
         return {"problem": settings.run_of(case, tolerance, **times), "windows": windows}
 
-    def by_second_solver(self, settings: Configuration, sweep: str) -> list[dict]:
+    def by_second_solver(self, settings: PaperConfiguration, sweep: str) -> list[dict]:
         """Return a sweep's problems by the paper's second solver: its step, and a coarse one."""
         problem = settings.swept_problem(sweep, "crank_nicolson")
         end_time = self.member_of(settings, sweep)["problem"]["end_time"]
@@ -156,7 +156,7 @@ class Settings(Model):
         steps = steps_beside(problem["solver"]["step"], problem["output_step"])
         return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
 
-    def shorter_chains(self, settings: Configuration, case: str) -> dict[str, int]:
+    def shorter_chains(self, settings: PaperConfiguration, case: str) -> dict[str, int]:
         """Return by its key the least half-width on which each ensemble integrates a case."""
         spectrum = self.lyapunov.spectrum
         half_widths = {"lyapunov.spectrum": spectrum.half_width} if case in spectrum.cases else {}
@@ -168,7 +168,7 @@ class Settings(Model):
             half_widths["second_solver.half_widths"] = min(swept.half_widths)
         return half_widths
 
-    def runs_of(self, settings: Configuration) -> Iterator[Runs]:
+    def runs_of(self, settings: PaperConfiguration) -> Iterator[Runs]:
         """Yield the runs of each ensemble. A tangent vector costs as much as its trajectory."""
         paper = [case for case in PAPER_CASES if case in settings.cases]
         longest = max((settings.cases[case].end_time for case in paper), default=1.0)
@@ -210,7 +210,7 @@ class Settings(Model):
         ]
         return Runs(key, "ensembles.tolerance", runs, members, "ensembles.size", drawn.size)
 
-    def _lives(self, settings: Configuration) -> Runs:
+    def _lives(self, settings: PaperConfiguration) -> Runs:
         """Return the runs from each amplitude; the centre is checked at each output."""
         lifetimes = self.lifetimes
         times = {"end_time": lifetimes.end_time, "output_step": lifetimes.output_step}
@@ -226,7 +226,7 @@ class Settings(Model):
         keys = f"lifetimes.{many}", f"lifetimes.{larger}"
         return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
-    def _spectra(self, settings: Configuration) -> list[Cost]:
+    def _spectra(self, settings: PaperConfiguration) -> list[Cost]:
         """Return the costs of exponents: half as many tangent vectors as a state has numbers."""
         spectrum, costs = self.lyapunov.spectrum, []
         for case in spectrum.cases:

@@ -18,7 +18,7 @@ from latticode.configuration.values import (
 from pydantic import Field
 
 from pendula.configuration.runs import Runs
-from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
+from pendula.configuration.schema import PAPER_CASES, Faults, PaperConfiguration
 from pendula.problem import Constants
 
 from .mathieu import squared_frequency, waves_on_strings_grow
@@ -31,7 +31,7 @@ class Threshold(Model):
     omegas: Numbers
     mus: Positives
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield a fault if a wave comes near the second resonance of the drive, at a = 4."""
         mu, omega = max(self.mus), min(self.omegas)
         if mu * mu * (4.0 * self.epsilon - omega) > squared_frequency(omega, mu):
@@ -49,7 +49,7 @@ class PendulaRuns(Model):
 
     def faults_of_cases(
         self,
-        settings: Configuration,
+        settings: PaperConfiguration,
         cases: Iterable[str],
         times: float = 1.0,
         size: float = 0.0,
@@ -98,7 +98,7 @@ class Remainder(PendulaRuns):
     end_time: Positive
     output_step: Positive
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield faults of times and of runs of the paper's cases."""
         if not is_multiple(self.end_time, self.output_step):
             yield "end_time", f"is not a whole number of `output_step`, {self.output_step:g}"
@@ -122,7 +122,7 @@ class OverTheTop(PendulaRuns):
         variations=dict[Literal["tolerance", "size", "seed", "settled"], Positives],
     )
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield faults of times and of runs of the case."""
         if not self.settled < self.end_time:
             yield "settled", f"is {self.settled:g}, and must lie before the end time"
@@ -145,7 +145,7 @@ class Settings(Model):
     remainder: Remainder
     over_the_top: OverTheTop
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield the faults of each topic."""
         for topic in ("threshold", "remainder", "over_the_top"):
             for key, text in getattr(self, topic).faults(settings):

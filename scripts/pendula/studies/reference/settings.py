@@ -5,7 +5,7 @@ from typing import Annotated
 from latticode.configuration.values import Model, Name, Positives, Whole
 from pydantic import Field
 
-from pendula.configuration.schema import PAPER_SWEEPS, Configuration, Faults
+from pendula.configuration.schema import PAPER_SWEEPS, Faults, PaperConfiguration
 
 Bits = Annotated[Whole, Field(ge=64, le=4096)]
 
@@ -16,13 +16,13 @@ class Settings(Model):
     snapshots: Positives
     bits: dict[Name, tuple[Bits, Bits]]
 
-    def problem(self, settings: Configuration, case: str) -> dict:
+    def problem(self, settings: PaperConfiguration, case: str) -> dict:
         """Return a case as plain values of a Problem, to the end of all windows that are drawn."""
         sweeps = (settings.sweeps[name] for name in PAPER_SWEEPS)
         drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
         ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]
         return settings.problem(case, end_time=max([settings.cases[case].end_time, *ends]))
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield (key, message) for each of `bits` that is no case of the configuration."""
         yield from settings.absent("cases", "bits", list(self.bits))

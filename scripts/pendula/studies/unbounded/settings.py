@@ -27,7 +27,7 @@ from pydantic import Field
 
 from pendula.configuration.cost import estimate
 from pendula.configuration.runs import Runs
-from pendula.configuration.schema import Configuration, Faults
+from pendula.configuration.schema import Faults, PaperConfiguration
 
 from .bulk import SLICE_LENGTH
 
@@ -110,7 +110,7 @@ class Settings(Model):
     short: Size
     long: LongSize
 
-    def faults(self, settings: Configuration) -> Faults:
+    def faults(self, settings: PaperConfiguration) -> Faults:
         """Yield faults of cases and ensembles, and of runs that take too long."""
         used = [("omegas.case", self.omegas.case), ("starts.case", self.starts.case)]
         used += [("cases", case) for case in self.cases]
@@ -140,7 +140,7 @@ class Settings(Model):
             yield from self._faults_of_size(settings, label, size)
         yield from self._faults_of_noise()
 
-    def _faults_of_band(self, settings: Configuration) -> Faults:
+    def _faults_of_band(self, settings: PaperConfiguration) -> Faults:
         """Yield the Omegas outside of the unstable band, where no front spreads."""
         case = settings.cases[self.omegas.case]
         low, high = -2.0 * abs(case.gamma), 2.0 * abs(case.gamma) + 4.0 * max(case.epsilon, 0.0)
@@ -155,7 +155,7 @@ class Settings(Model):
             text = f"has {len(noise.end_times)} values; give one for each of the omegas"
             yield "long.noise.end_times", f"{text}, of which there are {len(noise.omegas)}"
 
-    def _faults_of_size(self, settings: Configuration, label: str, size: Size) -> Faults:
+    def _faults_of_size(self, settings: PaperConfiguration, label: str, size: Size) -> Faults:
         for name, run in size.runs.items():
             if not is_multiple(run.end_time, self.output_step):
                 text = f"{run.end_time:g} is not a whole number of output steps"
