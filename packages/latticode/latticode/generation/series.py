@@ -86,10 +86,10 @@ def sides_of(series, k, component, block):
 
 # --- The order of the work ----------------------------------------------------------------------
 
-CACHED_BLOCKS = 64
-"""A chain of more blocks outgrows a cache of half a megabyte."""
-GROUP = 4
-"""Blocks that take an order together in a wave: 17 groups of them fit into the cache."""
+SHORT = 32
+"""A chain of more blocks gains by waves."""
+GROUP = 8
+"""Blocks that take an order together: with those that lag behind them they fit into the cache."""
 
 
 def in_waves(write_next_order, reach):
@@ -104,23 +104,22 @@ def in_waves(write_next_order, reach):
     def continue_series(chain, series):
         """Write the coefficients of all orders from those of order 0.
 
-        A short chain goes order by order. A long one goes in waves, so that the blocks at work fit
-        into the cache (wavefront or skewed tiling): in wave w the group g of blocks takes the order
-        w - g, for a coefficient needs no more than the order before of the groups beside it. Both
+        A short chain goes order by order. A long one goes in waves from left to right, so that the
+        blocks at work fit into the cache (wavefront or skewed tiling): each order lags behind the
+        one before by a block, since a coefficient needs that of the blocks next to its own. Both
         ways do the same operations on each block, and so give the same bits.
         """
         blocks = series.blocks
         # a ring has no side to start from
-        at_once = blocks <= CACHED_BLOCKS or chain.left in (PERIODIC, ANTIPERIODIC)
-        group = blocks if at_once else GROUP
-        groups = (blocks + group - 1) // group
-        for wave in range(groups + ORDER):
-            # from the rightmost group to the left: each finds the order before to both of its sides
-            for k in range(max(0, wave - groups + 1), min(wave, ORDER) + 1):
-                first = (wave - k) * group
-                last = min(first + group, blocks)
-                if k > 0:
-                    write_next_order(chain, series, k - 1, first, last)
-                close_order(chain, series, k, first == 0, last == blocks)
+        at_once = blocks <= SHORT or chain.left in (PERIODIC, ANTIPERIODIC)
+        group, lag = (blocks, 0) if at_once else (GROUP, 1)
+        for start in range(0, blocks + lag * ORDER, group):
+            for k in range(ORDER + 1):
+                first = max(start - lag * k, 0)
+                last = min(start - lag * k + group, blocks)
+                if first < last:
+                    if k > 0:
+                        write_next_order(chain, series, k - 1, first, last)
+                    close_order(chain, series, k, first == 0, last == blocks)
 
     return continue_series

@@ -7,7 +7,7 @@ import pytest
 from dimers import DIMERS, Pairs, rates, rates_at_site
 from hypothesis import given, settings
 from latticode.generation.modules import load_series
-from latticode.generation.series import CACHED_BLOCKS
+from latticode.generation.series import SHORT
 from latticode.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from latticode.kernels.compiled import kernel
 from latticode.kernels.simd import LANES
@@ -92,9 +92,9 @@ def test_each_kind_of_half_continues_the_series(even, synchronised):
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free"])
 def test_waves_along_a_long_chain_give_the_bits_of_its_half_order_by_order(boundary):
-    half = np.random.default_rng(1).normal(size=(2, 2 * LANES * CACHED_BLOCKS // 3, 2)) @ (1.0, 1j)
+    half = np.random.default_rng(1).normal(size=(2, 2 * LANES * SHORT // 3, 2)) @ (1.0, 1j)
     z = np.concatenate([half[:, :0:-1], half], axis=1)
-    assert half.shape[1] <= LANES * CACHED_BLOCKS < z.shape[1]
+    assert half.shape[1] <= LANES * SHORT < z.shape[1]
     runs = [
         coefficients(z, (1.0, 0.7, -4.0), boundary, kept) for kept in (WHOLE, find_reduction(z))
     ]
@@ -113,7 +113,7 @@ def test_halves_and_single_components_have_the_bits_of_the_whole_wherever_blocks
             np.testing.assert_array_equal(found, whole, err_msg=f"{sites} sites, {kept}")
 
 
-@pytest.mark.parametrize("sites", [LANES * CACHED_BLOCKS - 7, LANES * CACHED_BLOCKS + 45])
+@pytest.mark.parametrize("sites", [LANES * SHORT - 7, LANES * SHORT + 45])
 def test_a_ring_of_any_length_has_no_first_site(sites):
     """A ring that is turned has the turned coefficients, to the last bit, in waves or not.
 
