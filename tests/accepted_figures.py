@@ -32,7 +32,7 @@ def gather_sweeps(figure: str, windows: tuple[str, str], norms: list[str]):
 
 
 FIGURES = {
-    "fig1": (chain_figure.draw, chain_figure.gather),
+    "fig1": (chain_figure.draw_chain, chain_figure.gather_chain),
     "fig2": (paper.draw_norms, lambda: gather_norms("fig2")),
     "fig3": (paper.draw_norms, lambda bands: gather_norms("fig3", bands), "checks/members"),
     "fig4": (paper.draw_norms, lambda bands: gather_norms("fig4", bands), "checks/members"),

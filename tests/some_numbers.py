@@ -18,8 +18,8 @@ from latticode.datasets.trajectories import Contents
 from latticode.localised.rest import describe_unstable_rest
 from latticode.measures import confidence
 from latticode.numerics.elementary import modulus
-from pendula.studies.breathers.contents import periodic_contents, steady_contents
-from pendula.studies.certified.proved_breathers import breathers_contents
+from pendula.studies.breathers.contents import solve_periodic_breathers, solve_steady_states
+from pendula.studies.certified.proved_breathers import prove_breathers
 from pendula.studies.theory.checks import CHECKS, run_checks
 from pendula.studies.unbounded.measured import measure_fronts
 from pendula.studies.unbounded.thermal import solve_thermal
@@ -51,9 +51,11 @@ def make(given: Path, made: Path) -> None:
     contents = {
         "confidence": limits_of_all_counts(),
         "rest": sentence_on_rest(),
-        "periodic": periodic_contents(*coupling, **breathers.periodic.model_dump(exclude={"long"})),
-        "proofs": breathers_contents(**chosen("certified").breathers.model_dump()),
-        "steady": steady_contents(*coupling, **breathers.steady.model_dump()),
+        "periodic": solve_periodic_breathers(
+            *coupling, **breathers.periodic.model_dump(exclude={"long"})
+        ),
+        "proofs": prove_breathers(**chosen("certified").breathers.model_dump()),
+        "steady": solve_steady_states(*coupling, **breathers.steady.model_dump()),
         "thermal": solve_thermal(*coupling, list(chains.omegas.values), chains.nodes),
     }
     for name, (variables, attributes) in contents.items():

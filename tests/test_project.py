@@ -35,9 +35,9 @@ CALLED = sorted(set(re.findall(r'"((?:pendula|replication|benchmarks)\.[\w.]+)"'
 DRAWING = [name for name in CALLED if ".studies." in name and ".draw" in name]
 COMPUTING = [
     *("paper.runs.run_case", "paper.runs.run_sweep", "paper.compile_solver.compile_solver"),
-    *("reference.verified_run.reference_contents", "chaos.lyapunov.measure_lyapunov"),
+    *("reference.verified_run.make_reference", "chaos.lyapunov.measure_lyapunov"),
     *("chaos.ensembles.measure_ensembles", "unbounded.long_runs.spread_case"),
-    "hard_cases.outcomes.hard_cases_contents",
+    "hard_cases.outcomes.run_hard_cases",
 ]
 
 

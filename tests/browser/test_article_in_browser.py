@@ -53,7 +53,7 @@ def point_at(article, element) -> None:
 def test_a_card_shows_while_the_pointer_is_on_its_number_or_on_the_card(article):
     point_at(article, find(article, BOUND))
     wait_for(lambda: is_open(article))
-    assert "snakemake certified" in panel_text(article) and "curve_contents" in panel_text(article)
+    assert "snakemake certified" in panel_text(article) and "certify_curve" in panel_text(article)
     point_at(article, article.find_element("id", "panel"))
     article.execute_async_script("setTimeout(arguments[0], 600)")
     assert is_open(article)

@@ -10,7 +10,7 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.equations.ensembles import draw_members
 from pendula.problem import PENDULA
 from pendula.studies.breathers.fates import map_fates
-from pendula.studies.breathers.sensitivity import sensitivity_contents
+from pendula.studies.breathers.sensitivity import measure_sensitivity
 from pendula.studies.newton.over_the_top import measure_passage
 from problems import problem_of
 from scipy.stats import fisher_exact, mannwhitneyu
@@ -46,7 +46,7 @@ def test_as_many_perturbed_runs_spread_by_dop853():
     problem = problem_of("fig3_large", end_time=70.0, output_step=70.0)
     spread = []
     for solver, seed in ((TAYLOR, 1), (DOP853, 2)):
-        contents = sensitivity_contents(
+        contents = measure_sensitivity(
             "fig3_large", problem.changed(solver=solver), [perturbation], members, seed
         )
         spread.append(round(float(as_xarray(*contents.make())["share"][0]) * members))

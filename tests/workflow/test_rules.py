@@ -58,7 +58,7 @@ def test_each_rule_gives_its_function_all_that_it_takes_and_nothing_else(table):
             "mus=REMAINDER.mus",
             "mu=REMAINDER.mus",
             "pendula/remainder.nc",
-            "remainder_contents has no parameter 'mu'; did you mean 'mus'?",
+            "measure_remainder has no parameter 'mu'; did you mean 'mus'?",
         ),
         (
             "theory",

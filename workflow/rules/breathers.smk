@@ -16,7 +16,7 @@ use rule dataset as steady_breathers with:
     params:
         **values_of(BREATHERS, "epsilon", "gamma"),
         **values_of(BREATHERS.steady),
-        call=function("pendula.studies.breathers.contents.steady_contents"),
+        call=function("pendula.studies.breathers.contents.solve_steady_states"),
 
 
 use rule dataset as periodic_breathers with:
@@ -26,7 +26,7 @@ use rule dataset as periodic_breathers with:
     params:
         **values_of(BREATHERS, "epsilon", "gamma"),
         **values_of(BREATHERS.periodic),
-        call=function("pendula.studies.breathers.contents.periodic_contents"),
+        call=function("pendula.studies.breathers.contents.solve_periodic_breathers"),
 
 
 use rule dataset as measure_sensitivity with:
@@ -41,7 +41,7 @@ use rule dataset as measure_sensitivity with:
     params:
         **values_of(BREATHERS.sensitivity, "sizes", "seed"),
         **by_size(BREATHERS.sensitivity, "members"),
-        call=function("pendula.studies.breathers.sensitivity.sensitivity_contents"),
+        call=function("pendula.studies.breathers.sensitivity.measure_sensitivity"),
         name=BREATHERS.sensitivity.case,
         problem=run_of(**values_of(BREATHERS.sensitivity, "case", "tolerance", "end_time")),
 

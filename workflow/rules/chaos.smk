@@ -68,7 +68,7 @@ use rule dataset as run_members with:
         made="checks/members<chunk>",
     params:
         **values_of(MEMBERS, "windows", "members", "size", "seed"),
-        call=function("pendula.studies.chaos.members.member_numbers"),
+        call=function("pendula.studies.chaos.members.measure_members"),
         problems=SETTINGS.runs_of_cases(
             PAPER_CASES,
             MEMBERS.tolerance,

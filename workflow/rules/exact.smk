@@ -17,7 +17,7 @@ use rule dataset as certify_curve with:
     pathvars:
         made="certified/<any_case>",
     params:
-        call=function("pendula.studies.certified.contents.curve_contents"),
+        call=function("pendula.studies.certified.contents.certify_curve"),
         name="{case}",
         problem=lambda wildcards: stopping(CERTIFIED.problem)(SETTINGS, wildcards.case),
         bits=lambda wildcards: CERTIFIED.frames_of(wildcards.case).bits,
@@ -31,7 +31,7 @@ use rule dataset as prove_breathers with:
         made="certified/breathers",
     params:
         **values_of(CERTIFIED.breathers),
-        call=function("pendula.studies.certified.proved_breathers.breathers_contents"),
+        call=function("pendula.studies.certified.proved_breathers.prove_breathers"),
 
 
 use rule dataset as hard_cases with:
@@ -41,7 +41,7 @@ use rule dataset as hard_cases with:
     pathvars:
         made="checks/hard_cases",
     params:
-        call=function("pendula.studies.hard_cases.outcomes.hard_cases_contents"),
+        call=function("pendula.studies.hard_cases.outcomes.run_hard_cases"),
         cases=SETTINGS.hard_cases.plain_cases(),
 
 
@@ -60,7 +60,7 @@ use rule dataset as reference_case with:
     resources:
         **resources_for(long_study),
     params:
-        call=function("pendula.studies.reference.verified_run.reference_contents"),
+        call=function("pendula.studies.reference.verified_run.make_reference"),
         name="{case}",
         problem=lambda wildcards: SETTINGS.reference.problem(SETTINGS, wildcards.case),
         snapshots=SETTINGS.reference.snapshots,

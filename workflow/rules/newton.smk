@@ -10,7 +10,7 @@ use rule dataset as find_threshold with:
         made="pendula/threshold",
     params:
         **values_of(THRESHOLD, "epsilon", "omegas", "mus"),
-        call=function("pendula.studies.newton.threshold.threshold_contents"),
+        call=function("pendula.studies.newton.threshold.solve_thresholds"),
 
 
 use rule dataset as measure_remainder with:
@@ -18,7 +18,7 @@ use rule dataset as measure_remainder with:
     pathvars:
         made="pendula/remainder",
     params:
-        call=function("pendula.studies.newton.remainder.remainder_contents"),
+        call=function("pendula.studies.newton.remainder.measure_remainder"),
         mus=REMAINDER.mus,
         problems=SETTINGS.runs_of_cases(
             PAPER_CASES, **values_of(REMAINDER, "tolerance", "end_time", "output_step")

@@ -73,7 +73,7 @@ use rule figure as fig1 with:
     pathvars:
         made="figures/fig1",
     params:
-        call=function("pendula.studies.paper.chain_figure.draw"),
+        call=function("pendula.studies.paper.chain_figure.draw_chain"),
 
 
 use rule figure as norms_in_time with:

@@ -15,7 +15,7 @@ LONG_STUDIES: LongStudies = {
     f"{FOLDER}/pendula": LongStudy(
         "snakemake over_the_top", "pendula.studies.newton.over_the_top.vary_over_the_top"
     ),
-    PROOFS: LongStudy("snakemake certified", "pendula.studies.certified.contents.curve_contents"),
+    PROOFS: LongStudy("snakemake certified", "pendula.studies.certified.contents.certify_curve"),
     SPEED: LongStudy("snakemake speed"),
     TIMES: LongStudy("snakemake reproduction", "benchmarks.reproduction.measure_reproduction"),
 }

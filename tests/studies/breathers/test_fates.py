@@ -96,7 +96,7 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 def test_known_fates(omega, a, b, expected):
     problem = pair_problem(omega, a, b, 70.0)
     assert fates.keep_fate(problem) == {"fate": expected}
-    shares = as_xarray(*sensitivity.sensitivity_contents("one", problem, [0.0], 2, 1).make())
+    shares = as_xarray(*sensitivity.measure_sensitivity("one", problem, [0.0], 2, 1).make())
     assert shares["share"].values.tolist() == [float(expected == SPREADS)]
 
 

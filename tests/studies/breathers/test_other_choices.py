@@ -5,7 +5,7 @@ import pytest
 from latticode.datasets.netcdf import as_xarray
 from pendula.studies.breathers.fates import FATES, MAJORITY, map_fates
 from pendula.studies.breathers.other_choices import vary_areas, vary_least_power, vary_shares
-from pendula.studies.breathers.sensitivity import sensitivity_contents
+from pendula.studies.breathers.sensitivity import measure_sensitivity
 from problems import problem_of
 
 SOLVER = {"name": "taylor", "rtol": 1e-7, "atol": 1e-7}
@@ -36,7 +36,7 @@ def test_shares_are_those_of_as_many_runs_with_another_choice():
     data = vary_shares("fig3_large", PROBLEM, sizes, members, RUNS | {"seed": 4}, {"seed": [5]})
     for seed, share in ((4, data["share"]), (5, data["share_varied"].sel(variation="seed = 5"))):
         recomputed = as_xarray(
-            *sensitivity_contents("fig3_large", PROBLEM, sizes, members, seed).make()
+            *measure_sensitivity("fig3_large", PROBLEM, sizes, members, seed).make()
         )
         np.testing.assert_array_equal(share, recomputed["share"])
     assert (data["share_low"] <= data["share_varied"].min("variation")).all()

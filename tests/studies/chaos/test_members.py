@@ -17,7 +17,7 @@ PROBLEM = problem_of(
 
 
 def test_every_case_has_all_numbers():
-    runs = members.member_numbers({"a": PROBLEM, "b": PROBLEM}, WINDOWS, 1e-3, 3, 7)
+    runs = members.measure_members({"a": PROBLEM, "b": PROBLEM}, WINDOWS, 1e-3, 3, 7)
     data = as_xarray(*runs.make())
     assert data["window"].values.tolist() == ["[1, 2]", "[2, 4]"]
     l2 = np.array([pair_l2(simulate(member)) for member in draw_members(PROBLEM, 1e-3, 3, 7)])

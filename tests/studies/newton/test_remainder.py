@@ -13,7 +13,7 @@ MUS = (0.1, 0.05, 0.025)
 @pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
 def test_the_error_is_of_the_third_order_and_with_a_wrong_slow_time_of_the_first(case):
     changes = {"half_width": 6, "end_time": 0.5, "output_step": 0.01, "solver": TIGHT}
-    contents = remainder.remainder_contents({case: problem_of(case, **changes)}, MUS)
+    contents = remainder.measure_remainder({case: problem_of(case, **changes)}, MUS)
     error = as_xarray(*contents)["error"].sel(case=case).transpose("slow_time", "mu").values
     orders = np.log2(error[:, :-1] / error[:, 1:])
     assert orders[:, -1] == pytest.approx([3.0, 1.0], abs=0.15)

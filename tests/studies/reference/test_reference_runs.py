@@ -65,7 +65,7 @@ def test_a_short_run_made_again_gives_the_same_doubles(case):
         verified_run.decimal_as_real(0.1, 200) == heyoka.real("0.1", 200) != heyoka.real(0.1, 200)
     )
     recomputed = as_xarray(
-        *verified_run.reference_contents(
+        *verified_run.make_reference(
             case, problem_of(case), [0.31, 1, 2], chosen("reference").bits[case]
         )
     )

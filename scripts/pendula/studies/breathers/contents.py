@@ -31,7 +31,7 @@ def rounded_variable(
     return Variable(dimensions, rounded(values, digits), words, attributes=attributes)
 
 
-def steady_contents(
+def solve_steady_states(
     epsilon: float, gamma: float, omegas: Sequence[float], half_width: int
 ) -> Contents:
     """Return the dataset of steady states: amplitude, P and growth rate (family, omega).
@@ -69,7 +69,7 @@ def steady_contents(
     return variables, {"title": "Steady states localised at one pair", **attributes}
 
 
-def periodic_contents(
+def solve_periodic_breathers(
     epsilon: float,
     gamma: float,
     omegas: Sequence[float],
@@ -121,14 +121,14 @@ def periodic_contents(
             over, least, "power P of both components, the least of a period"
         ),
         "growth": rounded_variable(over, rates, RATE, GROWTH_DIGITS),
-        **soliton_variables(epsilon, gamma, **solitons),
+        **solve_solitons(epsilon, gamma, **solitons),
     }
     attributes = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
     attributes |= REGULAR
     return variables, {"title": "Periodic breathers localised at one pair", **attributes}
 
 
-def soliton_variables(
+def solve_solitons(
     epsilon: float,
     gamma: float,
     omega: float,

@@ -12,7 +12,7 @@ from pendula.varied import Printed, as_dataset, vary, vary_several
 
 from .fates import FATES, map_fates
 from .periodic import find_breather, power, quarter_later
-from .sensitivity import sensitivity_contents
+from .sensitivity import measure_sensitivity
 
 
 def with_choices(problem: Problem, tolerance: float, end_time: float, half_width: int) -> Problem:
@@ -66,7 +66,7 @@ def vary_shares(
 
     def measure(majority, seed, **settings):
         changed = with_choices(problem, **settings)
-        study = sensitivity_contents(name, changed, sizes, members, int(seed), majority=majority)
+        study = measure_sensitivity(name, changed, sizes, members, int(seed), majority=majority)
         data = as_xarray(*study.make())
         return Limits(*(data[f"share{end}"].values for end in ("", "_low", "_high")))
 

@@ -22,7 +22,7 @@ from pendula.problem import Problem
 from .fates import MAJORITY, SPREADS, keep_fate
 
 
-def sensitivity_contents(
+def measure_sensitivity(
     name: str,
     problem: Problem,
     sizes: Sequence[float],

@@ -10,7 +10,7 @@ from pendula.problem import Problem
 from . import frames
 
 
-def curve_contents(
+def certify_curve(
     name: str, problem: Problem, bits: int, order: int, outputs_per_frame: int
 ) -> Contents:
     """Return the dataset of a curve: its norms, and a proven bound of their errors."""

@@ -20,7 +20,7 @@ DIGITS = 10
 """Decimals of a state that LAPACK computes alike on every machine."""
 
 
-def breathers_contents(
+def prove_breathers(
     gamma: float, half_width: int, proofs: Sequence[Mapping], control_omegas: Sequence[float]
 ) -> Contents:
     """Return the dataset of breathers with their proofs, one for each of `proofs`.

@@ -66,7 +66,7 @@ def relative_width(late: np.ndarray) -> float:
     return np.sqrt(late.var(axis=0, ddof=1).mean()) / late.mean()
 
 
-def member_numbers(
+def measure_members(
     problems: dict[str, Problem],
     windows: list[Window],
     size: float,

@@ -51,7 +51,7 @@ def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[st
     }
 
 
-def hard_cases_contents(cases: list[dict]) -> Contents:
+def run_hard_cases(cases: list[dict]) -> Contents:
     """Return the dataset of all solvers on `cases`, plain values; print unexpected outcomes."""
     results = [run_hard_case(case, solver) for case in cases for solver in case["solvers"]]
     for row in results:

@@ -62,7 +62,7 @@ def measure_errors(problem: Problem, mus: Sequence[float]) -> np.ndarray:
     return np.array(errors).T
 
 
-def remainder_contents(problems: Mapping[str, Problem], mus: Sequence[float]) -> Contents:
+def measure_remainder(problems: Mapping[str, Problem], mus: Sequence[float]) -> Contents:
     """Return the dataset of the errors (case, slow time, mu), in rad."""
     variables = {
         "slow_time": Variable(("slow_time",), list(SLOW_TIMES), "slow time of the amplitudes"),

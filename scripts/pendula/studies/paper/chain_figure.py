@@ -19,7 +19,7 @@ CAPTION = (
 )
 
 
-def gather() -> xr.Dataset:
+def gather_chain() -> xr.Dataset:
     """Return the points on the page of all pairs, with the central one turned by ANGLES.
 
     The others are turned less, the farther they are from it: a picture, not a solution.
@@ -71,7 +71,7 @@ def _coil() -> np.ndarray:
 
 
 @style.styled
-def draw(data: xr.Dataset) -> Figure:
+def draw_chain(data: xr.Dataset) -> Figure:
     """Draw the chain from the back to the front, with the names of the angles and couplings."""
     figure = style.new_figure(style.WIDTH * 0.62, 1.75)
     axes = figure.subplots()

@@ -173,7 +173,7 @@ def measure_discrepancy(
     return discrepancy, amplitude.astype(float)
 
 
-def reference_contents(
+def make_reference(
     name: str, problem: Problem, snapshots: list[float], bits: tuple[int, int]
 ) -> Contents:
     """Return the dataset of a reference; `bits` are those of the stored and of the second run.
