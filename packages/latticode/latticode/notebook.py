@@ -368,13 +368,19 @@ def survey(
         text = f"cores: is {values.shown(cores)}; give a whole number of 1 or more"
         raise list_faults([text], "the survey")
     kept = [keep] if isinstance(keep, str) or callable(keep) else list(keep)
+    if not kept:
+        raise list_faults(["keep: is empty; give what is kept of each run"], "the survey")
+    for key, given in (("axes", axes), ("together", together)):
+        if not isinstance(given, Mapping | None):
+            text = f"{key}: is {values.shown(given)}, not a mapping of names to values"
+            raise list_faults([text], "the survey")
     asked = {
         "case": name,
         "axes": {axis: _listed(values) for axis, values in (axes or {}).items()},
         "together": {axis: _listed(values) for axis, values in (together or {}).items()},
         "members": dict(members) if isinstance(members, Mapping) else members,
         "keep": [one for one in kept if not callable(one)] or ["max_l2"],
-        "window": window and tuple(window),
+        "window": _listed(window),
     }
     limits = _limits(hours, gigabytes)
     settings = _load({"cases": {name: case}, "surveys": {name: asked}}, limits)
@@ -382,6 +388,10 @@ def survey(
     plan = settings.surveys[name].plan._replace(
         keep=tuple(kept), by_half_width=settings.values_by_half_width(name)
     )
+    try:
+        names_of(plan)
+    except ValueError as error:
+        raise list_faults([str(error)], "the survey") from None
     plain = settings.surveyed_problem(name)
     if any(map(callable, kept)):  # which may read the snapshots that the case asks for
         plain = case.problem()

@@ -3,6 +3,7 @@
 import difflib
 from collections.abc import Iterator, Mapping
 from math import gcd, inf
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -31,6 +32,7 @@ from latticode.simulation.problem import Problem
 
 from . import cost
 from .cost import Cost
+from .files import ConfigurationError
 from .initial import BySite, end_of_run, fields_on, read_initial
 from .solvers import DEFAULT, FLAG, Solver, Solvers, Taylor
 from .values import (
@@ -44,6 +46,7 @@ from .values import (
     Whole,
     fault,
     faults,
+    shown,
 )
 
 FEWEST = 200
@@ -130,6 +133,8 @@ def _as_model(value: Any) -> Traced:
                 "is a mapping; give the path of a file, such as mine.py: a configuration"
                 " holds no code"
             )
+        if not isinstance(value, Traced | str | Path):
+            raise fault(f"is {shown(value)}; give a Model, or the path of its file")
         return value if isinstance(value, Traced) else Traced.read(value)
     except ModelError as error:
         raise fault(str(error)) from None
@@ -198,6 +203,12 @@ class Case(Model):
             hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
             raise fault(f"there is no solver {name!r}; {hint}")
         return given
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in type(self).model_fields:
+            text = f"a case does not change; case.changed({name}={shown(value)}) returns another"
+            raise ConfigurationError(text)
+        super().__setattr__(name, value)
 
     # --- What the model decides
 

@@ -48,7 +48,15 @@ class Grid(Model):
 
 
 def _as_axis(value: Any) -> Any:
-    return Grid.model_validate(value).values if isinstance(value, dict) else value
+    """Return the values of an axis; refuse arrays among them."""
+    if isinstance(value, dict):
+        return Grid.model_validate(value).values
+    if isinstance(value, list) and any(isinstance(item, list | np.ndarray) for item in value):
+        raise fault(
+            "has a list of numbers where a run takes one; for values by site let the axis be a"
+            " number in the equations, such as p.strength * p.disorder"
+        )
+    return value
 
 
 def _one_of(known) -> BeforeValidator:

@@ -92,11 +92,19 @@ def save(path: str | Path, dataset) -> None:
 
     Raises DatasetError for any other ending than .csv and .nc.
     """
+    if not hasattr(dataset, "data_vars"):
+        way = "; data.to_dataset(name=...) makes one" if hasattr(dataset, "to_dataset") else ""
+        raise DatasetError(f"this saves a dataset, and not a {type(dataset).__name__}{way}")
     ending = Path(path).suffix
     if ending == ".csv":
         return write_csv(path, dataset)
     if ending not in ("", ".nc"):
         raise DatasetError(f"{path}: datasets are saved as netCDF (.nc) or tables (.csv)")
+    if of_complex := [str(name) for name, one in dataset.items() if one.dtype.kind == "c"]:
+        raise DatasetError(
+            f"{path}: {of_complex[0]} is complex, and files hold real numbers: save its parts,"
+            f" {of_complex[0]}.real and {of_complex[0]}.imag"
+        )
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
     for name, variable in stated.variables.items():
         about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}

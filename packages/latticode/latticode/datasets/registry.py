@@ -17,7 +17,7 @@ from latticode.integrators.methods import NAMED
 CONVENTIONS = "CF-1.11"
 MADE_BY = {"version": __version__, "history": f"computed by latticode {__version__}"}
 """What made a dataset; a program that calls the library names itself here."""
-WAYS = {"make": "run the program"}
+WAYS = {"make": "call simulate and save"}
 """What a message tells a user to do; a program that calls the library names its own commands."""
 UNITS = ("1", "rad", "s", "s-1", "byte", "byte s-1")
 """All units in use; each is one that UDUNITS parses."""
@@ -69,7 +69,7 @@ def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]
     Raises NamingError if nobody names the variable, or if its units are not among UNITS.
     """
     if not (long_name or name in NAMES):
-        raise NamingError(f"{name}: has no long_name, and no registry names it")
+        raise NamingError(f"{name}: has no long_name; give it one by .attrs['long_name'] = ...")
     known = ("1", "rad") if name in ANGLES else ("1",) if name in NAMES else UNITS
     if units not in known:
         raise NamingError(f"{name}: has the units {units!r}; known are {', '.join(known)}")

@@ -203,6 +203,16 @@ class Model:
             place = function.__code__.co_filename
             raise ModelError(placed(error, place, self.text, self.name)) from None
 
+    def __repr__(self) -> str:
+        values = [
+            f"{name} = {'a function of the sites' if callable(value) else values_shown(value)}"
+            for name, value in self.parameters.items()
+        ]
+        head = f"Model {self.name}: fields {', '.join(self.fields)}"
+        lines = self.text.strip().splitlines()
+        text = [*lines[:MOST_SHOWN], *["..."][: len(lines) > MOST_SHOWN]]
+        return "\n    ".join(["; ".join([head, *values]), *text])
+
     def _twice(self, function: Callable, nodes_of: Callable) -> Any:
         """Return the nodes of what a function of the model returns, which is traced twice.
 
@@ -438,8 +448,23 @@ def _largest_eigenvalue(matrix: np.ndarray) -> float:
     return float(bound * matrix.sum(axis=1).max() ** exponent)
 
 
+MOST_SHOWN = 20
+"""Lines of the source of a model that its repr shows."""
+
+
+def values_shown(value: Any) -> str:
+    """Return a parameter as the repr of a model shows it."""
+    return f"{value}" if np.ndim(value) == 0 else f"{len(value)} values"
+
+
 class _Parameters:
     """What a model calls `p`."""
+
+    no_number = (
+        "the first argument of the function holds the parameters: write (p, ...) with the fields"
+        " behind p, p.name for a parameter, and p.t for the time"
+    )
+    """Why nobody computes with it."""
 
     def __init__(self, names: Iterable[str]):
         self._names = list(names)

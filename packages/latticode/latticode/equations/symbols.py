@@ -63,7 +63,8 @@ class Value:
             return Value(number(complex(x).real), number(complex(x).imag))
         if isinstance(x, np.ndarray):
             raise ModelError(ARRAYS)
-        raise ModelError(f"{type(x).__name__} cannot be computed with; give numbers and parameters")
+        text = f"{type(x).__name__} cannot be computed with; give numbers and parameters"
+        raise ModelError(getattr(type(x), "no_number", text))
 
     @property
     def real(self) -> "Value":
@@ -127,6 +128,9 @@ class Value:
         for _ in range(builtins.abs(exponent) - 1):
             power = power * self
         return power if exponent >= 0 else 1 / power
+
+    def __rpow__(self, base):
+        return Value.of(base) ** self
 
     def __neg__(self):
         return Value(neg(self.re), neg(self.im))
