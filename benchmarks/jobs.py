@@ -7,7 +7,7 @@ import xarray as xr
 from latticode.datasets.trajectories import Contents
 from latticode.kernels.sources import describe_machine
 from pendula.problem import Problem
-from replication.report.words import number
+from replication.words import number
 
 from benchmarks import cost, pendula
 from benchmarks.contestants import PEERS, find_peers

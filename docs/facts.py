@@ -16,12 +16,13 @@ from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.confidence import chance_inside, chance_of_counts, share_limits
 from pendula.article.values import counts, largest_bound
+from pendula.case_words import case_of
 from pendula.configuration.paper import paper
 from pendula.varied import names_of, numbers_in, single_numbers, variations_of
 from replication.article.quoted import is_quoted, original_of
 from replication.ledger.chances import ALLOWED, RARE
-from replication.report.results import Results
-from replication.report.words import case_of, markdown, number, plainly, symbols, with_error
+from replication.results import Results
+from replication.words import markdown, number, plainly, symbols, with_error
 
 from benchmarks import reproduction
 from benchmarks import scale as scale_of

@@ -11,10 +11,11 @@ from pathlib import Path
 
 from latticode.datasets.json_files import write_json
 from latticode.datasets.netcdf import read
+from pendula.jobs.decide import all_claims
 from replication.ledger.chances import ALLOWED, chance_of_claim, chance_to_turn
 from replication.ledger.claim import Claim
 from replication.ledger.criterion import Finding, Verdict
-from replication.ledger.verdicts import all_claims, look, needed
+from replication.ledger.verdicts import look, needed
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -23,7 +24,7 @@ RECORD = ROOT / "tests/baseline/quoted/right_runs.json"
 
 def look_at(folder: Path) -> dict[str, dict[str, Finding]]:
     """Return by claim all that is found in the results of a run."""
-    sources = {name: read(folder / f"{name}.nc") for name in needed()}
+    sources = {name: read(folder / f"{name}.nc") for name in needed(all_claims())}
     return {claim.name: look(claim, sources) for claim in all_claims()}
 
 

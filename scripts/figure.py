@@ -8,8 +8,8 @@ import pendula.names  # noqa: F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import read
 from latticode.datasets.stated import stated
 from latticode.drawing.style import save
-from pendula.configuration.paper import in_short
 from pendula.contract.arguments import function_of, gather_for, load_arguments
+from replication.differences import in_short
 from xarray import Dataset
 
 

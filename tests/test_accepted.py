@@ -16,7 +16,8 @@ from accepted import (
     wrong_changes,
 )
 from latticode.datasets.json_files import load_json
-from replication.ledger.verdicts import all_claims, decide, evaluate, needed
+from pendula.jobs.decide import all_claims
+from replication.ledger.verdicts import decide, evaluate, needed
 
 CLAIM = {claim.name: claim for claim in all_claims()}
 
@@ -49,8 +50,9 @@ def test_claims_and_controls_come_out_as_accepted(part):
     accepted = {row["name"]: without_numbers(row) for row in kept["rows"]}
     own = [row["function"].split(".") for row in kept["rows"]]
     modules = sorted({f"{study}/{module}" for *_, study, module, _ in own})
-    found = {row["name"]: without_numbers(row)
-             for row in evaluate(datasets(needed(*modules)), None, modules)}  # fmt: skip
+    claims = all_claims(*modules)
+    rows = evaluate(claims, datasets(needed(claims)))
+    found = {row["name"]: without_numbers(row) for row in rows}
     apart = {name: differing(accepted[name], row, 1e-3, ROUNDED.get(name, 0.0))
              for name, row in found.items() if name in accepted}  # fmt: skip
     remedy = "if this is meant, look at the rows of the ledger and type `snakemake accept_figures`"

@@ -18,7 +18,8 @@ STOREYS = (
     ("live",),
     ("jobs",),
     ("studies",),
-    ("drawing",),
+    ("claims",),
+    ("drawing", "case_words"),
     ("many_cases", "varied"),
     ("configuration",),
     ("contract",),
@@ -38,8 +39,11 @@ GENERAL = Rooms(
     SCRIPTS / "replication",
     (
         ("article",),
-        ("report", "figure_diff", "archive", "ledger"),
-        ("differences", "variables"),
+        ("figure_diff", "archive"),
+        ("report",),
+        ("ledger",),
+        ("results",),
+        ("words", "differences", "variables", "logs"),
     ),
 )
 """The rooms that any replication has."""
@@ -50,6 +54,14 @@ def test_an_import_points_down():
     the_list = [(module, str(THE_LIST)) for module, _ in ROOMS.upwards()
                 if module.startswith(COLLECTORS)]  # fmt: skip
     assert [pair for pair in ROOMS.upwards() if pair not in the_list] == []
+
+
+def test_the_general_rooms_know_nothing_of_the_paper_and_import_in_no_circle():
+    """Another paper can use them: nothing there imports `pendula`, or has its name."""
+    assert GENERAL.upwards() == [] and len(GENERAL.between()) > 20
+    for path in (SCRIPTS / "replication").rglob("*"):
+        if path.is_file() and path.suffix != ".pyc":
+            assert "pendula" not in path.read_text(encoding="utf-8"), path
 
 
 def test_no_study_uses_the_code_of_another():
@@ -91,7 +103,7 @@ def test_operators_have_the_same_bits_on_every_processor():
     The tests of the library say which these are: packages/latticode/tests/test_operators.py.
     """
     assert used_in(LIBRARY, MAY_DIFFER) == ALLOWED.keys()
-    assert used_in(SCRIPTS / "replication", ("report", "figure_diff", "archive")) == set()
+    assert used_in(SCRIPTS / "replication", ("report", "figure_diff", "archive", "words")) == set()
 
 
 INSIDE = ("inside_numba.py", "test_inside_numba.py", "inside.py")

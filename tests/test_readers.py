@@ -19,8 +19,8 @@ import pytest
 from helpers import ROOT
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM
 from latticode.kernels.sources import files_of_module, modules_of
+from pendula.jobs.decide import all_claims
 from replication.ledger.claim import Claim, Origin
-from replication.ledger.verdicts import all_claims
 
 COMPARED, FIGURES = ("trajectories/", "sweeps/"), "figures/"
 ARTICLE = [

@@ -8,6 +8,3 @@ SCRIPTS = Path(__file__).resolve().parent.parent
 """The folder of the replication's package and of the scripts of jobs."""
 
 ROOTS.update(pendula=SCRIPTS, replication=SCRIPTS, benchmarks=SCRIPTS.parent)
-
-TOOK = "wall time: "
-"""How the last line of a job's log begins, with its time in s and its memory in MB."""

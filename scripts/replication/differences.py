@@ -1,10 +1,7 @@
 """Where a configuration differs from the one that the claims are about."""
 
-from collections.abc import Mapping
-
-Differences = Mapping[str, str]
-"""By dotted path, in words, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in place of
-8)"}."""
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
 
 
 def in_short(differences: list[str]) -> str:
@@ -13,3 +10,87 @@ def in_short(differences: list[str]) -> str:
         return ""
     more = f" and {len(differences) - 3} more" if len(differences) > 3 else ""
     return f"the configuration differs in {', '.join(differences[:3])}{more}"
+
+
+def rests_on_nothing(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return no path: what a dataset of this name rests on where nobody can edit a case."""
+    return ()
+
+
+class Differences(NamedTuple):
+    """Differences of a configuration from the paper's, and what datasets rest on.
+
+    `words` has them by dotted path, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in
+    place of 8)"}. `rests_on` returns the dotted paths that decide a dataset, by its path below
+    results/ without its ending; it is given the names of cases and sweeps where a statement is on
+    some alone of all that a dataset holds.
+    """
+
+    words: Mapping[str, str] = {}
+    rests_on: Callable[[str, tuple[str, ...]], Iterable[str]] = rests_on_nothing
+
+    def concerning(self, names: Iterable[str], on: Iterable[str] = ()) -> dict[str, str]:
+        """Return those differences that datasets rest on."""
+        paths = {path for name in names for path in self.rests_on(name, tuple(on))}
+        return {
+            place: words
+            for place, words in self.words.items()
+            if any(f"{place}.".startswith(f"{path}.") for path in paths)
+            or any(path.startswith(f"{place}.") for path in paths)
+        }
+
+    def reason(self, names: Iterable[str], on: Iterable[str] = ()) -> str:
+        """Return why datasets are not about the paper's cases; an empty text where they are."""
+        return in_short(list(self.concerning(names, on).values()))
+
+
+NO_DIFFERENCES = Differences()
+
+
+class Tolerated(NamedTuple):
+    """Keys of a configuration whose values may differ: any, larger or smaller numbers."""
+
+    free: frozenset[str] = frozenset()
+    at_least: frozenset[str] = frozenset()
+    at_most: frozenset[str] = frozenset()
+    single: frozenset[str] = frozenset()
+    """Keys whose mapping is one value."""
+
+
+def find_differences(
+    accepted: Mapping[str, Any], configuration: Mapping[str, Any], tolerated: Tolerated
+) -> dict[tuple[str, ...], tuple[Any, Any]]:
+    """Return by path where plain values differ, with the accepted value and the new one.
+
+    What the configuration has beside the accepted sections and their entries is no difference.
+    """
+    differences: dict[tuple[str, ...], tuple[Any, Any]] = {}
+    for section, entries in accepted.items():
+        current = configuration.get(section)
+        for name, value in entries.items():
+            new = current.get(name, "absent") if isinstance(current, Mapping) else "absent"
+            differences |= dict(_unlike(value, new, (section, name), tolerated))
+    return differences
+
+
+def _unlike(
+    was: Any, now: Any, place: tuple[str, ...], tolerated: Tolerated
+) -> Iterable[tuple[tuple[str, ...], tuple[Any, Any]]]:
+    """Yield the places below `place` at which two values differ, with both values."""
+    key = place[-1]
+    if was == now or key in tolerated.free:
+        return
+    if isinstance(was, Mapping) and isinstance(now, Mapping) and key not in tolerated.single:
+        if was.get("name") != now.get("name"):
+            yield place, (was["name"], now["name"])
+            return
+        for inner in dict.fromkeys([*was, *now]):
+            pair = was.get(inner, "absent"), now.get(inner, "absent")
+            yield from _unlike(*pair, (*place, inner), tolerated)
+    elif not (
+        all(isinstance(value, int | float) for value in (was, now))
+        and (
+            (key in tolerated.at_least and now >= was) or (key in tolerated.at_most and now <= was)
+        )
+    ):
+        yield place, (was, now)

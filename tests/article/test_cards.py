@@ -15,7 +15,7 @@ from replication.article import sources
 from replication.article.cards import Cards, tabulate
 from replication.article.quoted import copy_of, copy_quoted, original_of
 from replication.article.sources import Printed, Source, code_of, printed
-from replication.report.words import symbols
+from replication.words import symbols
 from test_article import PICTURES, count_pages, linked_source
 
 MOST_PAGES = 15

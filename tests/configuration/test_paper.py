@@ -11,8 +11,9 @@ from helpers import skip
 from latticode.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load
 from pendula.configuration.paper import differences, paper, reason, rests_on
+from pendula.jobs.decide import all_claims
 from pendula.studies.theory.checks import CHECKS
-from replication.ledger.verdicts import all_claims, needed
+from replication.ledger.verdicts import needed
 
 ROOT = Path(__file__).resolve().parents[2]
 EDITS = {
@@ -82,7 +83,7 @@ def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):
 
 
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
-    for name in needed():
+    for name in needed(all_claims()):
         assert rests_on(name) or name.partition("/")[2] in ("identities", *CHECKS), name
         for path in rests_on(name):
             inner = paper()

@@ -3,7 +3,7 @@
 import right_runs
 from accepted import BASELINE
 from latticode.datasets.json_files import load_json
-from replication.ledger.verdicts import all_claims
+from pendula.jobs.decide import all_claims
 
 
 def test_equal_runs_turn_nothing_and_a_wrong_one_is_told(tmp_path, monkeypatch):

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from pendula.configuration.paper import paper
+from pendula.jobs.decide import all_claims
 from replication.ledger.criterion import REFUTED, Verdict
-from replication.ledger.verdicts import all_claims
 
 CASES, SWEEPS = paper()["cases"], paper()["sweeps"]
 DATA = {"omega", "gamma", "epsilon", "initial"}

@@ -4,10 +4,11 @@ import xarray as xr
 from latticode.datasets.checks import broken
 from latticode.datasets.digest import fingerprint
 from latticode.datasets.json_files import load_json
+from pendula.jobs.decide import all_claims
 from pendula.studies.theory.checks import CHECKS
 from replication.ledger.criterion import Verdict
 from replication.ledger.decide import decide_claims, tabulate_claims
-from replication.ledger.verdicts import all_claims, needed
+from replication.ledger.verdicts import needed
 
 
 def test_every_picture_shows_what_is_described_beside_it(full_run):
@@ -56,13 +57,14 @@ def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):
 
 def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path):
     part = load_json(full_run / "results/claims/theory.json")
-    paths = {name: str(full_run / f"results/{name}.nc") for name in needed("theory/claims")}
+    names = needed(all_claims("theory/claims"))
+    paths = {name: str(full_run / f"results/{name}.nc") for name in names}
     check = xr.load_dataset(paths["checks/identities"])
     check["terms"].loc["(7)", "free"] = 1
     check.to_netcdf(wrong := str(tmp_path / "identities.nc"))
     paths["checks/identities"] = wrong
     made, table = str(tmp_path / "theory.json"), tmp_path / "theory.md"
-    decide_claims(list(paths.values()), list(paths), ["theory/claims"], {}, made)
+    decide_claims(all_claims("theory/claims"), list(paths.values()), list(paths), made)
     tabulate_claims([made], str(table))
     verdicts = (
         {row["name"]: row["verdict"] for row in one["rows"]} for one in (part, load_json(made))

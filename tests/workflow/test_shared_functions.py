@@ -9,6 +9,7 @@ from latticode.configuration.cost import Cost
 from latticode.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import load
 from pendula.configuration.schema import PAPER_CASES
+from pendula.jobs.decide import all_claims
 from pendula.studies import STUDIES, files_with_prefix
 from pendula.workflow import ledger, options
 from pendula.workflow.code import committed, function
@@ -26,7 +27,7 @@ from pendula.workflow.files import (
 from pendula.workflow.refusals import read_only_folders
 from pendula.workflow.resources import resources_for
 from pendula.workflow.values import by_size, values_of
-from replication.ledger.verdicts import all_claims, needed
+from replication.ledger.verdicts import needed
 
 
 @pytest.fixture(scope="module")
@@ -136,11 +137,12 @@ def test_the_datasets_of_a_part_are_those_that_its_claims_need_also_from_the_cac
     monkeypatch.setenv("LATTICODE_CACHE", str(tmp_path / "cache"))
     modules = ledger.parts_of_ledger()["chaos"]
     names = ledger.datasets_of_claims(modules, "0" * 64)
-    assert names == needed(*modules) and "checks/ensembles" in names
+    assert names == needed(all_claims(*modules)) and "checks/ensembles" in names
     assert len(list((tmp_path / "cache/claims").glob("*.json"))) == 1
     assert ledger.datasets_of_claims([], "0" * 64) == names
     monkeypatch.setenv("LATTICODE_CACHE", "off")
-    assert ledger.datasets_of_claims(["certified/claims"], "0" * 64) == needed("certified/claims")
+    certified = needed(all_claims("certified/claims"))
+    assert ledger.datasets_of_claims(["certified/claims"], "0" * 64) == certified
 
 
 def test_trajectories_by_most_cases_own_solver_have_no_solver_in_their_name(settings):

@@ -14,7 +14,7 @@ use rule job as report with:
     pathvars:
         made="report",
     params:
-        call=function("replication.report.document.write_report"),
+        call=function("pendula.jobs.report.write_report"),
         differs=DIFFERS,
 
 
@@ -69,7 +69,7 @@ use rule job as archive with:
         made="archive",
     params:
         call=lambda wildcards: function(
-            "replication.archive.pack.pack_results",
+            "pendula.jobs.pack.pack_results",
             also=[digest_of(PROJECT / name) for name in code_files(PROJECT)],
         ),
         made_by=lambda wildcards: code_of_jobs(),

@@ -2,7 +2,7 @@
 # edit re-decides only the parts that depend on it.
 CLAIM_MODULES = parts_of_ledger()
 DECIDING = {
-    part: function("replication.ledger.decide.decide_claims", modules=modules_of(modules))
+    part: function("pendula.jobs.decide.decide_claims", modules=modules_of(modules))
     for part, modules in CLAIM_MODULES.items()
 }
 

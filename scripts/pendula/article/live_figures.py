@@ -10,8 +10,8 @@ import xarray as xr
 from jinja2 import Environment, FileSystemLoader
 from latticode.datasets.netcdf import read
 from replication.article.page import LiveParts
-from replication.report.results import Results
-from replication.report.words import number, percent
+from replication.results import Results
+from replication.words import number, percent
 
 from pendula.live.write import HERE as LIVE
 from pendula.live.write import data_of, worker_text

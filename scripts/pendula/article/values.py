@@ -15,8 +15,8 @@ from replication.article.sources import Printed, Source, printed
 from replication.ledger.claim import Kind, Origin
 from replication.ledger.criterion import Verdict
 from replication.ledger.rows import tally
-from replication.report.results import Results
-from replication.report.words import enclosing_span, number, percent
+from replication.results import Results
+from replication.words import enclosing_span, number, percent
 
 from pendula.configuration.schema import PAPER_CASES
 from pendula.studies.paper.solvers import ORDER

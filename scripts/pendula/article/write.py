@@ -5,7 +5,7 @@ from pathlib import Path
 
 from replication.article.quoted import copy_quoted
 from replication.article.render import Article
-from replication.report.results import Results
+from replication.results import Results
 
 from pendula import RELEASED
 

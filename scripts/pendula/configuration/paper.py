@@ -12,16 +12,18 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from replication.differences import Differences, in_short
+from replication.differences import Differences, Tolerated, find_differences
 
 FILE = Path(__file__).with_suffix(".json")
 
-FREE = {"seed", "draw", "snapshot_step", "times", "keep", "long", "points"}
-"""Keys that change no statement: other draws of a case, another look at it, and longer studies."""
-AT_LEAST = {"members", "nodes"}
-"""Sizes of ensembles and grids: larger ones are still about the same case."""
-AT_MOST = {"tolerance"}
-"""Smaller values are still about the same case."""
+TOLERATED = Tolerated(
+    free=frozenset({"seed", "draw", "snapshot_step", "long", "points"}),
+    at_least=frozenset({"members", "nodes"}),
+    at_most=frozenset({"tolerance"}),
+    single=frozenset({"initial"}),
+)
+"""Keys that change no statement: other draws of a case, another look at it, longer studies; larger
+ensembles and grids; smaller tolerances."""
 
 DATA = ("model", "epsilon", "gamma", "omega", "initial")
 """What of a case decides a solution on an infinite chain."""
@@ -38,34 +40,8 @@ def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
 
     Cases and sweeps beside the paper's are no difference.
     """
-    sentences: dict[str, str] = {}
-    for section, of_paper in paper().items():
-        section_now = configuration.get(section)
-        for name, value in of_paper.items():
-            path = (section, name)
-            now = section_now.get(name, "absent") if isinstance(section_now, Mapping) else "absent"
-            for place, pair in _unlike(value, now, path):
-                sentences[".".join(place)] = _in_words(place, *pair)
-    return sentences
-
-
-def _unlike(was: Any, now: Any, place: tuple) -> Iterable[tuple[tuple, tuple]]:
-    """Yield the places below `place` at which two values differ, with both values."""
-    key = place[-1]
-    if was == now or key in FREE:
-        return
-    if isinstance(was, Mapping) and isinstance(now, Mapping) and key != "initial":
-        if was.get("name") != now.get("name"):
-            yield place, (was["name"], now["name"])
-            return
-        for inner in dict.fromkeys([*was, *now]):
-            pair = (mapping.get(inner, "absent") for mapping in (was, now))
-            yield from _unlike(*pair, (*place, inner))
-    elif not (
-        all(isinstance(value, int | float) for value in (was, now))
-        and ((key in AT_LEAST and now >= was) or (key in AT_MOST and now <= was))
-    ):
-        yield place, (was, now)
+    differences = find_differences(paper(), configuration, TOLERATED)
+    return {".".join(place): _in_words(place, *pair) for place, pair in differences.items()}
 
 
 def _in_words(place: tuple, was: Any, now: Any) -> str:
@@ -91,32 +67,10 @@ def _short(value: Any) -> str:
     return "0" if str(value) == "0j" else str(value).removesuffix("+0j")
 
 
-def constants_differ(differs: Differences, cases: Iterable[str]) -> bool:
+def constants_differ(differs: Mapping[str, str], cases: Iterable[str]) -> bool:
     """Return whether a case has other constants of (4) than in the paper."""
     constants = ("epsilon", "gamma", "omega")
     return any(f"cases.{case}.{key}" in differs for case in cases for key in constants)
-
-
-def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -> str:
-    """Return why datasets are not about the paper's cases; an empty text where they are.
-
-    `names` are paths below results/ without their ending. `on` names cases and sweeps where a
-    statement is about some alone of all that a dataset of many holds.
-    """
-    return in_short(list(concerning(differs, names, on).values()))
-
-
-def concerning(
-    differs: Differences, names: Iterable[str], on: Iterable[str] = ()
-) -> dict[str, str]:
-    """Return the differences that the datasets called `names` rest on, as `reason` takes them."""
-    paths = {path for name in names for path in rests_on(name, tuple(on))}
-    return {
-        place: words
-        for place, words in differs.items()
-        if any(f"{place}.".startswith(f"{path}.") for path in paths)
-        or any(path.startswith(f"{place}.") for path in paths)
-    }
 
 
 # --- What datasets rest on ------------------------------------------------------------------------
@@ -186,3 +140,20 @@ def _at(path: str) -> Any:
     for key in path.split("."):
         value = value.get(key, {})
     return value
+
+
+def from_paper(words: Mapping[str, str]) -> Differences:
+    """Return differences from the paper, given in words by path, with what rests on them."""
+    return Differences(words, rests_on)
+
+
+def concerning(
+    differs: Mapping[str, str], names: Iterable[str], on: Iterable[str] = ()
+) -> dict[str, str]:
+    """Return the differences that the datasets called `names` rest on."""
+    return from_paper(differs).concerning(names, on)
+
+
+def reason(differs: Mapping[str, str], names: Iterable[str], on: Iterable[str] = ()) -> str:
+    """Return why datasets are not about the paper's cases; an empty text where they are."""
+    return from_paper(differs).reason(names, on)

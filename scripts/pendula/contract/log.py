@@ -32,7 +32,7 @@ def log_uncaught(
 
 sys.excepthook = log_uncaught
 
-from pendula.sources import TOOK  # noqa: E402, after the hook
+from replication.logs import last_line  # noqa: E402, after the hook
 
 # At exit Python would search a million objects for cycles, which takes a fifth of a second in every
 # job. While a job runs it would search whenever some hundred objects are new: a compiler makes
@@ -93,7 +93,7 @@ class _Output:
 
     def close(self) -> None:
         seconds = time.monotonic() - STARTED
-        self.log(f"{TOOK}{seconds:.1f} s, largest memory: {_peak_memory():.0f} MB\n")
+        self.log(last_line(seconds, _peak_memory()))
         with suppress(OSError):
             if self.file:
                 self.file.close()

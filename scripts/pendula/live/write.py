@@ -21,7 +21,8 @@ from latticode.kernels.webassembly import loader
 from latticode.measures.difference import VISIBLE
 from markupsafe import Markup
 from replication.report import page
-from replication.report.words import case_of
+
+from pendula.case_words import case_of
 
 from .experiments import EXPERIMENTS
 from .kernel import ODE45, compile_for_any_processor

@@ -5,7 +5,7 @@ import xarray as xr
 from latticode.checks import LOCALISED, UNSTABLE_REST
 from latticode.datasets.registry import SOLVER_NAMES
 from latticode.measures.difference import VISIBLE
-from replication.report.words import number, percent
+from replication.words import number, percent
 
 from pendula.problem import PENDULA
 

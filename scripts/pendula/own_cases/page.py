@@ -5,7 +5,7 @@ from pathlib import Path
 from latticode.datasets.netcdf import read, save
 from markupsafe import Markup
 from replication.report.described import dataset, figure
-from replication.report.document import Section, Table, write_page
+from replication.report.document import PageSection, PageTable, write_page
 
 from . import answers
 
@@ -31,7 +31,7 @@ def write_report(
     of_kind = {"trajectories": cases, "sweeps": sweeps, "surveys": surveys}
     runs = [read(folder / f"{kind}/{name}.nc") for kind in of_kind for name in of_kind[kind]]
     papers = any("model_text" not in run.attrs for run in runs)
-    write_page(html, "own.html.j2", TITLE, sections, papers=papers)
+    write_page(html, "own.html.j2", TITLE, sections, Path(__file__).parent, papers=papers)
 
 
 def write_table(data: str, table: str) -> None:
@@ -46,23 +46,23 @@ def _table(path: str, folder: Path) -> list[str]:
     return [line] if (folder / link).exists() else []
 
 
-def _case(name: str, folder: Path, made: set[str]) -> Section:
+def _case(name: str, folder: Path, made: set[str]) -> PageSection:
     run, checks = folder / f"trajectories/{name}.nc", folder / f"own/cases/{name}.checks.nc"
     drawn = [folder / f"own/cases/{name}{part}.nc" for part in PARTS]
     answered = answers.of_case(read(checks), moves=bool(read(run)["linf"].any()))
-    return Section(
+    return PageSection(
         f"case-{name}", f"The case {name}",
         lines=_table(f"trajectories/{name}.nc", folder),
-        tables=[Table("What the checks say", ("question", "answer"), answered)],
+        tables=[PageTable("What the checks say", ("question", "answer"), answered)],
         figures=[figure(path, folder) for path in drawn if str(path) in made],
         datasets={"Datasets": [dataset(run, folder), dataset(checks, folder)]},
     )  # fmt: skip
 
 
-def _many_runs(kind: str, name: str, case: str, folder: Path) -> Section:
+def _many_runs(kind: str, name: str, case: str, folder: Path) -> PageSection:
     """Return the section of a sweep or a survey."""
     made = f"{kind}s/{name}.nc"
-    return Section(
+    return PageSection(
         f"{kind}-{name}", f"The {kind} {name} of the case {case}",
         lines=_table(made, folder),
         figures=[figure(folder / f"own/{made}", folder)],

@@ -48,9 +48,12 @@ def datasets_of_claims(modules: list[str], digest: str) -> list[str]:
     if cache_file:
         with suppress(OSError, ValueError):
             return json.loads(cache_file.read_text(encoding="utf-8"))
-    from replication.ledger.verdicts import needed  # here: it imports all that claims compute with
+    # imported here: the claims import all that they compute with
+    from replication.ledger.verdicts import needed
 
-    names = needed(*modules)
+    from pendula.jobs.decide import all_claims
+
+    names = needed(all_claims(*modules))
     if cache_file:
         with suppress(OSError):
             _write_whole(cache_file, json.dumps(names))

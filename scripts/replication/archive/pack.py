@@ -12,20 +12,18 @@ import json
 import re
 import tarfile
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import quote
 
 import yaml
 from latticode.datasets import complete_or_absent
 from latticode.datasets.netcdf import read
 from latticode.kernels.sources import digest_of
-from pendula import __version__
-from pendula.sources import SCRIPTS
 from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from .contents import MANIFEST, ArchiveError, code_files
 
-PROJECT = SCRIPTS.parent
 MADE = 315532800
 """All files get this time, 1980-01-01: if times differed, Snakemake would make some files again."""
 
@@ -33,29 +31,44 @@ FORMATS = {".nc": "application/netcdf", ".png": "image/png", ".pdf": "applicatio
 FORMATS |= {".html": "text/html", ".md": "text/markdown", ".json": "application/json"}
 
 
-class Whole(yaml.SafeDumper):
+class AliasFreeDumper(yaml.SafeDumper):
     """Writes what occurs twice in a configuration twice, so that people can edit it."""
 
     def ignore_aliases(self, data) -> bool:
         return True
 
 
+class Project(NamedTuple):
+    """A project to pack: its folder, and the name and the version of its release."""
+
+    folder: Path
+    name: str
+    version: str
+
+
 def pack_results(
-    results: list[str], made_by: list[str], archive: str, checksum: str, configuration: dict
+    project: Project,
+    results: list[str],
+    made_by: list[str],
+    archive: str,
+    checksum: str,
+    configuration: dict,
 ) -> None:
     """Write the archive of the project with `results`, and beside it its checksum.
 
     `made_by` names the code that made the results, `configuration` is what they were made with.
     """
-    code = code_files(PROJECT)  # first, for it names what is missing
+    code = code_files(project.folder)  # first, for it names what is missing
     if left := sorted(set(made_by) - set(code)):
         raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
-    members = {name: PROJECT / name for name in code} | {name: Path(name) for name in results}
-    crate = json.dumps(describe(PROJECT, members), indent=1, ensure_ascii=False)
-    words = yaml.dump(configuration, Dumper=Whole, allow_unicode=True)
+    members = {name: project.folder / name for name in code} | {
+        name: Path(name) for name in results
+    }
+    crate = json.dumps(describe(project, members), indent=1, ensure_ascii=False)
+    words = yaml.dump(configuration, Dumper=AliasFreeDumper, allow_unicode=True)
     with complete_or_absent(archive) as new_archive, complete_or_absent(checksum) as new_checksum:
         new = {"ro-crate-metadata.json": f"{crate}\n", "configuration.yaml": words}
-        count = pack(new_archive, f"pendula-{__version__}", members, new)
+        count = pack(new_archive, f"{project.name}-{project.version}", members, new)
         new_checksum.write_text(f"{digest_of(new_archive)}  {Path(archive).name}\n", "utf-8")
     print(f"{archive}: {count} files, {Path(archive).stat().st_size / 1e6:.1f} MB")
 
@@ -81,20 +94,20 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
     return len(data)
 
 
-def describe(project: Path, members: dict[str, Path]) -> dict:
+def describe(project: Project, members: dict[str, Path]) -> dict:
     """Return ro-crate-metadata.json: the workflow, whom to cite, and each result.
 
     Facts come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
     """
-    cited = yaml.safe_load((project / "CITATION.cff").read_text("utf-8"))
-    pinned = (project / "environment.txt").read_text("utf-8")
+    cited = yaml.safe_load((project.folder / "CITATION.cff").read_text("utf-8"))
+    pinned = (project.folder / "environment.txt").read_text("utf-8")
     crate = ROCrate(version="1.1")
 
     def entity(identifier: str, kind: str, name: str) -> ContextEntity:
         about = {"@type": kind, "name": name}
         return crate.add(ContextEntity(crate, identifier, properties=about))
 
-    rights = [cited["license"], (project / "LICENSE-DATA").read_text("utf-8").split()[1]]
+    rights = [cited["license"], (project.folder / "LICENSE-DATA").read_text("utf-8").split()[1]]
     of_code, of_data = (
         entity(f"https://spdx.org/licenses/{name}", "CreativeWork", name) for name in rights
     )
@@ -105,7 +118,7 @@ def describe(project: Path, members: dict[str, Path]) -> dict:
     ]  # fmt: skip
     facts = {
         "name": cited["title"],
-        "version": __version__,
+        "version": project.version,
         "author": [entity(f"#{name.replace(' ', '-')}", kind, name) for kind, name in authors],
         "license": of_code,
     }

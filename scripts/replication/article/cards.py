@@ -13,9 +13,9 @@ from latticode.numerics.elementary import log
 
 from replication.ledger.criterion import Verdict
 from replication.ledger.rows import load
-from replication.report.results import Results
-from replication.report.words import number, plainly, symbols
+from replication.results import Results
 from replication.variables import VARIATION
+from replication.words import number, plainly, symbols
 
 from .quoted import LongStudies, LongStudy, copy_of, is_quoted
 from .sources import Code, Printed, Source, code_of

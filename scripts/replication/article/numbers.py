@@ -3,8 +3,9 @@
 from collections.abc import Callable
 
 from replication.ledger.rows import counted_verdicts, load, on_figure, whether_it_holds
-from replication.report.results import Results
-from replication.report.words import (
+from replication.results import Results
+from replication.variables import VARIATION
+from replication.words import (
     DOWN,
     FIRM,
     UP,
@@ -14,7 +15,6 @@ from replication.report.words import (
     percent,
     with_error,
 )
-from replication.variables import VARIATION
 
 from .quoted import is_quoted
 from .sources import Printed, Source, printed

@@ -20,8 +20,8 @@ from replication.differences import in_short
 from replication.ledger.claim import Origin
 from replication.ledger.criterion import REFUTED, Verdict
 from replication.ledger.rows import load
-from replication.report.results import Results
-from replication.report.words import FIRM
+from replication.results import Results
+from replication.words import FIRM
 
 from .cards import Card, Cards, functions_of
 from .crosslinks import alternatives, link_mentions

@@ -3,13 +3,10 @@
 `claim`      a claim, as a study declares it above the function that decides it
 `chances`    how likely another right run turns a verdict
 `changes`    the verbs that make wrong cases
-`chaos`      what ensembles of nearly equal initial conditions can show
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
 `missing`    what is missing from a dataset, and confirms nothing
 `rows`       the rows of a run, counts of them, and the numbers that others quote from them
 `decide`     the jobs that write the parts of the ledger and join them in a table
-`verdicts`   all claims, and the verdict on each with what its controls say
-
-Each study keeps its claims in its own folder, in modules whose names start with `claims`.
+`verdicts`   the verdict on each claim, with what its controls say
 """

@@ -1,26 +1,12 @@
-"""How a study declares a claim, and how the function that decides it reads datasets."""
+"""How a study declares a claim."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from enum import StrEnum
+from types import ModuleType
 from typing import NamedTuple
 
-from .criterion import UndecidableError, Verdict
-from .cutoff import Cutoff
-
-# ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
-# that none is fitted to the numbers of one row.
-FACTOR = Cutoff(2.0, '"comparable", "the same level", "mix up", "grows": a factor of 2')
-MUCH = Cutoff(3.0, '"large", "significantly larger": a factor of 3')
-CHANGE = Cutoff(0.25, '"do not change much", "saturates": by less than a quarter')
-CONSTANT = Cutoff(0.02, '"does not change": by less than 2 %, which a figure of 5 cm hardly shows')
-NEARLY_ALL = Cutoff(0.75, '"nearly monotonic": three of four steps go up', 1.0)
-
-SETTLED = 10.0
-"""The paper takes its statistics from here on: its time windows start at tau = 10."""
-FEWEST = 6
-"""A sweep with fewer half-widths decides nothing."""
-
+from .criterion import Verdict
 
 Wrong = str | Callable | tuple[str, Callable]
 
@@ -57,7 +43,7 @@ class Control(NamedTuple):
 
 
 class Origin(StrEnum):
-    """Whose sentence a claim is: the place of each claim decides it, see `Claim.origin`."""
+    """Whose sentence a claim is."""
 
     PAPER = "of the paper"
     OPEN = "on its open questions"
@@ -71,10 +57,6 @@ class Kind(StrEnum):
     THEOREM = "theorem"  # the paper proves it; numbers can only contradict it
     OBSERVATION = "observation"
     CONCLUSION = "conclusion"  # what the paper infers from a figure about what it does not show
-
-
-BEYOND, BREATHERS, PENDULA = "Beyond the paper", "Section 6, breathers", "for the pendula (1)"
-"""How the places of claims begin or end that are no sentences of the paper."""
 
 
 class Claim(NamedTuple):
@@ -92,6 +74,8 @@ class Claim(NamedTuple):
     controls: tuple[Control, ...]
     on: tuple[str, ...] = ()
     kind: Kind = Kind.OBSERVATION
+    origin: Origin = Origin.PAPER
+    rejected: Verdict = Verdict.NOT_REPRODUCED
 
     @property
     def section(self) -> int:
@@ -99,19 +83,9 @@ class Claim(NamedTuple):
         return sys.modules[self.decide.__module__].SECTION
 
     @property
-    def origin(self) -> Origin:
-        """Whose sentence it is: the paper asks in its Section 6 about breathers and the pendula."""
-        if self.place.startswith(BEYOND):
-            return Origin.OWN
-        asked = self.place.startswith(BREATHERS) or self.place.endswith(PENDULA)
-        return Origin.OPEN if asked else Origin.PAPER
-
-    @property
     def refuted(self) -> Verdict:
         """The verdict on it where the numbers contradict it."""
-        if self.kind == Kind.CONCLUSION:
-            return Verdict.NOT_FOLLOWING
-        return Verdict.NOT_CARRIED if self.place.endswith(PENDULA) else Verdict.NOT_REPRODUCED
+        return Verdict.NOT_FOLLOWING if self.kind == Kind.CONCLUSION else self.rejected
 
 
 def claim(
@@ -121,16 +95,19 @@ def claim(
     controls: tuple[Control, ...] = (),
     on: tuple[str, ...] = (),
     kind: Kind = Kind.OBSERVATION,
+    origin: Origin = Origin.PAPER,
+    rejected: Verdict = Verdict.NOT_REPRODUCED,
 ) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
 
-    The claim has the name of the function.
+    The claim has the name of the function. `rejected` is the verdict if the numbers contradict it.
     """
 
     def declare(function: Callable) -> Callable:
         fed = tuple(_by_name(control, needs) for control in controls)
-        about = (function.__name__, place, says, needs, function, fed, on, kind)
-        function.claim = Claim(*about)
+        function.claim = Claim(
+            function.__name__, place, says, needs, function, fed, on, kind, origin, rejected
+        )
         return function
 
     return declare
@@ -154,40 +131,15 @@ def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
     return control._replace(fed=found)
 
 
-def _in(folder: str) -> Callable[..., tuple[str, ...]]:
-    """Return a function that takes names and returns those of the datasets in a folder."""
-    return lambda *names: tuple(f"{folder}/{name}" for name in names)
+def claims_of(modules: Iterable[ModuleType]) -> tuple[Claim, ...]:
+    """Return the claims that modules declare, in the order of the paper's sections.
 
-
-checks, runs = _in("checks"), _in("trajectories")
-sweeps, unbounded = _in("sweeps"), _in("unbounded")
-SMALL = runs("fig2_small", "fig3_small", "fig4_small")
-
-
-def late(trajectory, start: float = SETTLED):
-    """Return the trajectory from tau = `start` on, which must leave as long a time again."""
-    end = float(trajectory["tau"][-1])
-    if end < 2.0 * start:
-        raise UndecidableError(f"the run ends at tau = {end:g}, before {2.0 * start:g}")
-    return trajectory.sel(tau=slice(start, None))
-
-
-def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair"):
-    """Return the half-widths of a sweep and one statistic of a norm of the pair at each."""
-    if window not in sweep["window"].values:
-        raise UndecidableError(f"the sweep has no window {window}")
-    values = sweep[norm].sel(quantity=quantity, statistic=statistic, window=window).values
-    if len(values) < FEWEST:
-        raise UndecidableError(f"the sweep has fewer than {FEWEST} half-widths")
-    return sweep["half_width"].values, values
-
-
-def at_one_omega(one, other) -> None:
-    """Raise an error unless two runs or sweeps are at one Omega, as a comparison of them is."""
-    if one.attrs["omega"] != other.attrs["omega"]:
-        raise UndecidableError("these data are at two values of Omega")
-
-
-def number(check, name: str, **selection) -> float:
-    """Return one number of a check's dataset."""
-    return float(check[name].sel(selection).values)
+    Raises ValueError for a module without a claim: its study would be left out of the ledger.
+    """
+    claims: list[Claim] = []
+    for module in modules:
+        declared = [each.claim for each in vars(module).values() if hasattr(each, "claim")]
+        if not declared:
+            raise ValueError(f"{module.__name__} declares no claim: delete it, or use @claim there")
+        claims += declared
+    return tuple(sorted(claims, key=lambda claim: claim.section))

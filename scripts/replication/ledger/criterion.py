@@ -170,10 +170,10 @@ def in_words(name: str) -> str:
 class Verdict(StrEnum):
     """What the numbers can say about a sentence of the paper.
 
-    A sentence of the paper is on the amplitude equations: re-read for the pendula themselves it is
-    not one that the paper wrote, so that it can fail to carry over, but not to be reproduced. A
-    sentence is on the paper's case: where another one was run, it is not applicable. A conclusion
-    that the paper draws from a figure may be true and still not follow from what the figure shows.
+    A sentence that is read for another model than the paper's can fail to carry over, but not to be
+    reproduced. A sentence is on the paper's case: where another one was run, it is not applicable.
+    A conclusion that the paper draws from a figure may be true and still not follow from what the
+    figure shows.
     """
 
     CONFIRMED = "confirmed"

@@ -1,26 +1,34 @@
 """Decide the claims of a part of the ledger by datasets, join the parts, and write their table."""
 
+from collections.abc import Sequence
+
 from latticode.datasets.json_files import load_json, write_json
 from latticode.datasets.netcdf import read
 
-from replication.report.words import markdown, write_markdown
+from replication.differences import NO_DIFFERENCES, Differences
+from replication.words import markdown, write_markdown
 
+from .claim import Claim
 from .rows import counted
 from .verdicts import evaluate, needed
 
 
 def decide_claims(
-    datasets: list[str], names: list[str], modules: list[str], differs: dict[str, str], part: str
+    claims: Sequence[Claim],
+    datasets: Sequence[str],
+    names: Sequence[str],
+    part: str,
+    differences: Differences = NO_DIFFERENCES,
 ) -> None:
-    """Write the rows of the ledger on the claims in `modules`.
+    """Write the rows of the ledger on some claims into the file `part`.
 
-    `names` are those that the claims have for `datasets`, in their order. `differs` says where the
-    configuration is not the paper's, as `configuration.paper` finds it.
+    `names` are those that the claims have for the paths `datasets`, in their order. `differences`
+    are those of the configuration from the paper's.
     """
-    if absent := set(needed(*modules)) - set(names):
+    if absent := set(needed(claims)) - set(names):
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
-    rows = evaluate(sources, differs, modules)
+    rows = evaluate(claims, sources, differences)
     write_json(part, {"rows": rows})
     print(*counted(rows), sep="\n")
 

@@ -3,20 +3,18 @@
 import re
 from collections import Counter
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from latticode.datasets.json_files import load_json
+
+from replication.results import Results
 
 from .claim import Origin
 from .criterion import Verdict
 
-if TYPE_CHECKING:
-    from replication.report.results import Results
-
 LEDGER = "claims.json"
 
 
-def load(results: "Results") -> list[dict]:
+def load(results: Results) -> list[dict]:
     """Return the rows of the ledger of a run."""
     return load_json(results.path(LEDGER))["rows"]
 

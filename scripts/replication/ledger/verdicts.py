@@ -1,11 +1,9 @@
-"""All claims in the order of the paper, and the verdict on each with what its controls say."""
+"""The verdict on each claim, with what its controls say."""
 
 import math
 from collections.abc import Iterable, Mapping
-from functools import cache
 
-from pendula import studies
-from pendula.configuration.paper import Differences, reason
+from replication.differences import NO_DIFFERENCES, Differences
 
 from .claim import Claim, Control, Wrong
 from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
@@ -13,26 +11,10 @@ from .cutoff import each_move, flips, reading
 from .missing import missing
 
 
-@cache
-def all_claims(*modules: str) -> tuple[Claim, ...]:
-    """Return the claims of all studies, or those in `modules`, in the order of the paper.
-
-    `modules` are starts of names, such as "theory/claims" and "paper/claims_norms".
-    """
-    found = [
-        function.claim
-        for start in modules or ("claims",)
-        for module in studies.modules_with_prefix(start)
-        for function in vars(module).values()
-        if hasattr(function, "claim")
-    ]
-    return tuple(sorted(found, key=lambda claim: claim.section))
-
-
-def needed(*modules: str) -> list[str]:
-    """Return every dataset that the claims in `modules` read, once each, in their order."""
+def needed(claims: Iterable[Claim]) -> list[str]:
+    """Return every dataset that claims and their controls read, once each, in their order."""
     names: list[str] = []
-    for claim in all_claims(*modules):
+    for claim in claims:
         names += claim.needs
         names += [name for control in claim.controls for name in control.names]
     return list(dict.fromkeys(names))
@@ -107,32 +89,31 @@ def confirmed(finding: Finding) -> bool:
     return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
 
 
-def apart(differs: Differences, claim: Claim, control: Control | None = None) -> str:
+def why_not_applicable(
+    differences: Differences, claim: Claim, control: Control | None = None
+) -> str:
     """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
-    own = reason(differs, claim.needs, claim.on)
-    if own or control is None:
-        return own
-    of_same = reason(differs, claim.needs, control.on) if control.on else ""
-    return of_same or reason(differs, control.names, control.on)
+    of_claim = differences.reason(claim.needs, claim.on)
+    if of_claim or control is None:
+        return of_claim
+    of_same = differences.reason(claim.needs, control.on) if control.on else ""
+    return of_same or differences.reason(control.names, control.on)
 
 
 def evaluate(
-    sources: Mapping, differs: Differences | None = None, modules: Iterable[str] = ()
+    claims: Iterable[Claim], sources: Mapping, differences: Differences = NO_DIFFERENCES
 ) -> list[dict]:
     """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
 
-    `modules` are those of the claims, as `all_claims` takes them; without any they are all.
-
     A verdict that changes where a cut-off moves by a third says so. Where a control comes out
-    wrong, its function cannot decide the claim. `differs` says where the
-    configuration is not the paper's: a claim or a control that rests on such a key is not
-    applicable.
+    wrong, its function cannot decide the claim. A claim or a control that rests on a key in which
+    the configuration has `differences` from the paper's is not applicable.
     """
-    return [_row(claim, sources, differs or {}) for claim in all_claims(*modules)]
+    return [_row(claim, sources, differences) for claim in claims]
 
 
-def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
-    why = apart(differs, claim)
+def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
+    why = why_not_applicable(differences, claim)
     if why:
         finding, cutoffs, moved = not_applicable(why), set(), []
     else:
@@ -141,7 +122,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     controls = [
         (control, not_applicable(why) if why else feed(claim, control, sources))
         for control in claim.controls
-        for why in (apart(differs, claim, control),)
+        for why in (why_not_applicable(differences, claim, control),)
     ]
     finding = _severe(finding, moved, controls)
     return {

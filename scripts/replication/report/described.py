@@ -9,7 +9,7 @@ import netCDF4
 import numpy as np
 from latticode.datasets.netcdf import readable
 
-from .words import number
+from replication.words import number
 
 WORDS = 300
 """The page shows the beginning of a longer attribute, such as a model's text."""
@@ -19,7 +19,7 @@ SHARED = {"Conventions", "version", "history"}
 """Attributes that are the same in every dataset of a run."""
 
 
-class Figure(NamedTuple):
+class DescribedFigure(NamedTuple):
     """A figure; `stem` is where its files are, seen from the page, without their endings."""
 
     stem: str
@@ -39,7 +39,7 @@ class Figure(NamedTuple):
         return re.split(r"[.:] ", self.caption)[0].rstrip(".")
 
 
-class Variable(NamedTuple):
+class DescribedVariable(NamedTuple):
     """A variable of a dataset in words."""
 
     name: str
@@ -48,40 +48,42 @@ class Variable(NamedTuple):
     dimensions: str
 
 
-class Dataset(NamedTuple):
+class DescribedDataset(NamedTuple):
     """A dataset in words; `link` is where it is, seen from the page."""
 
     link: str
     title: str
     attributes: dict[str, str]
-    variables: list[Variable]
+    variables: list[DescribedVariable]
 
 
-def figure(path: Path, page: Path) -> Figure:
+def figure(path: Path, page: Path) -> DescribedFigure:
     """Return the figure whose dataset is at `path`, beside its picture, for a page in `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
         caption = data.caption
     with path.with_suffix(".png").open("rb") as picture:
         size = struct.unpack(">II", picture.read(SIZE_OF_PNG.stop)[SIZE_OF_PNG])
     stem = path.relative_to(page).with_suffix("").as_posix()
-    return Figure(stem, caption, *size)
+    return DescribedFigure(stem, caption, *size)
 
 
-def dataset(path: Path, page: Path) -> Dataset:
+def dataset(path: Path, page: Path) -> DescribedDataset:
     """Return what the dataset at `path` says, for a page in the folder `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
         about = {name: value for name, value in vars(data).items() if name not in SHARED}
         variables = [_variable(one) for one in data.variables.values()]
     told = {name: _in_words(value) for name, value in about.items()}
     title = told.pop("title", "")
-    return Dataset(path.relative_to(page).as_posix(), title, told, variables)
+    return DescribedDataset(path.relative_to(page).as_posix(), title, told, variables)
 
 
-def _variable(one: netCDF4.Variable) -> Variable:
+def _variable(one: netCDF4.Variable) -> DescribedVariable:
     about = vars(one)
     dimensions = " × ".join(f"{k} {n}" for k, n in zip(one.dimensions, one.shape, strict=True))
     units = about.get("units", "1")
-    return Variable(one.name, about.get("long_name", ""), "" if units == "1" else units, dimensions)
+    return DescribedVariable(
+        one.name, about.get("long_name", ""), "" if units == "1" else units, dimensions
+    )
 
 
 def _in_words(value: Any) -> str:

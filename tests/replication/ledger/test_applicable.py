@@ -4,10 +4,11 @@ from functools import cache, partial
 
 import pytest
 from accepted import dataset, datasets
-from pendula.configuration.paper import paper
+from pendula.configuration.paper import from_paper, paper
+from pendula.jobs.decide import all_claims
 from replication.ledger.claim import Claim, Control
 from replication.ledger.criterion import Above, Verdict, judge
-from replication.ledger.verdicts import all_claims, apart, decide, evaluate, feed, needed
+from replication.ledger.verdicts import decide, evaluate, feed, needed, why_not_applicable
 
 SECTION = 5
 """Of the paper, as modules of claims name it."""
@@ -18,17 +19,16 @@ def grows(*runs):
     return judge({"growth": runs[0]}, Above(2.0, "growth"))
 
 
-def row_of(monkeypatch, differs, needs, controls=(), on=()):
+def row_of(differs, needs, controls=(), on=()):
     claim = Claim("it", "Section 0", "It is so.", needs, grows, controls, on)
-    monkeypatch.setattr("replication.ledger.verdicts.all_claims", lambda: (claim,))
     sources = dict.fromkeys(("trajectories/fig3_small", "checks/members"), 5.0)
-    (row,) = evaluate(sources | {"trajectories/fig2_small": 1.0}, differs)
+    (row,) = evaluate([claim], sources | {"trajectories/fig2_small": 1.0}, from_paper(differs))
     return row
 
 
-def test_an_edited_case_decides_no_claim_on_it(monkeypatch):
+def test_an_edited_case_decides_no_claim_on_it():
     control = Control("a flat run", {"trajectories/fig2_small": "trajectories/fig3_small"})
-    row = row_of(monkeypatch, FIG2, ("trajectories/fig2_small",), (control,))
+    row = row_of(FIG2, ("trajectories/fig2_small",), (control,))
     assert row["verdict"] == Verdict.NOT_APPLICABLE
     assert row["because"] == "the configuration differs in fig2_small.omega (1 in place of 8)"
     assert row["measured"] == {} and row["cutoffs"] == row["rests_on"] == []
@@ -36,20 +36,20 @@ def test_an_edited_case_decides_no_claim_on_it(monkeypatch):
     assert fed["verdict"] == Verdict.NOT_APPLICABLE and fed["passes"] is None
 
 
-def test_a_control_that_is_fed_an_edited_case_is_not_asked(monkeypatch):
+def test_a_control_that_is_fed_an_edited_case_is_not_asked():
     control = Control("a flat run", {"trajectories/fig3_small": "trajectories/fig2_small"})
-    row = row_of(monkeypatch, FIG2, ("trajectories/fig3_small",), (control,))
+    row = row_of(FIG2, ("trajectories/fig3_small",), (control,))
     assert row["verdict"] == Verdict.CONFIRMED
     assert row["controls"][0]["verdict"] == Verdict.NOT_APPLICABLE
-    row = row_of(monkeypatch, {}, ("trajectories/fig3_small",), (control,))
+    row = row_of({}, ("trajectories/fig3_small",), (control,))
     assert row["controls"][0]["passes"]
 
 
 @pytest.mark.parametrize(
     ("on", "verdict"), [((), Verdict.NOT_APPLICABLE), (("fig3_large",), Verdict.CONFIRMED)]
 )
-def test_a_claim_on_some_cases_of_a_check_rests_on_these_alone(monkeypatch, on, verdict):
-    assert row_of(monkeypatch, FIG2, ("checks/members",), on=on)["verdict"] == verdict
+def test_a_claim_on_some_cases_of_a_check_rests_on_these_alone(on, verdict):
+    assert row_of(FIG2, ("checks/members",), on=on)["verdict"] == verdict
 
 
 @cache
@@ -80,11 +80,14 @@ def silent_on(claim, control, names, sources):
     function = partial(feed, claim, control) if control else partial(decide, claim)
     right = said(function, sources)
     for along, key in (("case", "omega"), ("sweep", "windows")):
-        told = {one for one in paper()[f"{along}s"]
-                if apart({f"{along}s.{one}.{key}": "edited"}, claim, control)}  # fmt: skip
+        named = {
+            label
+            for label in paper()[f"{along}s"]
+            if why_not_applicable(from_paper({f"{along}s.{label}.{key}": "edited"}), claim, control)
+        }
         for need in names:
             held = set(sources[need][along].values) if along in sources[need].dims else set()
-            for one in (held & set(paper()[f"{along}s"])) - told:
+            for one in (held & set(paper()[f"{along}s"])) - named:
                 for wrong in edited(need, along, one):
                     if said(function, {**sources, need: wrong}) != right:
                         yield need, one
@@ -92,7 +95,7 @@ def silent_on(claim, control, names, sources):
 
 @pytest.mark.parametrize("claim", all_claims(), ids=lambda claim: claim.name)
 def test_a_claim_rests_on_no_case_that_it_does_not_name(claim):
-    accepted = datasets(needed())
+    accepted = datasets(needed(all_claims()))
     for control in (None, *claim.controls):
         names = dict.fromkeys((*claim.needs, *(control.names if control else ())))
         assert set(silent_on(claim, control, names, accepted)) == set(), control

@@ -5,6 +5,7 @@ import pytest
 from accepted import BASELINE
 from facts import designed
 from latticode.datasets.json_files import load_json
+from pendula.jobs.decide import all_claims
 from replication.ledger.chances import ALLOWED, chance_of_claim, chance_to_cross, chance_to_turn
 from replication.ledger.criterion import (
     Above,
@@ -16,7 +17,6 @@ from replication.ledger.criterion import (
     judge,
     undecided,
 )
-from replication.ledger.verdicts import all_claims
 
 RNG = np.random.default_rng(5)
 KEPT = load_json(BASELINE / "quoted/right_runs.json")

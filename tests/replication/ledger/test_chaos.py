@@ -2,7 +2,7 @@
 
 import pytest
 import xarray as xr
-from replication.ledger.chaos import almost_equal
+from pendula.claims import almost_equal
 from replication.ledger.criterion import Above, Verdict
 
 

@@ -29,17 +29,6 @@ def impossible(run):
     raise UndecidableError("the run is too short to be changed")
 
 
-@pytest.fixture
-def rows(monkeypatch):
-    """Return a function of datasets and claims: the rows of the ledger."""
-
-    def rows_of(sources, *claims):
-        monkeypatch.setattr("replication.ledger.verdicts.all_claims", lambda: claims)
-        return evaluate(sources)
-
-    return rows_of
-
-
 def it(decide, *controls):
     return Claim("it", "Section 0", "It is so.", ("run",), decide, controls)
 
@@ -65,15 +54,16 @@ FALLING = Control("a falling run", {"run": "falling"}, confirms=True)
     ],
 )  # fmt: skip
 def test_a_function_that_is_wrong_on_a_control_decides_nothing(
-    rows, decide, control, sources, passed, verdict, because
+    decide, control, sources, passed, verdict, because
 ):
     """The control passes with the verdict `passed`, or not if that is False."""
-    (row,) = rows({"run": 5.0, **sources}, it(decide, control))
+    claim = it(decide, control)
+    (row,) = evaluate([claim], {"run": 5.0, **sources})
     (fed,) = row["controls"]
     assert row["verdict"] == verdict and because in row["because"]
     assert fed["fed"] == control.says and fed["passes"] == bool(passed)
     assert not passed or fed["verdict"] == passed
-    assert needed() == ["run", *control.names]
+    assert needed([claim]) == ["run", *control.names]
 
 
 def test_a_refusal_comes_from_numbers():

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from accepted import BASELINE
 from latticode.datasets.json_files import load_json
+from pendula.jobs.decide import all_claims
 from replication.ledger.claim import Origin
 from replication.ledger.decide import join_claims
 from replication.ledger.verdicts import evaluate
@@ -32,7 +33,7 @@ def test_a_row_could_have_failed_and_says_on_what_it_rests(row):
 
 
 def test_without_datasets_nothing_is_decided():
-    rows = evaluate({})
+    rows = evaluate(all_claims(), {})
     assert {row["verdict"] for row in rows} == {"cannot be decided"}
     assert all("was not made" in row["because"] and row["controls"] for row in rows)
 

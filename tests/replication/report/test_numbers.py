@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from replication.report.results import ReportError, Results
-from replication.report.words import (
+from pendula.case_words import case_in_words
+from replication.results import ReportError, Results
+from replication.words import (
     DOWN,
     UP,
-    case_in_words,
     enclosing_span,
     markdown,
     number,

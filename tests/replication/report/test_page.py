@@ -9,8 +9,9 @@ import pytest
 from accepted import BASELINE, ROOT
 from html_tags import Tags
 from latticode.datasets.json_files import load_json, sealed
+from pendula.jobs.report import PAPER
 from replication.report import document
-from replication.report.described import Figure
+from replication.report.described import DescribedFigure
 
 ROWS = [
     {"kind": "observation", "fact": ""} | row for row in load_json(BASELINE / "claims.json")["rows"]
@@ -21,15 +22,17 @@ NASTY = "<script>alert(1)</script> {0.__class__} & {{ 7 }}"
 @pytest.fixture
 def written(tmp_path, monkeypatch):
     """Return a function: the page on rows of the ledger and captions, without datasets."""
-    monkeypatch.setattr(document, "figure", lambda path, folder: Figure(
+    monkeypatch.setattr(document, "figure", lambda path, folder: DescribedFigure(
         f"figures/{path.stem}", NASTY if path.stem == "extra" else f"{path.stem} is shown.", 30, 20
     ))  # fmt: skip
 
     def write(rows, differs=()):
         (tmp_path / "claims.json").write_text(sealed({"rows": list(rows)}))
-        names = [*document.PAPERS, "extra"]
+        names = [*PAPER.figures, "extra"]
         path = tmp_path / "report.html"
-        document.write_report([], names, str(tmp_path / "claims.json"), dict(differs), str(path))
+        document.write_report(
+            PAPER, [], names, str(tmp_path / "claims.json"), dict(differs), str(path)
+        )
         return path.read_text(encoding="utf-8")
 
     return write

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from oracle import slope
+from pendula.jobs.decide import all_claims
 from pendula.studies.theory import well_posed
-from replication.ledger.verdicts import all_claims, decide
+from replication.ledger.verdicts import decide
 from scipy.integrate import solve_ivp
 
 OMEGA, POWER = 0.0, 26.0

@@ -2,8 +2,7 @@
 
 import xarray as xr
 from replication.ledger.changes import exchange, put, scale
-from replication.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import Control, Origin, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -15,6 +14,8 @@ from replication.ledger.criterion import (
     judge,
 )
 from replication.ledger.cutoff import Cutoff
+
+from pendula.claims import FAR_AS_NEAR, MAJORITY, SENSITIVITY
 
 SECTION = 7
 PLACE = "Section 6, breathers"
@@ -153,6 +154,7 @@ def data_below_breathers(periodic: xr.Dataset) -> Finding:
     (SENSITIVITY,),
     (FAR_AS_NEAR, Control("runs that all spread", ALL_SPREAD)),
     on=("fig3_large",),
+    origin=Origin.OWN,
 )
 def spreading_is_an_accident(sensitivity: xr.Dataset) -> Finding:
     """Require that most runs perturbed by up to 1e-6 spread, and most with 1e-2 or more do not."""
@@ -190,6 +192,7 @@ def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
         Control("the maps at both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
         Control("one initial condition at Omega = 0 that disperses", one_that_disperses),
     ),
+    origin=Origin.OWN,
 )
 def detuning_decides(fates: xr.Dataset) -> Finding:
     """Count fates on the map; the diagonal A = B conserves P, has no area, and is left out."""

@@ -2,7 +2,7 @@
 
 import xarray as xr
 from replication.ledger.changes import put
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import Control, Origin, claim
 from replication.ledger.criterion import (
     AllOf,
     AtLeast,
@@ -31,6 +31,7 @@ NEAR = Cutoff(1e-12, "twelve correct digits of a state")
             lambda trust: trust.assign(distance=trust["late_distance"]),
         ),
     ),
+    origin=Origin.OWN,
 )
 def curves_certified(trust: xr.Dataset) -> Finding:
     """Require small bounds, and that no norm differs from the reference by more than its bound."""
@@ -63,6 +64,7 @@ def curves_certified(trust: xr.Dataset) -> Finding:
             lambda proved: put("radius", proved["wrong_radius"][1])(proved),
         ),
     ),
+    origin=Origin.OPEN,
 )
 def breathers_exist(proved: xr.Dataset) -> Finding:
     """Require a proof for each computed state that a true one lies within a small radius."""

@@ -16,8 +16,7 @@ from latticode.measures.confidence import (
     mean_limits,
 )
 from replication.ledger.changes import repeat, scale, take
-from replication.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
-from replication.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim
+from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -29,6 +28,8 @@ from replication.ledger.criterion import (
 )
 from replication.ledger.cutoff import Cutoff, once
 from replication.ledger.missing import FEWEST
+
+from pendula.claims import CHANGE, FACTOR, FAR_AS_NEAR, MUCH, SENSITIVITY, almost_equal, checks
 
 from .clocks import limits_of
 

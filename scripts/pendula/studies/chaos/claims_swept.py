@@ -19,21 +19,7 @@ from latticode.measures.levels import relative_range
 from latticode.measures.norms import total_power
 from replication.ledger.chances import RARE
 from replication.ledger.changes import keep, repeat, scale, take, take_from
-from replication.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
-from replication.ledger.claim import (
-    CHANGE,
-    CONSTANT,
-    FACTOR,
-    FEWEST,
-    NEARLY_ALL,
-    Control,
-    Kind,
-    checks,
-    claim,
-    runs,
-    sweeps,
-    swept,
-)
+from replication.ledger.claim import Control, Kind, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -46,6 +32,20 @@ from replication.ledger.criterion import (
 )
 from replication.ledger.cutoff import once
 
+from pendula.claims import (
+    CHANGE,
+    CONSTANT,
+    FACTOR,
+    FAR_AS_NEAR,
+    FEWEST,
+    NEARLY_ALL,
+    SENSITIVITY,
+    almost_equal,
+    checks,
+    runs,
+    sweeps,
+    swept,
+)
 from pendula.models.bounds import theorem_2_constants
 from pendula.problem import Constants
 

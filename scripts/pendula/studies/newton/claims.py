@@ -6,7 +6,7 @@ from latticode.measures.confidence import difference_limits, order_limits
 from latticode.numerics.elementary import log
 from replication.ledger.chances import RARE
 from replication.ledger.changes import exchange, keep, repeat, scale
-from replication.ledger.claim import FACTOR, Control, claim
+from replication.ledger.claim import Control, Origin, claim
 from replication.ledger.criterion import (
     Above,
     AtLeast,
@@ -16,9 +16,12 @@ from replication.ledger.criterion import (
     Finding,
     Near,
     UndecidableError,
+    Verdict,
     judge,
 )
 from replication.ledger.cutoff import Cutoff
+
+from pendula.claims import FACTOR
 
 SECTION = 7
 LEMMA_1 = "Section 3, Lemma 1, for the pendula (1)"
@@ -115,6 +118,8 @@ def outside_band(data: xr.Dataset) -> xr.Dataset:
     "order mu^2.",
     (THRESHOLD,),
     (Control("thresholds for half of the drive", scale("gamma_0_lemma", 2.0)),),
+    origin=Origin.OPEN,
+    rejected=Verdict.NOT_CARRIED,
 )
 def lemma_1_is_the_limit(threshold: xr.Dataset) -> Finding:
     thresholds = outside_band(sort_by_falling_mu(threshold))
@@ -129,6 +134,8 @@ def lemma_1_is_the_limit(threshold: xr.Dataset) -> Finding:
     "The pendula at rest are linearly stable if gamma is below the gamma_0 of Lemma 1.",
     (THRESHOLD,),
     (Control("only detunings below the band", keep(omega=slice(None, -1e-6)), confirms=True),),
+    origin=Origin.OPEN,
+    rejected=Verdict.NOT_CARRIED,
 )
 def lemma_1_for_the_pendula(threshold: xr.Dataset) -> Finding:
     """Compare the exact thresholds with Lemma 1's at each mu, outside the band."""
@@ -151,6 +158,8 @@ def lemma_1_for_the_pendula(threshold: xr.Dataset) -> Finding:
         Control("angles in place of their envelope", scale("site_power", 0.5)),
         Control("mu in reverse order", exchange("mu")),
     ),
+    origin=Origin.OPEN,
+    rejected=Verdict.NOT_CARRIED,
 )
 def same_sea(over_the_top: xr.Dataset) -> Finding:
     """Compare P per site at the smallest mu with P of the amplitudes on the same chain.
@@ -173,6 +182,8 @@ def same_sea(over_the_top: xr.Dataset) -> Finding:
     "The l-infinity norm of the pendula at Omega = 0 remains finite: each oscillates.",
     (TOP,),
     (Control(f"only mu up to {SMALL_ANGLES:g}", SMALL_MU_ALONE, confirms=True),),
+    origin=Origin.OPEN,
+    rejected=Verdict.NOT_CARRIED,
 )
 def pendula_stay_below_the_top(over_the_top: xr.Dataset) -> Finding:
     shares = over_the_top["passed"].isel(tau=-1)
@@ -190,6 +201,8 @@ def pendula_stay_below_the_top(over_the_top: xr.Dataset) -> Finding:
         Control("mu in reverse order", exchange("mu")),
         Control("the same times of passage at all mu", repeat("mu", SMALL_ANGLES, slice(None))),
     ),
+    origin=Origin.OPEN,
+    rejected=Verdict.NOT_CARRIED,
 )
 def waiting_grows(over_the_top: xr.Dataset) -> Finding:
     """Compare the first passages of all pairs of runs at two mu, by Jonckheere's test.

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import xarray as xr
 from replication.ledger.changes import repeat
-from replication.ledger.claim import Control, checks, claim
+from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -15,6 +15,8 @@ from replication.ledger.criterion import (
     judge,
     undecided,
 )
+
+from pendula.claims import checks
 
 from .solvers import ORDER, STATED_DRIFT, UNKNOWNS
 

@@ -8,17 +8,7 @@ from latticode.measures.levels import correlation
 from latticode.measures.norms import largest, total_power
 from latticode.numerics.elementary import log
 from replication.ledger.changes import take_from
-from replication.ledger.claim import (
-    CHANGE,
-    FACTOR,
-    MUCH,
-    Control,
-    at_one_omega,
-    claim,
-    late,
-    runs,
-    sweeps,
-)
+from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -32,6 +22,7 @@ from replication.ledger.criterion import (
 )
 from replication.ledger.cutoff import Cutoff
 
+from pendula.claims import CHANGE, FACTOR, MUCH, at_one_omega, late, runs, sweeps
 from pendula.models.bounds import proven_region, theorem_1_bound
 from pendula.problem import Constants
 

@@ -2,9 +2,10 @@
 
 import xarray as xr
 from replication.ledger.changes import exchange
-from replication.ledger.claim import Control, checks, claim
+from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import AtMost, Finding, judge
 
+from pendula.claims import checks
 from pendula.models.linear_chain import gamma_0
 
 SECTION = 5

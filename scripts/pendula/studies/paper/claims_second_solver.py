@@ -13,8 +13,7 @@ from latticode.measures.difference import VISIBLE
 from replication.ledger import missing
 from replication.ledger.chances import RARE
 from replication.ledger.changes import put, repeat
-from replication.ledger.chaos import MAJORITY
-from replication.ledger.claim import FEWEST, Control, checks, claim, sweeps
+from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -26,6 +25,8 @@ from replication.ledger.criterion import (
     undecided,
 )
 from replication.ledger.cutoff import Cutoff
+
+from pendula.claims import FEWEST, MAJORITY, checks, sweeps
 
 SECTION = 5
 SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale, wider than a line")

@@ -10,16 +10,7 @@ from latticode.measures import levels
 from latticode.measures.levels import levelling, relative_range
 from latticode.measures.norms import total_power
 from replication.ledger.changes import scale
-from replication.ledger.claim import (
-    CONSTANT,
-    Control,
-    at_one_omega,
-    checks,
-    claim,
-    runs,
-    sweeps,
-    swept,
-)
+from replication.ledger.claim import Control, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -31,6 +22,7 @@ from replication.ledger.criterion import (
 )
 from replication.ledger.cutoff import Cutoff
 
+from pendula.claims import CONSTANT, at_one_omega, checks, runs, sweeps, swept
 from pendula.models.bounds import proven_region, theorem_2_constants
 from pendula.problem import Constants
 

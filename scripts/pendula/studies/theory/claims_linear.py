@@ -4,9 +4,11 @@ import numpy as np
 import xarray as xr
 from latticode.numerics.elementary import log
 from replication.ledger.changes import exchange, roll, shift, take
-from replication.ledger.claim import Control, Kind, checks, claim
+from replication.ledger.claim import Control, Kind, claim
 from replication.ledger.criterion import Above, AllOf, AtLeast, AtMost, Below, Finding, Near, judge
 from replication.ledger.cutoff import Cutoff
+
+from pendula.claims import checks
 
 from .claims_model import by_algebra
 

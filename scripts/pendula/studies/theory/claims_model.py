@@ -8,7 +8,7 @@ from latticode.measures.confidence import student
 from latticode.measures.growth import PARTS
 from replication.ledger import changes
 from replication.ledger.chances import RARE
-from replication.ledger.claim import Control, Kind, checks, claim
+from replication.ledger.claim import Control, Kind, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -19,6 +19,8 @@ from replication.ledger.criterion import (
     judge,
     undecided,
 )
+
+from pendula.claims import checks
 
 SECTION = 2
 

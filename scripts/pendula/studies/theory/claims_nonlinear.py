@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from latticode.numerics.elementary import log
 from replication.ledger.changes import exchange, put, scale, take
-from replication.ledger.claim import Control, Kind, checks, claim, number
+from replication.ledger.claim import Control, Kind, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -19,6 +19,8 @@ from replication.ledger.criterion import (
     undecided,
 )
 from replication.ledger.cutoff import Cutoff
+
+from pendula.claims import checks, number
 
 from .claims_model import by_algebra, nothing_left, terms_left, twin
 

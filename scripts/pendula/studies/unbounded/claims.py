@@ -12,10 +12,21 @@ import xarray as xr
 from latticode.measures.confidence import Limits, mean_limits, share_limits
 from latticode.measures.spreading import exponent_with_offset
 from replication.ledger.changes import take
-from replication.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY, almost_equal
-from replication.ledger.claim import CHANGE, CONSTANT, FACTOR, SETTLED, Control, claim, unbounded
+from replication.ledger.claim import Control, Origin, claim
 from replication.ledger.criterion import Above, AllOf, Below, Finding, UndecidableError, judge
 from replication.ledger.cutoff import Cutoff, once
+
+from pendula.claims import (
+    CHANGE,
+    CONSTANT,
+    FACTOR,
+    FAR_AS_NEAR,
+    MAJORITY,
+    SENSITIVITY,
+    SETTLED,
+    almost_equal,
+    unbounded,
+)
 
 SECTION = 5
 
@@ -204,6 +215,7 @@ def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     "pair too on the unbounded lattice.",
     unbounded("starts"),
     (Control("the stable run fig3_small", "fig3_small"), SLOWER),
+    origin=Origin.OWN,
 )
 def unbounded_starts(run: xr.Dataset) -> Finding:
     """Require that most runs grow, over all members: not all perturbed runs spread."""

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from latticode.measures.confidence import Limits, mean_limits
 from replication.ledger.changes import roll, scale, take
-from replication.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
+from replication.ledger.claim import Control, Origin, claim
 from replication.ledger.criterion import (
     AllOf,
     AtMost,
@@ -18,6 +18,8 @@ from replication.ledger.criterion import (
     judge,
 )
 from replication.ledger.cutoff import Cutoff
+
+from pendula.claims import CHANGE, CONSTANT, unbounded
 
 from .bulk import BEHIND, BETWEEN, KINDS
 from .claims import sure, times_of
@@ -78,6 +80,7 @@ def both_between(run: xr.Dataset) -> xr.Dataset:
         Control("second fronts as fast as the first", take(second_front="front")),
         Control("both fields excited between the fronts", both_between),
     ),
+    origin=Origin.OWN,
 )
 def second_front(run: xr.Dataset) -> Finding:
     times_of(run)
@@ -123,6 +126,7 @@ def next_states(thermal: xr.Dataset) -> xr.Dataset:
     "oscillates at a finite amplitude.",
     unbounded("omegas", "thermal"),
     (Control("the thermal states of the next Omega", {"thermal": next_states}),),
+    origin=Origin.OWN,
 )
 def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     """Require that P behind the second fronts is near that of the thermal state.
@@ -171,6 +175,7 @@ def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
             "a first front that is half as fast again", {OMEGAS: scale("predicted_speed", 1.5)}
         ),
     ),
+    origin=Origin.OWN,
 )
 def unbounded_slope(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     times_of(run)

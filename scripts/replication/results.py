@@ -1,10 +1,9 @@
 """The files of a run by name, for the article."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from latticode.datasets.netcdf import read
-from pendula.configuration.paper import Differences
 
 
 class ReportError(RuntimeError):
@@ -17,7 +16,7 @@ class Results:
     `differs` says where the configuration is not the paper's.
     """
 
-    def __init__(self, files: Iterable[str], page: str, differs: Differences | None = None):
+    def __init__(self, files: Iterable[str], page: str, differs: Mapping[str, str] | None = None):
         self.differs = differs or {}
         self._paths = {link_to(path, page): Path(path) for path in files}
         self._read = {}

@@ -1,4 +1,4 @@
-"""How pages write numbers, cases, solvers, symbols and tables."""
+"""How pages write numbers, symbols and tables."""
 
 import re
 from collections.abc import Callable, Iterable, Sequence
@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 from latticode.datasets import complete_or_absent
-from latticode.equations.initial_values import read_initial
 from tabulate import tabulate
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -131,26 +130,6 @@ def symbols(text: str) -> str:
 def plainly(name: str) -> str:
     """Return the name of a number in the ledger as words."""
     return re.sub(r"_(?!\d)", " ", symbols(name.replace("_over_", " / ")))
-
-
-def case_of(dataset) -> str:
-    """Return the case that `omega` and `initial` of a dataset name: Ω = 8, (A₀, B₀) = (5, 1)."""
-    return case_in_words(float(dataset["omega"]), str(dataset["initial"].values))
-
-
-def case_in_words(omega: float, initial: str) -> str:
-    """Return the detuning and the data of a case."""
-    sites = read_initial(initial)
-    if len(sites) != 1:
-        return f"Ω = {number(omega)}, data on {len(sites)} sites"
-    ((site, (a, b)),) = sites.items()
-    index = str(site).replace("-", "₋").translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
-    pair = f"(A{index}, B{index}) = ({_amplitude(a)}, {_amplitude(b)})"
-    return f"Ω = {number(omega)}".replace(" ", FIRM) + ", " + pair.replace(" ", FIRM)
-
-
-def _amplitude(z: complex) -> str:
-    return f"{z:g}" if z.imag else number(z.real)
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence]) -> str:

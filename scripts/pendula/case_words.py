@@ -1,0 +1,27 @@
+"""A case of the paper in words, for pages: its detuning and its initial conditions."""
+
+import xarray as xr
+from latticode.equations.initial_values import read_initial
+from replication.words import FIRM, number
+
+SUBSCRIPTS = str.maketrans("-0123456789", "₋₀₁₂₃₄₅₆₇₈₉")
+
+
+def case_of(dataset: xr.Dataset) -> str:
+    """Return the case that `omega` and `initial` of a dataset name: Ω = 8, (A₀, B₀) = (5, 1)."""
+    return case_in_words(float(dataset["omega"]), str(dataset["initial"].values))
+
+
+def case_in_words(omega: float, initial: str) -> str:
+    """Return the detuning and the initial conditions of a case."""
+    sites = read_initial(initial)
+    if len(sites) != 1:
+        return f"Ω = {number(omega)}, data on {len(sites)} sites"
+    ((site, (a, b)),) = sites.items()
+    index = str(site).translate(SUBSCRIPTS)
+    pair = f"(A{index}, B{index}) = ({_amplitude(a)}, {_amplitude(b)})"
+    return f"Ω = {number(omega)}".replace(" ", FIRM) + ", " + pair.replace(" ", FIRM)
+
+
+def _amplitude(z: complex) -> str:
+    return f"{z:g}" if z.imag else number(z.real)

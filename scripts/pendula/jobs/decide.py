@@ -1,0 +1,33 @@
+"""Decide the claims of the studies."""
+
+from replication.ledger import decide
+from replication.ledger.claim import Claim, claims_of
+
+from pendula.configuration.paper import from_paper
+from pendula.studies import modules_with_prefix
+
+
+def all_claims(*prefixes: str) -> tuple[Claim, ...]:
+    """Return the claims of all studies, in the order of the paper's sections.
+
+    Those alone of modules whose names start with `prefixes`, such as "theory/claims" and
+    "paper/claims_norms", if these are given. Raises ValueError if no module has such a name.
+    """
+    modules = []
+    for prefix in prefixes or ("claims",):
+        named = list(modules_with_prefix(prefix))
+        if not named:
+            raise ValueError(f"no study has a module {prefix}: correct DECIDED_IN of ledger.smk")
+        modules += named
+    return claims_of(modules)
+
+
+def decide_claims(
+    datasets: list[str], names: list[str], modules: list[str], differs: dict[str, str], part: str
+) -> None:
+    """Write the rows of the ledger on the claims in `modules` of studies into the file `part`.
+
+    `names` are those that the claims have for `datasets`, in their order. `differs` says where the
+    configuration is not the paper's.
+    """
+    decide.decide_claims(all_claims(*modules), datasets, names, part, from_paper(differs))
