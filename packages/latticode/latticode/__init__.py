@@ -23,6 +23,7 @@ if TYPE_CHECKING:  # what type checkers and editors read; a test compares it wit
     from latticode.equations.model import sin as sin
     from latticode.equations.model import sqrt as sqrt
     from latticode.equations.symbols import abs as abs
+    from latticode.equations.symbols import couple as couple
     from latticode.equations.symbols import max as max
     from latticode.equations.symbols import sign as sign
     from latticode.equations.symbols import where as where
@@ -51,7 +52,7 @@ _HOMES = {
     "latticode.datasets": "DatasetError",
     "latticode.datasets.netcdf": "save",
     "latticode.equations.model": _EQUATIONS,
-    "latticode.equations.symbols": "abs max sign where",
+    "latticode.equations.symbols": "abs couple max sign where",
     "latticode.notebook": _NOTEBOOK,
     "latticode.simulation.simulate": "IntegrationError",
 }

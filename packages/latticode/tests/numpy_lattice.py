@@ -39,7 +39,15 @@ def lap(w):
     return w.right - 2 * w + w.left
 
 
+def couple(matrix, w):
+    """A matrix times the sites of the chain; beyond its ends nothing is known."""
+    found = np.full_like(w, np.nan)
+    found[MARGIN:-MARGIN] = matrix @ np.asarray(w)[MARGIN:-MARGIN]
+    return found
+
+
 NAMES = {
+    "couple": couple,
     "shift": shift,
     "lap": lap,
     "conj": np.conj,
@@ -89,6 +97,8 @@ def slope_of(text, parameters, boundary, fields, form):
     takes_velocities = equations.__code__.co_argcount > 1 + fields
 
     def everywhere(value, like):
+        if np.ndim(value) == 2:
+            return value
         return beyond_ends(np.broadcast_to(value, like.shape), boundary, of_field=False)
 
     def slope(t, y):

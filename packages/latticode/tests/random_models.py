@@ -153,6 +153,18 @@ class Grammar:
         )
         return self.one_of(*choices)()
 
+    def coupled(self, reach):
+        """Return a term in which a matrix couples all sites."""
+        inner = self.value(int(self.rng.integers(2)), reach)
+        choices = (
+            f"couple(p.W, {inner})",
+            f"couple(p.W, couple(p.W, {inner}) + {inner})",
+            f"{self.real(1, reach)} * couple(p.W, {inner})",
+            f"sin(couple(p.W, {self.real(1, reach)})) * {self.value(0, reach)}",
+            f"exp(-abs2({self.real(0, reach)} * couple(p.W, {inner}))) * {inner}",
+        )
+        return self.one_of(*choices)
+
 
 def reflected(text):
     """Return an expression with left and right exchanged."""
@@ -171,12 +183,15 @@ def drawn(seed, attempt=0):
     seen = tuple(f"{name}.real" for name in names) if kind == "phases" else names + velocities
     grammar = Grammar(rng, seen, kind == "complex", driven, disordered and not symmetric)
     reach = int(rng.choice([0, 1, 1, 2, 3, FARTHEST]))
+    coupled = not symmetric and rng.random() < 0.3
 
     def rate(name):
         terms = [
             f"{grammar.coefficient()} * {grammar.value(int(rng.choice([0, 1, 2, 2])), reach)}"
             for _ in range(rng.integers(1, 3))
         ]
+        if coupled:
+            terms.append(f"{grammar.coefficient()} * ({grammar.coupled(reach)})")
         text = " + ".join(terms)
         if symmetric:
             text = f"({text}) + ({reflected(text)})"
@@ -195,6 +210,10 @@ def drawn(seed, attempt=0):
     if symmetric:
         start = start + start[:, ::-1]
     parameters = {**PARAMETERS, "V": rng.uniform(-1.0, 1.0, len(sites))}
+    if coupled:
+        density = 0.2 if rng.random() < 0.5 else 1.0
+        matrix = rng.uniform(-1.0, 1.0, (len(sites), len(sites))) / len(sites)
+        parameters["W"] = np.where(rng.random(matrix.shape) < density, matrix, 0.0)
     boundary = str(rng.choice(ENDS))
     model = Drawn(text, names, form, parameters, boundary, sites, start)
     return model if model.follow() is not None else drawn(seed, attempt + 1)

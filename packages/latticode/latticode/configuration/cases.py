@@ -19,11 +19,12 @@ from pydantic import (
     model_validator,
 )
 
+from latticode.equations.couplings import at_middle
 from latticode.equations.ends import ENDS
 from latticode.equations.initial_values import KEPT
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
-from latticode.equations.model_file import at_middle, chain_sites, values_at
+from latticode.equations.model_file import chain_sites
 from latticode.integrators.families import first_tolerance, instead_of_taylor, pair_of
 from latticode.integrators.method import Obstacle
 from latticode.integrators.methods import METHODS, methods_taking
@@ -284,7 +285,7 @@ class Case(Model):
         """Yield the fault of each parameter that has no values on the sites of such a chain."""
         for name, value in self._given().items():
             try:
-                values_at(value, sites)
+                self.model.value_at(name, value, sites)
             except ValueError as error:
                 where = "" if name in self.parameters else f" (the default in {self.model.name})"
                 yield f"parameters.{name}", f"{error}{where}"
@@ -301,9 +302,9 @@ class Case(Model):
             yield name, f"on the longest chain: {text}"
         for name, value in self._given().items():
             if callable(value) and f"parameters.{name}" not in found:
-                longest_values = values_at(value, chain_sites(longest))
+                longest_values = self.model.value_at(name, value, chain_sites(longest))
                 if any(
-                    at_middle(longest_values, m) != values_at(value, chain_sites(m))
+                    at_middle(longest_values, m) != self.model.value_at(name, value, chain_sites(m))
                     for m in half_widths
                 ):
                     text = "is a function with other values at the same sites of a longer chain"
@@ -313,7 +314,7 @@ class Case(Model):
         return {k: self.parameters.get(k, one) for k, one in self.model.parameters.items()}
 
     def _values(self, sites: range) -> dict[str, float | list[float]]:
-        return {name: values_at(value, sites) for name, value in self._given().items()}
+        return {k: self.model.value_at(k, value, sites) for k, value in self._given().items()}
 
     def values_by_half_width(self, half_widths: list[int]) -> dict[int, dict[str, Any]]:
         """Return the values of the parameters that are functions of the sites, by half-width."""
@@ -322,7 +323,7 @@ class Case(Model):
             return {}
         chains = {m: chain_sites(m) for m in half_widths}
         return {
-            m: {name: values_at(value, sites) for name, value in functions.items()}
+            m: {name: self.model.value_at(name, value, sites) for name, value in functions.items()}
             for m, sites in chains.items()
         }
 

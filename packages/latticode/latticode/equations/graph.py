@@ -20,6 +20,7 @@ LEAVES = {
     "clock": CLOCK,
     "field": MOTION,
     "carried": MOTION,
+    "matrix": MOTION,
 }
 """The operations that have no operands, and what they depend on."""
 
@@ -29,7 +30,8 @@ class Node:
 
     Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, part,
     shift), and ("clock", name): a function of the time that the system has by its name. The others
-    are add, sub, neg, mul, div, sin, cos, exp, log, sqrt, and ("where", c, a, b), which is a where
+    are add, sub, neg, mul, div, sin, cos, exp, log, sqrt, ("couple", ("matrix", name), a), which is
+    a matrix of the sites times a, and ("where", c, a, b), which is a where
     c is above zero and b elsewhere. Power series have one leaf more, ("carried", i), and
     halves of squares, see latticode.generation.series_graph.
     """
@@ -155,6 +157,13 @@ def div(a: Node, b: Node) -> Node:
     return mul(reciprocal(b), a) if b.level == CONSTANT and a is not ONE else node("div", a, b)
 
 
+def couple(matrix: Node, a: Node) -> Node:
+    """Return the sums over all sites m of the matrix entries (n, m) times a at m."""
+    if a is ZERO:
+        return a
+    return neg(couple(matrix, a.operands[0])) if a.operation == "neg" else node("couple", matrix, a)
+
+
 def where(condition: Node, a: Node, b: Node) -> Node:
     """Return a where the condition is above zero, b elsewhere."""
     if is_number(condition):
@@ -162,7 +171,7 @@ def where(condition: Node, a: Node, b: Node) -> Node:
     return a if a is b else node("where", condition, a, b)
 
 
-BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul}
+BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul, "couple": couple}
 """What makes a node of its operands, where that may simplify it."""
 
 # --- Walks over a graph -------------------------------------------------------------------------
@@ -228,6 +237,7 @@ ARITHMETIC = {
     "div": "{} / {}",
     "neg": "-{}",
     "where": "where({} > 0.0, {}, {})",
+    "couple": "times({}, {})",
 }
 
 
@@ -256,10 +266,17 @@ def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
         if one.inputs:
             how = ARITHMETIC.get(one.operation, f"functions.{one.operation}({{}})")
             lines.append(f"    {names[one]} = {how.format(*(names[a] for a in one.inputs))}")
-    made: dict[str, Callable] = {"where": np.where}
+    made: dict[str, Callable] = {"where": np.where, "times": _times}
     values = ", ".join(names[one] for one in nodes)
     exec("\n".join(["def compute(leaves, functions):", *lines, f"    return [{values}]"]), made)
     return leaves, made["compute"]
+
+
+def _times(matrix: Any, values: Any) -> Any:
+    """Return a matrix times values at its sites; of a number in its place, the product."""
+    if np.ndim(matrix) == 0:
+        return matrix * values
+    return matrix @ np.broadcast_to(values, matrix.shape[:1])
 
 
 def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[Node]:
@@ -297,6 +314,8 @@ def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[No
                 return div(made[a], mul(TWO, one))
             case "div", a, b:
                 return div(sub(made[a], mul(one, made[b])), b)
+            case "couple", matrix, a:
+                return couple(matrix, made[a])
             case "where", condition, a, b:
                 return where(condition, made[a], made[b])
         return change(one)

@@ -13,9 +13,10 @@ from typing import Any, Self
 
 import numpy as np
 
+from .couplings import at_middle
 from .ends import ends_of
 from .model import Model
-from .model_file import at_middle, chain_sites
+from .model_file import chain_sites
 
 KEPT = ("norms", "moduli", "state")
 """What datasets may have of the snapshots: nothing, moduli in single precision, or beside them the

@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from .couplings import entries_of, largest_row_sum
 from .graph import (
     LEAVES,
     MOTION,
@@ -42,7 +43,7 @@ from .graph import (
     sub,
     switches,
 )
-from .model_file import BEFORE, SEED, placed, run_file, same
+from .model_file import BEFORE, SEED, placed, run_file, same, values_at
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
 
 __all__ = [
@@ -124,6 +125,7 @@ class Model:
         self.rates = self._twice(equations[self.form], self._rates_of)
         self._require_real_fields_to_move()
         self.conserved = self._twice(conserved, self._densities) if conserved else {}
+        self._require_matrices_apart()
 
     @classmethod
     def read(cls, path: Path | str) -> "Model":
@@ -259,6 +261,16 @@ class Model:
                     " rate by 1j in i_dt"
                 )
 
+    def _require_matrices_apart(self) -> None:
+        """Raise ModelError where a parameter is a matrix in one place and a number in another."""
+        nodes = (*self.rates, *self.conserved.values())
+        if leaves_in(self.conserved.values(), "matrix"):
+            raise ModelError(f"{self.name}: a density in conserved has no couple(p.W, u)")
+        numbers = {parameter.operands[0] for parameter in leaves_in(nodes, "parameter")}
+        for name in sorted(self.matrices & numbers):
+            text = f"p.{name} is a matrix in couple(p.{name}, u), and a number elsewhere"
+            raise ModelError(f"{self.name}: {text}; give two parameters")
+
     def _densities(self, returned: Any) -> dict[str, Node]:
         """Return the real densities by name from what `conserved` returned."""
         if not isinstance(returned, Mapping):
@@ -289,6 +301,18 @@ class Model:
         return self.form == "d2_dt2"
 
     @cached_property
+    def matrices(self) -> frozenset[str]:
+        """The names of the parameters that are matrices, which couple any sites."""
+        return frozenset(leaf.operands[0] for leaf in leaves_in(self.rates, "matrix"))
+
+    def value_at(self, name: str, given: Any, sites: range) -> Any:
+        """Return what a parameter is on the sites of a chain: a number, a list, or `Entries`.
+
+        Raises ValueError with what is wrong, to stand behind its name.
+        """
+        return entries_of(given, sites) if name in self.matrices else values_at(given, sites)
+
+    @cached_property
     def farthest(self) -> int:
         """How many sites away the farthest neighbour is that an equation or a density sees."""
         return max(one.reach for one in (*self.rates, *self.conserved.values()))
@@ -306,6 +330,9 @@ class Model:
     @cached_property
     def even(self) -> bool:
         """Whether the equations are the same, to the last bit, with left and right exchanged."""
+
+        if self.matrices:  # nobody knows what is symmetric in them
+            return False
 
         def ordered(one: Node, operands: list[Node]) -> Node | None:
             return node("add", *sorted(operands, key=id)) if one.operation == "add" else None
@@ -391,7 +418,7 @@ class Model:
         Where a function has no derivative at rest, that of the fields at rest leaves it out.
         """
         given = {name: value for name, value in self.parameters.items() if not callable(value)}
-        sizes = {name: float(np.abs(value).max()) for name, value in (given | parameters).items()}
+        sizes = {name: _size_of(value) for name, value in (given | parameters).items()}
 
         def size(one: Node) -> float:
             if one.operation == "number":
@@ -431,6 +458,15 @@ class Model:
             conserved={},
         )
         return other
+
+
+def _size_of(value: Any) -> float:
+    """Return a bound of the values of a parameter, or of what a matrix makes of ones."""
+    if isinstance(value, Mapping):
+        return largest_row_sum(value)
+    if hasattr(value, "tocoo") or np.ndim(value) == 2:
+        return float(abs(value).sum(axis=1).max())
+    return float(np.abs(value).max())
 
 
 def _largest_eigenvalue(matrix: np.ndarray) -> float:
@@ -557,7 +593,8 @@ def _vanishes(one: Node) -> bool:
     def value(leaf: Node) -> Any:
         if leaf.operation == "number":
             return leaf.operands[0]
-        return drawn.setdefault(leaf, rng.uniform(0.5, 1.5, 8))
+        shape = (8, 8) if leaf.operation == "matrix" else 8
+        return drawn.setdefault(leaf, rng.uniform(0.5, 1.5, shape))
 
     return bool(np.abs(evaluate([one], value)[0]).max() < 1e-12)
 

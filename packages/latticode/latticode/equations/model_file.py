@@ -80,20 +80,13 @@ def values_at(given: Any, sites: range) -> float | list[float]:
     values = _as_array(given)
     if values.shape not in ((), (len(sites),)):
         size = " x ".join(map(str, values.shape))
-        raise ValueError(f"has {size} values for {len(sites)} sites")
+        hint = "; a matrix is taken by couple(p.W, u)" if values.ndim == 2 else ""
+        raise ValueError(f"has {size} values for {len(sites)} sites{hint}")
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
         where = f" at site {sites[wrong[0]]}" if values.ndim else ""
         raise ValueError(f"is {values.flat[wrong[0]]:g}{where}, which is not finite")
     return values.tolist()
-
-
-def at_middle(values: Any, half_width: int) -> Any:
-    """Return the values of a parameter on the sites -M..M in the middle of a longer chain."""
-    if np.ndim(values) == 0:
-        return values
-    margin = len(values) // 2 - half_width
-    return values[margin : len(values) - margin]
 
 
 def _as_array(given: Any) -> np.ndarray:
@@ -123,6 +116,8 @@ def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
 
 def same(a: Any, b: Any) -> bool:
     """Return whether two values, or arrays of them, are equal."""
+    if hasattr(a, "tocoo") and hasattr(b, "tocoo"):
+        return a.shape == b.shape and (a != b).nnz == 0
     try:
         return bool(np.array_equal(a, b, equal_nan=True))
     except TypeError:  # no numbers; they are refused where values are asked for

@@ -14,6 +14,7 @@ from .graph import (
     Node,
     add,
     div,
+    leaves_in,
     mul,
     neg,
     node,
@@ -22,6 +23,7 @@ from .graph import (
     shifted,
     sub,
 )
+from .graph import couple as coupled
 from .graph import where as select
 
 HIGHEST_POWER = 16
@@ -229,15 +231,31 @@ def shift(w: Value, sites: int) -> Value:
         what = "a symbol" if isinstance(sites, Value) else repr(sites)
         raise ModelError(f"shift(u, m) takes a whole number m, such as 2, not {what}") from None
     w = Value.of(w)
+    if sites and leaves_in([w.re, w.im], "matrix"):
+        text = "what couple(p.W, u) returns has no neighbours; move the rows of the matrix instead"
+        raise ModelError(text)
     moved = Value(shifted(w.re, sites), shifted(w.im, sites))
     reach = builtins.max(moved.re.reach, moved.im.reach)
     if reach > LONGEST_SHIFT:
         raise ModelError(
             f"this looks {reach} sites along the chain, and an equation may look at most "
             f"{LONGEST_SHIFT}; with a field for the even sites and one for the odd sites, it may "
-            f"look {2 * LONGEST_SHIFT} of them far"
+            f"look {2 * LONGEST_SHIFT} of them far; to look along the whole chain, take a matrix: "
+            "couple(p.W, u)"
         )
     return moved
+
+
+def couple(matrix: Value, w: Value) -> Value:
+    """Return the sums over all sites m of the entries (n, m) of a matrix times the value at m.
+
+    The matrix is a parameter, p.W, of N x N real numbers, dense or scipy.sparse.
+    """
+    matrix = Value.of(matrix)
+    if matrix.re.operation != "parameter" or matrix.im is not ZERO:
+        raise ModelError("couple(p.W, u) takes a parameter, which is the matrix, and then a field")
+    leaf, w = node("matrix", matrix.re.operands[0]), Value.of(w)
+    return Value(coupled(leaf, w.re), coupled(leaf, w.im))
 
 
 def lap(w: Value) -> Value:

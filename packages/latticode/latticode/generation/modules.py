@@ -25,7 +25,7 @@ AT_TIME = """
 def at_time(system, t):
 {now}
     clocks = ({values})
-    others = system.at, system.wide, system.sums, system.left, system.right
+    others = system.at, system.wide, system.sums, system.couplings, system.left, system.right
     return System(system.constants, clocks, *others)
 """
 CLOCKS = """

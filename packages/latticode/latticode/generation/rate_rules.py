@@ -9,7 +9,7 @@ from latticode.equations.graph import MOTION, Node, in_order
 from latticode.equations.model import Model
 from latticode.equations.symbols import ModelError
 
-from .statements import Code, Names, parts_of, require_alike
+from .statements import Code, Names, parts_of, require_alike, stages_of
 
 RULE = """
 @inlined_by_llvm
@@ -21,7 +21,7 @@ RATES = """
 write_rates = at_every_site(rates_at_site, {rows})
 @kernel
 def rates(system, y, dy):
-    {prepare}
+    {prepare}{couple}
     write_rates(system, ({states},), dy)
 """
 TANGENT_RATES = """
@@ -32,10 +32,14 @@ def bundle_rates(system, bundle, slopes):
     rates(system, y, slopes[:{rows}])
     for first in range({rows}, bundle.shape[0], {rows}):
         w = bundle[first : first + {rows}]
-        {prepare}
+        {prepare}{couple}
         write_tangent_rates(system, ({states},), slopes[first : first + {rows}])
 """
 
+COUPLED = """
+write_{name} = at_every_site({name}_at_site, {rows})
+"""
+"""What a matrix multiplies, written at all sites at once."""
 CONSERVED = """
 write_densities = at_every_site(densities_at_site, {rows})
 @kernel
@@ -80,6 +84,8 @@ class Rule:
         match one.operation, *one.operands:
             case "field", component, part, by:
                 return self.place(component, part, by)
+            case "couple", *_:
+                return f"coupled[{self.names.couples[one]}, j]"
             case "neg", a:
                 return f"-{self.value(a)}"
             case "mul", a, b:
@@ -118,7 +124,8 @@ class Rule:
         """Return the statements that write rates to rows; one number becomes that of all sites."""
         found = [self.value(rate) for rate in rates]
         for c, (row, rate, value) in enumerate(zip(rows, rates, found, strict=True)):
-            spread = f" + 0.0 * {self.place(c // 2, c % 2, 0)}" if self.is_scalar(rate) else ""
+            row_of_field = (c // 2, c % 2) if not self.names.couples else (0, 0)
+            spread = f" + 0.0 * {self.place(*row_of_field, 0)}" if self.is_scalar(rate) else ""
             self.code(f"dy[{row}, j] = {value}{spread}")
         return "\n".join(self.code.lines)
 
@@ -126,11 +133,19 @@ class Rule:
 def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
     """Return the functions that write the rates of a state, one row of it for each of `rates`."""
     wide, at = reach > 1, bool(names.at_sites)
-    rule = _rule_of_rows("rates", rates, names, reach, ("y",), len(rates) // 2)
-    return rule + RATES.format(
-        rows=len(rates),
-        prepare="widen(system, y, system.wide)" if wide else "close(system, y)",
-        states=("system.wide" if wide else "y") + ", system.at" * at,
+    given = names, reach, ("y",), len(rates) // 2
+    states = ("system.wide" if wide else "y") + ", system.at" * at
+    states += ", system.couplings.products" * bool(names.couples)
+    rules, couple = _coupling("rates", stages_of(rates), states, 1, *given)
+    return (
+        rules
+        + _rule_of_rows("rates", rates, *given)
+        + RATES.format(
+            rows=len(rates),
+            prepare="widen(system, y, system.wide)" if wide else "close(system, y)",
+            couple=couple,
+            states=states,
+        )
     )
 
 
@@ -142,18 +157,49 @@ def tangents_text(tangent: Model, names: Names) -> str:
     """
     rows = len(tangent.rates) // 2
     wide, at = tangent.reach > 1, bool(names.at_sites)
-    given = tangent.rates[rows:], names, tangent.reach, ("y", "w"), rows // 2
-    rule = _rule_of_rows("tangent_rates", *given)
+    given = names, tangent.reach, ("y", "w"), rows // 2
     states = f"system.wide[:{rows}], system.wide[{rows}:]" if wide else "y, w"
+    states += ", system.at" * at + ", system.couplings.products" * bool(names.couples)
+    known = {one for stage in stages_of(tangent.rates[:rows]) for one in stage}
+    stages = [
+        [one for one in stage if one not in known] for stage in stages_of(tangent.rates[rows:])
+    ]
+    rules, couple = _coupling("tangent_rates", stages, states, 2, *given)
     return (
         rates_text(tangent.rates[:rows], names, tangent.reach)
-        + rule
+        + rules
+        + _rule_of_rows("tangent_rates", tangent.rates[rows:], *given)
         + TANGENT_RATES.format(
             rows=rows,
             prepare=f"widen(system, w, system.wide[{rows}:])" if wide else "close(system, w)",
-            states=states + ", system.at" * at,
+            couple=couple,
+            states=states,
         )
     )
+
+
+def _coupling(
+    name: str, stages: list[list[Node]], states: str, indent: int, names: Names, *given
+) -> tuple[str, str]:
+    """Return the rules of what matrices multiply, and the statements that multiply by them.
+
+    The products of a stage are made when those of earlier stages are known.
+    """
+    rules, lines = [], []
+    for stage, couples in enumerate(stages):
+        rule = f"{name}_factors_{stage}"
+        rows = [names.couples[one] for one in couples]
+        factors = tuple(one.operands[1] for one in couples)
+        if not factors:
+            continue
+        rules.append(_rule_of_rows(rule, factors, names, *given, rows=rows))
+        rules.append(COUPLED.format(name=rule, rows=len(names.couples)))
+        lines.append(f"write_{rule}(system, ({states},), system.couplings.factors)")
+        for row, one in zip(rows, couples, strict=True):
+            matrix = names.matrices[one.operands[0].operands[0]]
+            arrays = f"system.couplings.factors[{row}], system.couplings.products[{row}]"
+            lines.append(f"multiply_by_matrix(system.couplings, {matrix}, {arrays}, 1)")
+    return "".join(rules), "".join(f"\n{'    ' * indent}{line}" for line in lines)
 
 
 def densities_text(
@@ -166,10 +212,18 @@ def densities_text(
 
 
 def _rule_of_rows(
-    name: str, rates: tuple[Node, ...], names: Names, reach: int, states: tuple[str, ...],
+    name: str,
+    rates: tuple[Node, ...],
+    names: Names,
+    reach: int,
+    states: tuple[str, ...],
     fields: int,
-) -> str:  # fmt: skip
-    """Return the rule that writes all rates at a site; each of `states` has so many fields."""
+    rows: list[int] | None = None,
+) -> str:
+    """Return the rule that writes all rates at a site; each of `states` has so many fields.
+
+    The rates go to `rows` if there are any, else to the rows from the first on.
+    """
     offset = reach - 1
 
     def place(component: int, part: int, by: int) -> str:
@@ -177,8 +231,10 @@ def _rule_of_rows(
         state, row = states[component // fields], 2 * (component % fields) + part
         return f"{state}[{row}, j{f' {by:+d}' if by else ''}]"
 
-    statements = Rule(names, place).write([str(row) for row in range(len(rates))], rates)
-    given = ", ".join([*states, *["at"] * bool(names.at_sites)])
+    rows = list(range(len(rates))) if rows is None else rows
+    statements = Rule(names, place).write([str(row) for row in rows], rates)
+    arrays = [*states, *["at"] * bool(names.at_sites), *["coupled"] * bool(names.couples)]
+    given = ", ".join(arrays)
     return RULE.format(name=name, given=f"{given}, = states", statements=statements)
 
 

@@ -92,11 +92,12 @@ GROUP = 8
 """Blocks that take an order together: with those that lag behind them they fit into the cache."""
 
 
-def in_waves(write_next_order, reach):
+def in_waves(write_next_order, reach, everywhere=False):
     """Return the function that continues a series, given the rule for one order of some blocks.
 
     write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 of the
     blocks `first` to `last` - 1 of each component from what lies up to `reach` sites beyond them.
+    Where it is `everywhere`, because a matrix couples all sites, each order is written at once.
     """
     close_order = close_ends(reach)
 
@@ -111,7 +112,7 @@ def in_waves(write_next_order, reach):
         """
         blocks = series.blocks
         # a ring has no side to start from
-        at_once = blocks <= SHORT or chain.left in (PERIODIC, ANTIPERIODIC)
+        at_once = everywhere or blocks <= SHORT or chain.left in (PERIODIC, ANTIPERIODIC)
         group, lag = (blocks, 0) if at_once else (GROUP, 1)
         for start in range(0, blocks + lag * ORDER, group):
             for k in range(ORDER + 1):

@@ -102,9 +102,10 @@ def is_function(one: Node) -> bool:
 def has_rate(argument: Node, rates: list[Node]) -> bool:
     """Return whether the rate of an expression is known at every site, next to an end too.
 
-    That of a field beyond an end is known where it is a field itself, as a velocity is.
+    That of a field beyond an end is known where it is a field itself, as a velocity is. A product
+    of a matrix stays where it is.
     """
-    return all(
+    return not leaves_in([argument], "matrix") and all(
         by == 0 or rates[2 * component + part].operation == "field"
         for component, part, by in (leaf.operands for leaf in leaves_in([argument], "field"))
     )

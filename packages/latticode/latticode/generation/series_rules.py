@@ -8,6 +8,8 @@ sum of products as a whole. The factor 1 / (k + 1) goes into the constants of th
 where that costs no multiplication more.
 """
 
+from itertools import chain
+
 from latticode.equations.graph import CONSTANT, Node, in_order, node
 from latticode.equations.symbols import ModelError
 from latticode.integrators.taylor import ORDER
@@ -23,7 +25,7 @@ from .series_graph import (
     with_half_squares,
 )
 from .series_sums import Sums
-from .statements import Code, Names, require_alike
+from .statements import Code, Names, require_alike, stages_of
 
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
@@ -46,7 +48,7 @@ def write_next_order(system, series, k, first, last):
     m, d, share = series.memory, spare_start(series), 1.0 / (k + 1)
     at_start = 1.0 if k == 0 else 0.0
 {work}
-continue_in_waves = in_waves(write_next_order, {reach})
+continue_in_waves = in_waves(write_next_order, {reach}{everywhere})
 """
 
 
@@ -79,7 +81,11 @@ class Series:
         self.sums = Sums(self.products, self.load, self.clocks)
         if alike:
             require_alike(model_rates, self.kept)
-        self.partial: dict[Node, int] = {}  # sums of products that are not kept
+        self.partial: dict[tuple[int, Node], int] = {}  # sums of products that are not kept
+        # the products of matrices that follow each pass over the blocks but for the last
+        self.stages = stages_of([*self.rates, *self.flows])
+        self.stage = 0  # the pass that is written
+        self.couples = {one: i for i, one in enumerate(chain.from_iterable(self.stages))}
         more = max(0, len(self.kept) - self.components)
         self.spare = more * (ORDER + 1)  # vectors of a block beside its own
 
@@ -117,7 +123,7 @@ class Series:
         """
         if one in self.kept:
             return self.place(one, "k + 1" if even else "k")
-        i = self.partial.setdefault(one, len(self.partial))
+        i = self.partial.setdefault((self.stage, one), len(self.partial))
         if i < len(self.rates):
             return f"i{i // 2} + (k + {1 + even}) * ORDER_STRIDE + {'XY'[i % 2]}"
         return f"s + {self.spare + i - len(self.rates)} * LANES"
@@ -133,18 +139,26 @@ class Series:
 
     # --- The order of the work
 
-    def body(self, even: bool) -> tuple[list[str], list[str]]:
-        """Return the factors of an order, and the statements that write order k + 1 of a block."""
-        code, depth = Code(3), self._depths()
-        if even:
-            self._start_carried(code)
-        for now in range(1, max(depth.values(), default=0) + 2):
-            for one in self.kept:
-                if depth[one] == now - 1 and not (one.operation == "carried" or is_function(one)):
-                    code(self._store(one, self._value(code, one, even)))
-            self._write_functions(code, [one for one in self.kept if depth[one] == now], even)
-            self.sums.write(code, [one for one in self.products if depth[one] == now], even)
-        factors: dict[str, str] = {}
+    def body(self, even: bool) -> tuple[list[str], list[list[str]]]:
+        """Return the factors of an order, and the statements that write order k + 1 of a block.
+
+        Where matrices couple sites, each product of one follows from what all blocks hold: then
+        there are as many lists of statements as there are passes over the blocks.
+        """
+        written: set[Node] = set()
+        passes = []
+        for stage, couples in enumerate(self.stages):
+            self.stage, code = stage, Code(3)
+            factors = [one.operands[1] for one in couples]
+            self._write_kept(code, factors, written, even)
+            for one in couples:
+                row = self.couples[one]
+                value = self._value(code, one.operands[1], even)
+                code(f"store(system.couplings.factors_by_block, {self._in_block(row)}, {value})")
+            passes.append(code.lines)
+        code, factors = Code(3), {}
+        self.stage = len(self.stages)
+        self._write_kept(code, None, written, even)
         rows = [self._next(code, rate, even, factors) for rate in [*self.rates, *self.flows]]
         for i, found in enumerate(rows):
             if i < len(self.rates):
@@ -153,7 +167,34 @@ class Series:
                 to = self.place(carried(i - len(self.rates)), "k + 1")
                 found = f"zero_below(TINY, {found})"
             code(f"store(m, {to}, {found})")
-        return [f"        {name} = {text}" for text, name in factors.items()], code.lines
+        return [f"        {name} = {text}" for text, name in factors.items()], [*passes, code.lines]
+
+    def _in_block(self, row: int) -> str:
+        """Return where the block at work lies in a row of what is coupled."""
+        return f"{row} * system.couplings.products_by_block.shape[1] + block * LANES"
+
+    def _write_kept(
+        self, code: Code, roots: list[Node] | None, written: set[Node], even: bool
+    ) -> None:
+        """Write the kept coefficients of order k that the roots need, and the sums of products.
+
+        Those that an earlier pass has `written` are loaded; without roots all are needed.
+        """
+        depth = self._depths()
+        needed = set(depth if roots is None else _in_order_up_to_products(roots))
+        if even and self.stage == 0:
+            self._start_carried(code)
+        for one in written:
+            code.alias(("value", one), self.load(one, "k"))
+        kept = [one for one in self.kept if one in needed and one not in written]
+        for now in range(1, max(depth.values(), default=0) + 2):
+            for one in kept:
+                if depth[one] == now - 1 and not (one.operation == "carried" or is_function(one)):
+                    code(self._store(one, self._value(code, one, even)))
+            self._write_functions(code, [one for one in kept if depth[one] == now], even)
+            products = [one for one in self.products if one in needed and depth[one] == now]
+            self.sums.write(code, products, even)
+        written.update(one for one in kept if one.operation != "carried")
 
     def _depths(self) -> dict[Node, int]:
         """Return how many products or functions stand inside one another in each node: so many
@@ -232,6 +273,9 @@ class Series:
         match one.operation, *one.operands:
             case ("field", _, _, 0) | ("carried", _):
                 return self.load(one, "k")
+            case "couple", *_:
+                place = self._in_block(self.couples[one])
+                return f"load(system.couplings.products_by_block, {place})"
             case "field", *_:
                 return self._neighbour(code, one, even)
             case "neg", a:
@@ -312,7 +356,8 @@ class Series:
         (factors, even), (_, odd) = self.body(True), self.body(False)
         clocks = -(-len(self.clocks) * (ORDER + 1) // LANES) * LANES  # in whole vectors
         begin = self._begin(clocks)
-        work = ["    if k % 2 == 0:", *factors, *begin, *even, "    else:", *factors, *begin, *odd]
+        even, odd = self._in_passes(begin, even), self._in_passes(begin, odd)
+        work = ["    if k % 2 == 0:", *factors, *even, "    else:", *factors, *odd]
         if self.alike:
             loop = "    for component in range(series.components):"
             work = [loop, *("    " + line for line in work)]
@@ -323,7 +368,21 @@ class Series:
             shifts="\n".join(f"shift_{by} = define_shift({by})" for by in range(2, LANES - 1)),
             work="\n".join(work),
             reach=reach,
+            everywhere=", everywhere=True" * bool(self.stages),
         )
+
+    def _in_passes(self, begin: list[str], passes: list[list[str]]) -> list[str]:
+        """Return the loops over blocks, and between them the products of matrices."""
+        lines = [*begin, *passes[0]]
+        for couples, statements in zip(self.stages, passes[1:], strict=True):
+            for one in couples:
+                row, matrix = self.couples[one], self.names.matrices[one.operands[0].operands[0]]
+                rows = ", ".join(
+                    f"system.couplings.{name}_by_block[{row}]" for name in ("factors", "products")
+                )
+                lines.append(f"        multiply_by_matrix(system.couplings, {matrix}, {rows}, 0)")
+            lines += [*begin, *statements]
+        return lines
 
     def _begin(self, clocks: int) -> list[str]:
         """Return the loop over blocks, and where each of them and its neighbours begin."""
@@ -341,3 +400,18 @@ class Series:
                 for c, at in here.items()
             ),
         ]
+
+
+def _in_order_up_to_products(nodes: list[Node]) -> list[Node]:
+    """Return nodes and all that they are made of, but for what stands in products of a matrix."""
+    found: dict[Node, None] = {}
+
+    def visit(one: Node) -> None:
+        if one not in found:
+            for operand in () if one.operation == "couple" else one.inputs:
+                visit(operand)
+            found[one] = None
+
+    for one in nodes:
+        visit(one)
+    return list(found)

@@ -9,6 +9,7 @@ from latticode.equations.graph import (
     ZERO,
     Node,
     derivative,
+    in_order,
     is_number,
     leaves_in,
     node,
@@ -52,6 +53,7 @@ class Parts(NamedTuple):
     constants: tuple[Node, ...]  # one number each
     at_sites: tuple[Node, ...]  # one number a site each
     clocks: tuple[Node, ...]  # sines and cosines of the time, and the time itself
+    couples: tuple[Node, ...] = ()  # products of a matrix, each after those that it is made of
 
 
 def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
@@ -72,9 +74,24 @@ def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
             for operand in one.inputs:
                 visit(operand)
 
+    nodes = list(nodes)
     for one in nodes:
         visit(one)
-    return Parts(tuple(constants), tuple(at_sites), tuple(clocks))
+    couples = [one for one in in_order(nodes) if one.operation == "couple"]
+    return Parts(tuple(constants), tuple(at_sites), tuple(clocks), tuple(couples))
+
+
+def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
+    """Return the products of a matrix in expressions, by how many stand inside one another.
+
+    Those of a stage are made of earlier ones alone.
+    """
+    depth: dict[Node, int] = {}
+    for one in in_order(nodes):
+        depth[one] = max((depth[a] for a in one.inputs), default=0) + (one.operation == "couple")
+    couples = [one for one in depth if one.operation == "couple"]
+    last = max((depth[one] for one in couples), default=0)
+    return [[one for one in couples if depth[one] == stage] for stage in range(1, last + 1)]
 
 
 def depends_on_site(one: Node, site_dependent: frozenset[str]) -> bool:
@@ -115,6 +132,9 @@ class Names:
         self.constants = named("constants", parts.constants)
         self.clocks = named("clocks", parts.clocks)
         self.at_sites = {one: i for i, one in enumerate(parts.at_sites)}
+        self.couples = {one: i for i, one in enumerate(parts.couples)}
+        matrices = sorted({leaf.operands[0] for leaf in leaves_in(parts.couples, "matrix")})
+        self.matrices = {name: i for i, name in enumerate(matrices)}
 
     def constant(self, one: Node) -> str:
         """Return the text of a number, or of an expression of parameters alone."""

@@ -46,6 +46,43 @@ class Sums(NamedTuple):
     terms: np.ndarray  # (density, 1 + site), room for the densities
 
 
+class Couplings(NamedTuple):
+    """The matrices that couple sites, and room for what they are multiplied with.
+
+    Rows of a matrix are summed from the first column to the last, whatever the processor. All are
+    in `dense` (matrix, column, site) if that has the sites; else their entries that are not zero
+    are in `weights` and `columns`, those of a site between `starts` of it and of the next.
+    """
+
+    dense: np.ndarray
+    weights: np.ndarray
+    columns: np.ndarray
+    starts: np.ndarray  # (matrix, site)
+    factors: np.ndarray  # (product, 1 + site), what the matrices multiply
+    products: np.ndarray  # (product, 1 + site)
+    factors_by_block: np.ndarray  # (product, site), in whole blocks
+    products_by_block: np.ndarray
+
+
+@kernel
+def multiply_by_matrix(couplings, matrix, factors, products, first):
+    """Write a matrix times the flat `factors` into `products`, whose sites begin at `first`."""
+    sites = couplings.starts.shape[1] - 1
+    if couplings.dense.shape[1] == sites and couplings.dense.shape[0] > matrix:
+        for site in range(sites):
+            products[first + site] = 0.0
+        for column in range(sites):
+            factor, line = factors[first + column], couplings.dense[matrix, column]
+            for site in range(sites):
+                products[first + site] += line[site] * factor
+        return
+    for site in range(sites):
+        total = 0.0
+        for k in range(couplings.starts[matrix, site], couplings.starts[matrix, site + 1]):
+            total += couplings.weights[k] * factors[first + couplings.columns[k]]
+        products[first + site] = total
+
+
 class System(NamedTuple):
     """What the kernels of any traced model are given."""
 
@@ -54,6 +91,7 @@ class System(NamedTuple):
     at: np.ndarray  # (row, 1 + site), parameters that depend on the site, with room for a vector
     wide: np.ndarray  # (row, reach + site), room for a state with more ghost columns
     sums: Sums
+    couplings: Couplings
     left: int
     right: int
 

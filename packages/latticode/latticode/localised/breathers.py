@@ -157,6 +157,8 @@ def find_state(problem: Problem) -> State:
     data, even = problem.amplitudes, TracedEquations(problem).find_reduction().even
     if problem.model.driven:
         raise NoStateError("the equations depend on the time")
+    if problem.model.matrices:
+        raise NoStateError("a matrix couples the sites, and none is looked for there")
     if not data.any():
         raise NoStateError("the chain is at rest")
     if flat(data, even).size > MOST_UNKNOWNS:

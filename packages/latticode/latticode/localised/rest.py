@@ -49,7 +49,12 @@ def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
     """
     unknowns = len(problem.model.rates) * problem.sites
     still = (moduli == moduli[:, :, :1]).all(axis=(0, 2))
-    if problem.model.driven or unknowns > MOST_UNKNOWNS or not still.any():
+    if (
+        problem.model.driven
+        or problem.model.matrices
+        or unknowns > MOST_UNKNOWNS
+        or not still.any()
+    ):
         return ""
     unstable, rate = growth_at_rest(problem, still)
     if not unstable.size:

@@ -37,7 +37,12 @@ def runs_of_sweep(
     and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
     problem = problem.changed(snapshot_every=0, snapshots_at=())
-    alike, enough, inside, printed = not site_dependent(problem), np.inf, None, False
+    alike, enough, inside, printed = (
+        not (site_dependent(problem) or problem.model.matrices),
+        np.inf,
+        None,
+        False,
+    )
 
     def make(one: Problem) -> dict[str, np.ndarray]:
         nonlocal enough, inside, printed

@@ -12,10 +12,9 @@ from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import evaluate
 from latticode.equations.initial_values import InitialValueProblem
 from latticode.equations.model import Model
-from latticode.equations.model_file import values_at
 from latticode.generation.modules import conserved_text, load_text, module_text, parts_of_rates
 from latticode.generation.statements import Parts, parts_of
-from latticode.generation.toolbox import Sums, System
+from latticode.generation.toolbox import Couplings, Sums, System
 from latticode.integrators.method import Method
 from latticode.integrators.methods import METHODS, NAMED, methods_taking
 from latticode.kernels.simd import LANES
@@ -93,18 +92,18 @@ def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
     return load_text(text + runs_text(methods, observe, model.driven))
 
 
-def parameters_of(problem: InitialValueProblem) -> dict[str, float | np.ndarray]:
-    """Return the value of each parameter: a number, or an array (site,) of one for each site.
+def parameters_of(problem: InitialValueProblem) -> dict[str, Any]:
+    """Return the value of each parameter: a number, an array (site,), or entries of a matrix.
 
     Raises ValueError with the name of one that has none.
     """
     found = {}
     for name, given in {**problem.model.parameters, **problem.parameters}.items():
         try:
-            value = values_at(given, problem.site_numbers)
+            value = problem.model.value_at(name, given, problem.site_numbers)
         except ValueError as error:
             raise ValueError(f"parameter {name} {error}") from None
-        found[name] = value if np.ndim(value) == 0 else np.array(value)
+        found[name] = np.array(value) if isinstance(value, list) else value
     return found
 
 
@@ -122,7 +121,37 @@ def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
     wide = np.zeros((2 * len(model.fields), sites + 2 * model.reach))
     clocks = (0.0,) * 2 * len(parts.clocks)
     ends = choose_ends(problem.boundary, reduction)
-    return System(constants, clocks, at_sites, wide, _sums(problem), *ends)
+    couplings = _couplings(problem, parts, sites)
+    return System(constants, clocks, at_sites, wide, _sums(problem), couplings, *ends)
+
+
+DENSE = 0.25
+"""The part of a matrix from which on it is multiplied with its zeros, which is faster."""
+
+
+def _couplings(problem: InitialValueProblem, parts: Parts, sites: int) -> Couplings:
+    """Return the matrices of a model, and room for what they are multiplied with."""
+    values, names = parameters_of(problem), sorted(problem.model.matrices)
+    count, padded = max(1, len(parts.couples)), -(-sites // LANES) * LANES
+    matrices = [values[name] for name in names]
+    entries = _flat_entries(matrices, sites)
+    in_full = any(len(matrix["rows"]) > DENSE * sites * sites for matrix in matrices)
+    dense = np.zeros((len(names), sites, sites) if in_full else (1, 1, 1))
+    for number, matrix in enumerate(matrices if in_full else []):
+        dense[number, matrix["columns"], matrix["rows"]] = matrix["weights"]
+    by_site, by_block = np.zeros((2, count, sites + 2)), np.zeros((2, count, padded))
+    return Couplings(dense, *entries, *by_site, *by_block)
+
+
+def _flat_entries(matrices: list, sites: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return weights and columns of all matrices one after another, and where rows start."""
+    starts, before = np.zeros((max(1, len(matrices)), sites + 1), np.int64), 0
+    for number, matrix in enumerate(matrices):
+        starts[number] = before + np.searchsorted(matrix["rows"], np.arange(sites + 1))
+        before += len(matrix["rows"])
+    weights = [weight for matrix in matrices for weight in matrix["weights"]]
+    columns = [column for matrix in matrices for column in matrix["columns"]]
+    return np.array([*weights, 0.0]), np.array([*columns, 0], np.int64), starts
 
 
 def _sums(problem: InitialValueProblem) -> Sums:

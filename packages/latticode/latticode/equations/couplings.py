@@ -1,0 +1,101 @@
+"""Matrices that couple the sites of a chain: what a person gives, and how it is passed on.
+
+A matrix is passed on as plain values, {"sites": N, "rows": [...], "columns": [...], "weights":
+[...]}, its entries but for zeros in the order of rows and then of columns. So sums over them have
+one order, and with it the same bits, whatever form the matrix was given in.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .model_file import call_on_sites, chain_sites
+
+Entries = Mapping[str, Any]
+"""A matrix as plain values."""
+
+
+def entries_of(given: Any, sites: range) -> Entries:
+    """Return the entries of an N x N matrix of the sites of a chain.
+
+    `given` is an array or nested lists, a matrix of scipy.sparse, a function of the array of sites
+    that returns either, or entries. Raises ValueError with what is wrong, to stand behind its name.
+    """
+    if callable(given):
+        given = call_on_sites(given, np.array(sites))
+    if isinstance(given, Mapping):
+        if given.keys() != {"sites", "rows", "columns", "weights"}:
+            raise ValueError("is a mapping; give a matrix as nested lists, or as an array")
+        _require_sites((given["sites"], given["sites"]), len(sites))
+        return given
+    rows, columns, weights = _nonzero(given, len(sites))
+    wrong = np.flatnonzero(~np.isfinite(weights))
+    if wrong.size:
+        place = f"({sites[rows[wrong[0]]]}, {sites[columns[wrong[0]]]})"
+        raise ValueError(f"is {weights[wrong[0]]:g} at the sites {place}, which is not finite")
+    order = np.lexsort((columns, rows))
+    return {
+        "sites": len(sites),
+        "rows": rows[order].tolist(),
+        "columns": columns[order].tolist(),
+        "weights": weights[order].astype(float).tolist(),
+    }
+
+
+def _nonzero(given: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the rows, columns and values of a matrix where it is not zero."""
+    if hasattr(given, "tocoo"):
+        _require_sites(given.shape, count)
+        sparse = given.tocsr().tocoo()  # which adds up entries that are given twice
+        matrix, (rows, columns) = sparse.data, (sparse.row, sparse.col)
+        weights = matrix
+    else:
+        try:
+            matrix = np.asarray(given)
+        except ValueError:
+            raise ValueError("is a matrix whose rows are not of one length") from None
+        _require_sites(matrix.shape, count)
+        rows, columns = np.nonzero(matrix)
+        weights = matrix[rows, columns]
+    if matrix.dtype.kind not in "iufb":
+        kind = "complex" if matrix.dtype.kind == "c" else "no numbers"
+        hint = "; couple its real and its imaginary part by a matrix each" * (kind == "complex")
+        raise ValueError(f"is a matrix of {kind}, and couple takes real ones{hint}")
+    return rows, columns, weights
+
+
+def _require_sites(shape: tuple[int, ...], count: int) -> None:
+    if shape != (count, count):
+        size = " x ".join(map(str, shape)) or "one number"
+        raise ValueError(f"is {size}; couple takes a matrix of {count} x {count} for {count} sites")
+
+
+def at_middle(values: Any, half_width: int) -> Any:
+    """Return the values of a parameter on the sites -M..M in the middle of a longer chain."""
+    if isinstance(values, Mapping):
+        return _middle_of(values, half_width)
+    if np.ndim(values) == 0:
+        return values
+    margin = len(values) // 2 - half_width
+    return values[margin : len(values) - margin]
+
+
+def _middle_of(entries: Entries, half_width: int) -> Entries:
+    """Return the entries on the sites -M..M in the middle of a longer chain."""
+    margin, count = entries["sites"] // 2 - half_width, len(chain_sites(half_width))
+    rows, columns = (np.array(entries[name], int) - margin for name in ("rows", "columns"))
+    inside = (rows >= 0) & (rows < count) & (columns >= 0) & (columns < count)
+    return {
+        "sites": count,
+        "rows": rows[inside].tolist(),
+        "columns": columns[inside].tolist(),
+        "weights": np.array(entries["weights"], float)[inside].tolist(),
+    }
+
+
+def largest_row_sum(entries: Entries) -> float:
+    """Return the largest sum of the magnitudes in a row: the matrix enlarges nothing by more."""
+    weights = np.abs(np.array(entries["weights"], float))
+    sums = np.bincount(np.array(entries["rows"], int), weights, minlength=1)
+    return float(sums.max())
