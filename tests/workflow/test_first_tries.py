@@ -102,3 +102,12 @@ def test_studies_run_on_what_edited_cases_have_become(finished):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     lyapunov = read(finished / "results/checks/lyapunov.nc")
     assert lyapunov["gamma"].sel(case=["fig2_small", "fig4_small"]).values.tolist() == [1.0, 0.5]
+
+
+def test_a_copy_of_the_project_with_the_packages_of_another_is_refused(clone, tmp_path):
+    """Its rules would run the code of the other copy, and nobody would notice."""
+    result = snakemake(clone, tmp_path, "--dry-run", "fig1", PYTHONPATH="")
+    output = result.stdout + result.stderr
+    assert result.returncode == 1 and "Traceback" not in output
+    assert f"Python imports the code of {ROOT}, not that of this copy" in output
+    assert f"pip install -e {clone}" in output

@@ -17,6 +17,7 @@ atexit.register(gc.freeze)
 import pendula
 from benchmarks.problems import REGIMES
 from latticode.configuration.files import ConfigurationError
+from latticode.integrators.methods import METHODS
 from latticode.kernels import DISABLED
 from latticode.kernels.sources import ROOTS, digest_of
 from pendula.configuration.messages import load, require
@@ -128,7 +129,7 @@ pathvars:
     own_survey=f"{{survey,{any_of(OWN_SURVEYS)}}}",
     any_case=f"{{case,{any_of(SETTINGS.cases)}}}",
     any_sweep=f"{{sweep,{any_of(SETTINGS.sweeps)}}}",
-    any_solver=f"{{solver,{any_of([*ALL_SOLVERS, 'auto', 'kahan_li'])}}}",
+    any_solver=f"{{solver,{any_of([*METHODS, 'auto'])}}}",
     size="{size,(long/)?}",  # a longer study lies in a folder of its own
 
 
