@@ -29,14 +29,16 @@ def pages(full_run, live_page, article_page) -> dict[str, Path]:
 def find_violations(browser, axe: str) -> list[str]:
     """Return the rule, and an example, of each fault on the page that is open."""
     browser.execute_cdp_cmd("Runtime.evaluate", {"expression": axe})
-    return browser.execute_async_script("""
+    violations = browser.execute_async_script("""
     const [done] = arguments;
     axe.run({ resultTypes: ["violations"] }).then(({ violations }) =>
-      done(violations.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)}`)));
+      done(violations.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)}`)),
+      (error) => done([`axe-core failed: ${error.message}`]));
     """)
+    return violations
 
 
-@pytest.mark.parametrize("name", ["article", "live"])
+@pytest.mark.parametrize("name", ["article", "live", "report"])
 def test_a_page_has_no_fault_in_both_themes_and_at_three_widths(browser, axe, pages, name):
     browser.set_script_timeout(600)
     faults = set()

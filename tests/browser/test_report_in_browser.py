@@ -59,7 +59,7 @@ def test_claims_are_filtered(report, full_run, control, value, keep):
     shown = set(visible_claims(report))
     assert expected and (expected == shown if control != "search" else expected <= shown)
     assert len(shown) < len(rows)
-    assert run(report, "matches.textContent") == f"{len(shown)} of {len(rows)} claims"
+    assert run(report, "shown_count.textContent") == f"{len(shown)} of {len(rows)} claims"
     report.find_element("css selector", ".filters button").click()
     wait_for(lambda: len(visible_claims(report)) == len(rows))
 

@@ -21,7 +21,7 @@ const filter = () => {
     if (fold && isFiltering) fold.open = hasMatch;
     section.hidden = fold !== null && !hasMatch;
   }
-  document.getElementById("matches").textContent = isFiltering ? `${matches.length} of ${claims.length} claims` : "";
+  document.getElementById("shown_count").textContent = isFiltering ? `${matches.length} of ${claims.length} claims` : "";
 };
 
 // Set the filters of a link, such as figure=5&verdict=confirmed.
