@@ -35,7 +35,8 @@ def make_live_page(folder: Path) -> Path:
         variables = accepted[f"trajectories/{path.name}"]["variables"]
         assert hashes.of(read(path))["variables"] == variables
     page = folder / "live.html"
-    write_live([*map(str, runs)], BASELINE / "checks/trust.nc", str(page))
+    checks = [str(BASELINE / f"checks/{name}.nc") for name in ("trust", "chart")]
+    write_live([*map(str, runs)], *checks, str(page))
     assert page.stat().st_size < LARGEST_LIVE_PAGE
     return page
 

@@ -174,6 +174,25 @@ def test_the_address_follows_each_change_and_back_undoes_it(live):
         settle(live)
 
 
+@pytest.mark.parametrize(("omega", "gamma"), [(-4.0, 1.0), (0.0, 2.0), (9.5, 0.5)])
+def test_a_click_on_the_chart_of_stability_sets_omega_and_gamma(live, omega, gamma):
+    """By the centre of the cell, which the picture has at the same place as the dataset."""
+    live.execute_script("byId('chart').scrollIntoView({block: 'center'})")
+    live.execute_script(
+        """
+        const canvas = byId("chart");
+        const { left, top, width, height } = canvas.getBoundingClientRect();
+        const [across, up] = arguments;
+        canvas.dispatchEvent(new MouseEvent("click", {
+          bubbles: true, clientX: left + across * width, clientY: top + (1 - up) * height }));
+        """,
+        (omega + 6.25) / 16.5,
+        (gamma + 0.125) / 3.25,
+    )
+    settle(live)
+    assert run(live, "[settings.omega, settings.gamma]") == pytest.approx([omega, gamma], abs=0.11)
+
+
 def test_keys_play_and_move_the_time(live):
     """Space plays from anywhere but a button, and arrows move the time on a plot."""
     body = live.find_element("tag name", "body")

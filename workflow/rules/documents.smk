@@ -23,6 +23,7 @@ use rule job as live with:
     input:
         runs=runs_by(SETTINGS, "ode45"),
         trust="<results>/checks/trust.nc",
+        chart="<results>/checks/chart.nc",
     output:
         html="<results>/live.html",
     pathvars:

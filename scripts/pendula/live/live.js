@@ -46,6 +46,7 @@ const draw = () => {
   drawNorm("l2");
   drawNorm("linf");
   drawModuli();
+  drawChart();
   byId("localised").textContent = describeLocalised();
   byId("parted").textContent = `${describePerturbed()} ${describeHorizon()}`;
   showTime();
@@ -246,6 +247,7 @@ const begin = async () => {
   data.cases.forEach(({ title, name }) => byId("case").add(new Option(title, name)));
   listenToSettings();
   listenToTime();
+  listenToChart();
   listen("compare", "click", compareAll);
   listen("csv", "click", () => save("mine.csv", writeCsv()));
   listen("yaml", "click", () => save("mine.yaml", writeYaml()));

@@ -28,19 +28,21 @@ from .experiments import EXPERIMENTS
 from .kernel import ODE45, compile_for_any_processor
 
 HERE = Path(__file__).parent
-SCRIPTS = "runs.js", "panels.js", "pictures.js", "words.js", "live.js"
+SCRIPTS = "runs.js", "panels.js", "pictures.js", "words.js", "chart.js", "live.js"
 DATA = '<script type="application/json" id="data"'
 """How the element begins that holds the page's data."""
+LEVELS = 255
+"""The largest of the growth rates as the page has them."""
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
 """Of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), which takes words here, not bytes. Any
 change of one word changes it."""
 
 
-def write_live(runs: list[str], trust: str, html: str) -> None:
+def write_live(runs: list[str], trust: str, chart: str, html: str) -> None:
     """Write the page `html` on the trajectories `runs` by ode45.
 
-    `trust` is the dataset checks/trust. A case with initial data beside the central pair is left
-    out, since the page cannot set them.
+    `trust` and `chart` are the datasets checks/trust and checks/chart. A case with initial data
+    beside the central pair is left out, since the page cannot set them.
     """
     by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
     trusted = read(trust).sel(solver="ode45")
@@ -51,6 +53,7 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
             for name, run in by_case.items()
             if set(read_initial(run.attrs["initial"])) == {0}
         ],
+        "chart": _chart(read(chart)),
         "faults": FAULTS,
         "visible": VISIBLE,
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
@@ -62,6 +65,7 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
         HERE,
         data=Markup(json.dumps(data, ensure_ascii=False)),
         experiments=EXPERIMENTS,
+        chart=data["chart"],
         style=Markup(style),
         worker=Markup(worker_text()),
         script=Markup(script),
@@ -123,6 +127,14 @@ def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
         "marks": _text(marks(run).tobytes()),
         "horizon": known or None,
     }
+
+
+def _chart(chart: xr.Dataset) -> dict[str, Any]:
+    """Return the growth rates of the chain at rest, by Omega and then by gamma, in 256 levels."""
+    rates = chart["measured"].transpose("omega", "gamma").values.clip(min=0)
+    levels = np.rint(rates / rates.max() * LEVELS).astype(int)
+    axes = {name: [float(value) for value in chart[name].values] for name in ("omega", "gamma")}
+    return axes | {"rates": levels.ravel().tolist()}
 
 
 def _read(file: Path) -> str:
