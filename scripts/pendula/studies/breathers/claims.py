@@ -46,6 +46,7 @@ def at_omega(dataset: xr.Dataset, omega: float) -> xr.Dataset:
     "At the detuning of Fig 3 no computed steady state that is localised on one pair is stable.",
     (STEADY,),
     (Control("the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names="growth")),),
+    origin=Origin.OPEN,
 )
 def steady_unstable(steady: xr.Dataset) -> Finding:
     """Require a growing perturbation of each family of steady states."""
@@ -76,6 +77,7 @@ def breathers_of_fig3(periodic: xr.Dataset) -> xr.Dataset:
     "those in which A swings more than B, and those with A = -B.",
     (PERIODIC,),
     (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
+    origin=Origin.OPEN,
 )
 def periodic_stable(periodic: xr.Dataset) -> Finding:
     """Decide by the two families with A != B."""
@@ -100,6 +102,7 @@ def periodic_stable(periodic: xr.Dataset) -> Finding:
     "less P than the large initial condition, and unstable.",
     (PERIODIC,),
     (Control("solitons that no perturbation leaves", put("soliton_growth", 0.0)),),
+    origin=Origin.OPEN,
 )
 def solitons_unstable(periodic: xr.Dataset) -> Finding:
     """Decide by the growth rate on the longer chain; near Omega it depends on the length."""
@@ -134,6 +137,7 @@ def solitons_unstable(periodic: xr.Dataset) -> Finding:
         Control("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
         Control("a family with half of its P", scale("least_power", 0.5, family="A only")),
     ),
+    origin=Origin.OPEN,
 )
 def data_below_breathers(periodic: xr.Dataset) -> Finding:
     """Compare P of the large data with the least P of a stable breather.
