@@ -8,6 +8,7 @@ values: `Problem.plain` writes one, `Problem.of` reads it.
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any, Self
 
@@ -118,6 +119,26 @@ class InitialValueProblem:
         if half_width is not None:
             values = {name: at_middle(one, half_width) for name, one in values.items()}
         return replace(self, **changes, parameters=values)
+
+    @cached_property
+    def parameter_values(self) -> dict[str, Any]:
+        """The value of each parameter: a number, an array (site,), or entries of a matrix.
+
+        Raises ValueError with the name of a parameter that has none.
+        """
+        values = {}
+        for name, entry in {**self.model.parameters, **self.parameters}.items():
+            try:
+                value = self.model.value_at(name, entry, self.site_numbers)
+            except ValueError as error:
+                raise ValueError(f"parameter {name} {error}") from None
+            values[name] = np.array(value) if isinstance(value, list) else value
+        return values
+
+    @cached_property
+    def site_dependent(self) -> frozenset[str]:
+        """The names of the parameters that depend on the site."""
+        return frozenset(name for name, value in self.parameter_values.items() if np.ndim(value))
 
     @property
     def site_numbers(self) -> range:

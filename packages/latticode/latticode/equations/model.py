@@ -427,15 +427,25 @@ class Model:
                 return peak
             return sizes.get(one.operands[0], 1.0) if one.operands else 1.0
 
+        columns, changes = self._slopes
+        with np.errstate(all="ignore"):
+            values = np.abs(evaluate(changes, lambda entry: np.float64(size(entry))))
         slopes = np.zeros((len(self.rates), len(self.rates)))
-        for found in leaves_in(self.rates, "field"):
-            change = derivative(self.rates, lambda one, found=found: number(one is found))
-            component, part, _ = found.operands
-            with np.errstate(all="ignore"):
-                slopes[:, 2 * component + part] += np.abs(
-                    evaluate(change, lambda one: np.float64(size(one)))
-                )
-        return _largest_eigenvalue(slopes if peak else np.nan_to_num(slopes, posinf=0.0))
+        for column, change in zip(columns, values.reshape(-1, len(self.rates)), strict=True):
+            slopes[:, column] += change
+        if not peak and not np.isfinite(slopes).all():
+            slopes = np.nan_to_num(slopes, posinf=0.0)
+        return _largest_eigenvalue(slopes)
+
+    @cached_property
+    def _slopes(self) -> tuple[list[int], tuple[Node, ...]]:
+        """The rows of the fields that rates read, and the derivatives of all rates by each."""
+        columns, changes = [], []
+        for entry in leaves_in(self.rates, "field"):
+            component, part, _ = entry.operands
+            columns.append(2 * component + part)
+            changes += derivative(self.rates, lambda leaf, entry=entry: number(leaf is entry))
+        return columns, tuple(changes)
 
     def tangent(self) -> "Model":
         """Return the model of a solution and a small perturbation of it: twice the fields."""

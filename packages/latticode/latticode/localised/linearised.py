@@ -8,7 +8,7 @@ from latticode.equations.ends import ends_of
 from latticode.equations.graph import ZERO, Node, derivative, evaluate, leaves_in, number
 from latticode.equations.model import Model
 from latticode.simulation.problem import Problem
-from latticode.simulation.traced import PADDING, moved, parameters_of
+from latticode.simulation.traced import PADDING, moved
 
 EVEN, ODD = 1, -1
 
@@ -24,7 +24,7 @@ def linearise(
     `coupling` below 1 replaces a neighbour's value by its mean with the site's own, where it has
     this weight: at 0 sites are independent.
     """
-    model, values = problem.model, parameters_of(problem)
+    model, values = problem.model, problem.parameter_values
     places = _places(model.reach, problem.boundary, problem.sites, parity)
     parts = state.reshape(len(model.rates), -1)
     rows, sites = parts.shape

@@ -20,7 +20,7 @@ from latticode.simulation.lattice import Reduction, aligned, pack
 from latticode.simulation.problem import Problem
 from latticode.simulation.progress import follow
 from latticode.simulation.simulate import IntegrationError
-from latticode.simulation.traced import make_system, site_dependent
+from latticode.simulation.traced import make_system
 
 from .bundles import orthonormalise, size_of_solution
 
@@ -87,7 +87,7 @@ def grow(
     lengths, sizes = np.empty((tau.size, count)), np.empty(tau.size)
     orthonormalise(system, bundle, lengths[0])
     lengths[0], sizes[0] = 1.0, size_of_solution(system, bundle, count)
-    carry = kernels_of_tangents(problem.model, site_dependent(problem)).carry
+    carry = kernels_of_tangents(problem.model, problem.site_dependent).carry
     follow(lengths[:, 0], "a tangent vector")
     lengths[0] = 1.0
     given = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)

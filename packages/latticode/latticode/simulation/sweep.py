@@ -10,7 +10,6 @@ from latticode.simulation.problem import Problem
 
 from .runs import ManyRuns, Run, run_all
 from .simulate import Trajectory, simulate
-from .traced import site_dependent
 
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")
@@ -37,12 +36,8 @@ def runs_of_sweep(
     and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
     problem = problem.changed(snapshot_every=0, snapshots_at=())
-    alike, enough, inside, printed = (
-        not (site_dependent(problem) or problem.model.matrices),
-        np.inf,
-        None,
-        False,
-    )
+    alike = not (problem.site_dependent or problem.model.matrices)
+    enough, inside, printed = np.inf, None, False
 
     def make(one: Problem) -> dict[str, np.ndarray]:
         nonlocal enough, inside, printed

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable
-from functools import cache
+from functools import cache, cached_property
 from types import ModuleType
 from typing import Any
 
@@ -92,31 +92,11 @@ def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
     return load_text(text + runs_text(methods, observe, model.driven))
 
 
-def parameters_of(problem: InitialValueProblem) -> dict[str, Any]:
-    """Return the value of each parameter: a number, an array (site,), or entries of a matrix.
-
-    Raises ValueError with the name of one that has none.
-    """
-    found = {}
-    for name, given in {**problem.model.parameters, **problem.parameters}.items():
-        try:
-            value = problem.model.value_at(name, given, problem.site_numbers)
-        except ValueError as error:
-            raise ValueError(f"parameter {name} {error}") from None
-        found[name] = np.array(value) if isinstance(value, list) else value
-    return found
-
-
-def site_dependent(problem: InitialValueProblem) -> frozenset[str]:
-    """Return the names of the parameters that depend on the site."""
-    return frozenset(name for name, value in parameters_of(problem).items() if np.ndim(value))
-
-
 def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
     """Return what the kernels of a model take for its parameters, at time 0."""
     model = problem.model
     sites = problem.half_width + 1 if reduction.even else problem.sites
-    parts = parts_of_rates(model.rates, site_dependent(problem))
+    parts = parts_of_rates(model.rates, problem.site_dependent)
     constants, at_sites = _values(problem, parts)
     wide = np.zeros((2 * len(model.fields), sites + 2 * model.reach))
     clocks = (0.0,) * 2 * len(parts.clocks)
@@ -131,7 +111,7 @@ DENSE = 0.25
 
 def _couplings(problem: InitialValueProblem, parts: Parts, sites: int) -> Couplings:
     """Return the matrices of a model, and room for what they are multiplied with."""
-    values, names = parameters_of(problem), sorted(problem.model.matrices)
+    values, names = problem.parameter_values, sorted(problem.model.matrices)
     count, padded = max(1, len(parts.couples)), -(-sites // LANES) * LANES
     matrices = [values[name] for name in names]
     entries = _flat_entries(matrices, sites)
@@ -161,7 +141,7 @@ def _sums(problem: InitialValueProblem) -> Sums:
         return Sums((), *np.zeros((3, 1, 3)))
     margin = reach if ends_of(problem.boundary).sees is None else 0
     sites = problem.sites + 2 * margin
-    parts = parts_of(model.conserved.values(), site_dependent(problem))
+    parts = parts_of(model.conserved.values(), problem.site_dependent)
     constants, at_sites = _values(problem, parts, margin)
     wide = np.zeros((2 * len(model.fields), sites + 2 * reach))
     return Sums(constants, at_sites, wide, np.zeros((len(model.conserved), sites + 2)))
@@ -171,7 +151,7 @@ def _values(
     problem: InitialValueProblem, parts: Parts, margin: int = 0
 ) -> tuple[tuple[float, ...], np.ndarray]:
     """Return constants, and what depends on the site, with so many sites more beyond each end."""
-    values = parameters_of(problem)
+    values = problem.parameter_values
 
     def leaf(one):
         if one.operation == "number":
@@ -219,7 +199,7 @@ NAMES_BY_FORM = {
 class TracedEquations(Equations):
     """A problem whose kernels, names and bounds all follow from the trace of its model."""
 
-    @property
+    @cached_property
     def names(self) -> ResultNames:
         """What datasets call the results."""
         return NAMES_BY_FORM[self.problem.model.form]._replace(components=self.problem.model.fields)
@@ -233,7 +213,7 @@ class TracedEquations(Equations):
         """Return the attributes of a dataset that say which equations were solved."""
         problem = self.problem
         return {
-            "parameters": json.dumps(parameters_of(problem), default=np.ndarray.tolist),
+            "parameters": json.dumps(problem.parameter_values, default=np.ndarray.tolist),
             "model": problem.model.name,
             "model_text": problem.model.text,
         }
@@ -250,7 +230,7 @@ class TracedEquations(Equations):
         problem = self.problem
         if problem.site_count is not None:  # no site is the middle of the chain 0..N-1
             return Reduction(even=False, synchronised=False)
-        symmetric = problem.model.even and not site_dependent(problem)
+        symmetric = problem.model.even and not problem.site_dependent
         # the far half of an antiperiodic ring has the other sign
         symmetric = symmetric and kind_of(problem.boundary) != ANTIPERIODIC
         even = symmetric and problem.half_width >= 2 * problem.model.reach
@@ -258,7 +238,7 @@ class TracedEquations(Equations):
 
     def compiled(self, name: str) -> CompiledMethod:
         """Return the method of this name with the generated kernels of the model."""
-        kernels = kernels_of(self.problem.model, site_dependent(self.problem))
+        kernels = kernels_of(self.problem.model, self.problem.site_dependent)
         method = METHODS[name]
         work = kernels.WORK if method.rule == "continue_series" else 0
         return CompiledMethod(method, getattr(kernels, f"run_{name}"), work)

@@ -142,3 +142,11 @@ def test_sines_drives_and_functions_of_time_equal_scipy(solver):
     found = simulate(problem(model, initial, "free", solver, end_time=2.0)).final[:, 0]
     error = 1e-9 if solver != "kahan_li" else 1e-8
     np.testing.assert_allclose(found.ravel(), expected, rtol=0, atol=error)
+
+
+def test_the_bound_of_rates_derives_the_equations_once(monkeypatch):
+    """A survey asks for it before each of its runs, which may be shorter than a derivation."""
+    chain = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
+    first = chain.rate({"c": 2.0}, 0.5)
+    monkeypatch.setattr("latticode.equations.model.derivative", None)
+    assert chain.rate({"c": 2.0}, 0.5) == first < chain.rate({"c": 3.0}, 0.5)
