@@ -118,14 +118,18 @@ def right_runs(record: dict) -> dict:
         "allowed": number(ALLOWED),
         "smallest": number(SMALLEST_SHOWN),
         "rows": [
-            [f"`{row['claim']}`", row["control"] or "(the claim)", plainly(row["nearest"]),
-             number(row["chance"], 1)]
+            [
+                f"`{row['claim']}`",
+                row["control"] or "(the claim)",
+                plainly(row["nearest"]),
+                number(row["chance"], 1),
+            ]
             for row in likely_rows
         ],
         "designed": [
             [f"`{claim}`", event, number(chance, 1)] for claim, event, chance in designed()
         ],
-    }  # fmt: skip
+    }
 
 
 def designed() -> list[tuple[str, str, float]]:
@@ -231,24 +235,34 @@ def speed(data: xr.Dataset) -> dict:
     fastest = max(dict.fromkeys(winners), key=winners.count)
     wins = f"in {winners.count(fastest)} of {len(winners)} cases"
     titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
-    peers = sorted((data.sel(peer=peer) for peer in data["peer"].values),
-                   key=lambda peer: not peer["reached_cases"])  # fmt: skip
+    peers = sorted(
+        (data.sel(peer=peer) for peer in data["peer"].values),
+        key=lambda peer: not peer["reached_cases"],
+    )
     return {
         "fastest": f"{SOLVER_NAMES[fastest]} is the fastest solver here {wins}.",
         "head": ["case", "error", *(SOLVER_NAMES[str(name)] for name in best["solver"].values)],
         "least": [
-            [case_of(data.sel(case=case)), number(data["target"].sel(case=case)),
-             *(number(time) if np.isfinite(time) else "not reached"
-               for time in best.sel(case=case).values)]
+            [
+                case_of(data.sel(case=case)),
+                number(data["target"].sel(case=case)),
+                *(
+                    number(time) if np.isfinite(time) else "not reached"
+                    for time in best.sel(case=case).values
+                ),
+            ]
             for case in best["case"].values
         ],
         "peers": [
-            [str(titles[str(peer["peer"].values)]), number(ratio := float(peer["mean_ratio"]))
-             + (f" ({number(1 / ratio)} times faster)" if ratio < 1 else ""),
-             number(peer["reached_cases"])]
+            [
+                str(titles[str(peer["peer"].values)]),
+                number(ratio := float(peer["mean_ratio"]))
+                + (f" ({number(1 / ratio)} times faster)" if ratio < 1 else ""),
+                number(peer["reached_cases"]),
+            ]
             for peer in peers
         ],
-    }  # fmt: skip
+    }
 
 
 def speeds(accepted: Results) -> dict:
@@ -259,16 +273,24 @@ def speeds(accepted: Results) -> dict:
         "processor": accepted["speed/work_precision"].attrs["processor"],
         "target": pendula.attrs["compared_at"],
         "peers": [
-            [titles[str(ratio["peer"].values)],
-             " and ".join(map(number, ratio.dropna("case").values))]
-            for ratio in ratios if ratio.notnull().any()
+            [
+                titles[str(ratio["peer"].values)],
+                " and ".join(map(number, ratio.dropna("case").values)),
+            ]
+            for ratio in ratios
+            if ratio.notnull().any()
         ],
         "sites": [
-            [str(sites), *(number(1e6 * cost.sel(sites=sites, solver=entry))
-                           for entry in ("dop853", "taylor"))]
+            [
+                str(sites),
+                *(
+                    number(1e6 * cost.sel(sites=sites, solver=entry))
+                    for entry in ("dop853", "taylor")
+                ),
+            ]
             for sites in cost["sites"].values
         ],
-    }  # fmt: skip
+    }
 
 
 def scale(measured: dict) -> dict:

@@ -50,9 +50,13 @@ def draw() -> str:
         pieces.append(f'<text x="8" y="{y + 30}" fill="{colour}">{name}</text>\n')
         pieces += [
             PENDULUM.format(
-                x=50 + GAP * place, y=y, rod=ROD, colour=colour, seconds=END_TIME,
+                x=50 + GAP * place,
+                y=y,
+                rod=ROD,
+                colour=colour,
+                seconds=END_TIME,
                 angles=";".join(map(str, angles[:, component, place])),
             )
             for place in range(len(SHOWN_SITES))
-        ]  # fmt: skip
+        ]
     return "".join([*pieces, "</svg>\n"])

@@ -29,9 +29,12 @@ def render() -> dict[Path, str]:
     """Return the text of each page that has a template."""
     accepted = facts.Accepted()
     environment = Environment(
-        loader=FileSystemLoader(SOURCE), undefined=StrictUndefined, keep_trailing_newline=True,
-        trim_blocks=True, lstrip_blocks=True,
-    )  # fmt: skip
+        loader=FileSystemLoader(SOURCE),
+        undefined=StrictUndefined,
+        keep_trailing_newline=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     *pages, article = PAGES
     values = facts.topics(accepted)
     texts = {page: environment.get_template(PAGES[page].name).render(**values) for page in pages}

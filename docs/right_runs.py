@@ -70,6 +70,9 @@ def keep_chances(folders: Sequence[Path], path: Path = RECORD) -> list[dict]:
 if __name__ == "__main__":
     turned = keep_chances([Path(folder) for folder in sys.argv[1:]])
     for row in turned:
-        print(f"{row['claim']} {row['control']}: {', '.join(row['verdicts'])},"
-              f" chance {row['chance']:.2g} by {row['nearest']}", file=sys.stderr)  # fmt: skip
+        print(
+            f"{row['claim']} {row['control']}: {', '.join(row['verdicts'])},"
+            f" chance {row['chance']:.2g} by {row['nearest']}",
+            file=sys.stderr,
+        )
     sys.exit(bool(turned))

@@ -36,21 +36,27 @@ FIGURES = {
     "fig2": (paper.draw_norms, lambda: gather_norms("fig2")),
     "fig3": (paper.draw_norms, lambda bands: gather_norms("fig3", bands), "checks/members"),
     "fig4": (paper.draw_norms, lambda bands: gather_norms("fig4", bands), "checks/members"),
-    **{f"fig{n}_spacetime": (
-        paper.draw_spacetime,
-        lambda shown, n=n: paper.gather_spacetime(norms_of(f"fig{n}")[0], shown),
-        f"figures/fig{n}",
-    ) for n in (2, 3, 4)},
-    "fig5": (paper.draw_sweeps,
-             lambda: gather_sweeps("fig5", ("[10, 50]", "[10, 50]"), ["l2", "linf"])),
+    **{
+        f"fig{n}_spacetime": (
+            paper.draw_spacetime,
+            lambda shown, n=n: paper.gather_spacetime(norms_of(f"fig{n}")[0], shown),
+            f"figures/fig{n}",
+        )
+        for n in (2, 3, 4)
+    },
+    "fig5": (
+        paper.draw_sweeps,
+        lambda: gather_sweeps("fig5", ("[10, 50]", "[10, 50]"), ["l2", "linf"]),
+    ),
     "fig6": (paper.draw_sweeps, lambda: gather_sweeps("fig6", ("[10, 70]", "[10, 40]"), ["l2"])),
     "energy_drift": (paper.draw_drift, paper.gather_drift, "checks/solvers"),
     "trust_horizons": (paper.draw_trust, paper.gather_trust, "checks/trust"),
-    "fates": (breathers.draw_fates, breathers.gather_fates,
-              "breathers/fates", "quoted/breathers"),
+    "fates": (breathers.draw_fates, breathers.gather_fates, "breathers/fates", "quoted/breathers"),
     "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes, "checks/lifetimes"),
     "pendula_over_the_top": (
-        pendula.draw_over_the_top, pendula.gather_over_the_top, "pendula/over_the_top",
+        pendula.draw_over_the_top,
+        pendula.gather_over_the_top,
+        "pendula/over_the_top",
     ),
     "bounds": (theory.draw_bounds, theory.gather_bounds, "checks/cases"),
     "stability_chart": (
@@ -58,13 +64,17 @@ FIGURES = {
         lambda chart: theory.gather_chart(chart, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
         "checks/chart",
     ),
-    "fronts": (unbounded.draw_fronts, unbounded.gather_fronts,
-               "unbounded/fronts", "quoted/unbounded"),
+    "fronts": (
+        unbounded.draw_fronts,
+        unbounded.gather_fronts,
+        "unbounded/fronts",
+        "quoted/unbounded",
+    ),
     "growth_law": (
         unbounded.draw_growth_law,
         lambda *data: unbounded.gather_growth_law(data[:-1], data[-1]),
         *(f"unbounded/{name}" for name in ("fig4_small", "fig3_large", "fig2_large", "fig3_small")),
         "unbounded/thermal",
     ),
-}  # fmt: skip
+}
 """What draws a figure, what gathers what it shows, and from which datasets."""

@@ -66,10 +66,10 @@ def main(threads: int, names: list[str]) -> dict:
     with ThreadPoolExecutor(threads) as pool:
         hashes = list(pool.map(lambda task: run(*task), runs))
     cached = {name: hits(*of_model(name)) for name in names}
-    found = {name: set() for name in names}
+    digests = {name: set() for name in names}
     for (name, _), value in zip(runs, hashes, strict=True):
-        found[name].add(value)
-    hashes = {name: sorted(values) for name, values in found.items()}
+        digests[name].add(value)
+    hashes = {name: sorted(values) for name, values in digests.items()}
     return {"machine": platform.machine(), "hashes": hashes, "cached": cached}
 
 

@@ -45,8 +45,8 @@ def chosen(study: str, *over: str):
     """Return the validated section of a study, with the files of these names laid over it."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", study, *over)]
     raw = gather(files, {})
-    kept = {"cases", "sweeps", "solvers", "limits", study}
-    return getattr(load({key: raw[key] for key in raw.keys() & kept}), study)
+    sections = {"cases", "sweeps", "solvers", "limits", study}
+    return getattr(load({key: raw[key] for key in raw.keys() & sections}), study)
 
 
 def snakemake(

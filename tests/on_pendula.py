@@ -13,7 +13,7 @@ TIGHT = {
 
 def pendula(**changes) -> Problem:
     """Return a problem of five pairs; `changes` are plain values."""
-    plain = {
+    settings = {
         "epsilon": 1.0,
         "gamma": 1.0,
         "omega": -4.0,
@@ -26,7 +26,7 @@ def pendula(**changes) -> Problem:
         "mu": 0.1,
         "solver": TIGHT["taylor"],
     }
-    return Problem.of(plain | changes)
+    return Problem.of(settings | changes)
 
 
 def final(problem: Problem, solver="taylor", **changes):
@@ -68,5 +68,5 @@ def start(problem: Problem):
 
 def undriven_energy(problem: Problem, angles, velocities) -> float:
     """Return the energy that (1) conserves where x = y or gamma = 0; both states are (2, N)."""
-    own = 0.5 * velocities**2 + 2.0 * np.sin(0.5 * angles) ** 2
-    return float((own - 0.5 * angles * coupling(problem, angles)).sum())
+    of_single_pendula = 0.5 * velocities**2 + 2.0 * np.sin(0.5 * angles) ** 2
+    return float((of_single_pendula - 0.5 * angles * coupling(problem, angles)).sum())

@@ -13,7 +13,7 @@ PAPER = (1.0, 1.0, -4.0)
 def problem_of(case: str = "fig4_small", **changes) -> Problem:
     """Return a case of the paper; `changes` are plain values, such as half_width or initial."""
     omega, pair = CASES[case]
-    plain = UNIT | {
+    settings = UNIT | {
         "omega": omega,
         "half_width": 30,
         "boundary": "dirichlet",
@@ -22,7 +22,7 @@ def problem_of(case: str = "fig4_small", **changes) -> Problem:
         "output_step": 0.025,
         "solver": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
     }
-    return Problem.of(plain | changes)
+    return Problem.of(settings | changes)
 
 
 def constants_of(values=PAPER) -> Constants:

@@ -14,9 +14,18 @@ import runpy
 import sys
 
 PACKAGES = (
-    *("snakemake.cli", "snakemake.report.html_reporter"),
-    *("pydantic", "smart_open", "yte", "nbformat", "platformdirs"),
-    *("numba", "xarray", "scipy.special", "scipy.optimize", "matplotlib.figure"),
+    "snakemake.cli",
+    "snakemake.report.html_reporter",
+    "pydantic",
+    "smart_open",
+    "yte",
+    "nbformat",
+    "platformdirs",
+    "numba",
+    "xarray",
+    "scipy.special",
+    "scipy.optimize",
+    "matplotlib.figure",
 )
 """What every run or a doctest imports, whatever it is asked for."""
 status = 0

@@ -36,8 +36,8 @@ def made_once(tmp_path_factory):
     """
     parallel = "PYTEST_XDIST_WORKER" in os.environ
     base = tmp_path_factory.getbasetemp()
-    kept = os.environ.get("PENDULA_FULL_RUN")
-    shared = Path(kept) if kept else (base.parent if parallel else base)
+    named_folder = os.environ.get("PENDULA_FULL_RUN")
+    shared = Path(named_folder) if named_folder else (base.parent if parallel else base)
 
     def provide(name, make):
         directory = shared / name
@@ -111,9 +111,12 @@ def make_trajectory():
 def trajectories(make_trajectory):
     """Return two cases by solvers; the second solver is 2 % off from the start."""
     scales = {
-        "ode45": 1.001, "ode45_real": 1.0, "crank_nicolson": 1.02, "crank_nicolson_halved": 1.005,
+        "ode45": 1.001,
+        "ode45_real": 1.0,
+        "crank_nicolson": 1.02,
+        "crank_nicolson_halved": 1.005,
         "taylor": 1.0,
-    }  # fmt: skip
+    }
     runs = {
         case: {
             solver: make_trajectory(case, scale=scale, solver=solver)

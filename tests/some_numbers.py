@@ -39,13 +39,13 @@ PLAYED = {
 NAMES = (*CHECKS, "fronts", "thermal", *{name: 0 for names in PLAYED.values() for name in names})
 
 
-def make(given: Path, made: Path) -> None:
-    """Write the datasets of NAMES to the folder `made`."""
-    runs = (read(str(given / f"{name}.nc")) for name in ("omegas", "thermal"))
+def make(accepted: Path, folder: Path) -> None:
+    """Write the datasets of NAMES to the folder `folder`."""
+    runs = (read(str(accepted / f"{name}.nc")) for name in ("omegas", "thermal"))
     datasets = dict(zip(CHECKS, run_checks(), strict=True)) | {"fronts": measure_fronts(*runs)}
     datasets["own"] = check_breather(problem_of("fig3_large"))
     for name, data in datasets.items():
-        save(str(made / f"{name}.nc"), data)
+        save(str(folder / f"{name}.nc"), data)
     breathers, chains = chosen("breathers"), chosen("unbounded")
     coupling = float(breathers.epsilon), float(breathers.gamma)
     contents = {
@@ -59,7 +59,7 @@ def make(given: Path, made: Path) -> None:
         "thermal": solve_thermal(*coupling, list(chains.omegas.values), chains.nodes),
     }
     for name, (variables, attributes) in contents.items():
-        write(str(made / f"{name}.nc"), variables, attributes)
+        write(str(folder / f"{name}.nc"), variables, attributes)
 
 
 def limits_of_all_counts() -> Contents:
@@ -67,7 +67,7 @@ def limits_of_all_counts() -> Contents:
     counts, scores = np.arange(MEMBERS + 1), np.linspace(0.1, 9.0, MEMBERS)
     limits = {
         "student": [confidence.student(n) for n in counts[1:]],
-        "chance": [[confidence.chance_below(-one, n) for one in scores] for n in counts[1:]],
+        "chance": [[confidence.chance_below(-score, n) for score in scores] for n in counts[1:]],
         "share": [confidence.share_limits(n, MEMBERS)[1:] for n in counts],
         "rate": [confidence.event_rate([0.5] * n + [np.inf], 0.0, 1.0)[1:] for n in counts],
     }

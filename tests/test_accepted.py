@@ -38,30 +38,36 @@ NUMBER = r"\d[\d.]*(?:e[+-]\d+)?"
 
 def without_numbers(row: dict) -> dict:
     """Return a row of the ledger without the numbers of its sentences, which are measured ones."""
-    told = {"because": re.sub(NUMBER, "#", row["because"])} if "because" in row else {}
+    reason = {"because": re.sub(NUMBER, "#", row["because"])} if "because" in row else {}
     controls = {"controls": list(map(without_numbers, row.get("controls", ())))}
-    return {**{key: row[key] for key in row.keys() - {"rules"}}, **told, **controls}
+    return {**{key: row[key] for key in row.keys() - {"rules"}}, **reason, **controls}
 
 
 @pytest.mark.parametrize("part", sorted(path.stem for path in (BASELINE / "claims").glob("*.json")))
 def test_claims_and_controls_come_out_as_accepted(part):
     """Each row of the ledger: verdict, reason, measured numbers, criterion, cut-offs, controls."""
-    kept = load_json(BASELINE / f"claims/{part}.json")
-    accepted = {row["name"]: without_numbers(row) for row in kept["rows"]}
-    own = [row["function"].split(".") for row in kept["rows"]]
-    modules = sorted({f"{study}/{module}" for *_, study, module, _ in own})
+    ledger = load_json(BASELINE / f"claims/{part}.json")
+    accepted = {row["name"]: without_numbers(row) for row in ledger["rows"]}
+    functions = [row["function"].split(".") for row in ledger["rows"]]
+    modules = sorted({f"{study}/{module}" for *_, study, module, _ in functions})
     claims = all_claims(*modules)
     rows = evaluate(claims, datasets(needed(claims)))
     found = {row["name"]: without_numbers(row) for row in rows}
-    apart = {name: differing(accepted[name], row, 1e-3, ROUNDED.get(name, 0.0))
-             for name, row in found.items() if name in accepted}  # fmt: skip
+    differences = {
+        name: differing(accepted[name], row, 1e-3, ROUNDED.get(name, 0.0))
+        for name, row in found.items()
+        if name in accepted
+    }
     remedy = "if this is meant, look at the rows of the ledger and type `snakemake accept_figures`"
-    assert {name: places for name, places in apart.items() if places} == {}, remedy
+    assert {name: places for name, places in differences.items() if places} == {}, remedy
 
 
 def test_every_claim_is_in_the_accepted_ledger():
-    accepted = {row["name"] for path in (BASELINE / "claims").glob("*.json")
-                for row in load_json(path)["rows"]}  # fmt: skip
+    accepted = {
+        row["name"]
+        for path in (BASELINE / "claims").glob("*.json")
+        for row in load_json(path)["rows"]
+    }
     assert len(CLAIM) == len(all_claims())
     remedy = "look at its row of the ledger, then type `snakemake accept_figures`"
     assert sorted(accepted ^ CLAIM.keys()) == [], remedy
@@ -79,9 +85,9 @@ VERBS = {"scale", "shift", "set"}
 @pytest.mark.parametrize("row", WRONG, ids=[f"{row['claim']}-{i}" for i, row in enumerate(WRONG)])
 def test_a_wrong_change_turns_the_verdict(row):
     """Where a part is kept and then changed, the verdict on the part is turned."""
-    claim, part = CLAIM[row["claim"]], {key: row[key] for key in ("in", "keep") if key in row}
-    right = datasets(claim.needs) | (changed(part) if VERBS & row.keys() else {})
-    before = decide(claim, right) if "keep" in part else accepted_finding(row["claim"])
+    claim, name = CLAIM[row["claim"]], {key: row[key] for key in ("in", "keep") if key in row}
+    right = datasets(claim.needs) | (changed(name) if VERBS & row.keys() else {})
+    before = decide(claim, right) if "keep" in name else accepted_finding(row["claim"])
     after = decide(claim, right | changed(row))
     assert after.verdict == row.get("is", claim.refuted), after
     assert row.get("because", "") in after.because

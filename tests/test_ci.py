@@ -28,7 +28,7 @@ def test_a_push_and_a_pull_request_run_the_tests_and_the_figures(name, command):
 def test_a_workflow_only_reads_and_takes_actions_by_their_hashes(name):
     assert WORKFLOWS[name]["permissions"] == {"contents": "read"}
     used = [step["uses"] for step in steps_of(name) if "uses" in step]
-    assert used and all(re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", one) for one in used)
+    assert used and all(re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", line) for line in used)
 
 
 def test_versions_runs_on_every_python_that_it_installs():

@@ -8,9 +8,20 @@ import pytest
 from helpers import ROOT, skip
 
 TOP = {
-    *(".dockerignore", ".gitignore", ".snakemake-workflow-catalog.yml", "ARCHITECTURE.md"),
-    *("CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "LICENSE-DATA", "README.md"),
-    *("Snakefile", "codecheck.yml", "environment.txt", "pyproject.toml"),
+    ".dockerignore",
+    ".gitignore",
+    ".snakemake-workflow-catalog.yml",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "CITATION.cff",
+    "CONTRIBUTING.md",
+    "LICENSE",
+    "LICENSE-DATA",
+    "README.md",
+    "Snakefile",
+    "codecheck.yml",
+    "environment.txt",
+    "pyproject.toml",
 }
 """Every file at the top level: add one here if it must lie there."""
 TEST = """

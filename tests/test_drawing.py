@@ -27,6 +27,13 @@ def gather_line() -> xr.Dataset:
     return xr.Dataset({"height": ("place", [0.0, 2.0], {"long_name": "height", "units": "1"})})
 
 
+class Outputs(list):
+    """Outputs without names, as Snakemake hands them to a script."""
+
+    def items(self):
+        return ()
+
+
 def draw_line(data: xr.Dataset):
     drawn = style.new_figure(1, 1)
     drawn.add_subplot().plot(data["height"])
@@ -39,12 +46,13 @@ def test_a_figure_says_where_the_configuration_is_not_the_papers(tmp_path):
     edits = [f"fig2_large.{key} (other)" for key in ("boundary", "gamma", "omega", "end_time")]
 
     def told(differs):
-        params = {"call": [f"{__name__}.draw_line", "hash"], "differs": differs}
+        params = {"call": [f"{__name__}.draw_line", "hash"], "unlike_paper": differs}
         paths = [str(tmp_path / f"figure.{kind}") for kind in ("png", "pdf", "nc", "json")]
-        given = SimpleNamespace(call=params["call"], items=params.items)
-        figure.draw(SimpleNamespace(input={}, params=given, output=paths))
-        shown = xr.load_dataset(tmp_path / "figure.nc").attrs.get("comment", "")
-        return json.loads((tmp_path / "figure.json").read_text()).get("texts", []), shown
+        values = SimpleNamespace(**params, items=params.items)
+        job = SimpleNamespace(rule="line", input={}, params=values, output=Outputs(paths))
+        figure.draw(job)
+        data = xr.load_dataset(tmp_path / "figure.nc").attrs.get("comment", "")
+        return json.loads((tmp_path / "figure.json").read_text()).get("texts", []), data
 
     (note,), comment = told(edits)
     assert all(edit in note["text"].replace("\n", " ") for edit in edits[:3])

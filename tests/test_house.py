@@ -51,8 +51,9 @@ GENERAL = Rooms(
 
 def test_an_import_points_down():
     assert len(ROOMS.between()) > 100
-    the_list = [(module, str(THE_LIST)) for module, _ in ROOMS.upwards()
-                if module.startswith(COLLECTORS)]  # fmt: skip
+    the_list = [
+        (module, str(THE_LIST)) for module, _ in ROOMS.upwards() if module.startswith(COLLECTORS)
+    ]
     assert [pair for pair in ROOMS.upwards() if pair not in the_list] == []
 
 

@@ -31,32 +31,34 @@ OPTIONAL = {"heyoka", "snakemake"}
 
 
 def names(requirements) -> set[str]:
-    return {canonicalize_name(Requirement(one).name) for one in requirements}
+    return {canonicalize_name(Requirement(requirement).name) for requirement in requirements}
 
 
 def imported_by(module: Path) -> set[str]:
     """Return the packages that a module imports, its own apart."""
     statements = list(sources._statements(sources._tree_of(module.read_text())))
-    plain = [one.name for node in statements if isinstance(node, ast.Import) for one in node.names]
+    modules = [
+        alias.name for node in statements if isinstance(node, ast.Import) for alias in node.names
+    ]
     of_names = [node for node in statements if isinstance(node, ast.ImportFrom) and not node.level]
-    return {name.split(".")[0] for name in (*plain, *(node.module for node in of_names))}
+    return {name.split(".")[0] for name in (*modules, *(node.module for node in of_names))}
 
 
 def test_the_library_declares_what_its_modules_import():
-    found = set().union(
+    modules = set().union(
         *(imported_by(path) for library in LIBRARIES for path in library.rglob("*.py"))
     )
-    others = found - set(sys.stdlib_module_names) - OURS - OPTIONAL
+    remaining = modules - set(sys.stdlib_module_names) - OURS - OPTIONAL
     homes = packages_distributions()
     shipped = HOMES["latticode"]["project"]["dependencies"]  # it is installed with the library
-    assert names(homes[name][0] for name in others) | names(shipped) == names(DECLARED)
+    assert names(homes[name][0] for name in remaining) | names(shipped) == names(DECLARED)
     assert set(shipped) < set(DECLARED)
     assert names(DECLARED) < names(PINS)
 
 
 def test_uv_installs_the_pins_of_the_environment():
     group = HOMES["pendula"]["dependency-groups"]["dev"]
-    assert [one for one in group if "@" not in one] == PINS
+    assert [entry for entry in group if "@" not in entry] == PINS
 
 
 @pytest.mark.parametrize("home", HOMES)
@@ -67,10 +69,12 @@ def test_no_installer_asks_an_index_for_a_package_of_the_project(home):
     requirements = {
         *HOMES[home]["build-system"]["requires"],
         *project["dependencies"],
-        *(one for group in groups for each in group.values() for one in each),
+        *(entry for group in groups for each in group.values() for entry in each),
     }
     assert len(HOMES) == 3
-    assert HOMES.keys().isdisjoint(names(one for one in requirements if not Requirement(one).url))
+    assert HOMES.keys().isdisjoint(
+        names(entry for entry in requirements if not Requirement(entry).url)
+    )
 
 
 def test_binder_and_codespaces_install_the_environment_which_has_the_packages():

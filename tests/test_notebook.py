@@ -26,8 +26,8 @@ def run(case):
 
 
 def test_the_examples_in_the_docstrings_run():
-    found = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
-    assert found.attempted and not found.failed
+    examples = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
+    assert examples.attempted and not examples.failed
 
 
 def test_a_run_is_what_the_workflow_writes_and_the_final_state(case, run, tmp_path):
@@ -43,9 +43,9 @@ def test_a_case_has_the_defaults_of_the_yaml():
 
 
 def test_faults_are_told_in_words_and_all_at_once():
-    with pytest.raises(pendula.ConfigurationError) as told:
+    with pytest.raises(pendula.ConfigurationError) as message:
         pendula.Case(omega="fast", half_width=1, initial={5: (1, 0)}, solver="dop835")
-    assert str(told.value).splitlines() == [
+    assert str(message.value).splitlines() == [
         "the case has 2 errors:",
         "  solver: there is no solver 'dop835'; did you mean 'dop853'?",
         "  omega: is 'fast', not a number",

@@ -15,13 +15,15 @@ PACKAGES = [sources.ROOTS[name] / name for name in ("latticode", "replication", 
 
 def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():
     lines = (ROOT / "environment.txt").read_text().splitlines()
-    own, pins = lines[:3], lines[3:]
-    assert all((ROOT / one.removeprefix("-e ") / "pyproject.toml").exists() for one in own)
+    own_packages, pins = lines[:3], lines[3:]
+    assert all(
+        (ROOT / entry.removeprefix("-e ") / "pyproject.toml").exists() for entry in own_packages
+    )
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
     conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
     homes = [ROOT, ROOT / "packages/latticode"]
     each = [tomllib.loads((home / "pyproject.toml").read_text()) for home in homes]
-    library = [one for home in each for one in home["project"]["dependencies"]]
+    library = [entry for home in each for entry in home["project"]["dependencies"]]
     library = [re.match(r"[\w-]+", package)[0] for package in library]
     imported = {*library, *sources.PACKAGES, "snakemake"}
     assert set(conda["dependencies"][-1]["pip"]) == {
@@ -34,9 +36,13 @@ CALLED = sorted(set(re.findall(r'"((?:pendula|replication|benchmarks)\.[\w.]+)"'
 """Every function that a rule calls."""
 DRAWING = [name for name in CALLED if ".studies." in name and ".draw" in name]
 COMPUTING = [
-    *("paper.runs.run_case", "paper.runs.run_sweep", "paper.compile_solver.compile_solver"),
-    *("reference.verified_run.make_reference", "chaos.lyapunov.measure_lyapunov"),
-    *("chaos.ensembles.measure_ensembles", "unbounded.long_runs.spread_case"),
+    "paper.runs.run_case",
+    "paper.runs.run_sweep",
+    "paper.compile_solver.compile_solver",
+    "reference.verified_run.make_reference",
+    "chaos.lyapunov.measure_lyapunov",
+    "chaos.ensembles.measure_ensembles",
+    "unbounded.long_runs.spread_case",
     "hard_cases.outcomes.run_hard_cases",
 ]
 
@@ -84,5 +90,5 @@ def test_importing_a_package_drags_in_no_other_room():
     assert len(packages) > 10
     for init in packages:
         above = {folder / "__init__.py" for folder in init.parent.parents}
-        others = {path for path in sources.modules_of(init) if init.parent not in path.parents}
-        assert others <= above | named, init
+        imported = {path for path in sources.modules_of(init) if init.parent not in path.parents}
+        assert imported <= above | named, init

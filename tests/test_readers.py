@@ -20,6 +20,7 @@ from helpers import ROOT
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM
 from latticode.kernels.sources import files_of_module, modules_of
 from pendula.jobs.decide import all_claims
+from replication.article.quoted import is_quoted
 from replication.ledger.claim import Claim, Origin
 
 COMPARED, FIGURES = ("trajectories/", "sweeps/"), "figures/"
@@ -56,13 +57,18 @@ class Run(NamedTuple):
 
 def run_of(results: Path) -> Run:
     datasets = {}
-    for path in sorted(results.rglob("*.nc")):
+    paths = {
+        path.relative_to(results).with_suffix("").as_posix(): path
+        for path in sorted(results.rglob("*.nc"))
+    }
+    for name, path in paths.items():
+        if is_quoted(name):  # a copy of a committed file, which the article reads
+            continue
         with netCDF4.Dataset(path) as data:
-            about = {key: data.getncattr(key) for key in data.ncattrs()}
+            attributes = {key: data.getncattr(key) for key in data.ncattrs()}
             variables = tuple(name for name in data.variables if name not in data.dimensions)
-        sources = tuple(filter(None, about.get(COMPUTED_FROM, "").split(", ")))
-        name = path.relative_to(results).with_suffix("").as_posix()
-        datasets[name] = Made(variables, about.get(COMPUTED_BY, ""), sources)
+        sources = tuple(filter(None, attributes.get(COMPUTED_FROM, "").split(", ")))
+        datasets[name] = Made(variables, attributes.get(COMPUTED_BY, ""), sources)
     tables = sorted(path.name for path in results.glob("tables/*"))
     article, pages = ("\n".join(map(Path.read_text, files)) for files in (ARTICLE, PAGES))
     return Run(datasets, tables, all_claims(), article, pages)
@@ -76,8 +82,8 @@ def words_in(text: str) -> set[str]:
 @cache
 def words_behind(module: str, maker: str) -> set[str]:
     """Return the words of a module and of all that it imports, but for a maker that is another."""
-    own = {} if module == maker or not maker else set(files_of_module(maker)[-1:])
-    files = [file for file in modules_of(*files_of_module(module)) if file not in own]
+    of_maker = {} if module == maker or not maker else set(files_of_module(maker)[-1:])
+    files = [file for file in modules_of(*files_of_module(module)) if file not in of_maker]
     return set().union(*(words_in(file.read_text()) for file in files))
 
 
@@ -101,15 +107,15 @@ def readers_of(run: Run, claims: list[Claim]) -> dict[str, list[set[str]]]:
     readers: dict[str, list[set[str]]] = {name: [] for name in run.datasets}
     for text, shows in ((run.article, 'figure("{}"'), (run.pages, "`{}`")):
         for name in readers:
-            shown = shows.format(name.removeprefix(FIGURES))
-            if shown in text or f'"{name}"' in text or f'"{name}.' in text:
+            mention = shows.format(name.removeprefix(FIGURES))
+            if mention in text or f'"{name}"' in text or f'"{name}.' in text:
                 readers[name].append(words_in(text))
     for claim in claims:
         fed = [name for control in claim.controls for name in control.names]
         for name in {*claim.needs, *fed} & readers.keys():
             maker = run.datasets[name].module
             readers[name].append(words_behind(claim.decide.__module__, maker))
-    waiting = [name for name, found in readers.items() if found or name.startswith(COMPARED)]
+    waiting = [name for name, texts in readers.items() if texts or name.startswith(COMPARED)]
     done: set[str] = set()
     while waiting:
         if (name := waiting.pop()) not in done:
@@ -123,17 +129,31 @@ def readers_of(run: Run, claims: list[Claim]) -> dict[str, list[set[str]]]:
 
 def unread(run: Run) -> list[str]:
     """Return kind and name of each claim, figure, dataset, variable and table without a reader."""
-    used = [one for one in run.claims if one.origin == Origin.PAPER or is_in(run.article, one.name)]
-    told = [f"claim {claim.name}" for claim in run.claims if claim not in used]
+    used = [
+        claim
+        for claim in run.claims
+        if claim.origin == Origin.PAPER or is_in(run.article, claim.name)
+    ]
+    unread_names = [f"claim {claim.name}" for claim in run.claims if claim not in used]
     readers, texts = readers_of(run, used), words_in(run.article) | words_in(run.pages)
-    for name, made in run.datasets.items():
+    for name, dataset in run.datasets.items():
         if not (readers[name] or name.startswith(COMPARED)):
-            told.append(f"{'figure' if name.startswith(FIGURES) else 'dataset'} {name}")
+            unread_names.append(f"{'figure' if name.startswith(FIGURES) else 'dataset'} {name}")
         elif not name.startswith((FIGURES, *COMPARED)):
-            alike = [one for one, other in run.datasets.items() if other.function == made.function]
-            words = texts.union(*(words for one in alike for words in readers[one]))
-            told += [f"variable {name}:{one}" for one in made.variables if not is_read(one, words)]
-    return told + [f"table {name}" for name in run.tables if not is_in(run.pages, name)]
+            of_same_function = [
+                name_of_other
+                for name_of_other, candidate in run.datasets.items()
+                if candidate.function == dataset.function
+            ]
+            words = texts.union(
+                *(words for name_of_other in of_same_function for words in readers[name_of_other])
+            )
+            unread_names += [
+                f"variable {name}:{variable}"
+                for variable in dataset.variables
+                if not is_read(variable, words)
+            ]
+    return unread_names + [f"table {name}" for name in run.tables if not is_in(run.pages, name)]
 
 
 @pytest.fixture(scope="module")
@@ -146,35 +166,42 @@ def test_all_that_a_run_makes_has_a_reader(run):
     assert unread(run) == [], remedy
 
 
-CLAIM = Claim("mine", "Beyond the paper", "It is mine.", (), lambda: None, ())
+CLAIM = Claim("planted_claim", "Beyond", "It is mine.", (), lambda: None, (), origin=Origin.OWN)
 PLANTED = Made(("planted",), "", ())
 
 
 def planted_in_lyapunov(run: Run) -> dict[str, Made]:
-    made = run.datasets["checks/lyapunov"]
-    return run.datasets | {"checks/lyapunov": made._replace(variables=("planted",))}
+    dataset = run.datasets["checks/lyapunov"]
+    return run.datasets | {"checks/lyapunov": dataset._replace(variables=("planted",))}
 
 
 @pytest.mark.parametrize(
     ("plant", "found"),
     [
-        (lambda run: {"claims": (*run.claims, CLAIM)}, ["claim mine"]),
+        (lambda run: {"claims": (*run.claims, CLAIM)}, ["claim planted_claim"]),
         (lambda run: {"tables": [*run.tables, "mine.md"]}, ["table mine.md"]),
-        (lambda run: {"datasets": run.datasets | {"checks/mine": PLANTED}},
-         ["dataset checks/mine"]),
-        (lambda run: {"datasets": run.datasets | {"figures/mine": PLANTED}},
-         ["figure figures/mine"]),
-        (lambda run: {"datasets": planted_in_lyapunov(run)},
-         ["variable checks/lyapunov:planted"]),
+        (
+            lambda run: {"datasets": run.datasets | {"checks/mine": PLANTED}},
+            ["dataset checks/mine"],
+        ),
+        (
+            lambda run: {"datasets": run.datasets | {"figures/mine": PLANTED}},
+            ["figure figures/mine"],
+        ),
+        (lambda run: {"datasets": planted_in_lyapunov(run)}, ["variable checks/lyapunov:planted"]),
     ],
-)  # fmt: skip
+)
 def test_what_nobody_reads_is_found(run, plant, found):
     before = unread(run)  # which the test above reports
-    assert [one for one in unread(run._replace(**plant(run))) if one not in before] == found
+    assert [entry for entry in unread(run._replace(**plant(run))) if entry not in before] == found
 
 
 def test_what_only_an_unread_figure_reads_has_no_reader(run):
     """The article has shown it, and its dataset, and all that this was computed from, with it."""
-    told = set(unread(run._replace(article="", pages="", claims=())))
-    assert {"figure figures/growth_law", "dataset unbounded/fronts", "dataset checks/trust"} <= told
-    assert not any(one.startswith("dataset trajectories/") for one in told)
+    unread_names = set(unread(run._replace(article="", pages="", claims=())))
+    assert {
+        "figure figures/growth_law",
+        "dataset unbounded/fronts",
+        "dataset checks/trust",
+    } <= unread_names
+    assert not any(entry.startswith("dataset trajectories/") for entry in unread_names)

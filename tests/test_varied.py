@@ -72,10 +72,10 @@ def test_numbers_of_one_measurement_are_measured_together():
 
 def test_a_dataset_keeps_each_number_with_its_variations(tmp_path):
     both = vary(measure, CHOICES)
-    one = vary(lambda seed: (float(seed), 0.5), {"seed": [1, 2]})
+    entry = vary(lambda seed: (float(seed), 0.5), {"seed": [1, 2]})
     numbers = {
         "speed": Printed(("omega",), both, "speed of the front"),
-        "share": Printed((), one, "share of runs"),
+        "share": Printed((), entry, "share of runs"),
     }
     save(tmp_path / "study.nc", as_dataset(numbers, {"omega": [0.0, 2.0]}))
     data = read(tmp_path / "study.nc")
@@ -83,9 +83,11 @@ def test_a_dataset_keeps_each_number_with_its_variations(tmp_path):
     assert data["speed"].attrs["choices"] == "tolerance = 1e-08, margin = 40"
     assert variations_of(data, "share") == {"seed = 2": 2.0}
     assert float(data["share_error"]) == 1.0 and float(data["share_statistical_error"]) == 0.5
-    again = {"tolerance = 1e-10": 4.0, "margin = 20": 2.0, "margin = 80": 8.0}
-    assert variations_of(data.sel(omega=0.0), "speed") == again
+    repeated = {"tolerance = 1e-10": 4.0, "margin = 20": 2.0, "margin = 80": 8.0}
+    assert variations_of(data.sel(omega=0.0), "speed") == repeated
     assert variations_of(data, "temperature") == {}
-    assert [(name, here["omega"].values.tolist()) for name, here in single_numbers(data)] == [
-        ("speed", 0.0), ("speed", 2.0), ("share", [0.0, 2.0]),
-    ]  # fmt: skip
+    assert [(name, label["omega"].values.tolist()) for name, label in single_numbers(data)] == [
+        ("speed", 0.0),
+        ("speed", 2.0),
+        ("share", [0.0, 2.0]),
+    ]

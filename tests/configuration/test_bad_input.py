@@ -26,8 +26,8 @@ def faults(text: str | bytes, folder: Path, below: dict = CONFIG) -> list[str]:
     try:
         require(load(merge(below, read(path))), PAPER_CASES, PAPER_SWEEPS, SOLVERS)
     except ConfigurationError as told:
-        said = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(told))
-        return said.split("\n  ")[1:]
+        output = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(told))
+        return output.split("\n  ")[1:]
     return ["nothing"]
 
 
@@ -43,16 +43,18 @@ FORMS = {
 
 @pytest.fixture(scope="module")
 def table():
-    parts = yaml.safe_load((Path(__file__).parent / "bad_input.yaml").read_text())
-    assert parts.keys() == FORMS.keys()
-    return parts
+    blocks = yaml.safe_load((Path(__file__).parent / "bad_input.yaml").read_text())
+    assert blocks.keys() == FORMS.keys()
+    return blocks
 
 
 @pytest.mark.parametrize("part", FORMS)
 def test_every_fault_is_told_in_the_words_of_the_table(part, table, tmp_path):
     form, start, below = FORMS[part]
-    said = {text: faults(form.replace("HERE", text), tmp_path, below)[0] for text, _ in table[part]}
-    assert said == {text: start + words for text, words in table[part]}
+    output = {
+        text: faults(form.replace("HERE", text), tmp_path, below)[0] for text, _ in table[part]
+    }
+    assert output == {text: start + words for text, words in table[part]}
 
 
 DIGITS = "1" * 400
@@ -117,10 +119,10 @@ def test_what_is_odd_but_right_is_read(tmp_path):
         "cases: {mine: {omega: -0.0, end_time: 1, half_width: 1e4, initial: {-1E1: [1, 0]}}}\n"
         "sweeps: {s: {case: mine, windows: [[0, 1]], half_widths: [1e2, 1e+1, 200e-1, '3e1']}}"
     )
-    found = load(merge(CONFIG, read(path)))
-    case = found.cases["mine"]
+    actual = load(merge(CONFIG, read(path)))
+    case = actual.cases["mine"]
     assert str(case.omega) == "0.0" and case.half_width == 10_000 and case.initial == {-10: (1, 0)}
-    assert list(found.sweeps["s"].half_widths) == [100, 10, 20, 30]
+    assert list(actual.sweeps["s"].half_widths) == [100, 10, 20, 30]
 
 
 @pytest.mark.parametrize(
@@ -128,13 +130,17 @@ def test_what_is_odd_but_right_is_read(tmp_path):
     [
         ("solvers: {ode45: {rtol: 0}}", ["solvers.ode45.rtol: is 0; it must be greater than 0"]),
         # the sound part of shared controls is kept: 1e-14 would not do for such data
-        ("solvers: {taylor: {rtol: 0, atol: 1e-40}}\n"
-         "cases: {mine: {omega: 1, initial: {0: [1e-25, 0]}},"
-         " other: {omega: 1, solver: {name: taylor, rtol: -1}}}",
-         ["cases.other.solver.rtol: is -1; it must be greater than 0",
-          "solvers.taylor.rtol: is 0; it must be greater than 0"]),
+        (
+            "solvers: {taylor: {rtol: 0, atol: 1e-40}}\n"
+            "cases: {mine: {omega: 1, initial: {0: [1e-25, 0]}},"
+            " other: {omega: 1, solver: {name: taylor, rtol: -1}}}",
+            [
+                "cases.other.solver.rtol: is -1; it must be greater than 0",
+                "solvers.taylor.rtol: is 0; it must be greater than 0",
+            ],
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_fault_of_shared_controls_is_told_once_and_not_of_each_case(text, told, tmp_path):
     assert faults(text, tmp_path) == told
 
@@ -144,18 +150,48 @@ def test_initial_data_and_other_solvers_replace_what_stands_and_other_keys_are_a
     case = load(merge(CONFIG, above)).cases["fig2_small"]
     assert case.initial == {3: (1, 0)} and case.end_time == 4
     assert case.omega == CONFIG["cases"]["fig2_small"]["omega"]
-    given = {"solver": {"name": "dop853", "rtol": 1e-9, "atol": 1e-3}}
-    assert merge(given, {"solver": {"atol": 1e-5}})["solver"] == {**given["solver"], "atol": 1e-5}
-    other = {"name": "crank_nicolson", "step": 0.001}
-    assert merge(given, {"solver": other})["solver"] == other
+    values = {"solver": {"name": "dop853", "rtol": 1e-9, "atol": 1e-3}}
+    assert merge(values, {"solver": {"atol": 1e-5}})["solver"] == {**values["solver"], "atol": 1e-5}
+    second = {"name": "crank_nicolson", "step": 0.001}
+    assert merge(values, {"solver": second})["solver"] == second
 
 
 ODD = [
-    None, True, 0, -1, 3.7, -0.0, float("nan"), float("inf"), 1e308, 1e-320, 10**30, 10**400, "",
-    "x", "1 2", "010", [], [1], [[1]], [None], {}, {"a": 1}, {0: 1}, {None: 1}, [1, 2, 3], "\0",
-    b"x", datetime.date(2020, 1, 1), {"name": "taylor"}, {1: [1, 2]}, "nan",
-    2**63, "1e5", [0.5, "x"],
-]  # fmt: skip
+    None,
+    True,
+    0,
+    -1,
+    3.7,
+    -0.0,
+    float("nan"),
+    float("inf"),
+    1e308,
+    1e-320,
+    10**30,
+    10**400,
+    "",
+    "x",
+    "1 2",
+    "010",
+    [],
+    [1],
+    [[1]],
+    [None],
+    {},
+    {"a": 1},
+    {0: 1},
+    {None: 1},
+    [1, 2, 3],
+    "\0",
+    b"x",
+    datetime.date(2020, 1, 1),
+    {"name": "taylor"},
+    {1: [1, 2]},
+    "nan",
+    2**63,
+    "1e5",
+    [0.5, "x"],
+]
 
 
 def places(section, above=()):
@@ -169,7 +205,7 @@ def places(section, above=()):
 @pytest.mark.parametrize("seed", range(4))
 def test_an_odd_value_anywhere_is_read_or_told_in_our_words(seed):
     chance, everywhere = random.Random(seed), list(places(WHOLE))
-    told = 0
+    message = 0
     for place in chance.sample(everywhere, 60):
         changed = copy.deepcopy(WHOLE)
         section = changed
@@ -179,6 +215,6 @@ def test_an_odd_value_anywhere_is_read_or_told_in_our_words(seed):
         try:
             require(load(changed), PAPER_CASES, PAPER_SWEEPS, SOLVERS)
         except ConfigurationError as fault:
-            told += 1
+            message += 1
             assert "Input" not in str(fault) and "should" not in str(fault)
-    assert told > 30
+    assert message > 30

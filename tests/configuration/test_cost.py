@@ -24,12 +24,19 @@ LIMITS = {"hours": 1.0, "gigabytes": 8.0}
 
 
 def problem(**changes):
-    plain = {
-        "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 30, "boundary": "dirichlet",
-        "initial": {0: (1.0, 0.1)}, "end_time": 50.0, "output_step": 50.0, "snapshot_every": 0,
+    settings = {
+        "epsilon": 1.0,
+        "gamma": 1.0,
+        "omega": 0.0,
+        "half_width": 30,
+        "boundary": "dirichlet",
+        "initial": {0: (1.0, 0.1)},
+        "end_time": 50.0,
+        "output_step": 50.0,
+        "snapshot_every": 0,
         "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
-    }  # fmt: skip
-    return plain | changes
+    }
+    return settings | changes
 
 
 @pytest.fixture(scope="module")
@@ -49,17 +56,20 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
             accuracy, seconds = (float(row[name][point]) for name in ("accuracy", "seconds"))
             if not np.isfinite(seconds):
                 continue
-            given = problem(
-                omega=float(row["omega"]), initial=data, end_time=span, output_step=span,
+            values = problem(
+                omega=float(row["omega"]),
+                initial=data,
+                end_time=span,
+                output_step=span,
                 solver=controls(solver, accuracy),
-            )  # fmt: skip
-            steps, evaluations = steps_of(given["solver"], given, demand(given))
+            )
+            steps, evaluations = steps_of(values["solver"], values, demand(values))
             explicit = METHODS[solver].tightest is not None
             work = steps if explicit else evaluations
-            run = simulate(Problem.of(given)).outcome
+            run = simulate(Problem.of(values)).outcome
             done = run.steps + run.rejected if explicit else run.evaluations
             assert 1 / FACTOR < work / done < FACTOR
-            ratios.append(seconds / estimate(given).seconds)
+            ratios.append(seconds / estimate(values).seconds)
         # the median, since the machine may have been busy at one of the points
         assert len(ratios) >= 5 and 1 / FACTOR < np.median(ratios) < FACTOR
 
@@ -73,7 +83,7 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
         ({"initial": {0: (1e5, 0)}}, "initial"),
         ({"solver": SHORT_STEPS, "output_step": 0.025}, "solver"),
     ],
-)  # fmt: skip
+)
 def test_the_key_that_costs_most_is_named(change, key):
     found, text = find_excess(problem(**change), LIMITS, estimate, ORDINARY)
     assert found == key and "the run would take" in text and "limits." in text
@@ -83,8 +93,8 @@ def test_a_limit_may_be_raised_and_a_long_run_is_announced():
     long = {"cases": {"mine": {"omega": 1e6, "end_time": 900}}}
     with pytest.raises(ConfigurationError, match=r"mine.omega: the run would take about 2 hours"):
         load(long)
-    (said,) = load(long | {"limits": {"hours": 11}}).long_runs()
-    assert said.startswith("cases.mine: the run and its checks take about 10 hours and ")
+    (output,) = load(long | {"limits": {"hours": 11}}).long_runs()
+    assert output.startswith("cases.mine: the run and its checks take about 10 hours and ")
     assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
 
 
@@ -112,6 +122,6 @@ def test_even_and_synchronised_data_cost_half_each():
 def test_runs_of_a_study_that_last_for_minutes_are_announced(change, words):
     """Data of members are as large as their draws."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
-    said = load(gather(files, {"chaos": change})).long_runs()
-    assert len(said) == len(words)
-    assert all(line.startswith(start) for line, start in zip(said, words, strict=True))
+    output = load(gather(files, {"chaos": change})).long_runs()
+    assert len(output) == len(words)
+    assert all(line.startswith(start) for line, start in zip(output, words, strict=True))

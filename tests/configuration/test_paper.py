@@ -32,12 +32,12 @@ EDITS = {
 
 def edited(*place, value) -> dict:
     """Return the paper's configuration with one value changed."""
-    whole = copy.deepcopy(paper())
-    inner = whole
+    configuration = copy.deepcopy(paper())
+    inner = configuration
     for key in place[:-1]:
         inner = inner[key]
     inner[place[-1]] = value
-    return whole
+    return configuration
 
 
 def test_the_committed_configuration_is_the_papers():
@@ -46,8 +46,8 @@ def test_the_committed_configuration_is_the_papers():
     assert keep.configuration() == paper(), "run `python docs/keep.py config` if this is meant"
     assert differences(paper()) == {}
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
-    whole = json.loads(load(gather(files, {})).model_dump_json())
-    assert "long" in whole["breathers"]["fates"] and differences(whole) == {}
+    configuration = json.loads(load(gather(files, {})).model_dump_json())
+    assert "long" in configuration["breathers"]["fates"] and differences(configuration) == {}
     assert differences(edited("cases", "mine", value={"omega": 1.0})) == {}
 
 
@@ -56,14 +56,16 @@ def test_the_committed_configuration_is_the_papers():
 def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
     differs = differences(edited("cases", case, key, value=EDITS[key]))
     assert list(differs) == [f"cases.{case}.{key}"]
-    said = reason(differs, [f"trajectories/{case}"])
-    assert said.startswith(f"the configuration differs in {case}.{key} (")
+    output = reason(differs, [f"trajectories/{case}"])
+    assert output.startswith(f"the configuration differs in {case}.{key} (")
     for claim in all_claims():
-        own = [name for name in claim.needs if name.split(".")[0] == f"trajectories/{case}"]
-        direct = f"trajectories/{case}" in claim.needs or (own and key != "solver")
-        assert not direct or reason(differs, claim.needs, claim.on) == said, claim.name
-    others = [f"trajectories/{other}" for other in paper()["cases"] if other != case]
-    assert reason(differs, others) == ""
+        own_cases = [name for name in claim.needs if name.split(".")[0] == f"trajectories/{case}"]
+        direct = f"trajectories/{case}" in claim.needs or (own_cases and key != "solver")
+        assert not direct or reason(differs, claim.needs, claim.on) == output, claim.name
+    other_names = [
+        f"trajectories/{other_name}" for other_name in paper()["cases"] if other_name != case
+    ]
+    assert reason(differs, other_names) == ""
 
 
 @pytest.mark.parametrize(

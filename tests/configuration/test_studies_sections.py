@@ -31,5 +31,5 @@ def test_the_configuration_is_read_without_what_computes_or_draws():
     heavy = ("flint", "matplotlib", "netCDF4", "numba", "scipy", "xarray")
     code = f"import sys, pendula.configuration.messages; print(sys.modules.keys() & {set(heavy)})"
     command, paths = [sys.executable, "-c", code], {**os.environ, "PYTHONPATH": python_path()}
-    found = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
-    assert found.stdout == "set()\n"
+    actual = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
+    assert actual.stdout == "set()\n"

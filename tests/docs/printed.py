@@ -60,16 +60,22 @@ def inline_calls(project: Path, page: str) -> list[str]:
     """Return the calls of Snakemake that a sentence or a table names, without the program."""
     text = FENCED.sub("", (project / page).read_text(encoding="utf-8"))
     spans = (" ".join(span.split()) for span in re.findall(r"`([^`]+)`", text))
-    found = (re.fullmatch(r"snakemake (.+)", span) for span in spans)
-    return [call[1] for call in found if call]
+    calls = (re.fullmatch(r"snakemake (.+)", span) for span in spans)
+    return [call[1] for call in calls if call]
 
 
 def blocks(project: Path, page: str) -> list[Block]:
     """Return the fenced blocks of a page."""
     text = (project / page).read_text(encoding="utf-8")
     return [
-        Block(page, text.count("\n", 0, found.start(2)) + 1, found[2], found[1] or "", found[3])
-        for found in FENCED.finditer(text)
+        Block(
+            page,
+            text.count("\n", 0, fence.start(2)) + 1,
+            fence[2],
+            fence[1] or "",
+            fence[3],
+        )
+        for fence in FENCED.finditer(text)
     ]
 
 
@@ -79,18 +85,18 @@ def file_of(block: Block) -> str:
     return name
 
 
-def shown(text: str, said: str) -> bool:
+def shown(text: str, output: str) -> bool:
     """Return whether the lines of a text stand in what was said, in order; "..." is anything."""
     lines = [" ".join(line.split()) for line in text.splitlines() if line.strip()]
     ways = [re.escape(line).replace(r"\.\.\.", ".*") for line in lines]
-    plain = "\n".join(" ".join(line.split()) for line in said.splitlines())
-    return re.search("(?:.*\n)*?.*".join(ways), plain) is not None
+    plain_text = "\n".join(" ".join(line.split()) for line in output.splitlines())
+    return re.search("(?:.*\n)*?.*".join(ways), plain_text) is not None
 
 
 def only_targets(block: Block) -> list[str]:
     """Return the targets of a block that is one command and names nothing else."""
-    found = re.fullmatch(r"snakemake((?: [a-z]\w*)+)\n", block.text)
-    return found[1].split() if found else []
+    targets = re.fullmatch(r"snakemake((?: [a-z]\w*)+)\n", block.text)
+    return targets[1].split() if targets else []
 
 
 def dry(block: Block) -> Block:
@@ -142,16 +148,16 @@ class Reader:
             (self.beside / "session.txt").write_text(block.text, encoding="utf-8")
             words = ["doctest", "-o", "NORMALIZE_WHITESPACE", str(self.beside / "session.txt")]
             return self._ready(words, PYTHONPATH=python_path(self.clone))
-        said = ""
+        output = ""
         for line in block.text.splitlines():
             if SNAKEMAKE.match(line):
                 done = self._ready(shlex.split(line), PATH=self.path, PYTHONPATH="")
             else:
                 done = self._shell(line)
-            said += done.said
+            output += done.said
             if done.code:
                 break
-        return Done(done.code, said)
+        return Done(done.code, output)
 
     def _ready(self, words: list[str], **variables: str) -> Done:
         """Run a module where its imports are done: they are nearly half of most commands."""

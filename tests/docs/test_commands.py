@@ -69,11 +69,11 @@ OWN = re.compile(r"snakemake own --configfile (\w+\.yaml)\n")
 
 def play(reader: Reader, block: Block) -> Done:
     """Play a block; of a user's own cases that another test runs, read the configuration alone."""
-    if first(block) not in DRY or not (own := OWN.fullmatch(block.text)):
+    if first(block) not in DRY or not (options := OWN.fullmatch(block.text)):
         return reader.play(PLAYED.get(block, block))
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     try:
-        load(gather([*files, reader.clone / own[1]], {}))
+        load(gather([*files, reader.clone / options[1]], {}))
     except ConfigurationError as error:
         return Done(1, str(error))
     return Done(0, "")
@@ -109,8 +109,8 @@ def playground(made_once, full_run) -> Path:
 @pytest.fixture(scope="module")
 def played(playground) -> dict[str, Done]:
     """Return what became of each block, by its name."""
-    found = json.loads((playground / "played.json").read_text())
-    return {name: Done(*done) for name, done in found.items()}
+    outputs = json.loads((playground / "played.json").read_text())
+    return {name: Done(*done) for name, done in outputs.items()}
 
 
 def test_lost_figures_are_drawn_from_the_deposited_datasets_alone(playground, full_run):
@@ -123,9 +123,9 @@ def test_lost_figures_are_drawn_from_the_deposited_datasets_alone(playground, fu
 
 @pytest.mark.parametrize("block", RUN, ids=lambda block: block.name)
 def test_what_is_printed_runs(played, block):
-    code, said = played[block.name]
-    assert (code != 0) == (block.mark == "fails"), f"{block.text}\n{said}"
-    assert "Traceback (most recent call last)" not in said
+    code, output = played[block.name]
+    assert (code != 0) == (block.mark == "fails"), f"{block.text}\n{output}"
+    assert "Traceback (most recent call last)" not in output
 
 
 @pytest.mark.parametrize("block", ASKED, ids=lambda block: block.page)
@@ -154,9 +154,9 @@ def test_what_a_page_shows_is_what_its_command_prints(played, pair):
 
 
 def test_every_block_is_of_a_kind_that_is_tried():
-    for page, found in PRINTED.items():
+    for page, actual in PRINTED.items():
         text = (ROOT / page).read_text(encoding="utf-8")
-        assert len(re.findall("^```", text, re.MULTILINE)) == 2 * len(found), page
+        assert len(re.findall("^```", text, re.MULTILINE)) == 2 * len(actual), page
     assert {block.kind for block in ALL} <= set(KINDS)
     assert [block for block in ALL if block.kind == "text"] == [output for _, output in OUTPUTS]
     assert [output.name for command, output in OUTPUTS if command not in RUN] == []
@@ -186,7 +186,8 @@ def messages() -> str:
 
 SYSTEM = [
     # snakemake-executor-plugin-slurm, which is not installed where these tests run
-    *("No SLURM account given, trying to guess.", "has been submitted with SLURM jobid"),
+    "No SLURM account given, trying to guess.",
+    "has been submitted with SLURM jobid",
     "No matching distribution found for",  # pip
     "No such file or directory",
     "No module named venv",  # Python, where a system keeps this module apart
@@ -197,5 +198,5 @@ SYSTEM = [
 
 @pytest.mark.parametrize("page", PAGES)
 def test_a_message_that_a_page_explains_is_one_that_is_said(page, messages):
-    parts = [part.strip() for said in quoted_messages(page) for part in said.split("...")]
-    assert [part for part in parts if part not in messages] == []
+    pieces = [piece.strip() for output in quoted_messages(page) for piece in output.split("...")]
+    assert [piece for piece in pieces if piece not in messages] == []

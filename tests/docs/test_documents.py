@@ -76,8 +76,8 @@ def typed_numbers(text: str) -> list[str]:
 
 
 def test_each_page_is_what_its_template_gives():
-    given = render.render()
-    stale = [page.name for page in given if page.read_text(encoding="utf-8") != given[page]]
+    texts = render.render()
+    stale = [page.name for page in texts if page.read_text(encoding="utf-8") != texts[page]]
     assert stale == [], "run `python docs/render.py`"
 
 
@@ -117,8 +117,8 @@ def test_the_readme_is_one_page_and_leads_to_every_document():
 def test_the_readme_names_every_figure():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     figures = {path.stem for path in (ROOT / "tests/baseline/figures").glob("*.png")}
-    shown = {f"fig{number}" for number in re.findall(r"^\| (\d)", text, re.MULTILINE)}
-    assert figures <= shown | set(re.findall(r"`(\w+)`", text))
+    numbered = {f"fig{number}" for number in re.findall(r"^\| (\d)", text, re.MULTILINE)}
+    assert figures <= numbered | set(re.findall(r"`(\w+)`", text))
 
 
 def test_a_choice_that_is_left_out_changes_no_bit_of_its_number():
@@ -127,11 +127,13 @@ def test_a_choice_that_is_left_out_changes_no_bit_of_its_number():
         data = accepted[f"quoted/{study}"]
         for name in set(numbers_in(data)) & set(facts.WITHOUT_EFFECT):
             for label in map(str, data[VARIATION].values):
-                again = data[f"{name}_varied"].sel({VARIATION: label})
+                with_choice = data[f"{name}_varied"].sel({VARIATION: label})
                 choice = label.partition(" = ")[0]
                 if choice in facts.WITHOUT_EFFECT[name]:
-                    measured = again.notnull()
-                    np.testing.assert_array_equal(again.where(measured), data[name].where(measured))
+                    measured = with_choice.notnull()
+                    np.testing.assert_array_equal(
+                        with_choice.where(measured), data[name].where(measured)
+                    )
                     compared.add((name, choice))
     assert compared == {
         (name, choice) for name, choices in facts.WITHOUT_EFFECT.items() for choice in choices

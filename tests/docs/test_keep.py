@@ -21,9 +21,9 @@ def test_numbers_of_the_infinite_chain_are_kept_as_they_are(tmp_path):
     (tmp_path / "long/unbounded").mkdir(parents=True)
     save(tmp_path / "long/unbounded/numbers.nc", quoted.assign_attrs(title="Numbers"))
     keep.main(tmp_path, tmp_path / "quoted")
-    kept = read(tmp_path / "quoted/unbounded.nc")
-    assert kept.equals(quoted) and "second_front_speed" in numbers_in(kept)
-    assert kept["power_between"].attrs["choices"] == quoted["power_between"].attrs["choices"]
+    reduced = read(tmp_path / "quoted/unbounded.nc")
+    assert reduced.equals(quoted) and "second_front_speed" in numbers_in(reduced)
+    assert reduced["power_between"].attrs["choices"] == quoted["power_between"].attrs["choices"]
 
 
 def test_numbers_are_kept_with_their_variations(tmp_path):
@@ -40,14 +40,14 @@ def test_numbers_are_kept_with_their_variations(tmp_path):
         (tmp_path / "long" / place).parent.mkdir()
         save(tmp_path / f"long/{place}.nc", varied("rate", "mu"))
     keep.main(tmp_path, tmp_path / "quoted")
-    found = {
+    actual = {
         name: read(tmp_path / f"quoted/{name}.nc") for name in ("breathers", "pendula", "chaos")
     }
-    assert {*numbers_in(found["breathers"])} == {"area", "share", "least_power"}
-    assert (found["breathers"]["fate"] == dataset("breathers/fates")["fate"]).all()
+    assert {*numbers_in(actual["breathers"])} == {"area", "share", "least_power"}
+    assert (actual["breathers"]["fate"] == dataset("breathers/fates")["fate"]).all()
     for name in ("pendula", "chaos"):
-        assert found[name]["rate_error"].item() == 0.5 and found[name].attrs["members"] == 8
-        assert "seed" not in found[name].attrs
+        assert actual[name]["rate_error"].item() == 0.5 and actual[name].attrs["members"] == 8
+        assert "seed" not in actual[name].attrs
 
 
 def test_all_that_is_quoted_of_these_studies_has_variations():

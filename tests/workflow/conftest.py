@@ -7,8 +7,14 @@ import pytest
 from helpers import ROOT
 
 PARTS = (
-    *("Snakefile", "workflow", "packages/latticode", "scripts", "benchmarks", "config"),
-    *("profiles", "environment.txt"),
+    "Snakefile",
+    "workflow",
+    "packages/latticode",
+    "scripts",
+    "benchmarks",
+    "config",
+    "profiles",
+    "environment.txt",
     *(f"tests/baseline/{part}" for part in ("reference", "proofs", "speed", "quoted")),
 )
 """What of the project a run needs."""
@@ -25,10 +31,10 @@ def finished(full_run, tmp_path) -> Path:
 def clone(tmp_path) -> Path:
     """Return a fresh copy of the project's sources, newer than any result."""
     left = shutil.ignore_patterns("__pycache__")
-    for part in PARTS:
-        (copy := tmp_path / "clone" / part).parent.mkdir(parents=True, exist_ok=True)
-        if (ROOT / part).is_dir():
-            shutil.copytree(ROOT / part, copy, ignore=left, copy_function=shutil.copy)
+    for place in PARTS:
+        (copy := tmp_path / "clone" / place).parent.mkdir(parents=True, exist_ok=True)
+        if (ROOT / place).is_dir():
+            shutil.copytree(ROOT / place, copy, ignore=left, copy_function=shutil.copy)
         else:
-            shutil.copy(ROOT / part, copy)
+            shutil.copy(ROOT / place, copy)
     return tmp_path / "clone"

@@ -10,10 +10,10 @@ from helpers import ROOT, planned, skip, snakemake
 
 def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
     """`cp -r` gives files new times, so that results seem older than what they are made from."""
-    made = shutil.copytree(full_run, tmp_path / "made", copy_function=shutil.copy)
-    for path in made.glob("results/kernels/*"):
+    datasets = shutil.copytree(full_run, tmp_path / "made", copy_function=shutil.copy)
+    for path in datasets.glob("results/kernels/*"):
         os.utime(path)
-    assert planned(ROOT, made, "figures") == {}
+    assert planned(ROOT, datasets, "figures") == {}
 
 
 @pytest.fixture
@@ -37,9 +37,9 @@ def read_only(request, tmp_path):
 def test_a_dry_run_in_a_read_only_folder_says_what_it_needs(read_only, tmp_path):
     result = snakemake(ROOT, tmp_path / "here", "--dry-run", "fig1")
     assert result.returncode != 0
-    said = result.stdout + result.stderr
-    assert f"{read_only} is read-only" in said and "--directory" in said
-    assert "Traceback" not in said and "OSError" not in said
+    output = result.stdout + result.stderr
+    assert f"{read_only} is read-only" in output and "--directory" in output
+    assert "Traceback" not in output and "OSError" not in output
 
 
 @pytest.mark.parametrize("read_only", ["results", "results/logs"], indirect=True)

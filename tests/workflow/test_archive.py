@@ -27,13 +27,15 @@ def unpacked(full_run, tmp_path) -> Path:
 
 
 def test_the_checksums_hold(full_run, unpacked):
-    for folder, name in ((full_run / "results/archive", f"{NAME}.tar.gz.sha256"),
-                         (unpacked, "manifest-sha256.txt")):  # fmt: skip
+    for folder, name in (
+        (full_run / "results/archive", f"{NAME}.tar.gz.sha256"),
+        (unpacked, "manifest-sha256.txt"),
+    ):
         check = ["sha256sum", "--check", "--strict", "--quiet", name]
         assert subprocess.run(check, cwd=folder).returncode == 0
     listed = (unpacked / "manifest-sha256.txt").read_text().splitlines()
-    found = {p.relative_to(unpacked).as_posix() for p in unpacked.rglob("*") if p.is_file()}
-    assert {line.split("  ")[1] for line in listed} == found - {"manifest-sha256.txt"}
+    actual = {p.relative_to(unpacked).as_posix() for p in unpacked.rglob("*") if p.is_file()}
+    assert {line.split("  ")[1] for line in listed} == actual - {"manifest-sha256.txt"}
 
 
 def test_nothing_is_to_be_done_where_it_is_unpacked(unpacked):

@@ -13,16 +13,16 @@ NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
 
 def refused(result: subprocess.CompletedProcess) -> str:
     """Return what stands on the screen of a run that must have been refused."""
-    said = result.stdout + result.stderr
+    output = result.stdout + result.stderr
     assert result.returncode == 1
-    assert not [word for word in NOISE if word in said], said
-    return said
+    assert not [word for word in NOISE if word in output], output
+    return output
 
 
 def test_a_bad_configuration_stops_before_any_job(tmp_path):
     settings = {"cases": {"mine": {"omgea": 3, "half_width": -2, "solver": "dop835"}}, "swepes": {}}
-    said = refused(snakemake(ROOT, tmp_path, settings=settings))
-    for part in (
+    output = refused(snakemake(ROOT, tmp_path, settings=settings))
+    for name in (
         "the configuration has 5 errors:\n  ",
         "cases.mine.omega: is missing",
         "cases.mine.omgea: is not a known key; did you mean 'omega'?",
@@ -30,16 +30,18 @@ def test_a_bad_configuration_stops_before_any_job(tmp_path):
         "did you mean 'dop853'?",
         "swepes: is not a known key; did you mean 'sweeps'?",
     ):
-        assert part in said
+        assert name in output
     assert not (tmp_path / "results/trajectories").exists()
 
 
 def test_a_baseline_is_named_by_config_alone_and_is_a_folder(tmp_path):
     """A file that named one would send what is accepted elsewhere, unseen."""
-    said = refused(snakemake(ROOT, tmp_path, "accept_figures", settings={"baseline": "elsewhere"}))
-    assert "baseline: is not a known key" in said
-    said = refused(snakemake(ROOT, tmp_path, "figure_diff", "--config", "baseline=7"))
-    assert "--config baseline=7: give the path of a folder" in said
+    output = refused(
+        snakemake(ROOT, tmp_path, "accept_figures", settings={"baseline": "elsewhere"})
+    )
+    assert "baseline: is not a known key" in output
+    output = refused(snakemake(ROOT, tmp_path, "figure_diff", "--config", "baseline=7"))
+    assert "--config baseline=7: give the path of a folder" in output
 
 
 def test_a_long_run_says_first_what_it_takes(tmp_path):
@@ -47,5 +49,7 @@ def test_a_long_run_says_first_what_it_takes(tmp_path):
     target = "results/trajectories/mine.nc"
     result = snakemake(ROOT, tmp_path, "--dry-run", target, settings=settings)
     assert result.returncode == 0
-    said = result.stdout + result.stderr
-    assert said.index("cases.mine: the run and its checks take about") < said.index("Building DAG")
+    output = result.stdout + result.stderr
+    assert output.index("cases.mine: the run and its checks take about") < output.index(
+        "Building DAG"
+    )

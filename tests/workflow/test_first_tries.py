@@ -89,7 +89,9 @@ EDITED = {
 }
 """Edits of the paper's cases that once broke studies: they run on what the case has become."""
 RUN_ON_EDITED = (
-    *("checks/members.nc", "checks/lyapunov.nc", "unbounded/fig3_large.nc"),
+    "checks/members.nc",
+    "checks/lyapunov.nc",
+    "unbounded/fig3_large.nc",
     "pendula/over_the_top.nc",
 )
 

@@ -56,18 +56,19 @@ def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):
 
 
 def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path):
-    part = load_json(full_run / "results/claims/theory.json")
+    part_of_ledger = load_json(full_run / "results/claims/theory.json")
     names = needed(all_claims("theory/claims"))
     paths = {name: str(full_run / f"results/{name}.nc") for name in names}
     check = xr.load_dataset(paths["checks/identities"])
     check["terms"].loc["(7)", "free"] = 1
     check.to_netcdf(wrong := str(tmp_path / "identities.nc"))
     paths["checks/identities"] = wrong
-    made, table = str(tmp_path / "theory.json"), tmp_path / "theory.md"
-    decide_claims(all_claims("theory/claims"), list(paths.values()), list(paths), made)
-    tabulate_claims([made], str(table))
+    results, table = str(tmp_path / "theory.json"), tmp_path / "theory.md"
+    decide_claims(all_claims("theory/claims"), list(paths.values()), list(paths), results)
+    tabulate_claims([results], str(table))
     verdicts = (
-        {row["name"]: row["verdict"] for row in one["rows"]} for one in (part, load_json(made))
+        {row["name"]: row["verdict"] for row in entry["rows"]}
+        for entry in (part_of_ledger, load_json(results))
     )
     before, after = verdicts
     applicable = [name for name in before if before[name] != Verdict.NOT_APPLICABLE]

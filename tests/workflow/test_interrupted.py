@@ -21,8 +21,8 @@ def kill_in_a_long_chain(folder):
     settings["sweeps"]["fig5_left"]["half_widths"] = [4, 8, *range(30000, 30010)]
     (folder / "mine.yaml").write_text(yaml.safe_dump(settings))
     command = command_of(ROOT, folder, folder / "mine.yaml", *TARGETS, "--cores", "1")
-    with open(folder / "said.txt", "w") as said:
-        process = subprocess.Popen(command, stdout=said, stderr=said, start_new_session=True)
+    with open(folder / "said.txt", "w") as output:
+        process = subprocess.Popen(command, stdout=output, stderr=output, start_new_session=True)
         log = folder / LOG
         try:
             wait_for(
@@ -40,17 +40,17 @@ def kill_in_a_long_chain(folder):
 
 def test_a_run_that_was_killed_goes_on_to_the_same_files(full_run, tmp_path):
     kill_in_a_long_chain(tmp_path)
-    said = tmp_path / "said.txt"
-    wait_for(lambda: "To go on: snakemake --unlock, then the same command" in said.read_text())
-    assert "ConnectionResetError" not in said.read_text()
+    output = tmp_path / "said.txt"
+    wait_for(lambda: "To go on: snakemake --unlock, then the same command" in output.read_text())
+    assert "ConnectionResetError" not in output.read_text()
     assert snakemake(ROOT, tmp_path, "--unlock").returncode == 0  # nothing else could
     result = snakemake(ROOT, tmp_path, *TARGETS)
     assert result.returncode == 0, result.stderr
     assert "Compiling" not in result.stderr  # done in the first run
     files = (path for path in tmp_path.glob("results/**/*") if path.is_file())
-    made = {path.relative_to(tmp_path).as_posix() for path in files}
-    assert {name for name in made if not name.startswith(("results/kernels", "results/logs"))} == {
-        *TARGETS
-    }
+    results = {path.relative_to(tmp_path).as_posix() for path in files}
+    assert {
+        name for name in results if not name.startswith(("results/kernels", "results/logs"))
+    } == {*TARGETS}
     for name in TARGETS:
         assert (tmp_path / name).read_bytes() == (full_run / name).read_bytes()

@@ -43,8 +43,8 @@ def changed():
 
 
 def test_nothing_of_the_paper_is_made(own_run):
-    made = {path.stem for path in (own_run / "results/trajectories").iterdir()}
-    assert made == {"fig5", "sea"}
+    results = {path.stem for path in (own_run / "results/trajectories").iterdir()}
+    assert results == {"fig5", "sea"}
     assert not (own_run / "results/figures").exists()
 
 
@@ -59,10 +59,14 @@ def test_the_page_shows_its_pictures_and_links_to_what_is_there(own_run):
 
 
 def test_the_page_says_what_the_checks_say(own_run):
-    parts = (own_run / REPORT).read_text().split("<section id=")
-    text = [re.sub(r"<[^>]+>", "", part) for part in parts]
-    still, sea = text[1:3]
-    assert "to the end, to" in still and "Theorem 1 covers" in still and "chaoticno" in still
+    sections = (own_run / REPORT).read_text().split("<section id=")
+    text = [re.sub(r"<[^>]+>", "", section) for section in sections]
+    still_case, sea = text[1:3]
+    assert (
+        "to the end, to" in still_case
+        and "Theorem 1 covers" in still_case
+        and "chaoticno" in still_case
+    )
     assert "chaoticyes" in sea and "only Theorem 3 covers" in sea
     with xr.open_dataset(own_run / "results/own/cases/sea.checks.nc") as checks:
         assert f"until τ = {float(checks['divergence_time']):.4g}, within" in sea
@@ -93,8 +97,8 @@ def test_a_lost_part_is_made_again_alone(made, changed):
     for name in ("map.nc", "map.parts/1-of-3.nc"):
         (made / "results/surveys" / name).unlink()
     del changed["surveys"]["map"]["chunks"]
-    again = planned(ROOT, made, "results/surveys/map.nc", settings=changed)
-    assert again == {"survey": 2}  # the chunk, and the survey of all chunks
+    repeated = planned(ROOT, made, "results/surveys/map.nc", settings=changed)
+    assert repeated == {"survey": 2}  # the chunk, and the survey of all chunks
 
 
 def test_chunks_split_the_runs_of_a_study_into_jobs(tmp_path):

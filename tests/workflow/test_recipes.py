@@ -60,8 +60,8 @@ def test_a_figure_is_drawn_and_is_part_of_a_full_run(finished, clone):
     assert planned(clone, finished, "figures")["excess"] == 1
     result = snakemake(clone, finished, "excess")
     assert result.returncode == 0, result.stderr
-    shown = json.loads((finished / "results/figures/excess.json").read_text())
-    assert len(shown["panels"][0]["curves"]) == 2
+    description = json.loads((finished / "results/figures/excess.json").read_text())
+    assert len(description["panels"][0]["curves"]) == 2
     for kind in ("png", "pdf", "nc"):
         assert (finished / f"results/figures/excess.{kind}").stat().st_size > 0
 

@@ -10,7 +10,10 @@ from helpers import change, edit, planned
 
 SIMULATIONS = {"trajectory", "measure_solvers", "sweep", "sweep_by_second_solver"}
 MEASURES = {
-    *("measure_lyapunov", "run_ensembles", "run_lifetimes", "run_members"),
+    "measure_lyapunov",
+    "run_ensembles",
+    "run_lifetimes",
+    "run_members",
 }
 
 
@@ -34,7 +37,7 @@ def test_figures_claims_checks_and_tangent_equations_rerun_alone(full_run, clone
     change(clone / "packages/latticode/latticode/localised/tangents.py")
     jobs = planned(clone, full_run)
     assert jobs.keys() & MEASURES == {"measure_lyapunov"} and not jobs.keys() & SIMULATIONS
-    checks = {one for one in jobs if one.startswith("check_")}
+    checks = {entry for entry in jobs if entry.startswith("check_")}
     assert checks == {"check_theory"}
     assert {"fig1", "stability_chart", "bounds"} <= jobs.keys()
     assert {"decide_claims", "claims", "report", "article", "all"} <= jobs.keys()

@@ -123,11 +123,13 @@ def test_a_function_has_a_hash_of_its_code_and_what_else_reruns_it():
 
 
 def test_each_module_of_claims_is_in_one_part_of_the_ledger():
-    parts = ledger.parts_of_ledger()
-    listed = [module for modules in parts.values() for module in ledger.modules_of(modules)]
+    modules_by_part = ledger.parts_of_ledger()
+    listed = [
+        module for modules in modules_by_part.values() for module in ledger.modules_of(modules)
+    ]
     paths = [path for study in STUDIES for path in files_with_prefix(f"{study}/claims")]
     assert sorted(listed) == sorted(f"pendula.studies.{p.parent.name}.{p.stem}" for p in paths)
-    claims = [claim.name for modules in parts.values() for claim in all_claims(*modules)]
+    claims = [claim.name for modules in modules_by_part.values() for claim in all_claims(*modules)]
     assert sorted(claims) == sorted(claim.name for claim in all_claims())
 
 

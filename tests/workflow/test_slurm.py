@@ -62,14 +62,14 @@ def plan(tmp_path_factory) -> str:
     (folder / "Snakefile").write_text(PLANNED.format(project=ROOT))
     (folder / "mine.yaml").write_text(yaml.safe_dump({"cases": CASES}))
     (folder / "slurm").mkdir()
-    plain = {key: value for key, value in PROFILE.items() if "slurm" not in f"{key} {value}"}
-    (folder / "slurm/profile.yaml").write_text(yaml.safe_dump(plain))
+    profile = {key: value for key, value in PROFILE.items() if "slurm" not in f"{key} {value}"}
+    (folder / "slurm/profile.yaml").write_text(yaml.safe_dump(profile))
     command = ["", "-m", "snakemake", "--dry-run", "--workflow-profile", "slurm"]
     wish = ["--set-resources", "trajectory:mem_mb=4000", "map_fates:runtime=300"]
     targets = ["results/trajectories/fig4_small.nc", "fates", "sensitivity"]
-    said = run_ready([*command, *wish, "--configfile", "mine.yaml", "--", *targets], folder)
-    assert said.returncode == 0, said.stderr
-    return said.stdout + said.stderr
+    output = run_ready([*command, *wish, "--configfile", "mine.yaml", "--", *targets], folder)
+    assert output.returncode == 0, output.stderr
+    return output.stdout + output.stderr
 
 
 def test_a_run_asks_for_what_it_is_estimated_to_take_and_for_more_when_tried_again(plan):

@@ -21,9 +21,9 @@ def test_an_import_that_fails_and_a_signal_are_told_and_the_rest_is_made(clone, 
     result = snakemake(clone, folder, "--keep-going", *TARGETS)
     assert result.returncode == 1
     last, log = result.stderr.splitlines()[-4:], folder / "results/logs/pendula/threshold.log"
-    assert (said := "ModuleNotFoundError: No module named 'absent'") in last
+    assert (output := "ModuleNotFoundError: No module named 'absent'") in last
     assert f"  (more in {log})" in last
-    assert log.read_text().startswith(f"failed: {said}\nTraceback")
+    assert log.read_text().startswith(f"failed: {output}\nTraceback")
     assert (folder / TARGETS[-1]).exists()
     assert any("killed by SIGKILL: the system does this if memory" in line for line in last), last
     assert NO_REASON not in result.stderr
@@ -75,9 +75,9 @@ def test_a_disk_that_is_full_is_the_reason(clone, small_disk):
     assert "No space left on device (is the disk full? " in result.stderr
     last, log = result.stderr.splitlines()[-2:], small_disk / "results/logs/figures/fig1.log"
     assert last == [NO_LOG, f"  (more in {log})"]
-    again = snakemake(clone, small_disk, "fig1")
-    assert again.returncode == 1 and "Traceback" not in again.stderr
-    assert f"{small_disk} takes no files" in again.stderr
+    repeated = snakemake(clone, small_disk, "fig1")
+    assert repeated.returncode == 1 and "Traceback" not in repeated.stderr
+    assert f"{small_disk} takes no files" in repeated.stderr
 
 
 SLURM = """
