@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from latticode.datasets.netcdf import read, save
-from latticode.measures.confidence import Limits
+from latticode.measures.confidence import ConfidenceInterval
 from pendula.varied import (
     Printed,
     as_dataset,
@@ -51,7 +51,7 @@ def test_a_variation_that_was_not_measured_is_no_change():
 
 def test_limits_enclose_the_variations_and_the_larger_side_is_the_error():
     """A share of 2 % (0 % to 7 %) that another seed makes 9 % has the limits 0 % and 9 %."""
-    shares = {1: Limits(0.02, 0.0, 0.07), 2: Limits(0.09, 0.03, 0.2)}
+    shares = {1: ConfidenceInterval(0.02, 0.0, 0.07), 2: ConfidenceInterval(0.09, 0.03, 0.2)}
     number = vary(lambda seed: shares[seed], {"seed": [1, 2]})
     data = as_dataset({"share": Printed((), number, "share of runs")}, {})
     assert (data["share_low"], data["share_high"]) == (0.0, 0.09)

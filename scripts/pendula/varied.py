@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from latticode.measures.confidence import Limits
+from latticode.measures.confidence import ConfidenceInterval
 
-Estimate = tuple[Any, Any] | Limits
+Estimate = tuple[Any, Any] | ConfidenceInterval
 """A number with its statistical error or its limits, or arrays of one shape; NaN: not measured."""
 VARIATION, PARTS = "variation", ("", "_error", "_statistical_error", "_varied")
 """The dimension of variations, and how the names of a number's variables end."""
@@ -29,7 +29,9 @@ class Varied(NamedTuple):
     statistical_error: np.ndarray  # of the shape of `value`
     choices: Mapping[str, Any]  # those of the printed number, by name
     variations: Mapping[str, np.ndarray]  # the number again, by "choice = value"
-    limits: Limits | None = None  # where they need not be as far from the number on both sides
+    limits: ConfidenceInterval | None = (
+        None  # where they need not be as far from the number on both sides
+    )
 
     @property
     def widened(self) -> tuple[np.ndarray, np.ndarray]:
@@ -89,7 +91,7 @@ def vary_several(
 
 
 def _varied(estimate: Estimate, choices: dict[str, Any], again: Mapping[str, Any]) -> Varied:
-    limits = estimate if isinstance(estimate, Limits) else None
+    limits = estimate if isinstance(estimate, ConfidenceInterval) else None
     parts = [np.asarray(part, float) for part in estimate]
     if limits:
         value, low, high = parts

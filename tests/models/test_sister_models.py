@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from latticode.equations.model import Model
-from latticode.localised.breathers import State, exponents, find_state
+from latticode.localised.breathers import LocalisedState, exponents, find_state
 from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
 from problems import constants_of
@@ -33,7 +33,7 @@ def test_rest_of_the_hamiltonian_chain_is_stable_below_the_published_threshold(o
     """Chernyavsky and Pelinovsky, arXiv 1605.06455: the infinite chain's is the limit of these."""
     sines = np.sin(np.arange(1, 22) * np.pi / 44.0) ** 2
     threshold = np.abs(omega - 4.0 * epsilon * sines).min()
-    rest = State(np.zeros(84))
+    rest = LocalisedState(np.zeros(84))
     for gamma, grows in ((0.999 * threshold, False), (1.001 * threshold, True)):
         numbers = {"omega": omega, "epsilon": epsilon, "gamma": gamma}
         given = problem("chernyavsky_pelinovsky", {0: (0, 0)}, **numbers)
@@ -61,7 +61,7 @@ def test_on_site_soliton_under_parametric_drive_loses_stability_as_published():
 
 def test_long_range_coupling_has_the_exact_waves_on_a_ring():
     given = problem("disorder_and_long_range", {0: (0,)}, "periodic", disorder=0.0)
-    found = np.sort(exponents(given, State(np.zeros(42))).imag)
+    found = np.sort(exponents(given, LocalisedState(np.zeros(42))).imag)
     angles = 2.0 * np.pi * np.arange(21) / 21.0
     waves = sum(2.0 * (np.cos(m * angles) - 1.0) / m**3 for m in range(1, 6))
     np.testing.assert_allclose(found, np.sort([*waves, *-waves]), rtol=0, atol=1e-9)

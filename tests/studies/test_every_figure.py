@@ -15,7 +15,7 @@ from helpers import skip
 from latticode.datasets.netcdf import read, save
 from latticode.drawing import runs, style
 from latticode.drawing.description import describe
-from latticode.drawing.panels import BAR, BESIDE, SIZES
+from latticode.drawing.panels import BAR, OFFSET, SIZES
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
@@ -290,6 +290,6 @@ def test_bars_of_an_ensemble_cover_no_mark():
     figure = drawn("fig5")
     figure.draw_without_rendering()
     right = figure.axes[1]
-    at = [right.transData.transform((m, 1.0))[0] for m in (100.0, BESIDE * 100.0)]
+    at = [right.transData.transform((m, 1.0))[0] for m in (100.0, OFFSET * 100.0)]
     widths = [72.0 / figure.dpi * (at[1] - at[0]), 0.5 * max(SIZES.values()) + BAR["capsize"]]
     assert widths[0] > widths[1]

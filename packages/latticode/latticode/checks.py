@@ -21,7 +21,7 @@ from latticode.integrators.method import SMALLEST_ERROR
 from latticode.integrators.methods import METHODS
 from latticode.localised.breathers import NoStateError, exponents, find_state
 from latticode.localised.rest import describe_unstable_rest
-from latticode.localised.tangents import STEP, Growth, grow, random_tangent
+from latticode.localised.tangents import STEP, TangentGrowth, grow, random_tangent
 from latticode.measures.difference import (
     NORMS,
     VISIBLE,
@@ -140,7 +140,7 @@ def _compared(
 FEWEST_STEPS, SEED = 64, 20170817
 
 
-def follow(problem: Problem) -> Growth:
+def follow(problem: Problem) -> TangentGrowth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
     even, rng = problem.equations.find_reduction().even, np.random.default_rng(SEED)
     tangent = random_tangent(problem.sites, rng, even, len(problem.model.fields))
@@ -197,7 +197,7 @@ def check_breather(problem: Problem) -> xr.Dataset:
             state = find_state(problem)
     except NoStateError as error:
         return xr.Dataset(attrs={"breather_refusal": str(error)})
-    parts = state.parts(problem)
+    parts = state.components(problem)
     moduli = np.sqrt(np.sum(parts**2, axis=1))
     sizes = moduli.max(axis=0)
     away = np.abs(np.arange(sizes.size) - sizes.argmax())

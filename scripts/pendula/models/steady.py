@@ -20,7 +20,14 @@ is zero. So for Omega >= 4 epsilon + 2 gamma no steady state but zero lies in l2
 """
 
 import numpy as np
-from latticode.localised.breathers import NoStateError, State, coupled, flat, newton, widened
+from latticode.localised.breathers import (
+    LocalisedState,
+    NoStateError,
+    coupled,
+    flat,
+    newton,
+    widened,
+)
 
 from pendula.problem import Constants, Problem
 
@@ -30,7 +37,9 @@ SHORT = 8
 """Half-width of the chain on which a state is continued, before it is found on the whole one."""
 
 
-def localised(family: Family, constants: Constants, half_width: int) -> tuple[Problem, State]:
+def localised(
+    family: Family, constants: Constants, half_width: int
+) -> tuple[Problem, LocalisedState]:
     """Return a family's even state, and the chain on which it is one.
 
     Raises NoStateError where the pair has no such state, or the family does not reach this epsilon.
@@ -43,6 +52,6 @@ def localised(family: Family, constants: Constants, half_width: int) -> tuple[Pr
         parameters=vars(constants), half_width=min(SHORT, half_width), boundary="dirichlet",
         initial=data, end_time=1.0, output_step=1.0, solver={},
     )  # fmt: skip
-    state = coupled(problem, State(flat(problem.amplitudes, even=True), even=True), None)
+    state = coupled(problem, LocalisedState(flat(problem.amplitudes, even=True), even=True), None)
     problem = problem.changed(half_width=half_width)
     return problem, newton(problem, widened(problem, state), None)

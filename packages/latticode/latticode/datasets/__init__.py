@@ -60,17 +60,19 @@ def not_written(path: str | Path, error: Exception) -> DatasetError:
     path = Path(path)
     # one whole file may be written inside of another: the user knows the name of the outer one
     path = path.with_name(path.name.removeprefix(f".{os.getpid()}."))
-    there = next(folder for folder in path.absolute().parents if folder.exists())
-    if not there.is_dir():
-        return DatasetError(f"could not write {path}: {there} is a file and no folder; move it")
+    existing = next(folder for folder in path.absolute().parents if folder.exists())
+    if not existing.is_dir():
+        return DatasetError(f"could not write {path}: {existing} is a file and no folder; move it")
     if path.is_dir():
         return DatasetError(f"could not write {path}: it is a folder; move it")
     why = getattr(error, "strerror", None) or error
-    if not os.access(there, os.W_OK):
-        return DatasetError(f"could not write {path}: {why}; make {there} writable, and run again")
-    usage = shutil.disk_usage(there)
+    if not os.access(existing, os.W_OK):
+        return DatasetError(
+            f"could not write {path}: {why}; make {existing} writable, and run again"
+        )
+    usage = shutil.disk_usage(existing)
     free, total = (f"{size / 1e6:.1f} MB" for size in (usage.free, usage.total))
-    disk = next(place for place in (there, *there.parents) if os.path.ismount(place))
+    disk = next(place for place in (existing, *existing.parents) if os.path.ismount(place))
     return DatasetError(
         f"could not write {path}: {why} (is the disk full? {disk} has {free} of {total} left); "
         "make room there, and run again"

@@ -41,12 +41,15 @@ def rounded(values, digits: int) -> np.ndarray:
     return np.array(texts, dtype=float).reshape(values.shape)
 
 
-def columns(dims: Iterable[str], about: Mapping, numbers: Mapping) -> dict[str, dict]:
+def columns(dims: Iterable[str], descriptions: Mapping, numbers: Mapping) -> dict[str, dict]:
     """Return variables of the same dimensions: the `numbers` by their names.
 
-    `about` has the long name of each, or a pair of that and its tolerance.
+    `descriptions` has the long name of each, or a pair of that and its tolerance.
     """
-    pairs = {name: (one, None) if isinstance(one, str) else one for name, one in about.items()}
+    pairs = {
+        name: (description, None) if isinstance(description, str) else description
+        for name, description in descriptions.items()
+    }
     return {
         name: variable(values, dims, pairs[name][0], tolerance=pairs[name][1])
         for name, values in numbers.items()
@@ -54,16 +57,16 @@ def columns(dims: Iterable[str], about: Mapping, numbers: Mapping) -> dict[str, 
 
 
 def tabulate(
-    title: str, coords: dict, rows: Iterable[Mapping], about: Mapping, **others: dict
+    title: str, coords: dict, rows: Iterable[Mapping], descriptions: Mapping, **more: dict
 ) -> dict:
     """Return the table of `rows`: the numbers at each point of `coords`, whose last one runs first.
 
-    Of a row the numbers are kept that `about` describes, as for `columns`; `others` are variables
-    of other dimensions.
+    Only the numbers of a row that `descriptions` describes are stored, as by `columns`; `more` are
+    variables of other dimensions.
     """
     rows, shape = list(rows), tuple(len(points) for points in coords.values())
-    numbers = {name: np.reshape([row[name] for row in rows], shape) for name in about}
-    return table(title, coords, **columns(coords, about, numbers), **others)
+    numbers = {name: np.reshape([row[name] for row in rows], shape) for name in descriptions}
+    return table(title, coords, **columns(coords, descriptions, numbers), **more)
 
 
 def deciding(check: dict) -> dict[str, tuple[float, float]]:

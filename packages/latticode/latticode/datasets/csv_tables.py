@@ -36,20 +36,23 @@ def write_csv(path: str | Path, dataset) -> None:
 
 def _axes(dataset, rows: list[str]) -> dict[str, list]:
     """Return the values of each axis at all places, the last axis fastest."""
-    given = [dataset[name] for name in rows]
-    grids = np.meshgrid(*(np.arange(one.size) for one in given), indexing="ij")
-    pairs = zip(given, grids, strict=True)
-    return {_head(one.name, one): one.values[grid.ravel()].tolist() for one, grid in pairs}
+    variables = [dataset[name] for name in rows]
+    grids = np.meshgrid(*(np.arange(variable.size) for variable in variables), indexing="ij")
+    pairs = zip(variables, grids, strict=True)
+    return {
+        _head(variable.name, variable): variable.values[grid.ravel()].tolist()
+        for variable, grid in pairs
+    }
 
 
 def _columns(name: str, values, rows: list[str]) -> dict[str, list]:
     """Return the columns of a variable: one for each place on its other dimensions."""
-    others = [one for one in values.dims if one not in rows]
-    found = {}
-    for place in product(*(values[one].values.tolist() for one in others)):
-        chosen = values.sel(dict(zip(others, place, strict=True))).transpose(*rows)
-        found[_head(" ".join([name, *map(str, place)]), values)] = chosen.values.ravel().tolist()
-    return found
+    column_dimensions = [dimension for dimension in values.dims if dimension not in rows]
+    columns = {}
+    for place in product(*(values[dimension].values.tolist() for dimension in column_dimensions)):
+        chosen = values.sel(dict(zip(column_dimensions, place, strict=True))).transpose(*rows)
+        columns[_head(" ".join([name, *map(str, place)]), values)] = chosen.values.ravel().tolist()
+    return columns
 
 
 def _head(name: Any, values) -> str:

@@ -31,11 +31,11 @@ def digest_values(dimensions: tuple[str, ...], values: Any) -> str:
 
 def digest(dataset) -> str:
     """Return the SHA-256 of the variables of an xarray.Dataset: of their names and their values."""
-    parts = [
+    texts = [
         f"{name} {digest_values(variable.dims, variable.values)}"
         for name, variable in sorted(dataset.variables.items())
     ]
-    return sha256("\n".join(parts).encode()).hexdigest()
+    return sha256("\n".join(texts).encode()).hexdigest()
 
 
 def fingerprint(text: str) -> str:

@@ -71,13 +71,13 @@ def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
     """Return the xarray.Dataset that `read` would return of what `write` writes."""
     import xarray  # here, so that writing does without it
 
-    def one(name: str, variable: Variable) -> xarray.Variable:
+    def as_variable(name: str, variable: Variable) -> xarray.Variable:
         values = np.asarray(variable.values)
         values = values.astype(object) if values.dtype.kind == "U" else values
         words = _attributes(name, variable)
         return xarray.Variable(variable.dimensions, values, words)
 
-    all_of_them = {name: one(name, variable) for name, variable in variables.items()}
+    all_of_them = {name: as_variable(name, variable) for name, variable in variables.items()}
     coordinates = {k: v for k, v in all_of_them.items() if v.dims == (k,)}
     values = {k: v for k, v in all_of_them.items() if k not in coordinates}
     return xarray.Dataset(values, coordinates, complete(attributes, "in memory"))
@@ -100,15 +100,19 @@ def save(path: str | Path, dataset) -> None:
         return write_csv(path, dataset)
     if ending not in ("", ".nc"):
         raise DatasetError(f"{path}: datasets are saved as netCDF (.nc) or tables (.csv)")
-    if of_complex := [str(name) for name, one in dataset.items() if one.dtype.kind == "c"]:
+    if of_complex := [
+        str(name) for name, variable in dataset.items() if variable.dtype.kind == "c"
+    ]:
         raise DatasetError(
             f"{path}: {of_complex[0]} is complex, and files hold real numbers: save its parts,"
             f" {of_complex[0]}.real and {of_complex[0]}.imag"
         )
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
     for name, variable in stated.variables.items():
-        about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}
-        variable.attrs.update(describe(str(name), about["long_name"], about["units"] or "1"))
+        attributes = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}
+        variable.attrs.update(
+            describe(str(name), attributes["long_name"], attributes["units"] or "1")
+        )
         # CF forbids a missing value in coordinates, and xarray would state one for every variable.
         # It stands beside the compression that the caller may have asked for.
         variable.encoding["_FillValue"] = None

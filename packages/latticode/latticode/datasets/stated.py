@@ -22,15 +22,15 @@ OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_e
 
 def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
     """Return the attributes that say what was solved, and by which controls."""
-    about = {key: getattr(problem, key) for key in OF_A_PROBLEM}
+    attributes = {key: getattr(problem, key) for key in OF_A_PROBLEM}
     if problem.site_count is not None:
-        del about["half_width"]
-        about["sites"] = problem.site_count
-    about |= {"start_time": problem.start_time} if problem.start_time else {}
-    about |= problem.equations.describe()
+        del attributes["half_width"]
+        attributes["sites"] = problem.site_count
+    attributes |= {"start_time": problem.start_time} if problem.start_time else {}
+    attributes |= problem.equations.describe()
     return {
         "case": name,
-        **{key: about[key] for key in sorted(about)},
+        **{key: attributes[key] for key in sorted(attributes)},
         "initial": write_initial(problem.data_by_site),
         "solver": solver["name"],
         **{f"solver_{key}": solver[key] for key in solver if key not in ("name", "by_default")},
@@ -42,16 +42,16 @@ def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[
 
     Of runs and sweeps that are read again they say what problem all of them solve.
     """
-    first, *others = descriptions
+    first, *later = descriptions
     return {
         key: value
         for key, value in first.items()
-        if key not in without and all(other.get(key) == value for other in others)
+        if key not in without and all(description.get(key) == value for description in later)
     }
 
 
 def stated(
-    given: Mapping[str, Any], variables: Iterable[str], read: list[str], function: Callable
+    arguments: Mapping[str, Any], variables: Iterable[str], read: list[str], function: Callable
 ) -> dict[str, Any]:
     """Return what the function of a job was given as attributes, which are numbers and text.
 
@@ -60,42 +60,55 @@ def stated(
     share, and one for the values in which they differ. What the `variables` of the dataset hold is
     left out. `read` names the datasets that the `function` has read.
     """
-    variables, found = set(variables), {}
-    for name, value in given.items():
+    variables, attributes = set(variables), {}
+    for name, value in arguments.items():
         problems = _problems(value)
         if not problems:
-            found |= _plain(name, value)
+            attributes |= _plain_attributes(name, value)
             continue
-        each = {key: describe_run("", one, one.solver) for key, one in problems.items()}
+        each = {key: describe_run("", value, value.solver) for key, value in problems.items()}
         shared = shared_by(each.values(), "case")
-        own = {
-            key: {part: one for part, one in about.items() if part not in {"case", *shared}}
-            for key, about in each.items()
+        differing = {
+            key: {key: value for key, value in description.items() if key not in {"case", *shared}}
+            for key, description in each.items()
         }
-        told = {part for one in own.values() for part in one} <= variables
-        found |= shared | ({} if told else {name: _json(own)})
-    known = {name: value for name, value in found.items() if value is not None}  # an infinite chain
-    found = {name: value for name, value in known.items() if name not in variables}
-    found[COMPUTED_BY] = f"{function.__module__}.{function.__name__}"
-    return found | ({COMPUTED_FROM: ", ".join(read)} if read else {})
+        stored_as_variables = {key for value in differing.values() for key in value} <= variables
+        attributes |= shared | ({} if stored_as_variables else {name: _json(differing)})
+    known = {
+        name: value for name, value in attributes.items() if value is not None
+    }  # an infinite chain
+    attributes = {name: value for name, value in known.items() if name not in variables}
+    attributes[COMPUTED_BY] = f"{function.__module__}.{function.__name__}"
+    return attributes | ({COMPUTED_FROM: ", ".join(read)} if read else {})
 
 
 def _problems(value: Any) -> dict[str, Problem]:
     """Return problems by name, none where the value is something else."""
     if isinstance(value, Mapping):
-        named = {str(key): one for key, one in value.items()}
+        named = {str(key): value_or_problem for key, value_or_problem in value.items()}
     else:
-        named = {str(k): one for k, one in enumerate(value if isinstance(value, list) else [value])}
-    return named if all(isinstance(one, Problem) for one in named.values()) else {}
+        named = {
+            str(k): value_or_problem
+            for k, value_or_problem in enumerate(value if isinstance(value, list) else [value])
+        }
+    return (
+        named
+        if all(isinstance(value_or_problem, Problem) for value_or_problem in named.values())
+        else {}
+    )
 
 
-def _plain(name: str, value: Any) -> dict[str, Any]:
+def _plain_attributes(name: str, value: Any) -> dict[str, Any]:
     if value is None:
         return {}
     if isinstance(value, Mapping) and all(map(_is_named, value, value.values())):
         start = "" if name == "constants" else f"{name}_"
         names = {key: name if key == "name" else f"{start}{key}" for key in value}
-        return {names[key]: said for key, one in value.items() for said in _plain("", one).values()}
+        return {
+            names[key]: text
+            for key, entry in value.items()
+            for text in _plain_attributes("", entry).values()
+        }
     as_it_is = isinstance(value, str | int | float | np.number) and not isinstance(value, bool)
     return {name: value if as_it_is else _json(value)}
 
@@ -108,4 +121,7 @@ def _is_named(key: Any, value: Any) -> bool:
 
 def _json(value: Any) -> str:
     """Return JSON, and what it has no word for, such as a complex number, as Python writes it."""
-    return json.dumps(value, default=lambda one: getattr(one, "tolist", one.__repr__)())
+    return json.dumps(
+        value,
+        default=lambda value_or_array: getattr(value_or_array, "tolist", value_or_array.__repr__)(),
+    )

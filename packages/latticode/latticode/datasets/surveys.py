@@ -21,7 +21,7 @@ from .trajectories import Contents
 if TYPE_CHECKING:
     from xarray import Dataset
 
-ABOUT = {
+LONG_NAMES = {
     "max": "largest {norm} in the window",
     "mean": "mean of the {norm} over the window",
     "final": "{norm} at the end time",
@@ -65,13 +65,15 @@ def survey_contents(
 ) -> Contents:
     """Return the contents of the dataset on a survey of `problem`."""
     axes = {axis: names_of_axis(axis) for axis in survey.axes}
-    dimensions = [_plain(names[0]) for names in axes.values()]
+    dimensions = [_without_index(names[0]) for names in axes.values()]
     variables = {}
     for (axis, names), dimension in zip(axes.items(), dimensions, strict=True):
-        given = survey.axes[axis]
-        columns = [given] if len(names) == 1 else zip(*given, strict=True)
-        for one, column in zip(names, columns, strict=True):
-            variables[_plain(one)] = _axis(one, dimension, column, problem.model.fields)
+        axis_values = survey.axes[axis]
+        columns = [axis_values] if len(names) == 1 else zip(*axis_values, strict=True)
+        for axis_name, column in zip(names, columns, strict=True):
+            variables[_without_index(axis_name)] = _axis(
+                axis_name, dimension, column, problem.model.fields
+            )
     if survey.members:
         dimensions.append("member")
         variables["member"] = Variable(("member",), np.arange(survey.members.count))
@@ -80,36 +82,42 @@ def survey_contents(
         ("component",), list(result_names.components), result_names.component
     )
     texts = {kind: values[kind] for kind in TEXTS if kind in values}
-    for kind, found in texts.items():
-        variables[kind] = Variable(tuple(dimensions), found, TEXTS[kind])
-    for kept, found in values.items():
-        if kept in texts:
+    for kind, values_of_number in texts.items():
+        variables[kind] = Variable(tuple(dimensions), values_of_number, TEXTS[kind])
+    for name_of_number, values_of_number in values.items():
+        if name_of_number in texts:
             continue
-        more = found.ndim - len(dimensions)
-        fields = ("component",) if kept in OF_FIELDS else tuple(f"{kept}_{n}" for n in range(more))
-        units = result_names.units if kept in OF_FIELDS else "1"
-        variables[kept] = Variable((*dimensions, *fields), found, _long_name(kept), units)
+        more = values_of_number.ndim - len(dimensions)
+        fields = (
+            ("component",)
+            if name_of_number in OF_FIELDS
+            else tuple(f"{name_of_number}_{n}" for n in range(more))
+        )
+        units = result_names.units if name_of_number in OF_FIELDS else "1"
+        variables[name_of_number] = Variable(
+            (*dimensions, *fields), values_of_number, _long_name(name_of_number), units
+        )
     remarks, solver = texts.get("remark", np.array("")), problem.solver
     solver = instead_of_taylor(solver) if (remarks != "").all() else solver
-    about = describe_run(name, problem, solver)
+    run_attributes = describe_run(name, problem, solver)
     for names in axes.values():
-        about = {key: value for key, value in about.items() if key not in names}
+        run_attributes = {key: value for key, value in run_attributes.items() if key not in names}
     drawn = survey.members._asdict() if survey.members else {}
-    said = {f"members_{key}": value for key, value in drawn.items()}
-    said |= {} if survey.window is None else {"window": list(survey.window)}
+    survey_attributes = {f"members_{key}": value for key, value in drawn.items()}
+    survey_attributes |= {} if survey.window is None else {"window": list(survey.window)}
     if survey.by_half_width:
-        said["parameters_by_half_width"] = json.dumps(survey.by_half_width)
-    said["failed_runs"] = 0
-    said |= {COUNTS[kind]: int((texts[kind] != "").sum()) for kind in texts}
-    return variables, {"title": f"The survey {name}", **about, **said}
+        survey_attributes["parameters_by_half_width"] = json.dumps(survey.by_half_width)
+    survey_attributes["failed_runs"] = 0
+    survey_attributes |= {COUNTS[kind]: int((texts[kind] != "").sum()) for kind in texts}
+    return variables, {"title": f"The survey {name}", **run_attributes, **survey_attributes}
 
 
 def runs_in(survey: "Dataset", names: Iterable[str], shape: Sequence[int]) -> Retained:
     """Return what an interrupted survey, in its dataset, kept of the runs that are done."""
     texts = np.full(prod(shape), "", object)
     for kind in (kind for kind in TEXTS if kind in survey):
-        said = survey[kind].values.ravel()
-        texts = np.where(said == "", texts, [f"{kind}: {text}" for text in said])
+        messages = survey[kind].values.ravel()
+        texts = np.where(messages == "", texts, [f"{kind}: {text}" for text in messages])
     columns = {name: survey[name].values for name in names}
     columns = {
         name: array.reshape(-1, *array.shape[len(shape) :]) for name, array in columns.items()
@@ -119,14 +127,14 @@ def runs_in(survey: "Dataset", names: Iterable[str], shape: Sequence[int]) -> Re
     return {int(n): {name: array[n] for name, array in columns.items()} for n in done}
 
 
-def _plain(axis: str) -> str:
+def _without_index(axis: str) -> str:
     """Return the name of an axis as that of a variable: without points and signs."""
     return axis.replace(".-", "_minus_").replace(".", "_")
 
 
-def _axis(axis: str, dimension: str, given: Sequence, fields: Sequence[str]) -> Variable:
+def _axis(axis: str, dimension: str, axis_values: Sequence, fields: Sequence[str]) -> Variable:
     """Return the values of an axis; complex ones are written as Python writes them."""
-    values = np.asarray(given)
+    values = np.asarray(axis_values)
     if np.iscomplexobj(values):
         values = values.real if not values.imag.any() else np.array([str(z) for z in values])
     if axis.startswith("initial."):
@@ -137,10 +145,10 @@ def _axis(axis: str, dimension: str, given: Sequence, fields: Sequence[str]) -> 
     return Variable((dimension,), values, words)
 
 
-def _long_name(kept: str) -> str:
-    statistic, _, norm = kept.partition("_")
-    if kept in CHAINS:
-        return ABOUT[kept]
-    if kept in OF_FIELDS:
-        return ABOUT[statistic].format(norm=NAMES[norm])
-    return f"what the function {kept} returns"
+def _long_name(number: str) -> str:
+    statistic, _, norm = number.partition("_")
+    if number in CHAINS:
+        return LONG_NAMES[number]
+    if number in OF_FIELDS:
+        return LONG_NAMES[statistic].format(norm=NAMES[norm])
+    return f"what the function {number} returns"

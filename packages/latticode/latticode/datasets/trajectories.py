@@ -69,10 +69,10 @@ def _sites(problem: Problem, count: int) -> Variable:
 
 
 def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
-    kept, values = list(trajectory.conserved), np.array([*trajectory.conserved.values()])
+    names, values = list(trajectory.conserved), np.array([*trajectory.conserved.values()])
     grid = ("conserved_quantity", "tau")
     return {
-        "conserved_quantity": Variable(grid[:1], kept, "conserved quantity"),
+        "conserved_quantity": Variable(grid[:1], names, "conserved quantity"),
         "conserved": Variable(grid, values, "sum of its density over the chain"),
     }
 

@@ -43,7 +43,7 @@ def describe(figure: Figure, data: xr.Dataset) -> dict[str, Any]:
     mapped = (artist for axes in figure.axes for artist in (*axes.images, *axes.collections))
     bars = {artist.colorbar.ax for artist in mapped if getattr(artist, "colorbar", None)}
     rows = Rows(data)
-    parts = {
+    sections = {
         "data": digest(data),
         "size_in_inches": [_round(length) for length in figure.get_size_inches()],
         "title": figure.get_suptitle(),
@@ -51,11 +51,11 @@ def describe(figure: Figure, data: xr.Dataset) -> dict[str, Any]:
         "texts": [_text(text) for text in figure.texts if text.get_text() != figure.get_suptitle()],
         "panels": [_panel(axes, axes in bars, rows) for axes in figure.axes if axes.get_visible()],
     }
-    return _without_empty(parts)
+    return _without_empty(sections)
 
 
-def _without_empty(parts: dict[str, Any]) -> dict[str, Any]:
-    return {name: part for name, part in parts.items() if part not in ("", [])}
+def _without_empty(entries: dict[str, Any]) -> dict[str, Any]:
+    return {name: entry for name, entry in entries.items() if entry not in ("", [])}
 
 
 def as_text(description: Any, indent: int = 0) -> str:
@@ -64,12 +64,12 @@ def as_text(description: Any, indent: int = 0) -> str:
     if len(line) + indent <= LINE or not isinstance(description, dict | list):
         return line
     if isinstance(description, dict):
-        parts = [f'"{key}": {as_text(part, indent + 1)}' for key, part in description.items()]
+        lines = [f'"{key}": {as_text(value, indent + 1)}' for key, value in description.items()]
     else:
-        parts = [as_text(entry, indent + 1) for entry in description]
+        lines = [as_text(entry, indent + 1) for entry in description]
     opening, closing = ("{", "}") if isinstance(description, dict) else ("[", "]")
     margin = " " * indent
-    inner = f",\n{margin} ".join(parts)
+    inner = f",\n{margin} ".join(lines)
     return f"{opening}\n{margin} {inner}\n{margin}{closing}"
 
 
@@ -101,18 +101,18 @@ def _panel(axes: Axes, is_bar: bool, rows: Rows) -> dict[str, Any]:
 def _axis(axis: Axis) -> dict[str, Any]:
     first, last = sorted(axis.get_view_interval())
     ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
-    shown = {
+    visible = {
         tick.get_loc(): tick.label1.get_text() or tick.label2.get_text()
         for tick in ticks
         if tick.label1.get_visible() or tick.label2.get_visible()
     }
-    parts = {
+    entries = {
         "label": axis.get_label_text(),
         "scale": axis.get_scale(),
         "limits": [_round(limit) for limit in axis.get_view_interval()],
-        "ticks": [shown[loc] for loc in sorted(shown) if first <= loc <= last and shown[loc]],
+        "ticks": [visible[loc] for loc in sorted(visible) if first <= loc <= last and visible[loc]],
     }
-    return _without_empty(parts)
+    return _without_empty(entries)
 
 
 def _legend(legend: Legend) -> dict[str, Any]:
@@ -128,11 +128,11 @@ def _seen(artists: Iterable[Artist]) -> list[Artist]:
 
 def _curve(line: Line2D, rows: Rows) -> dict[str, Any]:
     x, y = (np.ma.filled(np.asarray(values, float), np.nan) for values in line.get_data())
-    shown = np.isfinite(x) & np.isfinite(y)
-    found = _named(line) | _look(line) | {"points": int(shown.sum())}
-    of_rows = {"shows": rows.of_curve(x, y) or rows.of_curve(x[shown], y[shown])}
-    told = _without_empty(of_rows | _cut(line, x, y))
-    return found | told | _ranges(x[shown], y[shown])
+    is_finite = np.isfinite(x) & np.isfinite(y)
+    described = _named(line) | _look(line) | {"points": int(is_finite.sum())}
+    of_rows = {"shows": rows.of_curve(x, y) or rows.of_curve(x[is_finite], y[is_finite])}
+    more = _without_empty(of_rows | _cut(line, x, y))
+    return described | more | _ranges(x[is_finite], y[is_finite])
 
 
 def _cut(line: Line2D, x: np.ndarray, y: np.ndarray) -> dict[str, str]:
@@ -142,8 +142,8 @@ def _cut(line: Line2D, x: np.ndarray, y: np.ndarray) -> dict[str, str]:
     sides = {}
     for name, values, axis in (("x", x, line.axes.xaxis), ("y", y, line.axes.yaxis)):
         first, last = sorted(axis.get_view_interval())
-        found = {"below": (values < first).any(), "above": (values > last).any()}
-        sides |= {f"{name} leaves": " and ".join(side for side, is_out in found.items() if is_out)}
+        beyond = {"below": (values < first).any(), "above": (values > last).any()}
+        sides |= {f"{name} leaves": " and ".join(side for side, is_out in beyond.items() if is_out)}
     return sides
 
 
@@ -154,14 +154,16 @@ def _area(area: Collection, rows: Rows) -> dict[str, Any]:
         return _named(area) | _mapped(area, rows) | _ranges(*corners.T)
     outlines = [path.vertices for path in area.get_paths()]
     corners = np.concatenate([np.empty((0, 2)), *outlines])
-    shown = {}
+    rows_shown = {}
     if isinstance(area, FillBetweenPolyCollection) and len(outlines) == 1:
         length = (len(corners) - 3) // 2  # there along one edge, and back along the other
         edges = corners[1 : length + 1], corners[length + 2 : -1][::-1]
-        shown = {"shows": " and ".join(filter(None, (rows.of_curve(*edge.T) for edge in edges)))}
+        rows_shown = {
+            "shows": " and ".join(filter(None, (rows.of_curve(*edge.T) for edge in edges)))
+        }
     corners = corners[np.isfinite(corners).all(axis=1)]
-    found = _named(area) | _look(area) | {"points": len(corners)} | _without_empty(shown)
-    return found | _ranges(*corners.T)
+    described = _named(area) | _look(area) | {"points": len(corners)} | _without_empty(rows_shown)
+    return described | _ranges(*corners.T)
 
 
 def _shape(patch: Patch) -> dict[str, Any]:
@@ -173,7 +175,7 @@ def _mapped(image: ColorizingArtist, rows: Rows) -> dict[str, Any]:
     """Return the map of colours and its limits; a reversed map has the ends exchanged."""
     values = np.ma.filled(np.ma.asarray(image.get_array(), float), np.nan)
     ends = [to_hex(image.cmap(share)) for share in (0.0, 0.5, 1.0)]
-    found = {
+    described = {
         "colour_map": " ".join([image.cmap.name, *ends]),
         "scale": type(image.norm).__name__,
         "limits": [_round(image.norm.vmin), _round(image.norm.vmax)],
@@ -181,8 +183,8 @@ def _mapped(image: ColorizingArtist, rows: Rows) -> dict[str, Any]:
         "shows": rows.name(values),
     }
     if isinstance(image, AxesImage):
-        found["extent"] = [_round(edge) for edge in image.get_extent()]
-    return _without_empty(found)
+        described["extent"] = [_round(edge) for edge in image.get_extent()]
+    return _without_empty(described)
 
 
 def _named(artist: Artist) -> dict[str, str]:
@@ -221,16 +223,16 @@ def _colours(colours: Iterable, artist: Artist) -> str:
 
 def _text(text: Text) -> dict[str, Any]:
     """Return a text, where it stands, and what its position is given in."""
-    found = {"text": text.get_text(), "colour": to_hex(text.get_color())}
+    described = {"text": text.get_text(), "colour": to_hex(text.get_color())}
     if isinstance(text, Annotation):
-        found |= {"points_at": [_round(x) for x in text.xy], "of": str(text.xycoords)}
+        described |= {"points_at": [_round(x) for x in text.xy], "of": str(text.xycoords)}
         off = str(text.anncoords)
     elif text.axes is None:
         off = "figure fraction"
     else:
         frames = {"data": text.axes.transData, "axes fraction": text.axes.transAxes}
         off = next((k for k, frame in frames.items() if frame is text.get_transform()), "other")
-    return found | {"stands_at": [_round(x) for x in text.get_position()], "off": off}
+    return described | {"stands_at": [_round(x) for x in text.get_position()], "off": off}
 
 
 def _ranges(x: np.ndarray, y: np.ndarray) -> dict[str, list[float]]:

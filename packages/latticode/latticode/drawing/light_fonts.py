@@ -26,29 +26,29 @@ def light_fonts() -> Iterator[None]:
 
     Raises DatasetError if they find no room in the folder for temporary files.
     """
-    wanted = [FontProperties(family=FAMILY, style=slant) for slant in SLANTS]
-    whole = [Path(fontManager.findfont(one)) for one in wanted]
+    fonts = [FontProperties(family=FAMILY, style=slant) for slant in SLANTS]
+    paths = [Path(fontManager.findfont(font)) for font in fonts]
     before = list(fontManager.ttflist)
     with _temporary_folder() as folder:
         try:
-            for font in whole:
+            for font in paths:
                 fontManager.addfont(_without_tables(font, folder))
             # of fonts that suit equally well, matplotlib takes the first
             fontManager.ttflist[:] = fontManager.ttflist[len(before) :] + before
             yield
         finally:
-            fontManager.addfont(whole[0])  # for then matplotlib forgets which fonts it has found
+            fontManager.addfont(paths[0])  # for then matplotlib forgets which fonts it has found
             fontManager.ttflist[:] = before
 
 
 @contextmanager
 def _temporary_folder() -> Iterator[Path]:
     try:
-        made = TemporaryDirectory()
+        temporary = TemporaryDirectory()
     except OSError as error:  # its text names all folders that were tried
         text = f"{error.strerror}: make room in one, or name another folder in TMPDIR"
         raise DatasetError(text) from error
-    with made as folder:
+    with temporary as folder:
         yield Path(folder)
 
 

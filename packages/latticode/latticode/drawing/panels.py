@@ -15,7 +15,7 @@ from .strips import NORMS
 MARKERS = {"l2": "o", "linf": "s"}  # the shapes tell the norms apart in grey too
 SIZES = {"max": 3.6, "mean": 2.4}
 BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.2}
-BESIDE = 1.1
+OFFSET = 1.1
 """Bars of ensembles stand so far beside the dots, and cover none: a factor on the half-width."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
@@ -106,16 +106,16 @@ def join_sweeps(
     sweeps: dict[str, xr.Dataset],
     readings: dict[str, tuple[str, str]],
     norms: list[str],
-    kept: Sequence[str] = ("initial",),
+    stored_attributes: Sequence[str] = ("initial",),
 ) -> xr.Dataset:
     """Return readings of the norms of all fields in each sweep, by the name of its panel.
 
     A reading is a statistic and a window of time as the sweeps name them, such as ("max",
-    "[10, 50]"). `kept` are attributes, as `style.join` takes them.
+    "[10, 50]"). `stored_attributes` are attributes, as `style.join` takes them.
     """
     panels = [_read(sweep[list(norms)], readings) for sweep in sweeps.values()]
     statistics, windows = zip(*readings.values(), strict=True)
-    data = style.join(panels, list(sweeps), "panel", kept)
+    data = style.join(panels, list(sweeps), "panel", stored_attributes)
     return data.assign(statistic=("reading", list(statistics)), window=("reading", list(windows)))
 
 
@@ -137,23 +137,25 @@ def draw_sweep(axes: Axes, panel: xr.Dataset, fields: str) -> None:
     label = f"mean ± standard deviation of {int(panel.get('members', 0))} runs"
     for name in norms:
         for reading in panel["reading"].values:
-            one = panel.sel(reading=reading)
-            words = f"{one['statistic'].item()} on {one['window'].item()}"
-            dots = one[name].dropna("half_width")
-            look = {"label": f"{NORMS[name]}, {words}"} | _sweep_look(name, one["statistic"].item())
+            statistic = panel.sel(reading=reading)
+            words = f"{statistic['statistic'].item()} on {statistic['window'].item()}"
+            dots = statistic[name].dropna("half_width")
+            look = {"label": f"{NORMS[name]}, {words}"} | _sweep_look(
+                name, statistic["statistic"].item()
+            )
             axes.plot(dots["half_width"], dots, **look)
-            if "members" in panel and one[f"{name}_mean"].notnull().any():
-                bars = one[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
+            if "members" in panel and statistic[f"{name}_mean"].notnull().any():
+                bars = statistic[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
                 middles, halves = bars.data_vars.values()
-                axes.errorbar(BESIDE * bars["half_width"], middles, halves, label=label, **BAR)
+                axes.errorbar(OFFSET * bars["half_width"], middles, halves, label=label, **BAR)
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(FixedLocator(TICKS))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
-    said = " and ".join(NORMS[name] for name in norms)
-    axes.set_ylabel(f"{said} of {fields}{style.name_units(panel[norms[0]])}")
+    names_of_norms = " and ".join(NORMS[name] for name in norms)
+    axes.set_ylabel(f"{names_of_norms} of {fields}{style.name_units(panel[norms[0]])}")
 
 
 def _sweep_look(name: str, statistic: str) -> dict:

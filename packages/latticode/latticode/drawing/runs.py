@@ -57,17 +57,17 @@ class Naming(NamedTuple):
     fields: tuple[str, ...] = ()  # of the initial data, where they are not those of the run
 
 
-PLAIN = Naming()
+PLAIN_NAMING = Naming()
 
 
-def name_parameters(attributes: Mapping, naming: Naming = PLAIN) -> str:
+def name_parameters(attributes: Mapping, naming: Naming = PLAIN_NAMING) -> str:
     """Return the parameters of the equations, and the half-width where there is only one."""
     known = {s: attributes[key] for key, s in naming.symbols.items() if key in attributes}
     symbols = ",  ".join(f"${symbol} = {float(value):.4g}$" for symbol, value in known.items())
     if "parameters" not in attributes:
         return symbols
-    given = json.loads(attributes["parameters"]).items()
-    numbers = [f"{key} {one:.4g}" for key, one in given if isinstance(one, int | float)]
+    parameters = json.loads(attributes["parameters"]).items()
+    numbers = [f"{key} {value:.4g}" for key, value in parameters if isinstance(value, int | float)]
     text = f"{attributes['model']}{': ' if numbers else ''}{', '.join(numbers)}"
     text = style.plain_text(shorten(text, LONGEST, placeholder=" ..."))
     return ",  ".join([text, *filter(None, [symbols])])
@@ -80,18 +80,18 @@ def name_initial(initial: str, fields: tuple[str, ...]) -> str:
     if len(values) != len(fields):
         return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
     names = ", ".join(style.symbol(field, f"{{{site}}}") for field in fields)
-    numbers = ", ".join(f"{one if one.imag else one.real:g}" for one in values)
+    numbers = ", ".join(f"{value if value.imag else value.real:g}" for value in values)
     return rf"$({names}) = ({numbers})$"
 
 
-def name_data(data: xr.Dataset, naming: Naming = PLAIN) -> str:
+def name_data(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> str:
     """Return the initial data, or the number of sites if they do not fit into a title."""
     fields = naming.fields or tuple(data.attrs["fields"].split(", "))
     named = name_initial(data.attrs["initial"], fields)
     return named if len(named) <= LONGEST else "data on 1 site"
 
 
-def name_data_and_ends(data: xr.Dataset, naming: Naming = PLAIN) -> str:
+def name_data_and_ends(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> str:
     """Return the initial data and the kind of ends."""
     return f"{name_data(data, naming)},  {ends_of(data.attrs['boundary']).label}"
 
@@ -101,8 +101,8 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
     names = [str(name) for name in run["component"].values]
     coloured = [f"{name} ({colour})" for name, colour in zip(names, COLOURS, strict=False)]
     fields = " and ".join(coloured) if len(names) <= len(COLOURS) else ", ".join(names)
-    about = {"caption": NORMS_CAPTION.format(fields=fields), "fields": ", ".join(names)}
-    drawn = run[list(NORMS)].assign_attrs(about)
+    attributes = {"caption": NORMS_CAPTION.format(fields=fields), "fields": ", ".join(names)}
+    drawn = run[list(NORMS)].assign_attrs(attributes)
     if checks is None:
         return drawn
     second = {f"second_{name}": checks[f"second_{name}"] for name in NORMS}
@@ -110,16 +110,16 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
 
 
 @style.styled
-def draw_norms(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
+def draw_norms(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
     """Draw l-infinity left and l2 right, the first field red and the second blue.
 
     Where the two runs diverge the second has strips of its own below; elsewhere it is not drawn.
     """
-    parts = strips.diverges(data)
-    figure, (grid,) = strips.draw_cases([data], [RUNS if parts else [Strip("", "")]])
+    has_strip = strips.diverges(data)
+    figure, (grid,) = strips.draw_cases([data], [RUNS if has_strip else [Strip("", "")]])
     grid[0, 0].set_title(name_parameters(data.attrs, naming), loc="left")
     grid[0, 1].set_title(name_data_and_ends(data, naming), loc="left")
-    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "")
+    strips.name_legend(figure, data["component"].values, DIVERGED if has_strip else "")
     return figure
 
 
@@ -132,12 +132,12 @@ def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
     signed = "state" in run and "value" in run["part"].values
     caption = VALUES_CAPTION if signed else SPACETIME_CAPTION
     caption = caption.format(fields=", ".join(f"{name}ₙ" for name in names))
-    shown = panels.values_over_time(run) if signed else panels.over_time(run)
-    return shown.assign_attrs(caption=caption, fields=", ".join(names))
+    moduli = panels.values_over_time(run) if signed else panels.over_time(run)
+    return moduli.assign_attrs(caption=caption, fields=", ".join(names))
 
 
 @style.styled
-def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
+def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
     """Draw the moduli or values of all fields side by side, on one scale of colours."""
     figure = style.new_figure(style.WIDTH, 2.5)
     count = data.sizes["component"]
@@ -153,8 +153,8 @@ def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
 
 def gather_breather(checks: xr.Dataset) -> xr.Dataset:
     """Return the localised state that the checks of a run hold, if they hold one."""
-    shown = checks[[name for name in checks.data_vars if name.startswith("breather")]]
-    return shown.assign_attrs(caption=BREATHER_CAPTION)
+    breather = checks[[name for name in checks.data_vars if name.startswith("breather")]]
+    return breather.assign_attrs(caption=BREATHER_CAPTION)
 
 
 @style.styled
@@ -166,20 +166,20 @@ def draw_breather(data: xr.Dataset) -> Figure:
         figure.text(0.5, 0.5, f"no localised state: {reason}", ha="center")
         return figure
     left, right = figure.subplots(1, 2)
-    for i, one in enumerate(data["component"].values):
-        look = {"color": style.colour_of(i), "marker": ".", "label": f"${style.symbol(one)}$"}
-        left.plot(data["site"], data["breather"].sel(component=one), **look)
+    for i, component in enumerate(data["component"].values):
+        look = {"color": style.colour_of(i), "marker": ".", "label": f"${style.symbol(component)}$"}
+        left.plot(data["site"], data["breather"].sel(component=component), **look)
     left.set(xlabel="site $n$", ylabel="modulus", ylim=(0, None))
     left.xaxis.get_major_locator().set_params(integer=True)
     left.set_title(name_parameters(data.attrs), loc="left")
     turns = float(data["breather_frequency"]) != 0.0
-    what = "multipliers" if turns else "exponents"
-    points = data[f"breather_{what}"].values
+    quantity = "multipliers" if turns else "exponents"
+    points = data[f"breather_{quantity}"].values
     right.plot(*points, color="black", marker=".", linestyle="none")
     if turns:
         right.add_patch(Circle((0, 0), 1.0, fill=False, color="grey", lw=0.5))
         right.set_aspect("equal", "datalim")
-    right.set(xlabel=f"real part of {what}", ylabel="imaginary part")
+    right.set(xlabel=f"real part of {quantity}", ylabel="imaginary part")
     style.name_legend(figure, left)
     return figure
 
@@ -196,20 +196,20 @@ def gather_sweep(
     readings = {"max": ("max", windows[0]), "mean": ("mean", windows[1])}
     fields = ", ".join(str(name) for name in sweep["quantity"].values if name != "pair")
     caption = SWEEP_CAPTION.format(fields=fields, filled=windows[0], hollow=windows[1])
-    about = {**sweep.attrs, "caption": caption, "fields": fields}
-    return panels.join_sweeps({"sweep": sweep}, readings, list(NORMS)).assign_attrs(about)
+    attributes = {**sweep.attrs, "caption": caption, "fields": fields}
+    return panels.join_sweeps({"sweep": sweep}, readings, list(NORMS)).assign_attrs(attributes)
 
 
 @style.styled
-def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN) -> Figure:
+def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
     """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
     figure = style.new_figure(style.WIDTH, 2.7)
     row = figure.subplots(1, 2, sharex=True)
-    fields = [style.symbol(one) for one in data.attrs["fields"].split(", ")]
+    fields = [style.symbol(field) for field in data.attrs["fields"].split(", ")]
     label = f"$({', '.join(fields)})$" if len(fields) > 1 else f"${fields[0]}$"
     for axes, name in zip(row, NORMS, strict=True):
-        shown = data.isel(panel=0).drop_vars([other for other in NORMS if other != name])
-        panels.draw_sweep(axes, shown, label)
+        panel = data.isel(panel=0).drop_vars([norm for norm in NORMS if norm != name])
+        panels.draw_sweep(axes, panel, label)
     _mark_widths(row[0], data["half_width"].values)
     row[0].set_title(name_parameters(data.attrs, naming), loc="left")
     row[1].set_title(name_data_and_ends(data, naming), loc="left")

@@ -31,8 +31,8 @@ def sealed_pdf(content: bytes) -> bytes:
 def is_sealed(kind: str, content: bytes) -> bool:
     """Return whether a whole picture, ".png" or ".pdf", is as it was drawn."""
     if kind == ".pdf":
-        parts = SEALED.fullmatch(content)
-        return parts is not None and sha256(parts[1]).hexdigest().encode() == parts[2]
+        match = SEALED.fullmatch(content)
+        return match is not None and sha256(match[1]).hexdigest().encode() == match[2]
     with Image.open(BytesIO(content)) as image:
         pixels = np.asarray(image.convert("RGBA"))
         return image.text.get(PIXELS) == digest_of_pixels(pixels)

@@ -64,19 +64,23 @@ def _contents(data: xr.Dataset, shape: tuple[int, ...]) -> Iterator[tuple[bytes,
         for axes in permutations(range(variable.ndim), len(shape)):
             if all(variable.shape[a] >= size for a, size in zip(axes, shape, strict=True)):
                 for place, values in _slices(str(key), variable, axes):
-                    whole = values if len(shape) > 1 else values[np.isfinite(values)]
-                    found = [values, whole, values[: shape[0]], values[-shape[0] :]]
-                    yield from ((_content(one), place) for one in found if one.shape == shape)
+                    finite = values if len(shape) > 1 else values[np.isfinite(values)]
+                    candidates = [values, finite, values[: shape[0]], values[-shape[0] :]]
+                    yield from (
+                        (_content(candidate), place)
+                        for candidate in candidates
+                        if candidate.shape == shape
+                    )
 
 
 def _slices(
     key: str, variable: xr.Variable, axes: tuple[int, ...]
 ) -> Iterator[tuple[Place, np.ndarray]]:
     """Yield place and values of each row or plane along these axes."""
-    others = [axis for axis in range(variable.ndim) if axis not in axes]
-    dimensions = [str(variable.dims[axis]) for axis in others]
-    values = variable.values.transpose(*others, *axes)
-    for indices in np.ndindex(values.shape[: len(others)]):
+    remaining = [axis for axis in range(variable.ndim) if axis not in axes]
+    dimensions = [str(variable.dims[axis]) for axis in remaining]
+    values = variable.values.transpose(*remaining, *axes)
+    for indices in np.ndindex(values.shape[: len(remaining)]):
         yield Place(key, tuple(zip(dimensions, indices, strict=True))), values[indices]
 
 

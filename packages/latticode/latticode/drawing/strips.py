@@ -67,8 +67,8 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
     for axes, name in zip(named.flat, len(named) * list(NORMS), strict=True):
         axes.set_ylabel(f"{NORMS[name]} norm{style.name_units(case[f'{strips[0].prefix}{name}'])}")
     for axes, name in zip(grid[0], NORMS, strict=True):
-        shown = [f"{strip.prefix}{name}" for strip in strips]
-        top = max(float(case[curves].max()) for curves in shown)
+        names_shown = [f"{strip.prefix}{name}" for strip in strips]
+        top = max(float(case[curves].max()) for curves in names_shown)
         axes.set_ylim(0, HEADROOM * top or 1.0)  # a chain at rest has no scale of its own
         axes.set_xlim(0, float(case[name].dropna("tau", how="all")["tau"].max()))
         axes.yaxis.set_major_locator(MaxNLocator(5 if len(strips) == 1 else 3))
@@ -115,7 +115,7 @@ def name_legend(
     """Put one legend above all: the components, what lies under them, and the dashed line."""
     fields = range(len(components))
     lines = [Line2D([], [], color=style.colour_of(i), lw=1.6) for i in fields]
-    labels = [f"${style.symbol(one)}$" for one in components]
+    labels = [f"${style.symbol(component)}$" for component in components]
     if under:
         lines.append(tuple(Line2D([], [], color=pale_of(i), lw=UNDER["lw"]) for i in fields))
         labels.append(UNDER["label"])

@@ -69,7 +69,10 @@ def symbol(name: str, site: str = "") -> str:
     ('u', 'u_n', 'psi_{1,n}', '\\\\text{u__1}_n')
     """
     stem, *indices = pieces = name.split("_")
-    if not all(one.isalnum() and max(one) <= LAST_IN_MATHTEXT for one in pieces):
+    if not all(
+        piece_of_name.isalnum() and max(piece_of_name) <= LAST_IN_MATHTEXT
+        for piece_of_name in pieces
+    ):
         stem, indices = rf"\text{{{name}}}", []
     if not indices:
         return f"{stem}_{site}" if site else stem
@@ -166,9 +169,9 @@ def name_units(values: xr.DataArray) -> str:
 
 
 def join(
-    datasets: list[xr.Dataset], names: list[str], dim: str, kept: Sequence[str] = ()
+    datasets: list[xr.Dataset], names: list[str], dim: str, attributes: Sequence[str] = ()
 ) -> xr.Dataset:
-    """Stack datasets along a new dimension; `kept` names the attributes that become variables."""
+    """Return datasets stacked along a new dimension; `attributes` become variables over it."""
     stacked = xr.concat(
         [data.drop_attrs(deep=False) for data in datasets],
         xr.Variable(dim, names),
@@ -177,7 +180,9 @@ def join(
         coords="minimal",
         compat="override",
     )
-    return stacked.assign({key: (dim, [one.attrs[key] for one in datasets]) for key in kept})
+    return stacked.assign(
+        {key: (dim, [dataset.attrs[key] for dataset in datasets]) for key in attributes}
+    )
 
 
 @styled
@@ -199,9 +204,9 @@ def save(
     """
     if note:
         # without a layout engine, nothing makes room: half of the space below the panels is free
-        whole = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
-        text = fill(note, NOTE if whole else NOTE * 2 // 5)
-        figure.supxlabel(text, x=0.5 if whole else 0.22, fontsize=7)
+        has_layout = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
+        text = fill(note, NOTE if has_layout else NOTE * 2 // 5)
+        figure.supxlabel(text, x=0.5 if has_layout else 0.22, fontsize=7)
     title = f"What the figure {Path(netcdf).stem} shows"
     with (
         complete_or_absent(png) as new_png,

@@ -27,8 +27,8 @@ def gather_survey(survey: xr.Dataset) -> xr.Dataset:
     drawn = drawn.drop_vars([name for name in TEXTS if name in drawn])
     kind = ("points", "line", "map")[min(len(axes), 2)]
     x, y = ([_name(survey, name) for name in axes] + ["", ""])[:2]
-    kept = "; ".join(str(one.attrs["long_name"]) for one in drawn.data_vars.values())
-    caption = f"A survey: {kept}, {WORDS[kind].format(x=x, y=y)}."
+    title = "; ".join(str(variable.attrs["long_name"]) for variable in drawn.data_vars.values())
+    caption = f"A survey: {title}, {WORDS[kind].format(x=x, y=y)}."
     if "member" in survey.dims and kind != "points":
         caption += " Members of the ensemble are averaged; bars are 95 % limits of the mean."
     if axes[2:]:
@@ -58,47 +58,49 @@ def draw_survey(data: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_lines(axes: Axes, kept: xr.DataArray) -> None:
-    dims = [name for name in kept.dims if name not in ("component", "member")]
+def _draw_lines(axes: Axes, kept_number: xr.DataArray) -> None:
+    dims = [name for name in kept_number.dims if name not in ("component", "member")]
     along = dims[0] if dims else "member"
     joined = {"ls": "none", "marker": "."} if along == "member" else {"marker": "."}
-    for number, field in enumerate(_fields_of(kept)):
+    for number, field in enumerate(_fields_of(kept_number)):
         x, look = field[along].values, {**joined, "color": style.colour_of(number)}
         if "member" in field.dims and along != "member":
-            limits = [mean_limits(one) for one in field.transpose(along, "member").values]
-            low, middle, high = np.array([(one.low, one.value, one.high) for one in limits]).T
+            limits = [mean_limits(limit) for limit in field.transpose(along, "member").values]
+            low, middle, high = np.array(
+                [(limit.low, limit.value, limit.high) for limit in limits]
+            ).T
             axes.errorbar(x, middle, [middle - low, high - middle], label=_label(field), **look)
         else:
             axes.plot(x, field.values, label=_label(field), **look)
-    axes.set_xlabel(str(kept[along].attrs.get("long_name", along)))
-    axes.set_ylabel(_words(kept))
-    if "component" in kept.dims and kept.sizes["component"] > 1:
+    axes.set_xlabel(str(kept_number[along].attrs.get("long_name", along)))
+    axes.set_ylabel(_words(kept_number))
+    if "component" in kept_number.dims and kept_number.sizes["component"] > 1:
         axes.legend()
 
 
-def _draw_maps(figure: Figure, row: np.ndarray, kept: xr.DataArray) -> None:
-    fields = _fields_of(kept)
+def _draw_maps(figure: Figure, row: np.ndarray, number: xr.DataArray) -> None:
+    fields = _fields_of(number)
     for axes in row[len(fields) :]:
         axes.set_visible(False)
     for axes, field in zip(row, fields, strict=False):
-        shown = field.mean("member") if "member" in field.dims else field
-        x, y = shown.dims[:2]
-        places = [_places(shown[name].values) for name in (x, y)]
-        image = axes.pcolormesh(*places, shown.values.T, shading="nearest", cmap="viridis")
-        axes.set_xlabel(str(shown[x].attrs.get("long_name", x)))
-        axes.set_ylabel(str(shown[y].attrs.get("long_name", y)))
+        values = field.mean("member") if "member" in field.dims else field
+        x, y = values.dims[:2]
+        places = [_places(values[name].values) for name in (x, y)]
+        image = axes.pcolormesh(*places, values.values.T, shading="nearest", cmap="viridis")
+        axes.set_xlabel(str(values[x].attrs.get("long_name", x)))
+        axes.set_ylabel(str(values[y].attrs.get("long_name", y)))
         axes.set_title(_label(field))
-        figure.colorbar(image, ax=axes, label=_words(kept))
+        figure.colorbar(image, ax=axes, label=_words(number))
 
 
-def _fields_of(kept: xr.DataArray) -> list[xr.DataArray]:
-    if "component" not in kept.dims:
-        return [kept]
-    return [kept.sel(component=name) for name in kept["component"].values]
+def _fields_of(number: xr.DataArray) -> list[xr.DataArray]:
+    if "component" not in number.dims:
+        return [number]
+    return [number.sel(component=name) for name in number["component"].values]
 
 
-def _words(kept: xr.DataArray) -> str:
-    words = str(kept.attrs["long_name"]).replace("l-infinity", "ℓ∞").replace("l2", "ℓ²")
+def _words(number: xr.DataArray) -> str:
+    words = str(number.attrs["long_name"]).replace("l-infinity", "ℓ∞").replace("l2", "ℓ²")
     return fill(words, 28)
 
 

@@ -122,8 +122,8 @@ class KernelFiles:
         """
         file = self._file(key)
         try:
-            with file.open("rb") as kept:
-                content = kept.read() if _is_private(kept.fileno()) else b""
+            with file.open("rb") as stream:
+                content = stream.read() if _is_private(stream.fileno()) else b""
             os.utime(self.folder)
         except OSError:
             return None
@@ -169,8 +169,8 @@ class KernelFiles:
                     folder.rmdir()
 
 
-def _digest(*parts) -> str:
-    return hashlib.sha256("\n".join(map(str, parts)).encode()).hexdigest()[:DIGITS]
+def _digest(*texts) -> str:
+    return hashlib.sha256("\n".join(map(str, texts)).encode()).hexdigest()[:DIGITS]
 
 
 def _compiler() -> list[str]:

@@ -58,7 +58,7 @@ UNCALLED = {"no_cpython_wrapper": True}
 """Leaves out the code by which Python would call a function."""
 
 
-class PartLibrary(JITCodeLibrary):
+class SubroutineLibrary(JITCodeLibrary):
     """Code that is linked into kernels, and is optimised there and not here."""
 
     def _optimize_final_module(self) -> None:
@@ -74,7 +74,7 @@ class PartLibrary(JITCodeLibrary):
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod
-    def of(cls, codegen, code: bytes) -> "PartLibrary":
+    def of(cls, codegen, code: bytes) -> "SubroutineLibrary":
         """Return the library that was kept as `code`."""
         library = cls(codegen, "part")
         library._final_module = binding.parse_bitcode(code)
@@ -82,12 +82,12 @@ class PartLibrary(JITCodeLibrary):
         return library
 
 
-class PartCompiler(Compiler):
+class SubroutineCompiler(Compiler):
     """The stages of numba up to code that can be linked."""
 
-    def __init__(self, typing_context, target_context, library, *others):
-        library = library or PartLibrary(target_context.codegen(), "part")
-        super().__init__(typing_context, target_context, library, *others)
+    def __init__(self, typing_context, target_context, library, *more):
+        library = library or SubroutineLibrary(target_context.codegen(), "part")
+        super().__init__(typing_context, target_context, library, *more)
         self.state.flags.no_compile = True
 
 
@@ -108,16 +108,16 @@ class KernelCache:
         """Return the machine code for these types of arguments, or None where there is none."""
         target_context.refresh()
         magic = target_context.codegen().magic_tuple()
-        kept = self._files.load(signature, *_named_tuples(signature), magic)
+        cached = self._files.load(signature, *_named_tuples(signature), magic)
         try:
-            return None if kept is None else self.restore(target_context, kept)
+            return None if cached is None else self.restore(target_context, cached)
         except Exception:  # whatever unpickling raises: this is nothing that this numba kept
             return None
 
     @staticmethod
-    def restore(target_context, kept: bytes) -> CompileResult:
+    def restore(target_context, cached: bytes) -> CompileResult:
         """Return what `save_overload` kept."""
-        return CompileResult._rebuild(target_context, *pickle.loads(kept))
+        return CompileResult._rebuild(target_context, *pickle.loads(cached))
 
     def save_overload(self, signature, data: CompileResult) -> None:
         """Keep machine code, unless it holds addresses of this process, as of a large array."""
@@ -129,23 +129,25 @@ class KernelCache:
 def _named_tuples(kinds) -> list[str]:
     """Return what numba's words for types leave out of named tuples, at any depth: where the class
     is defined, and its fields. Without them (x, y) and (y, x) of one name would share code."""
-    found = []
+    names = []
     for kind in kinds:
         if isinstance(kind, types.BaseNamedTuple):
-            made = kind.instance_class
-            found.append(f"{made.__module__}.{made.__qualname__}({', '.join(kind.fields)})")
-        found += _named_tuples(kind) if isinstance(kind, types.BaseTuple) else []
-    return found
+            tuple_class = kind.instance_class
+            names.append(
+                f"{tuple_class.__module__}.{tuple_class.__qualname__}({', '.join(kind.fields)})"
+            )
+        names += _named_tuples(kind) if isinstance(kind, types.BaseTuple) else []
+    return names
 
 
-class PartCache(KernelCache):
+class SubroutineCache(KernelCache):
     """The code of a part, kept as that of a kernel is."""
 
     ENDING = ".part"
 
     @staticmethod
-    def restore(target_context, kept: bytes) -> CompileResult:
-        code, descriptor, environment, signature, *_ = pickle.loads(kept)
+    def restore(target_context, cached: bytes) -> CompileResult:
+        code, descriptor, environment, signature, *_ = pickle.loads(cached)
         return CompileResult(
             typing_context=target_context.typing_context,
             target_context=target_context,
@@ -156,7 +158,7 @@ class PartCache(KernelCache):
             objectmode=False,
             lifted=(),
             fndesc=descriptor,
-            library=PartLibrary.of(target_context.codegen(), code),
+            library=SubroutineLibrary.of(target_context.codegen(), code),
             call_helper=None,
             environment=environment,
             metadata=None,
@@ -165,7 +167,7 @@ class PartCache(KernelCache):
         )
 
 
-class Kept(CPUDispatcher):
+class CachedFunction(CPUDispatcher):
     """A compiled function whose code may be kept in a folder, in the way of `CACHE`."""
 
     CACHE = KernelCache
@@ -176,13 +178,13 @@ class Kept(CPUDispatcher):
         self.root, self._cache = root, self.CACHE(self.py_func, root)
 
 
-class Part(Kept):
+class Subroutine(CachedFunction):
     """A function as kernels call it."""
 
-    CACHE = PartCache
+    CACHE = SubroutineCache
 
     def __init__(self, function: Callable, locals=None, options=None):
-        super().__init__(function, locals, {**options, **UNCALLED}, PartCompiler)
+        super().__init__(function, locals, {**options, **UNCALLED}, SubroutineCompiler)
 
     def add_overload(self, cres: CompileResult) -> None:
         """Let callers find the code by a key of its own: it has no address."""
@@ -191,27 +193,27 @@ class Part(Kept):
         self.overloads[tuple(cres.signature.args)] = cres
 
 
-class Kernel(Kept):
+class Kernel(CachedFunction):
     """A function as Python calls it; kernels that call it compile it as a part of theirs."""
 
     @cached_property
-    def part(self) -> Part:
-        part = Part(self.py_func, {}, self.targetoptions)
+    def subroutine(self) -> Subroutine:
+        subroutine = Subroutine(self.py_func, {}, self.targetoptions)
         if self.root:
-            part.keep_in(self.root)
-        return part
+            subroutine.keep_in(self.root)
+        return subroutine
 
     def get_call_template(self, args, kws):
         """Let one part serve all values of its arguments: numba compiles one for each constant."""
-        return self.part.get_call_template([*map(types.unliteral, args)], kws)
+        return self.subroutine.get_call_template([*map(types.unliteral, args)], kws)
 
     def get_overload(self, sig):
-        return self.part.get_overload(sig)
+        return self.subroutine.get_overload(sig)
 
 
 def make_kernel(function: Callable, root: Path | None = None, **options) -> Kernel:
     """Return the compiled function, whose code is kept below the folder `root` if there is one."""
-    made = Kernel(function, {}, {**OPTIONS, **options})
+    kernel = Kernel(function, {}, {**OPTIONS, **options})
     if root:
-        made.keep_in(root)
-    return made
+        kernel.keep_in(root)
+    return kernel

@@ -58,8 +58,8 @@ LANES = 8
 """Numbers in a vector: 512 bits, the width of AVX-512."""
 
 VECTOR = ir.VectorType(ir.DoubleType(), LANES)
-WHOLE = ir.IntType(64)
-BITS = ir.VectorType(WHOLE, LANES)
+INT64 = ir.IntType(64)
+BITS = ir.VectorType(INT64, LANES)
 LANE = ir.IntType(32)
 MAGNITUDE = 0x7FFF_FFFF_FFFF_FFFF
 """All bits of a double but for its sign."""
@@ -97,8 +97,8 @@ def address_in_array(context, builder, array_type, array, index):
 def repeat(builder, number):
     """Return the vector that holds a number, or a whole number, in all lanes."""
     nothing = ir.Constant(ir.VectorType(number.type, LANES), ir.Undefined)
-    one = builder.insert_element(nothing, number, LANE(0))
-    return builder.shuffle_vector(one, nothing, constant(LANE, [0] * LANES))
+    first_lane = builder.insert_element(nothing, number, LANE(0))
+    return builder.shuffle_vector(first_lane, nothing, constant(LANE, [0] * LANES))
 
 
 @intrinsic
@@ -143,8 +143,8 @@ def define_operator(symbol, instruction):
 
     @type_callable(symbol)
     def type_of_result(context):
-        def typed(one, other):
-            known = {one, other} <= {vector, types.float64} and vector in (one, other)
+        def typed(first, second):
+            known = {first, second} <= {vector, types.float64} and vector in (first, second)
             return vector if known else None
 
         return typed
@@ -192,8 +192,8 @@ def of_either(generated):
         def generate(context, builder, signature, arguments):
             lanes = signature.args[0] == vector
 
-            def wide(one):
-                return constant(one.type, [one.constant] * LANES) if lanes else one
+            def wide(value):
+                return constant(value.type, [value.constant] * LANES) if lanes else value
 
             return generated(builder, arguments[0], wide)
 
@@ -223,29 +223,29 @@ def power_of_two(builder, value, wide):
     for limit, compare in ((double(1023.0), ">"), (double(-1022.0), "<")):
         beyond = builder.fcmp_ordered(compare, value, wide(limit))
         value = builder.select(beyond, wide(limit), value)
-    whole = BITS if value.type == VECTOR else WHOLE
+    integer_type = BITS if value.type == VECTOR else INT64
     # k + 1023 + 2^52 has k + 1023 in its last bits
-    bits = builder.bitcast(builder.fadd(value, wide(double(2.0**52 + 1023.0))), whole)
-    return builder.bitcast(builder.shl(bits, wide(WHOLE(52))), value.type)
+    bits = builder.bitcast(builder.fadd(value, wide(double(2.0**52 + 1023.0))), integer_type)
+    return builder.bitcast(builder.shl(bits, wide(INT64(52))), value.type)
 
 
 @of_either
 def whole_exponent(builder, value, wide):
     """Return the k of x = m 2^k with m from sqrt(1/2) to sqrt(2), for normal x > 0."""
-    whole = BITS if value.type == VECTOR else WHOLE
-    bits = builder.bitcast(value, whole)
-    moved = builder.sub(bits, wide(WHOLE(0x3FE6_A09E_667F_3BCD)))
-    exponent = builder.ashr(moved, wide(WHOLE(52)))
+    integer_type = BITS if value.type == VECTOR else INT64
+    bits = builder.bitcast(value, integer_type)
+    moved = builder.sub(bits, wide(INT64(0x3FE6_A09E_667F_3BCD)))
+    exponent = builder.ashr(moved, wide(INT64(52)))
     return builder.sitofp(exponent, value.type)
 
 
 @intrinsic
-def select_positive(typing_context, condition, one, other):
-    """Return `one` where the condition is above zero and `other` elsewhere, lane by lane.
+def select_positive(typing_context, condition, if_positive, otherwise):
+    """Return `if_positive` where the condition is positive, `otherwise` elsewhere, by lane.
 
     Each is a vector or a number; the result is a vector where one of them is.
     """
-    arguments = condition, one, other
+    arguments = condition, if_positive, otherwise
     if not {*arguments} <= {vector, types.float64}:
         return None
     kind = vector if vector in arguments else types.float64
@@ -294,11 +294,11 @@ def define_shift(first):
     """Return the function that takes LANES lanes in a row, from `first` on, of two vectors."""
 
     @intrinsic
-    def shift(typing_context, one, other):
+    def shift(typing_context, value, neighbour):
         def generate(context, builder, signature, arguments):
             return builder.shuffle_vector(*arguments, constant(LANE, range(first, first + LANES)))
 
-        return vector(one, other), generate
+        return vector(value, neighbour), generate
 
     return shift
 
@@ -310,13 +310,13 @@ left_neighbours = define_shift(LANES - 1)
 
 
 @intrinsic
-def keep_lanes(typing_context, value, count, other):
-    """Return the first `count` lanes of a vector, and the number `other` in the rest."""
+def keep_lanes(typing_context, value, count, replacement):
+    """Return the first `count` lanes of a vector, and the number `replacement` in the rest."""
 
     def generate(context, builder, signature, arguments):
-        value, count, other = arguments
-        inside = builder.icmp_signed("<", constant(WHOLE, range(LANES)), repeat(builder, count))
-        return builder.select(inside, value, repeat(builder, other))
+        value, count, replacement = arguments
+        inside = builder.icmp_signed("<", constant(INT64, range(LANES)), repeat(builder, count))
+        return builder.select(inside, value, repeat(builder, replacement))
 
     return vector(value, types.int64, types.float64), generate
 
@@ -326,7 +326,7 @@ def keep_lanes(typing_context, value, count, other):
 
 def magnitudes(builder, value):
     """Return the bits of a vector of doubles without their signs."""
-    return builder.and_(builder.bitcast(value, BITS), constant(WHOLE, [MAGNITUDE] * LANES))
+    return builder.and_(builder.bitcast(value, BITS), constant(INT64, [MAGNITUDE] * LANES))
 
 
 def larger_bits(builder, a, b):
@@ -334,14 +334,14 @@ def larger_bits(builder, a, b):
 
 
 @intrinsic
-def larger_magnitude(typing_context, one, other):
+def larger_magnitude(typing_context, first, second):
     """Return in each lane the larger of two absolute values; NaN is larger than infinity."""
 
     def generate(context, builder, signature, arguments):
         bits = larger_bits(builder, *(magnitudes(builder, value) for value in arguments))
         return builder.bitcast(bits, VECTOR)
 
-    return vector(one, other), generate
+    return vector(first, second), generate
 
 
 @intrinsic

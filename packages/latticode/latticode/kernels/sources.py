@@ -21,18 +21,18 @@ imports of other packages are not followed, wherever they lie."""
 _LIST = r"(?:\([\w\s,]*\)|[\w.]+(?:[ ]as[ ]\w+)?(?:,[ ][\w.]+(?:[ ]as[ ]\w+)?)*)"
 _IMPORT = re.compile(rf"\n[ ]*((?:from[ ][\w.]+[ ])?import[ ]{_LIST})[ ]*(?:[#][^\n]*)?$", re.M)
 _WORD = re.compile(r"import\b")
-_PARTS = attrgetter("parts")  # tuples compare five times as fast as paths, and in the same order
+_PATH_KEY = attrgetter("parts")  # tuples compare five times as fast as paths, and in the same order
 
 
 def modules_of(*files: Path) -> list[Path]:
     """Return the files and every module below ROOTS that they import, at any depth."""
-    found, waiting = set(), list(files)
+    modules, waiting = set(), list(files)
     while waiting:
         module = waiting.pop()
-        if module not in found:
-            found.add(module)
+        if module not in modules:
+            modules.add(module)
             waiting.extend(_imports_of(module))
-    return sorted(found, key=_PARTS)
+    return sorted(modules, key=_PATH_KEY)
 
 
 def attached_to(modules: list[Path]) -> list[Path]:
@@ -44,22 +44,22 @@ def attached_to(modules: list[Path]) -> list[Path]:
     """
     packages = [module.parent for module in modules if module.name == "__init__.py"]
     owners = {None, *modules}
-    beside = (pair for package in packages for pair in _beside(package))
-    return sorted((path for path, owner in beside if owner in owners), key=_PARTS)
+    data_files = (pair for package in packages for pair in _data_files(package))
+    return sorted((path for path, owner in data_files if owner in owners), key=_PATH_KEY)
 
 
 @cache
-def _beside(folder: Path) -> list[tuple[Path, Path | None]]:
+def _data_files(folder: Path) -> list[tuple[Path, Path | None]]:
     """Return the files of a package that are no modules, each with the module it is named after."""
-    found = []
+    pairs = []
     for path in folder.iterdir():
         if path.is_dir():
             if path.name != "__pycache__" and not (path / "__init__.py").exists():
-                found += _beside(path)
+                pairs += _data_files(path)
         elif path.suffix != ".py" and not path.name.startswith("."):
             module = path.with_name(path.name.split(".")[0] + ".py")
-            found.append((path, module if module.exists() else None))
-    return found
+            pairs.append((path, module if module.exists() else None))
+    return pairs
 
 
 @cache
@@ -96,9 +96,11 @@ def digest_of_code(*files: Path) -> str:
     and of the versions of PACKAGES.
     """
     modules = modules_of(*files)
-    bare = [f"{_digest_of_bare(path)} {path.name}" for path in modules]
-    beside = [f"{digest_of(path)} {path.name}" for path in attached_to(modules)]
-    return hashlib.sha256("\n".join([*_versions(), *bare, *beside]).encode()).hexdigest()
+    module_digests = [f"{_digest_of_bare(path)} {path.name}" for path in modules]
+    file_digests = [f"{digest_of(path)} {path.name}" for path in attached_to(modules)]
+    return hashlib.sha256(
+        "\n".join([*_versions(), *module_digests, *file_digests]).encode()
+    ).hexdigest()
 
 
 @cache
@@ -108,15 +110,15 @@ def _versions() -> list[str]:
 
 @cache
 def _digest_of_bare(module: Path) -> str:
-    return hashlib.sha256(bare(module.read_text(encoding="utf-8")).encode()).hexdigest()
+    return hashlib.sha256(strip_comments(module.read_text(encoding="utf-8")).encode()).hexdigest()
 
 
-def bare(text: str) -> str:
+def strip_comments(text: str) -> str:
     """Return a module's text without comments, docstrings and empty lines.
 
     Python's own parser would take half a second for all modules, in every call of a workflow.
     """
-    without = _NO_CODE.sub(lambda found: "" if found.lastgroup else found[0], text)
+    without = _NO_CODE.sub(lambda match: "" if match.lastgroup else match[0], text)
     return _EMPTY.sub("\n", f"\n{without}\n")
 
 
@@ -140,7 +142,7 @@ def _imports_of(file: Path) -> frozenset[Path]:
 
 def _packages_of(file: Path) -> tuple[str, ...]:
     """Return the parts of the name of a module of ROOTS."""
-    home = max((one for one in ROOTS.values() if file.is_relative_to(one)), key=_PARTS)
+    home = max((root for root in ROOTS.values() if file.is_relative_to(root)), key=_PATH_KEY)
     return file.relative_to(home).parts
 
 
@@ -161,30 +163,30 @@ def _statements(tree: ast.AST) -> Iterator[ast.AST]:
     while waiting:
         node = waiting.pop()
         yield node
-        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
-            waiting.extend(getattr(node, part, ()))
+        for field in ("body", "orelse", "finalbody", "handlers", "cases"):
+            waiting.extend(getattr(node, field, ()))
 
 
 def files_of_module(name: str) -> tuple[Path, ...]:
     """Return the files that importing `name` executes: the module and its packages."""
-    parts = tuple(name.split("."))
-    home = ROOTS.get(parts[0])
-    return _files_in(home, parts) if home else ()
+    names = tuple(name.split("."))
+    home = ROOTS.get(names[0])
+    return _files_in(home, names) if home else ()
 
 
 @cache
-def _files_in(folder: Path, parts: tuple[str, ...]) -> tuple[Path, ...]:
-    packages = _files_in(folder, parts[:-1]) if parts[1:] else ()
-    place = os.path.join(folder, *parts)  # pathlib is slower
-    own = (f"{place}/__init__.py", f"{place}.py")
-    return (*packages, *(Path(path) for path in own if os.path.isfile(path)))
+def _files_in(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
+    packages = _files_in(folder, names[:-1]) if names[1:] else ()
+    place = os.path.join(folder, *names)  # pathlib is slower
+    candidates = (f"{place}/__init__.py", f"{place}.py")
+    return (*packages, *(Path(path) for path in candidates if os.path.isfile(path)))
 
 
 def describe_machine() -> dict[str, str]:
     """Return the processor's name and the versions that decide how long a run takes."""
     linux = Path("/proc/cpuinfo")
-    told = linux.read_text(encoding="utf-8") if linux.exists() else ""
-    named = re.search(r"^model name\s*:\s*(.*\S)", told, re.MULTILINE)
+    cpuinfo = linux.read_text(encoding="utf-8") if linux.exists() else ""
+    named = re.search(r"^model name\s*:\s*(.*\S)", cpuinfo, re.MULTILINE)
     return {
         "processor": named[1] if named else platform.processor() or platform.machine(),
         "python": platform.python_version(),

@@ -50,15 +50,18 @@ def webassembly(kernel, *arguments: Any) -> bytes:
     )
     types = tuple(map(numba.typeof, arguments))
     module = binding.parse_assembly(_code_of(kernel, types))
-    functions = [one for one in module.functions if not one.is_declaration]
-    for one in (*functions, *(one for one in module.global_variables if not one.is_declaration)):
-        one.linkage = "internal"
-    run = module.get_function(kernel.part.overloads[types].fndesc.mangled_name)
+    functions = [symbol for symbol in module.functions if not symbol.is_declaration]
+    for symbol in (
+        *functions,
+        *(symbol for symbol in module.global_variables if not symbol.is_declaration),
+    ):
+        symbol.linkage = "internal"
+    run = module.get_function(kernel.subroutine.overloads[types].fndesc.mangled_name)
     run.linkage = "external"
     passes = binding.create_pass_builder(machine, binding.PipelineTuningOptions(OPTIMISED))
     passes.getModulePassManager().run(module, passes)
     small = binding.parse_assembly(_for_small_pointers(str(module), str(machine.target_data)))
-    place = [one.name for one in small.functions if not one.is_declaration].index(run.name)
+    place = [symbol.name for symbol in small.functions if not symbol.is_declaration].index(run.name)
     return _exported(machine.emit_object(small), place)
 
 
@@ -74,9 +77,9 @@ def _code_of(kernel, types: tuple) -> str:
             f"code of numba {numba.__version__} counts references, which WebAssembly cannot: take"
             f" numba {' or '.join(TESTED)}"
         )
-    kernel.part.compile(types)
+    kernel.subroutine.compile(types)
     # Nothing is left of Python's errors, whose texts name files of this machine.
-    code = kernel.part.inspect_llvm(types)
+    code = kernel.subroutine.inspect_llvm(types)
     return re.sub(r"ptr @\.const\.picklebuf\.[\w.]+", "ptr null", code)
 
 
@@ -90,11 +93,11 @@ def _for_small_pointers(code: str, layout: str) -> str:
     return code
 
 
-def _bytes_instead(found: re.Match) -> str:
+def _bytes_instead(match: re.Match) -> str:
     """Return an alloca of as many bytes as a structure of whole words, or a pointer, has here."""
     words = sum(
         int(repeated or 1)
-        for repeated, _ in re.findall(r"(?:\[(\d+) x )?(ptr|i64|double)\b", found[1])
+        for repeated, _ in re.findall(r"(?:\[(\d+) x )?(ptr|i64|double)\b", match[1])
     )
     return f"alloca [{WORD * words} x i8]"
 

@@ -46,7 +46,7 @@ class NoStateError(ArithmeticError):
     """There is no localised state to be found; the message says why."""
 
 
-class State(NamedTuple):
+class LocalisedState(NamedTuple):
     """A state phi that turns as exp(-i frequency tau), or is steady, as a flat real state x.
 
     That is by row, the real and imaginary parts of each field or its value and its rate, and site.
@@ -62,10 +62,10 @@ class State(NamedTuple):
         """What `linearise` takes for it."""
         return EVEN if self.even else None
 
-    def parts(self, problem: Problem) -> np.ndarray:
+    def components(self, problem: Problem) -> np.ndarray:
         """Return the state on the whole chain, (field, part, site)."""
-        parts = self.x.reshape(len(problem.model.fields), 2, -1)
-        return np.concatenate([parts[..., :0:-1], parts], axis=2) if self.even else parts
+        fields = self.x.reshape(len(problem.model.fields), 2, -1)
+        return np.concatenate([fields[..., :0:-1], fields], axis=2) if self.even else fields
 
     def weights(self, problem: Problem) -> np.ndarray:
         """Return how many sites of the chain each number of x stands for."""
@@ -77,11 +77,11 @@ class State(NamedTuple):
 
 def flat(fields: np.ndarray, even: bool = False) -> np.ndarray:
     """Return complex fields (field, site) as a flat real state; of `even` ones the sites 0..M."""
-    kept = fields[:, fields.shape[1] // 2 :] if even else fields
-    return np.stack([kept.real, kept.imag], axis=1).ravel()
+    half = fields[:, fields.shape[1] // 2 :] if even else fields
+    return np.stack([half.real, half.imag], axis=1).ravel()
 
 
-def widened(problem: Problem, state: State) -> State:
+def widened(problem: Problem, state: LocalisedState) -> LocalisedState:
     """Return the start on a longer chain that an even state on a shorter one gives."""
     rows = state.x.reshape(2 * len(problem.model.fields), -1)
     more = problem.half_width + 1 - rows.shape[1]
@@ -104,12 +104,14 @@ def can_turn(problem: Problem) -> bool:
         return False
     turn = turning(problem, 2 * problem.amplitudes.size)
     x = np.random.default_rng(1).normal(size=len(turn))
-    rates, after = (linearise(problem, one)[0] for one in (x, 0.6 * x + 0.8 * (turn @ x)))
+    rates, after = (linearise(problem, state)[0] for state in (x, 0.6 * x + 0.8 * (turn @ x)))
     expected = 0.6 * rates + 0.8 * (turn @ rates)
     return bool(np.abs(after - expected).max() <= 1e-10 * np.abs(expected).max())
 
 
-def newton(problem: Problem, state: State, power: float | None, coupling: float = 1.0) -> State:
+def newton(
+    problem: Problem, state: LocalisedState, power: float | None, coupling: float = 1.0
+) -> LocalisedState:
     """Return the state that Newton's method finds: of a `power`, or steady if it is None.
 
     Raises NoStateError where it finds none.
@@ -132,7 +134,7 @@ def newton(problem: Problem, state: State, power: float | None, coupling: float 
         least = min(left, least)
         change = least_change(matrix, rates)
         more = change[x.size :] if power is not None else (0.0, 0.0)
-        state = State(
+        state = LocalisedState(
             x + change[: x.size], state.frequency + more[0], state.growth + more[1], state.even
         )
     raise NoStateError("Newton's method does not converge")
@@ -149,7 +151,7 @@ def least_change(matrix: np.ndarray, rates: np.ndarray) -> np.ndarray:
     return -np.linalg.solve(normal, matrix.T @ rates)
 
 
-def find_state(problem: Problem) -> State:
+def find_state(problem: Problem) -> LocalisedState:
     """Return the localised state that continues the data at their largest site.
 
     Raises NoStateError, with the reason, where there is none.
@@ -173,36 +175,36 @@ def find_state(problem: Problem) -> State:
     return coupled(problem, state, power)
 
 
-def uncoupled(problem: Problem, even: bool) -> tuple[State, float | None]:
+def uncoupled(problem: Problem, even: bool) -> tuple[LocalisedState, float | None]:
     """Return the state of the site where the data are largest, and its power if it turns.
 
     It starts from the data there, made larger to have the power of all.
     """
     data = problem.amplitudes
     sizes = np.sum(square_modulus(data), axis=0)
-    state = State(flat(np.where(sizes == sizes.max(), data, 0.0), even), even=even)
+    state = LocalisedState(flat(np.where(sizes == sizes.max(), data, 0.0), even), even=even)
     if not can_turn(problem):
         return newton(problem, state, None, coupling=0.0), None
     power, weights = float(np.sum(sizes)), state.weights(problem)
     x = state.x * np.sqrt(power / (weights * state.x @ state.x))
     rates = weights * linearise(problem, x, 0.0, state.parity)[0]
     turn = turning(problem, x.size)
-    start = State(x, -(turn @ x) @ rates / power, x @ rates / power, even)
+    start = LocalisedState(x, -(turn @ x) @ rates / power, x @ rates / power, even)
     return newton(problem, start, power, coupling=0.0), power
 
 
-def coupled(problem: Problem, state: State, power: float | None) -> State:
+def coupled(problem: Problem, state: LocalisedState, power: float | None) -> LocalisedState:
     """Return the state of the full coupling that continues one without any."""
     reached, step = 0.0, FIRST_STEP
     while reached < 1.0:
         target = min(1.0, reached + step)
         try:
-            found = newton(problem, state, power, target)
-            near = np.abs(found.x - state.x).max() <= LARGEST_CHANGE * np.abs(state.x).max()
+            converged = newton(problem, state, power, target)
+            near = np.abs(converged.x - state.x).max() <= LARGEST_CHANGE * np.abs(state.x).max()
         except NoStateError:
             near = False
         if near:
-            state, reached, step = found, target, 2.0 * step
+            state, reached, step = converged, target, 2.0 * step
         elif step > SMALLEST_STEP:
             step *= 0.5
         else:
@@ -213,34 +215,36 @@ def coupled(problem: Problem, state: State, power: float | None) -> State:
     return state
 
 
-def exponents(problem: Problem, state: State) -> np.ndarray:
+def exponents(problem: Problem, state: LocalisedState) -> np.ndarray:
     """Return the eigenvalues mu of perturbations in the frame of a state, complex, sorted."""
-    found = []
+    rates = []
     for parity in (EVEN, ODD) if state.even else (None,):
         matrix = linearise(problem, state.x, parity=parity)[1]
         matrix += state.frequency * turning(problem, len(matrix))
         if problem.model.form == "dt":  # the second row of a field is zero and no perturbation
-            found.append(np.linalg.eigvals(_values_alone(matrix, len(problem.model.fields))))
+            rates.append(np.linalg.eigvals(_values_alone(matrix, len(problem.model.fields))))
         else:
-            found.append(_eigenvalues(matrix, len(problem.model.fields)))
-    values = np.concatenate(found)
-    clean = [np.where(np.abs(part) < NOISE, 0.0, part) for part in (values.real, values.imag)]
+            rates.append(_eigenvalues(matrix, len(problem.model.fields)))
+    values = np.concatenate(rates)
+    clean = [
+        np.where(np.abs(re_or_im) < NOISE, 0.0, re_or_im) for re_or_im in (values.real, values.imag)
+    ]
     return np.sort_complex(np.round(clean[0], 9) + 1j * np.round(clean[1], 9))
 
 
 def _values_alone(matrix: np.ndarray, fields: int) -> np.ndarray:
     """Return the rows and columns of a matrix that are those of the fields' first parts."""
     half = len(matrix) // 2
-    parts = matrix.reshape(fields, 2, half // fields, fields, 2, half // fields)
-    return parts[:, 0, :, :, 0].reshape(half, half)
+    blocks = matrix.reshape(fields, 2, half // fields, fields, 2, half // fields)
+    return blocks[:, 0, :, :, 0].reshape(half, half)
 
 
 def _eigenvalues(matrix: np.ndarray, fields: int) -> np.ndarray:
-    parts = matrix.reshape(fields, 2, -1, fields, 2, matrix.shape[0] // (2 * fields))
-    if parts[:, 0, :, :, 0].any() or parts[:, 1, :, :, 1].any():
+    blocks = matrix.reshape(fields, 2, -1, fields, 2, matrix.shape[0] // (2 * fields))
+    if blocks[:, 0, :, :, 0].any() or blocks[:, 1, :, :, 1].any():
         return np.linalg.eigvals(matrix).astype(complex)
     half = len(matrix) // 2
-    first, second = (parts[:, i, :, :, 1 - i].reshape(half, half) for i in (0, 1))
+    first, second = (blocks[:, i, :, :, 1 - i].reshape(half, half) for i in (0, 1))
     squares = np.linalg.eigvals(first @ second).astype(complex)
     squares[np.abs(squares) < NOISE**2] = 0.0
     roots = np.sqrt(squares)

@@ -26,36 +26,42 @@ def linearise(
     """
     model, values = problem.model, problem.parameter_values
     places = _places(model.reach, problem.boundary, problem.sites, parity)
-    parts = state.reshape(len(model.rates), -1)
-    rows, sites = parts.shape
+    state_rows = state.reshape(len(model.rates), -1)
+    rows, sites = state_rows.shape
 
-    def value(one):
-        if one.operation in ("number", "time"):
-            return one.operands[0] if one.operands else 0.0
-        by = one.operands[-1]
-        if one.operation == "parameter":
-            found = values[one.operands[0]]
-            return found if np.ndim(found) == 0 else moved(found, by, problem.boundary)
-        row = parts[2 * one.operands[0] + one.operands[1]]
+    def value(leaf):
+        if leaf.operation in ("number", "time"):
+            return leaf.operands[0] if leaf.operands else 0.0
+        by = leaf.operands[-1]
+        if leaf.operation == "parameter":
+            values_at_leaf = values[leaf.operands[0]]
+            return (
+                values_at_leaf
+                if np.ndim(values_at_leaf) == 0
+                else moved(values_at_leaf, by, problem.boundary)
+            )
+        row = state_rows[2 * leaf.operands[0] + leaf.operands[1]]
         if by == 0:
             return row
         seen, factor, _ = places[:, model.reach + by :][:, :sites]
         return coupling * factor * row[seen.astype(int)] + (1.0 - coupling) * row
 
     (row, column, by), nodes = _slopes(model)
-    found = np.empty((len(nodes), sites))
-    for k, one in enumerate(evaluate(nodes, value)):
-        found[k] = one
-    rates, slopes = found[:rows], found[rows:]
-    own = np.arange(sites)
-    seen, _, sign = places[:, model.reach + by[:, None] + own]
-    line = (row[:, None] * sites + own) * rows + column[:, None]
+    values_of_nodes = np.empty((len(nodes), sites))
+    for k, value_of_node in enumerate(evaluate(nodes, value)):
+        values_of_nodes[k] = value_of_node
+    rates, slopes = values_of_nodes[:rows], values_of_nodes[rows:]
+    sites_of_rows = np.arange(sites)
+    seen, _, sign = places[:, model.reach + by[:, None] + sites_of_rows]
+    line = (row[:, None] * sites + sites_of_rows) * rows + column[:, None]
 
     def placed(at, slopes):
         index = (line * sites + at).astype(int)
         return np.bincount(index.ravel(), slopes.ravel(), minlength=(rows * sites) ** 2)
 
-    matrix = placed(seen, coupling * sign * slopes) + placed(own, (1.0 - coupling) * slopes)
+    matrix = placed(seen, coupling * sign * slopes) + placed(
+        sites_of_rows, (1.0 - coupling) * slopes
+    )
     first = int(parity == ODD)
     matrix = matrix.reshape(rows, sites, rows, sites)[:, first:, :, first:]
     return rates.ravel(), matrix.reshape(rows * (sites - first), -1)
@@ -87,10 +93,10 @@ def _slopes(model: Model) -> tuple[np.ndarray, tuple[Node, ...]]:
     """
     entries, nodes = [], [*model.rates]
     for leaf in leaves_in(model.rates, "field"):
-        component, part, by = leaf.operands
-        changes = derivative(model.rates, lambda one, leaf=leaf: number(one is leaf))
+        component, re_im, by = leaf.operands
+        changes = derivative(model.rates, lambda entry, leaf=leaf: number(entry is leaf))
         for row, change in enumerate(changes):
             if change is not ZERO:
-                entries.append((row, 2 * component + part, by))
+                entries.append((row, 2 * component + re_im, by))
                 nodes.append(change)
     return np.array(entries, int).reshape(-1, 3).T, tuple(nodes)

@@ -17,16 +17,16 @@ PRESENT = 1e-6
 """Smallest value of a growing perturbation at a site that takes part in it, of its largest."""
 
 
-def growth_at_rest(problem: Problem, still: np.ndarray) -> tuple[np.ndarray, float]:
+def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarray, float]:
     """Return the sites at rest where perturbations grow in the run, and their largest rate.
 
-    Of the sites that are `still` (site,) those rest whose rates vanish at the start. Their own
-    perturbations are linear, with all other sites as they are; those count that grow by more than a
-    factor of e. Where the equations have no derivative nothing is known, and no site is returned.
+    A site is at rest if it `is_constant` (site,) during the run and its rates vanish at the start.
+    Its perturbations are linear, with all other sites fixed, and count if they grow by more than a
+    factor of e. If the equations have no derivative there, no site is returned.
     """
     with np.errstate(all="ignore"):
         rates, matrix = linearise(problem, flat(problem.amplitudes))
-    resting = still & (rates.reshape(-1, problem.sites) == 0.0).all(axis=0)
+    resting = is_constant & (rates.reshape(-1, problem.sites) == 0.0).all(axis=0)
     rows = np.tile(resting, len(problem.model.rates))
     matrix = matrix[np.ix_(rows, rows)]
     if not (resting.any() and np.isfinite(matrix).all()):
@@ -48,15 +48,15 @@ def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
     for localised states.
     """
     unknowns = len(problem.model.rates) * problem.sites
-    still = (moduli == moduli[:, :, :1]).all(axis=(0, 2))
+    is_constant = (moduli == moduli[:, :, :1]).all(axis=(0, 2))
     if (
         problem.model.driven
         or problem.model.matrices
         or unknowns > MOST_UNKNOWNS
-        or not still.any()
+        or not is_constant.any()
     ):
         return ""
-    unstable, rate = growth_at_rest(problem, still)
+    unstable, rate = growth_at_rest(problem, is_constant)
     if not unstable.size:
         return ""
     more = unstable.size - MOST_NAMED

@@ -37,7 +37,7 @@ def carry(system, bundle, times, controls, work, record, lengths, sizes, stop):
 """
 
 
-class Growth(NamedTuple):
+class TangentGrowth(NamedTuple):
     """How tangent vectors have grown; logarithms are natural ones."""
 
     tau: np.ndarray  # (time,)
@@ -67,7 +67,7 @@ def grow(
     even: bool = False,
     step: float = STEP,
     tolerance: float = TOLERANCE,
-) -> Growth:
+) -> TangentGrowth:
     """Carry `tangents` (vector, field, N), perturbations of a problem's data, with its solution.
 
     They must be linearly independent; their imaginary parts are those of the fields, or rates of
@@ -81,7 +81,7 @@ def grow(
     model = problem.model.tangent()
     system = make_system(problem.changed(model=model, initial=at_rest), cut)
     start = problem.equations.start(cut)
-    bundle = np.concatenate([start, *(pack(one, cut) for one in tangents)])
+    bundle = np.concatenate([start, *(pack(vector, cut) for vector in tangents)])
     tau = output_times(end_time, step)
     times = problem.start_time + tau
     lengths, sizes = np.empty((tau.size, count)), np.empty(tau.size)
@@ -90,8 +90,8 @@ def grow(
     carry = kernels_of_tangents(problem.model, problem.site_dependent).carry
     follow(lengths[:, 0], "a tangent vector")
     lengths[0] = 1.0
-    given = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)
-    status = interruptible(carry, system, bundle, times, *given, lengths[1:], sizes[1:])
+    workspace = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)
+    status = interruptible(carry, system, bundle, times, *workspace, lengths[1:], sizes[1:])
     if status != DONE:
         raise IntegrationError(f"the motion could not be followed: {FAULTS[status]}")
-    return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)
+    return TangentGrowth(tau, log(lengths).cumsum(axis=0).T, sizes)

@@ -18,7 +18,7 @@ CONFIDENCE = 0.95
 """Limits enclose the true value in so many of all repetitions, as is the custom."""
 
 
-class Limits(NamedTuple):
+class ConfidenceInterval(NamedTuple):
     """An estimate and its confidence limits, numbers or arrays of one shape."""
 
     value: np.ndarray | float
@@ -36,7 +36,7 @@ def student(freedom: float, confidence: float = CONFIDENCE) -> float:
     return _rounded(special.stdtrit(freedom, 0.5 * (1.0 + confidence)))
 
 
-def mean_limits(values, confidence: float = CONFIDENCE) -> Limits:
+def mean_limits(values, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return the mean over the members of (member, ...) and its limits by Student's t, (...).
 
     Members must be independent of each other. One member has no limits: they are infinite.
@@ -44,20 +44,20 @@ def mean_limits(values, confidence: float = CONFIDENCE) -> Limits:
     values = np.asarray(values, dtype=float)
     members, mean = len(values), values.mean(axis=0)
     if members < 2:
-        return Limits(mean, mean - np.inf, mean + np.inf)
+        return ConfidenceInterval(mean, mean - np.inf, mean + np.inf)
     off = student(members - 1, confidence) * values.std(axis=0, ddof=1) / sqrt(members)
-    return Limits(mean, mean - off, mean + off)
+    return ConfidenceInterval(mean, mean - off, mean + off)
 
 
-def difference_limits(one, other, confidence: float = CONFIDENCE) -> Limits:
-    """Return the mean of `one` minus that of `other`, both (member,), with Welch's limits."""
-    one, other = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
-    parts = [values.var(ddof=1) / len(values) for values in (one, other)]
-    difference, error, off = one.mean() - other.mean(), sqrt(sum(parts)), 0.0
+def difference_limits(first, second, confidence: float = CONFIDENCE) -> ConfidenceInterval:
+    """Return the mean of `first` minus that of `second`, both (member,), with Welch's limits."""
+    first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    variances = [values.var(ddof=1) / len(values) for values in (first, second)]
+    difference, error, off = first.mean() - second.mean(), sqrt(sum(variances)), 0.0
     if error:
-        freedom = _freedom(parts, (len(one), len(other)))
+        freedom = _freedom(variances, (len(first), len(second)))
         off = student(freedom, confidence) * error
-    return Limits(difference, difference - off, difference + off)
+    return ConfidenceInterval(difference, difference - off, difference + off)
 
 
 def chance_inside(most: int, draws: int, members: int) -> float:
@@ -85,13 +85,15 @@ def chance_below(score: float, freedom: float) -> float:
     return float(f"{special.stdtr(freedom, score):.3g}")
 
 
-def _freedom(parts, draws):
+def _freedom(variances, draws):
     """Return Welch's degrees of freedom of a difference, from the squared errors of both means."""
-    below = sum(part * part / (count - 1) for part, count in zip(parts, draws, strict=True))
-    return sum(parts) * sum(parts) / below
+    below = sum(
+        variance * variance / (count - 1) for variance, count in zip(variances, draws, strict=True)
+    )
+    return sum(variances) * sum(variances) / below
 
 
-def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> Limits:
+def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return the ratio of two means over `members` each, mean[1] / mean[0], and its limits.
 
     `mean` and `error` hold two means and their standard errors. The limits are Fieller's (Q. J. R.
@@ -99,16 +101,18 @@ def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> L
     infinite where the lower mean cannot be told from zero.
     """
     (below, above), t = mean, student(members - 1, confidence)
-    variances = [(t * one) * (t * one) for one in error]
+    variances = [(t * relative_error) * (t * relative_error) for relative_error in error]
     bottom = below * below - variances[0]
     ratio = above / below
     if bottom <= 0.0:
-        return Limits(ratio, -np.inf, np.inf)
+        return ConfidenceInterval(ratio, -np.inf, np.inf)
     root = sqrt(variances[1] * bottom + variances[0] * above * above)
-    return Limits(ratio, (above * below - root) / bottom, (above * below + root) / bottom)
+    return ConfidenceInterval(
+        ratio, (above * below - root) / bottom, (above * below + root) / bottom
+    )
 
 
-def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Limits:
+def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return the share of `members` that `count` are, with the exact limits of Clopper and Pearson.
 
     Their source is Biometrika 26 (1934) 404.
@@ -116,10 +120,10 @@ def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Li
     tail = 0.5 * (1.0 - confidence)
     low = special.betaincinv(count, members - count + 1, tail) if count else 0.0
     high = special.betaincinv(count + 1, members - count, 1.0 - tail) if count < members else 1.0
-    return Limits(count / members, _rounded(low), _rounded(high))
+    return ConfidenceInterval(count / members, _rounded(low), _rounded(high))
 
 
-def median_limits(values, confidence: float = CONFIDENCE) -> Limits:
+def median_limits(values, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return the median of (member,) and the order statistics that bound it, whatever the law.
 
     Values may be infinite: a life that has not ended when watching stops counts as longer than all
@@ -132,10 +136,12 @@ def median_limits(values, confidence: float = CONFIDENCE) -> Limits:
     rank = np.searchsorted(special.bdtr(np.arange(members, dtype=float), members, 0.5), tail)
     low = ordered[rank - 1] if rank > 0 else -np.inf
     high = ordered[members - rank] if rank > 0 else np.inf
-    return Limits(float(median), float(low), float(high))
+    return ConfidenceInterval(float(median), float(low), float(high))
 
 
-def event_rate(times, start: float, end: float, confidence: float = CONFIDENCE) -> Limits:
+def event_rate(
+    times, start: float, end: float, confidence: float = CONFIDENCE
+) -> ConfidenceInterval:
     """Return the events per unit of time among those members that had none by `start`.
 
     `times` is (member,), infinite where no event came by `end`. The limits are the exact ones of a
@@ -143,15 +149,17 @@ def event_rate(times, start: float, end: float, confidence: float = CONFIDENCE) 
     """
     left = np.asarray([time - start for time in times if time > start])
     if not left.size:
-        return Limits(np.nan, np.nan, np.nan)
+        return ConfidenceInterval(np.nan, np.nan, np.nan)
     events, tail = int(np.isfinite(left).sum()), 0.5 * (1.0 - confidence)
     watched = float(np.minimum(left, end - start).sum())
     low = _rounded(special.chdtri(2 * events, 1.0 - tail)) if events else 0.0
     high = _rounded(special.chdtri(2 * (events + 1), tail))
-    return Limits(events / watched, 0.5 * low / watched, 0.5 * high / watched)
+    return ConfidenceInterval(events / watched, 0.5 * low / watched, 0.5 * high / watched)
 
 
-def order_limits(groups: Sequence[np.ndarray], confidence: float = CONFIDENCE) -> Limits:
+def order_limits(
+    groups: Sequence[np.ndarray], confidence: float = CONFIDENCE
+) -> ConfidenceInterval:
     """Return the share of pairs in which a value of an earlier group is larger, and its limits.
 
     Pairs are of values of two `groups`; equal values count half, and values may be infinite. The
@@ -167,7 +175,7 @@ def order_limits(groups: Sequence[np.ndarray], confidence: float = CONFIDENCE) -
     spread = total * total * (2.0 * total + 3.0) - (sizes * sizes * (2.0 * sizes + 3.0)).sum()
     deviation = sqrt(spread / 72.0) / pairs
     off = _rounded(special.ndtri(0.5 * (1.0 + confidence))) * deviation
-    return Limits(larger / pairs, larger / pairs - off, larger / pairs + off)
+    return ConfidenceInterval(larger / pairs, larger / pairs - off, larger / pairs + off)
 
 
 def _rounded(value: float) -> float:

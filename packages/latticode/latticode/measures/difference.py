@@ -47,21 +47,21 @@ def _curve_difference(a, b) -> np.ndarray:
     return np.abs(a - b) / np.where(scale == 0.0, 1.0, scale)
 
 
-def field_difference(one, other, sizes) -> np.ndarray:
-    """Return the largest difference of fields at a site, at each time (time,), as a part of scale.
+def field_difference(first, second, sizes) -> np.ndarray:
+    """Return the largest difference of fields at a site over full scale, (time,).
 
-    `one` and `other` are (curve, site, time), complex or real, at the same times. Full scale of a
-    curve is the largest modulus that it takes in either, and at least that of its field in `sizes`
-    (field,); values of all fields come first, and their rates behind them if there are any. A field
-    at rest in both does not differ.
+    `first` and `second` are (curve, site, time), complex or real, at the same times. The full scale
+    of a curve is its largest modulus in either, and at least that of its field in `sizes` (field,).
+    Curves are the values of all fields, then their rates if there are any. A field at rest in both
+    does not differ.
     """
-    one, other = np.asarray(one), np.asarray(other)
-    if not one.shape[-1]:
+    first, second = np.asarray(first), np.asarray(second)
+    if not first.shape[-1]:
         return np.zeros(0)
-    largest = np.maximum(modulus(one), modulus(other)).max(axis=(1, 2))
-    scale = np.maximum(largest, np.tile(sizes, len(one) // len(sizes)))
-    apart = modulus(one - other).max(axis=1)
-    return (apart / np.where(scale == 0.0, 1.0, scale)[:, None]).max(axis=0)
+    largest = np.maximum(modulus(first), modulus(second)).max(axis=(1, 2))
+    scale = np.maximum(largest, np.tile(sizes, len(first) // len(sizes)))
+    separation = modulus(first - second).max(axis=1)
+    return (separation / np.where(scale == 0.0, 1.0, scale)[:, None]).max(axis=0)
 
 
 def first_above(tau, values, level):
@@ -75,19 +75,22 @@ def first_above(tau, values, level):
     return np.where(np.isnan(values).all(axis=-1), np.nan, first)[()]
 
 
-def difference(one, other):
+def difference(first, second):
     """Return the difference of two trajectories, datasets as they are stored, (tau).
 
     It is taken over the times that both have, and named and described as a variable of a dataset.
     """
     import xarray as xr  # here, so that the kernels' callers do without it
 
-    other = at_times(other, one["tau"]).dropna("tau")
-    tau = other["tau"]
-    one = one.sel(tau=tau)
-    norms = (run[name].transpose(..., "tau").values for run in (one, other) for name in NORMS)
-    about = {"long_name": "largest difference of the norms relative to their scale", "units": "1"}
-    return xr.DataArray(norm_difference(*norms), {"tau": tau}, ("tau",), "difference", about)
+    second = at_times(second, first["tau"]).dropna("tau")
+    tau = second["tau"]
+    first = first.sel(tau=tau)
+    norms = (run[name].transpose(..., "tau").values for run in (first, second) for name in NORMS)
+    attributes = {
+        "long_name": "largest difference of the norms relative to their scale",
+        "units": "1",
+    }
+    return xr.DataArray(norm_difference(*norms), {"tau": tau}, ("tau",), "difference", attributes)
 
 
 def at_times(trajectory, tau):
@@ -101,10 +104,10 @@ def divergence_time(difference, level: float = VISIBLE):
     It is infinite where the runs never differ so much, and NaN where no difference is known.
     """
     values = difference.transpose(..., "tau")
-    found = difference.isel(tau=0, drop=True).copy(data=first_above(values["tau"], values, level))
-    about = f"first tau at which two runs differ by {100 * level:.3g} % of full scale, {ABSENT}"
-    found.attrs = {"long_name": about, "units": "1"}
-    return found.rename("divergence_time")
+    times = difference.isel(tau=0, drop=True).copy(data=first_above(values["tau"], values, level))
+    long_name = f"first tau at which two runs differ by {100 * level:.3g} % of full scale, {ABSENT}"
+    times.attrs = {"long_name": long_name, "units": "1"}
+    return times.rename("divergence_time")
 
 
 def known_until(difference):
@@ -117,9 +120,9 @@ def is_of_same_case(trajectory, reference) -> bool:
     return all(trajectory.attrs[key] == reference.attrs[key] for key in PARAMETERS)
 
 
-def state_error(found: np.ndarray, exact: np.ndarray) -> float:
+def state_error(computed: np.ndarray, exact: np.ndarray) -> float:
     """Return the largest error of a component of a state over the largest component.
 
     It compares two states site by site, where `norm_difference` compares curves of norms.
     """
-    return float(modulus(found - exact).max() / modulus(exact).max())
+    return float(modulus(computed - exact).max() / modulus(exact).max())

@@ -13,7 +13,7 @@ MANY = float(log(100.0))
 a factor of 64."""
 ERRORS = 3.0
 """A growth must exceed MANY by so many standard errors."""
-PARTS = 8
+INTERVALS = 8
 ROUNDING = 2.0**-53
 """Relative error of one rounded operation in double precision."""
 
@@ -28,12 +28,12 @@ def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarr
     return (log_growth[..., -1] - log_growth[..., first]) / span
 
 
-def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, parts=PARTS):
+def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, intervals=INTERVALS):
     """Return the standard error of that rate, from as many consecutive parts of the time."""
-    edges = np.linspace(np.searchsorted(tau, start), len(tau) - 1, parts + 1)
+    edges = np.linspace(np.searchsorted(tau, start), len(tau) - 1, intervals + 1)
     edges = edges.round().astype(int)
     rates = np.diff(log_growth[..., edges], axis=-1) / np.diff(tau[edges])
-    return rates.std(axis=-1, ddof=1) / np.sqrt(parts)
+    return rates.std(axis=-1, ddof=1) / np.sqrt(intervals)
 
 
 def is_chaotic(
@@ -60,11 +60,11 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
     Errors are made all along, each in proportion to the `size` of the solution at its time s, and
     grown by exp(log_growth(tau) - log_growth(s)). All arguments are (time,), as is the result.
     """
-    made = log(size[1:] * np.diff(tau)) - log_growth[1:]
-    peak = np.maximum.accumulate(made)
+    log_weights = log(size[1:] * np.diff(tau)) - log_growth[1:]
+    peak = np.maximum.accumulate(log_weights)
     before = np.concatenate([[-np.inf], peak[:-1]])
     # the sum up to each tau in units of its largest term; a new peak makes the former sum smaller
-    terms = zip(exp(before - peak).tolist(), exp(made - peak).tolist(), strict=True)
+    terms = zip(exp(before - peak).tolist(), exp(log_weights - peak).tolist(), strict=True)
     sums = accumulate(terms, lambda total, term: total * term[0] + term[1], initial=0.0)
     total = peak + log(np.array(list(sums)[1:])) + log_growth[1:] - log(size[1:])
     return np.concatenate([[-np.inf], total])

@@ -26,11 +26,11 @@ def relative_range(values: np.ndarray) -> float:
     return float((np.max(values) - np.min(values)) / abs(np.mean(values)))
 
 
-def correlation(one: np.ndarray, other: np.ndarray) -> float:
+def correlation(first: np.ndarray, second: np.ndarray) -> float:
     """Return the correlation of two series (time,); 0 where one does not change."""
-    one, other = one - one.mean(), other - other.mean()
-    scale = np.sqrt((one * one).mean() * (other * other).mean())
-    return float((one * other).mean() / scale) if scale > 0 else 0.0
+    first, second = first - first.mean(), second - second.mean()
+    scale = np.sqrt((first * first).mean() * (second * second).mean())
+    return float((first * second).mean() / scale) if scale > 0 else 0.0
 
 
 def bands(norms: np.ndarray, quantiles) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 
 from latticode.numerics.elementary import expm1, log
 
-from .confidence import CONFIDENCE, Limits, mean_limits, student
+from .confidence import CONFIDENCE, ConfidenceInterval, mean_limits, student
 
 BLOCKS = 10
 """Stretches of time that count as independent in the error of a single curve."""
@@ -43,34 +43,36 @@ def lay_line(x: np.ndarray, y: np.ndarray) -> Line:
     return Line(float(slope), float(y.mean() - slope * x.mean()))
 
 
-class Growth(NamedTuple):
+class LateGrowth(NamedTuple):
     """A line through the late part of an ensemble's curves, with its confidence limits."""
 
-    slope: Limits
+    slope: ConfidenceInterval
     offset: float
-    relative: Limits
+    relative: ConfidenceInterval
     """What the line gains from its first to its last time, over the mean of the curves."""
 
 
-def fit_line(x: np.ndarray, values: np.ndarray, start: float, confidence=CONFIDENCE) -> Growth:
+def fit_line(x: np.ndarray, values: np.ndarray, start: float, confidence=CONFIDENCE) -> LateGrowth:
     """Return values = slope x + offset of curves (member, x), from x = `start` on.
 
     `x` is tau, or any clock: 2 (v tau - delay log tau) makes the slope the power P of a site. The
     limits are those of the mean over the members, which are independent, however long each of
     them remembers itself; a single curve is cut into BLOCKS stretches of time.
     """
-    kept = x >= start
-    lines = [lay_line(x[kept], series[kept]) for series in values]
+    is_fitted = x >= start
+    lines = [lay_line(x[is_fitted], series[is_fitted]) for series in values]
     if len(values) > 1:
         slope = mean_limits([line.slope for line in lines], confidence)
     else:
-        slope = _of_stretches(x[kept], values[0][kept], lines[0], confidence)
-    span = (x[-1] - x[kept][0]) / values[:, kept].mean()
-    relative = Limits(*(bound * span for bound in slope))
-    return Growth(slope, float(np.mean([line.offset for line in lines])), relative)
+        slope = _of_stretches(x[is_fitted], values[0][is_fitted], lines[0], confidence)
+    span = (x[-1] - x[is_fitted][0]) / values[:, is_fitted].mean()
+    relative = ConfidenceInterval(*(bound * span for bound in slope))
+    return LateGrowth(slope, float(np.mean([line.offset for line in lines])), relative)
 
 
-def _of_stretches(x: np.ndarray, y: np.ndarray, line: Line, confidence: float) -> Limits:
+def _of_stretches(
+    x: np.ndarray, y: np.ndarray, line: Line, confidence: float
+) -> ConfidenceInterval:
     """Return the slope of one curve with limits that hold for residuals with a memory.
 
     What a stretch of the residuals adds to the slope counts as one independent value; two degrees
@@ -78,10 +80,10 @@ def _of_stretches(x: np.ndarray, y: np.ndarray, line: Line, confidence: float) -
     """
     off = x - x.mean()
     weighted = off * (y - line.at(x))
-    parts = np.array([part.sum() for part in np.array_split(weighted, BLOCKS)])
-    error = np.sqrt((parts**2).sum() * BLOCKS / (BLOCKS - 2)) / (off * off).sum()
+    block_sums = np.array([block.sum() for block in np.array_split(weighted, BLOCKS)])
+    error = np.sqrt((block_sums**2).sum() * BLOCKS / (BLOCKS - 2)) / (off * off).sum()
     half = student(BLOCKS - 2, confidence) * float(error)
-    return Limits(line.slope, line.slope - half, line.slope + half)
+    return ConfidenceInterval(line.slope, line.slope - half, line.slope + half)
 
 
 def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
@@ -108,7 +110,9 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
 def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
     """Return the q of the grid whose law leaves the least sum of squares of each curve."""
     exponents, laws = _laws_of_grid(x)
-    explained = [(laws * one).sum(axis=-1) ** 2 for one in squares.reshape(-1, laws.shape[-1])]
+    explained = [
+        (laws * square).sum(axis=-1) ** 2 for square in squares.reshape(-1, laws.shape[-1])
+    ]
     return exponents[np.argmax(explained, axis=-1)].reshape(squares.shape[:-1])
 
 
@@ -140,10 +144,12 @@ def _law(x: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return law, 2.0 * (x * (1.0 + p * law) - law) / p
 
 
-def fit_exponent(tau: np.ndarray, l2: np.ndarray, start: float, confidence=CONFIDENCE) -> Limits:
+def fit_exponent(
+    tau: np.ndarray, l2: np.ndarray, start: float, confidence=CONFIDENCE
+) -> ConfidenceInterval:
     """Return the exponent of tau in l2 (member, tau), l2^2 = a tau^(2 q) + b from `start` on.
 
     The limits are those of the mean over the members; one member alone has infinite ones.
     """
-    kept = tau >= start
-    return mean_limits(exponent_with_offset(tau[kept], l2[:, kept] ** 2), confidence)
+    is_fitted = tau >= start
+    return mean_limits(exponent_with_offset(tau[is_fitted], l2[:, is_fitted] ** 2), confidence)

@@ -39,8 +39,8 @@ def _horner(coefficients, x):
 def _sum(a, b):
     """Return a + b as a rounded sum and what rounding took away (Knuth)."""
     total = a + b
-    part = total - a
-    return total, (a - (total - part)) + (b - part)
+    second = total - a
+    return total, (a - (total - second)) + (b - second)
 
 
 def _product(a, b):
@@ -63,10 +63,10 @@ def _reduced_exp(x, low=0.0):
     """Return t and the integer k of exp(x + low) = (1 + t) 2^k, where abs(t) < 0.42."""
     x = np.asarray(x, dtype=float).clip(-750.0, 710.0)  # beyond, the result is 0 or infinity anyhow
     k = np.nan_to_num(np.rint(x * (1.0 / LN2[0])))
-    start, rest = x - k * LN2[0], k * LN2[1]
-    r = start - rest
+    start, correction = x - k * LN2[0], k * LN2[1]
+    r = start - correction
     curved = r * r * _horner(EXP, r)
-    low = (low + ((start - r) - rest)) * (1.0 + (r + curved))
+    low = (low + ((start - r) - correction)) * (1.0 + (r + curved))
     return r + (curved + low), k.astype(np.int64)
 
 
@@ -100,9 +100,9 @@ def cosh(x):
 
 def _reduced_log(x):
     """Return f and the integer k, as a float, of x = (1 + f) 2^k; 1 + f is within sqrt(2) of 1."""
-    part, k = np.frexp(x)
-    small = part < np.sqrt(0.5)
-    return np.where(small, 2.0 * part, part) - 1.0, k - np.where(small, 1.0, 0.0)
+    mantissa, k = np.frexp(x)
+    small = mantissa < np.sqrt(0.5)
+    return np.where(small, 2.0 * mantissa, mantissa) - 1.0, k - np.where(small, 1.0, 0.0)
 
 
 def _where_positive(x, value):
@@ -124,10 +124,10 @@ def log(x):
 def _log_pair(x):
     """Return log(x), x > 0 and finite, as a sum of two numbers that has some 60 bits."""
     f, k = _reduced_log(x)
-    whole, rest = _sum(2.0, f)
-    s = f / whole
-    back, lost = _product(s, whole)
-    s_low = (((f - back) - lost) - s * rest) / whole
+    sum_high, sum_low = _sum(2.0, f)
+    s = f / sum_high
+    back, lost = _product(s, sum_high)
+    s_low = (((f - back) - lost) - s * sum_low) / sum_high
     high, low = _sum(k * LN2[0], 2.0 * s)
     low = low + (2.0 * s_low + s * s * s * _horner(ATANH, s * s) + k * LN2[1])
     return _sum(high, low)
@@ -136,8 +136,8 @@ def _log_pair(x):
 def power(x, y):
     """Return x^y for 0 < x < inf, with an error below 1 ulp where the result is a normal number."""
     high, low = _log_pair(np.asarray(x, dtype=float))
-    whole, rest = _product(np.asarray(y, dtype=float), high)
-    t, k = _reduced_exp(whole, rest + y * low)
+    product_high, product_low = _product(np.asarray(y, dtype=float), high)
+    t, k = _reduced_exp(product_high, product_low + y * low)
     with np.errstate(over="ignore", under="ignore"):
         return np.ldexp(1.0 + t, k)
 
@@ -196,8 +196,8 @@ def cosine_near_zero(x, low=0.0):
     far = C10 + z * (C12 + z * (C14 + z * (C16 + C18 * z)))
     curved = z * z * (C4 + z * (C6 + z * (C8 + z * far)))
     half = 0.5 * z
-    whole = 1.0 - half
-    return whole + (((1.0 - whole) - half) + (curved - x * low))
+    rounded = 1.0 - half
+    return rounded + (((1.0 - rounded) - half) + (curved - x * low))
 
 
 def sine_and_cosine(x):
@@ -259,10 +259,10 @@ def square_root(z):
     z = np.asarray(z)
     size = modulus(z)
     small = np.sqrt(0.5 * (size + np.abs(z.real)))
-    other = 0.5 * np.abs(z.imag) / np.where(small > 0.0, small, 1.0)
+    other_part = 0.5 * np.abs(z.imag) / np.where(small > 0.0, small, 1.0)
     ahead = z.real >= 0.0
-    imaginary = np.copysign(np.where(ahead, other, small), z.imag)
-    return complex_of(np.where(ahead, small, other), imaginary)
+    imaginary = np.copysign(np.where(ahead, other_part, small), z.imag)
+    return complex_of(np.where(ahead, small, other_part), imaginary)
 
 
 def modulus(z):

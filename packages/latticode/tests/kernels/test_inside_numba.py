@@ -5,7 +5,7 @@ from importlib.metadata import version
 import numpy as np
 import pytest
 from latticode.kernels.compiled import TESTED, uncached
-from latticode.kernels.inside_numba import PartLibrary, make_kernel
+from latticode.kernels.inside_numba import SubroutineLibrary, make_kernel
 from latticode.kernels.simd import largest_magnitude
 from numba.core import event
 from numba.core.errors import NumbaError
@@ -45,8 +45,8 @@ def test_a_part_has_no_machine_code_and_is_compiled_once_for_all_callers():
     names = [record.data["dispatcher"].__name__ for _, record in compiled.buffer if record.is_start]
     assert sorted(names) == ["one", "other", "part"]
     assert not part.overloads  # Python has not called it
-    (code,) = part.part.overloads.values()
-    assert isinstance(code.library, PartLibrary)
+    (code,) = part.subroutine.overloads.values()
+    assert isinstance(code.library, SubroutineLibrary)
     assert not code.library._codegen._engine.is_symbol_defined(code.fndesc.llvm_func_name)
 
 
@@ -80,7 +80,7 @@ def test_parts_that_another_process_kept_make_the_same_kernel(tmp_path):
         def caller(values):
             return made(values)
 
-        return made.part, caller(np.array([1.0, -3.0, 2.0]))
+        return made.subroutine, caller(np.array([1.0, -3.0, 2.0]))
 
     first, second = compile_anew(), compile_anew()
     assert first[1] == second[1] == 3.0

@@ -72,7 +72,7 @@ def tokens_of(text: str) -> list[str]:
 def test_what_is_left_out_of_the_hash_of_code_is_no_code():
     for module in MODULES:
         text = module.read_text(encoding="utf-8")
-        assert tokens_of(sources.bare(text)) == tokens_of(text), module
+        assert tokens_of(sources.strip_comments(text)) == tokens_of(text), module
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,9 @@ def test_what_is_left_out_of_the_hash_of_code_is_no_code():
     ],
 )
 def test_comments_and_docstrings_do_not_count(text, same):
-    assert (sources.bare(text) == sources.bare("def f():\n    return 1\n")) is same
+    assert (
+        sources.strip_comments(text) == sources.strip_comments("def f():\n    return 1\n")
+    ) is same
 
 
 def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monkeypatch):
@@ -100,7 +102,7 @@ def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monke
 
     def digest():
         for one in (sources.digest_of_code, sources._digest_of_bare, sources.digest_of,
-                    sources._versions, sources._imports_of, sources._beside):  # fmt: skip
+                    sources._versions, sources._imports_of, sources._data_files):  # fmt: skip
             one.cache_clear()
         return sources.digest_of_code(page / "__init__.py")
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from latticode.equations.model import Model, abs2, conj, lap, shift
 from latticode.localised.breathers import (
+    LocalisedState,
     NoStateError,
-    State,
     exponents,
     find_state,
     flat,
@@ -81,7 +81,7 @@ def test_a_localised_state_is_the_exact_one_of_ablowitz_and_ladik():
     exact = np.sinh(1.0) / np.cosh(np.arange(-15, 16))
     given = problem(model, np.sqrt(np.sum(exact**2)), half_width=15)
     state = find_state(given)
-    np.testing.assert_allclose(np.hypot(*state.parts(given)[0]), exact, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(np.hypot(*state.components(given)[0]), exact, rtol=0, atol=1e-5)
     assert state.frequency == pytest.approx(2.0 * np.cosh(1.0), rel=1e-5)
     assert np.abs(exponents(given, state).real).max() < 1e-5
 
@@ -90,7 +90,7 @@ def test_a_state_beside_the_middle_is_found_on_the_whole_chain():
     middle, beside = (problem(CUBIC, 1.5, half_width=20, site=site) for site in (0, 1))
     half, whole = find_state(middle), find_state(beside)
     assert half.even and not whole.even
-    moduli = [np.hypot(*state.parts(middle)[0]) for state in (half, whole)]
+    moduli = [np.hypot(*state.components(middle)[0]) for state in (half, whole)]
     np.testing.assert_allclose(moduli[1][1:], moduli[0][:-1], rtol=0, atol=1e-8)
     assert whole.frequency == pytest.approx(half.frequency, rel=1e-9)
 
@@ -108,9 +108,9 @@ def test_a_pair_of_the_coupled_chain_continues_its_closed_form(sign):
     size = np.sqrt(16.0 if sign > 0 else 20.0)
     alone = find_state(problem(COUPLED, (size, sign * size)).changed(epsilon=0.0))
     given = problem(COUPLED, (size, sign * size))
-    np.testing.assert_allclose(alone.parts(given)[:, 0, 10], (size, sign * size), rtol=1e-12)
+    np.testing.assert_allclose(alone.components(given)[:, 0, 10], (size, sign * size), rtol=1e-12)
     state = find_state(given)
-    parts = state.parts(given)
+    parts = state.components(given)
     np.testing.assert_array_equal(parts[:, 1], 0.0)
     np.testing.assert_allclose(parts[1], sign * parts[0], rtol=0, atol=1e-12)
     fields = parts[:, 0] + 1j * parts[:, 1]
@@ -118,7 +118,7 @@ def test_a_pair_of_the_coupled_chain_continues_its_closed_form(sign):
     np.testing.assert_allclose(later, fields, rtol=0, atol=1e-9)
     longer = given.changed(half_width=20)
     again = newton(longer, widened(longer, state), None)
-    np.testing.assert_allclose(again.parts(longer)[:, :, 10:31], parts, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(again.components(longer)[:, :, 10:31], parts, rtol=0, atol=1e-8)
 
 
 @pytest.mark.parametrize("turned", [1.0, np.exp(0.3j)])
@@ -126,9 +126,9 @@ def test_exponents_are_those_of_the_whole_matrix(turned):
     """A = B turned by a phase has the same, by one matrix in place of squares of its roots."""
     given = problem(COUPLED, (4.0, 4.0))
     state = find_state(given)
-    whole = turned * (state.parts(given)[:, 0] + 1j * state.parts(given)[:, 1])
+    whole = turned * (state.components(given)[:, 0] + 1j * state.components(given)[:, 1])
     expected = np.linalg.eigvals(linearise(given, flat(whole))[1])
-    found = exponents(given, State(flat(whole, even=True), even=True))
+    found = exponents(given, LocalisedState(flat(whole, even=True), even=True))
     assert len(found) == len(expected)
     assert max(np.abs(expected - one).min() for one in found) < 1e-5
 
@@ -143,7 +143,7 @@ def test_multipliers_are_those_of_integrations_over_a_period():
     state = find_state(given)
     found = exponents(given, state)
     assert found.real.max() > 0.1
-    parts, period = state.parts(given), 2.0 * np.pi / abs(state.frequency)
+    parts, period = state.components(given), 2.0 * np.pi / abs(state.frequency)
     long = given.changed(end_time=period, output_step=period)
     changes = 1e-5 * np.concatenate([np.eye(6), 1j * np.eye(6)]).reshape(12, 2, 3)
     phi = parts[:, 0] + 1j * parts[:, 1]

@@ -24,7 +24,7 @@ def test_limits_of_a_mean_are_student_s(stats):
     np.testing.assert_allclose([low, high], [known.low, known.high], rtol=1e-5)
     np.testing.assert_allclose(mean, values.mean(axis=0))
     assert confidence.mean_limits([4.0]) == (4.0, -np.inf, np.inf)
-    assert confidence.Limits(3.0, 1.0, 6.0).half == 2.5
+    assert confidence.ConfidenceInterval(3.0, 1.0, 6.0).half == 2.5
 
 
 def test_limits_of_a_difference_are_welch_s(stats):

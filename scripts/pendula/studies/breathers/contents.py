@@ -46,7 +46,7 @@ def solve_steady_states(
             continue
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         problem, state = localised(family, constants, half_width)
-        amplitudes = state.parts(problem)
+        amplitudes = state.components(problem)
         amplitude[(..., *at)], power[at] = amplitudes[:, :, half_width].T, np.sum(amplitudes**2)
         rates[at] = max(0.0, float(exponents(problem, state).real.max()))
     over = ("family", "omega")

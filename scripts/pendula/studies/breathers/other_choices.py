@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import as_xarray
-from latticode.measures.confidence import Limits, share_limits
+from latticode.measures.confidence import ConfidenceInterval, share_limits
 
 from pendula.problem import Constants, Problem
 from pendula.varied import Printed, as_dataset, vary, vary_several
@@ -45,7 +45,9 @@ def vary_areas(
         fates = map_fates(changed, grid, majority=majority).make()[0]["fate"].values[0]
         half = fates[np.tril_indices(len(grid), -1)]
         counts = [int((half == place).sum()) for place in range(len(FATES))]
-        return Limits(*np.transpose([share_limits(count, half.size) for count in counts]))
+        return ConfidenceInterval(
+            *np.transpose([share_limits(count, half.size) for count in counts])
+        )
 
     area = vary(measure, choices_of(chosen, variations))
     kinds = ("kind", np.array(FATES, object), {"long_name": "fate of initial conditions"})
@@ -68,7 +70,7 @@ def vary_shares(
         changed = with_choices(problem, **settings)
         study = measure_sensitivity(name, changed, sizes, members, int(seed), majority=majority)
         data = as_xarray(*study.make())
-        return Limits(*(data[f"share{end}"].values for end in ("", "_low", "_high")))
+        return ConfidenceInterval(*(data[f"share{end}"].values for end in ("", "_low", "_high")))
 
     share = vary(measure, choices_of(chosen, variations))
     by_size = (

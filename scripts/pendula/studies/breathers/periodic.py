@@ -93,7 +93,7 @@ def find_soliton(constants: Constants, frequency: float, half_width: int) -> Bre
     """
     turned = replace(constants, omega=constants.omega - frequency)
     problem, state = localised(EQUAL_PAIR, turned, half_width)
-    phi = state.parts(problem)[0, 0, half_width:]
+    phi = state.components(problem)[0, 0, half_width:]
     return Breather(constants, frequency, np.stack([phi, phi]))
 
 

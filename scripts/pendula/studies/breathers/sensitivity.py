@@ -13,7 +13,7 @@ from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
 from latticode.equations.ensembles import draw_members
-from latticode.measures.confidence import Limits, share_limits
+from latticode.measures.confidence import ConfidenceInterval, share_limits
 from latticode.simulation.runs import ManyRuns
 from replication.variables import CHAOTIC
 
@@ -51,7 +51,9 @@ def measure_sensitivity(
 def _shares_of(sizes: Sequence[float], members: int, fates: np.ndarray) -> dict[str, Variable]:
     """Return the share of the fates (run,) that spread, with its confidence limits, (size,)."""
     spread = (fates == SPREADS).reshape(len(sizes), members).sum(axis=1)
-    share = Limits(*np.transpose([share_limits(int(count), members) for count in spread]))
+    share = ConfidenceInterval(
+        *np.transpose([share_limits(int(count), members) for count in spread])
+    )
     by_size, label = ("size",), "share of runs that spread"
     return {
         "size": Variable(by_size, np.array(sizes), "size of a random change of the data, relative"),

@@ -78,7 +78,7 @@ def compute_state(
     chain = ProofChain(float(proof["epsilon"]), gamma, float(proof["omega"]), half_width)
     constants = Constants(epsilon=chain.epsilon, gamma=gamma, omega=chain.omega)
     problem, breather = localised(family, constants, half_width)
-    components = breather.parts(problem)[:, int(family.imaginary), half_width:]
+    components = breather.components(problem)[:, int(family.imaginary), half_width:]
     state = np.round(components, DIGITS)
     return family, chain, existence.refine(chain, family.drive(gamma), state)
 

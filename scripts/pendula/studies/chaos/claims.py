@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from latticode.measures.confidence import (
     CONFIDENCE,
-    Limits,
+    ConfidenceInterval,
     difference_limits,
     mean_limits,
 )
@@ -64,7 +64,9 @@ def members_of(members: xr.Dataset, case: str) -> xr.Dataset:
     return members.sel(case=case)
 
 
-def mean_limits_of(members: xr.Dataset, case: str, reduce: Callable, *arguments) -> Limits:
+def mean_limits_of(
+    members: xr.Dataset, case: str, reduce: Callable, *arguments
+) -> ConfidenceInterval:
     """Return the mean over the members of a case, with confidence limits.
 
     `reduce` returns one number for each member, from the dataset of the case and `arguments`.
@@ -72,7 +74,7 @@ def mean_limits_of(members: xr.Dataset, case: str, reduce: Callable, *arguments)
     return mean_limits(reduce(members_of(members, case), *arguments), LEVEL.value)
 
 
-def largest_limit(limit: Limits) -> float:
+def largest_limit(limit: ConfidenceInterval) -> float:
     """Return the modulus of the limit that is farther from zero."""
     return max(abs(limit.low), abs(limit.high))
 
@@ -343,7 +345,7 @@ def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
     return judge(measured, criterion, excited_centre(lifetimes, limits["centre_share"]))
 
 
-def excited_centre(lifetimes: xr.Dataset, share: Limits) -> str:
+def excited_centre(lifetimes: xr.Dataset, share: ConfidenceInterval) -> str:
     """Return a sentence on the amplitudes from which the centre keeps a larger share."""
     a0, pairs = lifetimes["start_amplitude"].values, 2 * int(lifetimes.attrs["half_width"]) + 1
     excited = a0[share.low > FACTOR.value / pairs]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from latticode.measures.confidence import Limits, ratio_limits, student
+from latticode.measures.confidence import ConfidenceInterval, ratio_limits, student
 from latticode.measures.levels import relative_range
 from latticode.measures.norms import total_power
 from replication.ledger.chances import RARE
@@ -75,7 +75,9 @@ class Means(NamedTuple):
         """Half of each confidence interval, (half_width,)."""
         return student(self.members - 1, LEVEL.value) * self.error
 
-    def over(self, below: slice, above: slice, confidence: float | None = None) -> Limits:
+    def over(
+        self, below: slice, above: slice, confidence: float | None = None
+    ) -> ConfidenceInterval:
         """Return the mean over the half-widths `above` over that on `below`, with limits."""
         value = [self.mean[half_widths].mean() for half_widths in (below, above)]
         errors = [self.error[half_widths] for half_widths in (below, above)]
@@ -89,7 +91,7 @@ class Means(NamedTuple):
         """Index of the largest mean, without that on the longest chain."""
         return int(np.argmax(self.mean[:-1]))
 
-    def last_growth(self) -> Limits:
+    def last_growth(self) -> ConfidenceInterval:
         """Return the mean on the longest chain over the largest before it, with wide limits."""
         before = self.largest_before
         return self.over(slice(before, before + 1), slice(-1, None), 1.0 - RARE.value)

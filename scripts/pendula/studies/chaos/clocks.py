@@ -5,7 +5,7 @@ The module imports no solver, so that figures and claims do not depend on the co
 
 import numpy as np
 import xarray as xr
-from latticode.measures.confidence import CONFIDENCE, Limits, mean_limits, median_limits
+from latticode.measures.confidence import CONFIDENCE, ConfidenceInterval, mean_limits, median_limits
 
 NUMBERS = {
     "transition": "time at which P first reaches half of its final value",
@@ -19,10 +19,12 @@ TIMES = ("transition", "life")
 """Times, which may not come within a run: the ensemble has their medians instead of means."""
 
 
-def limits_of(lifetimes: xr.Dataset, confidence: float = CONFIDENCE) -> dict[str, Limits]:
+def limits_of(
+    lifetimes: xr.Dataset, confidence: float = CONFIDENCE
+) -> dict[str, ConfidenceInterval]:
     """Return medians of times, means of other numbers, with limits (start_amplitude,)."""
     return {
-        name: Limits(
+        name: ConfidenceInterval(
             *np.transpose(
                 [
                     (median_limits if name in TIMES else mean_limits)(values, confidence)

@@ -11,9 +11,9 @@ import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.trajectories import Contents
 from latticode.equations.ensembles import draw_members
-from latticode.localised.tangents import Growth, grow, random_tangent
+from latticode.localised.tangents import TangentGrowth, grow, random_tangent
 from latticode.measures.confidence import mean_limits, student
-from latticode.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
+from latticode.measures.growth import INTERVALS, is_chaotic, mean_rate, mean_rate_error
 from replication.variables import REGULAR, SCATTERED
 
 from pendula.many_cases import describe_cases
@@ -25,7 +25,7 @@ STEP = 1.0
 
 def follow_members(
     problem: Problem, end_time: float, members: int, size: float, seed: int
-) -> list[Growth]:
+) -> list[TangentGrowth]:
     """Return the growth of a random tangent vector along each of `members` perturbed runs."""
     tolerance, growths = problem.solver["rtol"], []
     for number, member in enumerate(draw_members(problem, size, members, seed)):
@@ -78,7 +78,7 @@ def measure_spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.n
     basis = np.array([random_tangent(problem.sites, rng) for _ in range(2 * problem.sites)])
     run = grow(problem, basis, end_time, tolerance=problem.solver["rtol"])
     rates = mean_rate(run.tau, run.log_growth, end_time / 4)
-    off = student(PARTS - 1) * mean_rate_error(run.tau, run.log_growth, end_time / 4)
+    off = student(INTERVALS - 1) * mean_rate_error(run.tau, run.log_growth, end_time / 4)
     return np.concatenate([rates, -rates[::-1]]), np.concatenate([off, off[::-1]])
 
 

@@ -20,7 +20,12 @@ import xarray as xr
 from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
 from latticode.equations.ensembles import draw_members
-from latticode.measures.confidence import Limits, difference_limits, event_rate, share_limits
+from latticode.measures.confidence import (
+    ConfidenceInterval,
+    difference_limits,
+    event_rate,
+    share_limits,
+)
 from latticode.simulation.runs import ManyRuns, run_all, shaped
 from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC, FEW_CHOICES, missing
@@ -182,16 +187,16 @@ def vary_over_the_top(
     return data.assign_attrs(title="Pendula over the top, with other choices", **attributes)
 
 
-def printed_numbers(study: xr.Dataset, by_tau: float) -> dict[str, Limits]:
+def printed_numbers(study: xr.Dataset, by_tau: float) -> dict[str, ConfidenceInterval]:
     """Return the numbers of MEANINGS (mu,) with their limits; the share is that at `by_tau`."""
     numbers = {}
     for name in ("passed", "passage_rate"):
         ends = (study[f"{name}{end}"] for end in ("", "_low", "_high"))
-        numbers[name] = Limits(
+        numbers[name] = ConfidenceInterval(
             *(limit.sel(tau=by_tau) if "tau" in limit.dims else limit for limit in ends)
         )
     amplitudes = study["amplitude_power"]
     excess = [difference_limits(powers, amplitudes) for powers in study["site_power"]]
     below = np.isinf(study["passage_time"]).all("member")
     relative_excess = np.transpose(excess) / float(amplitudes.mean())
-    return numbers | {"power_excess": Limits(*np.where(below, relative_excess, np.nan))}
+    return numbers | {"power_excess": ConfidenceInterval(*np.where(below, relative_excess, np.nan))}

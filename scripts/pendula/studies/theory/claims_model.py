@@ -5,7 +5,7 @@ from functools import wraps
 
 import xarray as xr
 from latticode.measures.confidence import student
-from latticode.measures.growth import PARTS
+from latticode.measures.growth import INTERVALS
 from replication.ledger import changes
 from replication.ledger.chances import RARE
 from replication.ledger.claim import Control, Kind, claim
@@ -124,7 +124,7 @@ def one_integral(lyapunov: xr.Dataset) -> Finding:
     # With a second integral at least four exponents of a spectrum vanish, and a single one outside
     # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
     level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
-    wider = student(PARTS - 1, level) / student(PARTS - 1)
+    wider = student(INTERVALS - 1, level) / student(INTERVALS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
     # exponents that are nearer to zero than to the next exponent
     between = 2.0 * size.max("index") / size.sizes["index"]

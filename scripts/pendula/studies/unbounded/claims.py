@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
-from latticode.measures.confidence import Limits, mean_limits, share_limits
+from latticode.measures.confidence import ConfidenceInterval, mean_limits, share_limits
 from latticode.measures.spreading import exponent_with_offset
 from replication.ledger.changes import take
 from replication.ledger.claim import Control, Origin, claim
@@ -71,7 +71,7 @@ def exponents_of(run: xr.Dataset, variant: int) -> np.ndarray:
     return exponent_with_offset(tau[is_late], curves_of(run, "l2", variant)[:, is_late] ** 2)
 
 
-def growths_of(run: xr.Dataset) -> tuple[list[Limits], list[float]]:
+def growths_of(run: xr.Dataset) -> tuple[list[ConfidenceInterval], list[float]]:
     """Return for each variant the exponent, and the lower limit of the growth since tau = SETTLED.
 
     They are limits of the mean over members, and hold for all variants together.

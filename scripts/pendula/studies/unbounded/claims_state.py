@@ -5,7 +5,7 @@ Only the errors of measured numbers count: limits of means over members, by Stud
 
 import numpy as np
 import xarray as xr
-from latticode.measures.confidence import Limits, mean_limits
+from latticode.measures.confidence import ConfidenceInterval, mean_limits
 from replication.ledger.changes import roll, scale, take
 from replication.ledger.claim import Control, Origin, claim
 from replication.ledger.criterion import (
@@ -103,10 +103,10 @@ def second_front(run: xr.Dataset) -> Finding:
     return judge(measured, criterion, caveat)
 
 
-def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Limits]:
+def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[ConfidenceInterval]:
     """Return P (variant, member) over that of thermal states, with limits, where both are known."""
     ratios = [
-        Limits(*(bound / state for bound in mean_limits(power, sure(tries))))
+        ConfidenceInterval(*(bound / state for bound in mean_limits(power, sure(tries))))
         for power, state in zip(powers, expected, strict=True)
         if np.isfinite([*power, state]).all()
     ]

@@ -12,7 +12,7 @@ The module `thermal` solves these states.
 import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import Variable, as_xarray
-from latticode.measures.confidence import CONFIDENCE, Limits, mean_limits
+from latticode.measures.confidence import CONFIDENCE, ConfidenceInterval, mean_limits
 from latticode.measures.spreading import fit_line, lay_line
 from latticode.numerics.elementary import log
 from replication.variables import REGULAR, SCATTERED, chaotic_along, missing
@@ -136,7 +136,7 @@ def slope_ratios(
     confidence: float = CONFIDENCE,
     second: np.ndarray | None = None,
     first: float = FIRST_OF_LINE,
-) -> list[Limits]:
+) -> list[ConfidenceInterval]:
     """Return the slope of l2^2 over that of its law for each variant, with limits over the members.
 
     The time at which the law begins is unknown, so an offset is fitted. For `second` see `law_of`.
@@ -146,7 +146,7 @@ def slope_ratios(
     return [
         fit_line(law, curves, law[0], confidence).slope
         if np.isfinite(law).all()
-        else Limits(np.nan, np.nan, np.nan)
+        else ConfidenceInterval(np.nan, np.nan, np.nan)
         for law, curves in zip(law_of(run, thermal, second)[:, is_late], squares, strict=True)
     ]
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import xarray as xr
-from latticode.measures.confidence import Limits, mean_limits
+from latticode.measures.confidence import ConfidenceInterval, mean_limits
 from latticode.measures.spreading import fit_exponent, lay_line
 from latticode.numerics.elementary import log
 
@@ -179,7 +179,7 @@ def varied(
     return vary(measured, {"tolerance": list(runs), "part_of_run": FRACTIONS, **choices})
 
 
-def _with_half(limits: Limits) -> Estimate:
+def _with_half(limits: ConfidenceInterval) -> Estimate:
     return limits.value, np.where(np.isfinite(limits.half), limits.half, np.nan)
 
 
