@@ -6,7 +6,7 @@ import xarray as xr
 from latticode.drawing import runs, style
 from matplotlib.axes import Axes
 
-KEPT = ("omega", "initial")
+CASE_ATTRIBUTES = ("omega", "initial")
 """What panels say of a case."""
 
 

@@ -21,7 +21,7 @@ from latticode.notebook import draw_breather, draw_survey, read, simulate, surve
 from pendula.configuration import cases
 from pendula.configuration.cases import takes_model
 from pendula.configuration.messages import Sections
-from pendula.own_cases.checks import KEPT, check_run
+from pendula.own_cases.checks import READ_VARIABLES, check_run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -124,7 +124,7 @@ def check(case: library_cases.Case, run: xr.Dataset | None = None) -> xr.Dataset
     ('theorem 1', True)
     """
     model: Any = getattr(case, "model", "")
-    variables = KEPT.get(model, ())
+    variables = READ_VARIABLES.get(model, ())
     return notebook.check(case, run, check_run, *variables)
 
 

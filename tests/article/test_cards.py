@@ -108,8 +108,10 @@ def test_every_file_that_a_card_links_to_lies_below_the_results(cards, tmp_path)
     addresses = {link.address for card in cards.describe() for link in card.files} - {""}
     quoted = {address for address in addresses if address.startswith("quoted/")}
     assert len(quoted) >= 10
-    copy_quoted([str(ROOT / original_of(name)) for name in quoted],
-                [str(tmp_path / name) for name in quoted])  # fmt: skip
+    copy_quoted(
+        [str(ROOT / original_of(name)) for name in quoted],
+        [str(tmp_path / name) for name in quoted],
+    )
     assert all((tmp_path / name).stat().st_size for name in quoted)
     of_run = load_json(BASELINE / "hashes.json")["files"]
     assert [name for name in addresses - quoted if name not in of_run] == []

@@ -52,8 +52,8 @@ OF_THE_LEDGER = {
 def tokens() -> list[tuple[bool, str, str, str, dict]]:
     """Return of each number whether it is in SECTION, its function, source, name and labels."""
 
-    def token(*parts) -> Printed:
-        return Printed(f"⟦{json.dumps(parts)}⟧", Source())
+    def token(*described) -> Printed:
+        return Printed(f"⟦{json.dumps(described)}⟧", Source())
 
     def of_dataset(function):
         return lambda self, name, variable, *_, **labels: token(function, name, variable, labels)
@@ -71,8 +71,8 @@ def tokens() -> list[tuple[bool, str, str, str, dict]]:
     start = text.index(SECTION)
     end = text.index("\n## ", start + 1)
     return [
-        (start < found.start() < end, *json.loads(found[1]))
-        for found in re.finditer("⟦(.*?)⟧", text)
+        (start < match.start() < end, *json.loads(match[1]))
+        for match in re.finditer("⟦(.*?)⟧", text)
     ]
 
 
@@ -97,14 +97,16 @@ def is_varied(data, function: str, name: str, labels: dict) -> bool:
     if name not in numbers_in(data):
         return False
     if function not in RANGES:
-        here = data.sel(labels)
-        return bool(here[name].isnull() or variations_of(here, name))  # NaN is printed as none
-    again = data[f"{name}_varied"].notnull().any(VARIATION)
-    return bool((again | data[name].isnull()).all())
+        at_labels = data.sel(labels)
+        return bool(
+            at_labels[name].isnull() or variations_of(at_labels, name)
+        )  # NaN is printed as none
+    varied = data[f"{name}_varied"].notnull().any(VARIATION)
+    return bool((varied | data[name].isnull()).all())
 
 
 def test_every_number_beyond_the_paper_was_varied_or_has_a_reason(tokens):
-    assert len([one for one in tokens if one[0]]) > 60
+    assert len([number for number in tokens if number[0]]) > 60
     assert unvaried(Accepted(), tokens) == []
 
 
@@ -112,13 +114,17 @@ def test_a_number_without_variations_is_found(tokens):
     accepted = Accepted()
     name = f"{FOLDER}/unbounded"
     accepted._read[name] = accepted[name].drop_vars("power_between_varied")
-    told = unvaried(accepted, tokens)
-    assert told and all(one.startswith("power_between of") for one in told)
+    unvaried_numbers = unvaried(accepted, tokens)
+    assert unvaried_numbers and all(
+        number.startswith("power_between of") for number in unvaried_numbers
+    )
     accepted._read[name] = Accepted()[name].copy(deep=True)
     varied = accepted[name]["distance_varied"]
     accepted[name]["distance_varied"] = varied.where(varied["omega"] != 2.0)
-    assert {json.loads(one.split(", ", 1)[1].replace("'", '"'))["omega"]
-            for one in unvaried(accepted, tokens)} == {2}  # fmt: skip
+    assert {
+        json.loads(number.split(", ", 1)[1].replace("'", '"'))["omega"]
+        for number in unvaried(accepted, tokens)
+    } == {2}
 
 
 @pytest.fixture(scope="module")
@@ -153,31 +159,31 @@ def values_meant(data, variable: str, definition: str = "", **labels) -> np.ndar
     data = data.sel(labels)
     name = variable.removesuffix("_varied").removesuffix("_low")
     if variable.endswith("_varied"):
-        parts = [data[variable]]
+        values_by_kind = [data[variable]]
     elif definition:
         varies = [not str(label).startswith(definition) for label in data[VARIATION].values]
-        parts = [data[name], data[f"{name}_varied"].isel({VARIATION: varies})]
+        values_by_kind = [data[name], data[f"{name}_varied"].isel({VARIATION: varies})]
     elif f"{name}_low" in data:
-        parts = [data[f"{name}{end}"] for end in ("_low", "_high", "_varied")]
+        values_by_kind = [data[f"{name}{end}"] for end in ("_low", "_high", "_varied")]
     else:
         error = data[f"{name}_error"]
-        parts = [data[name] - error, data[name] + error, data[f"{name}_varied"]]
-    values = np.concatenate([np.ravel(part) for part in parts])
+        values_by_kind = [data[name] - error, data[name] + error, data[f"{name}_varied"]]
+    values = np.concatenate([np.ravel(values) for values in values_by_kind])
     return values[np.isfinite(values)]
 
 
 def interval_of(text: str) -> tuple[float, float]:
     """Return the ends of the interval that a text gives; of a lone number, what rounds to it."""
-    plain = text.replace("\N{NO-BREAK SPACE}", " ").replace("−", "-").rstrip("†")
+    written = text.replace("\N{NO-BREAK SPACE}", " ").replace("−", "-").rstrip("†")
     powers = "".maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-    plain = re.sub(r"10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda part: f"1e{part[1].translate(powers)}", plain)
-    scale = 0.01 if "%" in plain else 1.0
-    if "±" in plain:
-        common = re.search(r"\) × (1e-?\d+)$", plain)
-        value, error = re.findall(r"-?[\d.]+", plain)[:2]
+    written = re.sub(r"10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda m: f"1e{m[1].translate(powers)}", written)
+    scale = 0.01 if "%" in written else 1.0
+    if "±" in written:
+        common = re.search(r"\) × (1e-?\d+)$", written)
+        value, error = re.findall(r"-?[\d.]+", written)[:2]
         scale *= float(common[1]) if common else 1.0
         return scale * (float(value) - float(error)), scale * (float(value) + float(error))
-    numbers = re.findall(r"-?[\d.]+(?: × 1e-?\d+)?", plain)
+    numbers = re.findall(r"-?[\d.]+(?: × 1e-?\d+)?", written)
     ends = [float(number.replace(" × 1e", "e")) for number in numbers]
     half = 0.0
     if len(ends) == 1:

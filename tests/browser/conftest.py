@@ -18,10 +18,10 @@ FLAGS = (
 def chromium() -> tuple[str, str]:
     """Return the paths of the browser and of its driver, or skip the test."""
     names = (("chromium", "chromium-browser", "google-chrome"), ("chromedriver",))
-    found = [next(filter(None, map(shutil.which, choice)), None) for choice in names]
-    if not all(found):
+    programs = [next(filter(None, map(shutil.which, choice)), None) for choice in names]
+    if not all(programs):
         skip("there is no browser with a driver", "apt-get install chromium chromium-driver")
-    return found[0], found[1]
+    return programs[0], programs[1]
 
 
 def driver(folder: Path, *flags: str):

@@ -139,8 +139,10 @@ def set_control(article, section, name: str, value) -> None:
         "if (typeof value === 'boolean') part.checked = value; else part.value = value;"
         "section.querySelector('[data-part=answer]').textContent = '';"
         "part.dispatchEvent(new Event('input', { bubbles: true }));",
-        section, name, value,
-    )  # fmt: skip
+        section,
+        name,
+        value,
+    )
 
 
 def answer_of(section) -> str:
@@ -208,12 +210,16 @@ def test_a_click_on_the_map_of_fates_opens_that_case_in_the_live_page(article, l
     canvas = section.find_element("css selector", "canvas")
     wait_for(lambda: section.find_element("css selector", "output").text)
     for place in ((0.2, 0.1), (0.72, 0.15), (0.9, 0.9)):
-        article.execute_script("""
+        article.execute_script(
+            """
         const [canvas, [across, up]] = arguments;
         const { left, top, width, height } = canvas.getBoundingClientRect();
         const at = { clientX: left + across * width, clientY: top + (1 - up) * height };
         canvas.dispatchEvent(new MouseEvent("click", { bubbles: true, ...at }));
-        """, canvas, place)  # fmt: skip
+        """,
+            canvas,
+            place,
+        )
         link = section.find_element("css selector", "a").get_attribute("href")
         a0, b0 = (float(re.search(rf"{name}_re=([\d.]+)", link)[1]) for name in "ab")
         np.testing.assert_allclose((a0, b0), np.multiply(place, 7.0), atol=0.05)

@@ -33,9 +33,11 @@ def live(browser, live_page):
     open_page(browser, live_page.as_uri())
     yield browser
     assert browser.get_log("browser") == [] and text(browser, "fault") == ""
-    told = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
-    requests = [one["params"] for one in told if one["method"] == "Network.requestWillBeSent"]
-    asked = {one["request"]["url"] for one in requests}
+    messages = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    requests = [
+        entry["params"] for entry in messages if entry["method"] == "Network.requestWillBeSent"
+    ]
+    asked = {entry["request"]["url"] for entry in requests}
     assert {url for url in asked if not url.startswith(("data:", "blob:"))} == {live_page.as_uri()}
 
 
@@ -107,18 +109,21 @@ def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     pair = [complex(keys.pop(f"{name}_re"), keys.pop(f"{name}_im")) for name in "ab"]
     problem = problem_of("fig2_small", **keys, initial={0: pair}, snapshot_every=4)
     perturbed = problem.changed(initial=problem.initial * (1 + 1e-7))
-    one, two = simulate(problem), simulate(perturbed)
-    assert np.array_equal(run(live, "Array.from(run.energy)"), one.conserved["energy"])
-    states = np.moveaxis(one.modulus, -1, 0)
+    first, second = simulate(problem), simulate(perturbed)
+    assert np.array_equal(run(live, "Array.from(run.energy)"), first.conserved["energy"])
+    states = np.moveaxis(first.modulus, -1, 0)
     left = [i for i, state in enumerate(states) if not is_localised(power_by_distance(state))]
-    until = f"stays localised until τ = {one.tau[4 * left[0]]:.4g}." if left else "to the end."
-    assert np.array_equal(run(live, all_sites("modulus")), one.modulus[1, problem.half_width :, -1])
-    amplitudes = [complex(*parts) for parts in run(live, all_sites("amplitude"))]
-    assert np.abs(amplitudes - one.final[1, problem.half_width :]).max() < 1e-13
+    until = f"stays localised until τ = {first.tau[4 * left[0]]:.4g}." if left else "to the end."
+    assert np.array_equal(
+        run(live, all_sites("modulus")), first.modulus[1, problem.half_width :, -1]
+    )
+    amplitudes = [complex(*re_and_im) for re_and_im in run(live, all_sites("amplitude"))]
+    assert np.abs(amplitudes - first.final[1, problem.half_width :]).max() < 1e-13
     short = problem.half_width < 3
     assert text(live, "localised").endswith("no motion counts as localised." if short else until)
-    parted = first_above(one.tau, norm_difference(one.linf, one.l2, two.linf, two.l2), 0.01)
-    when = f"at τ = {parted:.4g} " if np.isfinite(parted) else "at no time"
+    difference = norm_difference(first.linf, first.l2, second.linf, second.l2)
+    divergence = first_above(first.tau, difference, 0.01)
+    when = f"at τ = {divergence:.4g} " if np.isfinite(divergence) else "at no time"
     assert f"1 % of full scale {when}" in text(live, "parted")
 
 
@@ -134,10 +139,10 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
     assert f"\n{command}\n" in (ROOT / "docs/own_cases.md").read_text()
     ran = snakemake(ROOT, tmp_path, "results/trajectories/mine.nc", settings=case)
     assert ran.returncode == 0, ran.stdout + ran.stderr
-    found = read(tmp_path / "results/trajectories/mine.nc")
+    dataset = read(tmp_path / "results/trajectories/mine.nc")
     names, *rows = csv.reader((tmp_path / "mine.csv").read_text().splitlines())
     assert names == ["tau", "l2_A", "l2_B", "linf_A", "linf_B", "energy"]
-    of_pipeline = [found["tau"], *found["l2"], *found["linf"], found["energy"]]
+    of_pipeline = [dataset["tau"], *dataset["l2"], *dataset["linf"], dataset["energy"]]
     assert np.array_equal(np.array(rows, float).T, np.array(of_pipeline))
 
 
@@ -145,11 +150,11 @@ def test_a_link_keeps_all_that_the_page_shows(live):
     live.execute_script("show('case=fig4_large&tau=12.25&mu=0.2&perturbation=1e-5')")
     settle(live)
     names = ("numbers", "parted", "mu_value", "localised")
-    shown = [text(live, name) for name in names]
-    assert "At τ = 12.25:" in shown[0] and "factor 1 + 1e-5 " in shown[1]
-    assert "Horizon of Fig 4: " in shown[1] and "(the dashed line)" in shown[1]
+    shown_texts = [text(live, name) for name in names]
+    assert "At τ = 12.25:" in shown_texts[0] and "factor 1 + 1e-5 " in shown_texts[1]
+    assert "Horizon of Fig 4: " in shown_texts[1] and "(the dashed line)" in shown_texts[1]
     open_page(live, live.current_url.partition("#")[0] + "#" + run(live, "String(linkOf())"))
-    assert [text(live, name) for name in names] == shown
+    assert [text(live, name) for name in names] == shown_texts
 
 
 def test_the_address_follows_each_change_and_back_undoes_it(live):
@@ -273,12 +278,16 @@ def test_numbers_of_a_link_are_taken_with_all_their_digits(live):
     [
         ("omega=abc", "omega = abc; this page can show -12 to 12 (step 0.1), and shows 8."),
         ("omega=99", "omega = 99; this page can show -12 to 12 (step 0.1), and shows 8."),
-        ("half_width=2.5", "half_width = 2.5; "), ("omega=", "omega = ; "), ("mu=9", "mu = 9; "),
-        ("case=fig4_small&omega=99", ", and shows 0."), ("tau=51", "can show 0 to 50 "),
-        ("case=fig7", "fig4_large, and shows fig2_small."), ("boundary=", "boundary = ; "),
+        ("half_width=2.5", "half_width = 2.5; "),
+        ("omega=", "omega = ; "),
+        ("mu=9", "mu = 9; "),
+        ("case=fig4_small&omega=99", ", and shows 0."),
+        ("tau=51", "can show 0 to 50 "),
+        ("case=fig7", "fig4_large, and shows fig2_small."),
+        ("boundary=", "boundary = ; "),
         ("detuning=1", "detuning, which is no setting."),
     ],
-)  # fmt: skip
+)
 def test_a_link_that_the_page_cannot_show_is_told(live, link, said):
     live.execute_script(f"location.hash = '{link}'")
     wait_for(lambda: said in text(live, "fault"))

@@ -23,22 +23,22 @@ def run(report, script: str):
 def test_no_errors_and_no_request_but_the_page_and_its_pictures(report, address):
     assert report.get_log("browser") == []
     events = [json.loads(entry["message"])["message"] for entry in report.get_log("performance")]
-    asked = [
+    requested = [
         event["params"]["request"]["url"]
         for event in events
         if event["method"] == "Network.requestWillBeSent"
     ]
-    assert address in asked
-    own = ("data:", "chrome:")  # chrome: is the page of the browser that was open before
-    asked = {url for url in asked if not url.startswith(own)}
-    beside = address.replace("report.html", "figures/")
-    assert {url for url in asked if not url.startswith(beside)} == {address}
+    assert address in requested
+    inside = ("data:", "chrome:")  # chrome: is the page of the browser that was open before
+    requested = {url for url in requested if not url.startswith(inside)}
+    pictures = address.replace("report.html", "figures/")
+    assert {url for url in requested if not url.startswith(pictures)} == {address}
 
 
 def visible_claims(report) -> list[str]:
     """Return the names of the claims that are not filtered out, with their parts unfolded."""
-    shown = "document.querySelectorAll('.claim:not([hidden])')"
-    return run(report, f"[...{shown}].map((one) => one.id.slice(6))")
+    shown_names = "document.querySelectorAll('.claim:not([hidden])')"
+    return run(report, f"[...{shown_names}].map((one) => one.id.slice(6))")
 
 
 @pytest.mark.parametrize(
@@ -56,10 +56,12 @@ def test_claims_are_filtered(report, full_run, control, value, keep):
     expected = {row["name"] for row in rows if keep(row)}
     set_value = f"document.getElementById('{control}').value = '{value}'; filter();"
     report.execute_script(set_value)
-    shown = set(visible_claims(report))
-    assert expected and (expected == shown if control != "search" else expected <= shown)
-    assert len(shown) < len(rows)
-    assert run(report, "shown_count.textContent") == f"{len(shown)} of {len(rows)} claims"
+    shown_names = set(visible_claims(report))
+    assert expected and (
+        expected == shown_names if control != "search" else expected <= shown_names
+    )
+    assert len(shown_names) < len(rows)
+    assert run(report, "shown_count.textContent") == f"{len(shown_names)} of {len(rows)} claims"
     report.find_element("css selector", ".filters button").click()
     wait_for(lambda: len(visible_claims(report)) == len(rows))
 

@@ -11,7 +11,11 @@ from pendula.studies.breathers import figures
 
 def test_localised_is_one_word_with_one_definition():
     """In the live page, in the article, in the figure of fates and in the terms of ARCHITECTURE."""
-    files = (live.HERE / "live.html.j2", ARTICLE.folder / "article.md.j2", ROOT / "ARCHITECTURE.md")
+    files = (
+        live.THIS_FOLDER / "live.html.j2",
+        ARTICLE.folder / "article.md.j2",
+        ROOT / "ARCHITECTURE.md",
+    )
     texts = [figures.FATES_CAPTION, *(file.read_text(encoding="utf-8") for file in files)]
     defined = "central pair and its neighbours hold more than half of P"
     for text in texts:

@@ -47,6 +47,6 @@ def test_titles_stay_within_their_panels(make_trajectory, initial):
 @pytest.mark.parametrize(("output_step", "few"), [(0.0039, False), (0.004, True)])
 def test_a_caption_says_where_outputs_are_too_few_for_pendula(make_trajectory, output_step, few):
     """At mu = 0.1, omega = 0 an eighth of the period of an angle is pi / 800 = 0.00393 in tau."""
-    about = {"model": "pendula", "mu": 0.1, "omega": 0.0, "output_step": output_step}
-    run = make_trajectory().assign_attrs(about)
+    attributes = {"model": "pendula", "mu": 0.1, "omega": 0.0, "output_step": output_step}
+    run = make_trajectory().assign_attrs(attributes)
     assert ("shorter output_step" in figures.gather_norms(run).attrs["caption"]) == few

@@ -26,31 +26,31 @@ def test_the_papers_equations_as_a_model_of_ones_own_give_the_papers_run(tmp_pat
     data = {"half_width": 5, "initial": {0: (1, 0.1), 2: (0.2j, 0)}, "end_time": 6}
     (tmp_path / "amplitudes.py").write_text(AMPLITUDES, encoding="utf-8")
     model = Model.read(tmp_path / "amplitudes.py")
-    own, paper = Case(model=model, **data), Case(omega=-4, **data)
-    run, expected = simulate(own), simulate(paper)
+    of_model, paper = Case(model=model, **data), Case(omega=-4, **data)
+    run, expected = simulate(of_model), simulate(paper)
     np.testing.assert_array_equal(run["linf"], expected["linf"])
     energy = expected["energy"].values[:: expected.attrs["snapshot_every"]]
     np.testing.assert_allclose(run["conserved"][0], energy, rtol=1e-12)
-    found = check(own, run)
-    assert float(found["largest_difference"]) < 1e-10
-    assert float(found["conserved_drift"][0]) < 1e-11
-    said = dict(answers.of_case(found, True))
-    assert "largest relative change of H" in said and said["a localised state"]
-    late = float(check(paper, expected)["exponent"])
-    assert float(found["exponent"]) == pytest.approx(late, abs=0.1)
+    measured = check(of_model, run)
+    assert float(measured["largest_difference"]) < 1e-10
+    assert float(measured["conserved_drift"][0]) < 1e-11
+    answered = dict(answers.answer_questions(measured, True))
+    assert "largest relative change of H" in answered and answered["a localised state"]
+    expected_exponent = float(check(paper, expected)["exponent"])
+    assert float(measured["exponent"]) == pytest.approx(expected_exponent, abs=0.1)
 
 
 def test_the_page_on_a_lattice_of_ones_own_has_no_word_of_the_paper(tmp_path):
     model = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * u)
-    own = Case(model=model, half_width=2, initial={0: [1]}, end_time=1)
+    of_model = Case(model=model, half_width=2, initial={0: [1]}, end_time=1)
     paper = Case(omega=-4, half_width=2, end_time=1)
-    for case, axis, words in ((own, "c", "own equations"), (paper, "omega", "Phys. Lett. A")):
+    for case, axis, words in ((of_model, "c", "own equations"), (paper, "omega", "Phys. Lett. A")):
         folder = tmp_path / axis
-        made = survey(case, {axis: [1, 2]}, keep=["final_l2"], name="map")
-        save(folder / "surveys/map.nc", made)
+        mapped = survey(case, {axis: [1, 2]}, keep=["final_l2"], name="map")
+        save(folder / "surveys/map.nc", mapped)
         write_table(folder / "surveys/map.nc", folder / "own/tables/surveys/map.csv")
-        drawn, stem = gather_survey(made), folder / "own/surveys/map"
-        style.save(draw_survey(drawn), drawn, *(f"{stem}.{kind}" for kind in KINDS))
+        curves, stem = gather_survey(mapped), folder / "own/surveys/map"
+        style.save(draw_survey(curves), curves, *(f"{stem}.{kind}" for kind in KINDS))
         write_report(str(folder / "own.html"), [], {}, {"map": "mine"}, [])
         page = (folder / "own.html").read_text(encoding="utf-8")
         assert words in page and 'href="own/tables/surveys/map.csv"' in page
@@ -62,5 +62,5 @@ def test_the_page_points_out_sites_that_rest_at_an_unstable_point():
     case = Case(model=model, half_width=1, initial={0: [0.5]}, end_time=10)
     run = simulate(case)
     for moves in (True, False):
-        found = dict(answers.of_case(check(case, run), moves))
-        assert found["sites at rest"].startswith("sites -1, 1 rest at an unstable point")
+        measured = dict(answers.answer_questions(check(case, run), moves))
+        assert measured["sites at rest"].startswith("sites -1, 1 rest at an unstable point")

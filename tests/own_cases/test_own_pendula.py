@@ -44,18 +44,23 @@ def test_a_second_run_and_the_expansion_stand_beside_it(checks):
 
 def test_its_figures_are_in_radians(run, checks):
     axes = draw_norms(run, checks).axes
-    assert ["(rad)" in one.get_ylabel() for one in axes] == [True, True]
+    assert ["(rad)" in axes_of_panel.get_ylabel() for axes_of_panel in axes] == [True, True]
     assert r"$\mu = 0.1$" in axes[0].get_title("left")
     picture = draw_spacetime(run).axes
     assert "x_n" in picture[0].get_title("left") and "rad" in picture[2].get_ylabel()
 
 
 def test_what_its_checks_say_has_a_meaning(run, checks):
-    calm, over = (dict(answers.of_case(one, True)) for one in (checks, check(OVER)))
+    calm, over = (
+        dict(answers.answer_questions(axes_of_panel, True))
+        for axes_of_panel in (checks, check(OVER))
+    )
     top = "a pendulum has gone over the top"
     assert calm[top] == "no" and over[top].startswith("yes") and "Lemma 1" not in str(calm)
     assert calm["the expansion (3) could be followed"] == "yes"
-    assert answers.of_case(checks, False) == [("motion", "the chain is at rest and stays so")]
+    assert answers.answer_questions(checks, False) == [
+        ("motion", "the chain is at rest and stays so")
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +75,10 @@ def test_a_sweep_of_pendula_is_one_of_angles(swept):
     peak = float(swept["linf"].sel(half_width=4, statistic="max", quantity="pair").max())
     assert peak == float(alone["linf"].max())
     axes = draw_sweep(swept).axes
-    assert all("(x, y)" in one.get_ylabel() and "(rad)" in one.get_ylabel() for one in axes)
+    assert all(
+        "(x, y)" in axes_of_panel.get_ylabel() and "(rad)" in axes_of_panel.get_ylabel()
+        for axes_of_panel in axes
+    )
 
 
 def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():

@@ -13,14 +13,14 @@ from replication.article.page import LiveParts
 from replication.results import Results
 from replication.words import number, percent
 
-from pendula.live.write import HERE as LIVE
+from pendula.live.write import THIS_FOLDER as LIVE
 from pendula.live.write import data_of, worker_text
 from pendula.studies.breathers.figures import LOOKS
 
 from .long_studies import LONG_STUDIES
 
-HERE = Path(__file__).parent
-OF_LIVE, OWN = ("runs.js", "panels.js"), ("figures.js", "maps.js")
+THIS_FOLDER = Path(__file__).parent
+OF_LIVE, OF_ARTICLE = ("runs.js", "panels.js"), ("figures.js", "maps.js")
 FIGURES = {2: "fig2", 3: "fig3", 4: "fig4"}
 """The paper's cases below each figure of the article, by how their names begin."""
 FATES = "figure-8"
@@ -52,13 +52,13 @@ def gather_live_parts(results: Results, live: str, references: list[str]) -> Liv
     layers["end_time"] = max(case["settings"]["end_time"] for case in cases)
     fates = fates_of(results[BREATHERS])
     blocks = {"data": data, "layers": json.dumps(layers), "fates": json.dumps(fates)}
-    scripts = [*(LIVE / name for name in OF_LIVE), *(HERE / name for name in OWN)]
+    scripts = [*(LIVE / name for name in OF_LIVE), *(THIS_FOLDER / name for name in OF_ARTICLE)]
     return LiveParts(
         below_figures=_below_figures(cases, fates, float(members.attrs["band_share"])),
         data="".join(BLOCK.format("application/json", *block) for block in blocks.items())
         + BLOCK.format("text/plain", "worker", worker_text()),
         script="".join(map(_read, scripts)),
-        style=_read(HERE / "live_figures.css"),
+        style=_read(THIS_FOLDER / "live_figures.css"),
     )
 
 
@@ -66,9 +66,9 @@ def layers_of(reference: xr.Dataset, members: xr.Dataset) -> dict[str, Any]:
     """Return the curves of a case that are only looked at: its reference and its ensemble."""
     end_time = float(members["tau"][-1])
     stride = round(STEP / float(reference["tau"][1] - reference["tau"][0]))
-    shown = reference.sel(tau=slice(0, end_time)).isel(tau=slice(None, None, stride))
+    curves = reference.sel(tau=slice(0, end_time)).isel(tau=slice(None, None, stride))
     return {
-        "reference": {norm: [_curve(values) for values in shown[norm].values] for norm in NORMS},
+        "reference": {norm: [_curve(values) for values in curves[norm].values] for norm in NORMS},
         "ensemble": {
             norm: [
                 [_curve(values) for values in quantiles]
@@ -112,7 +112,7 @@ def _curve(values: np.ndarray) -> dict[str, Any]:
 def _below_figures(cases: list[dict], fates: dict[str, Any], share: float) -> dict[str, str]:
     """Return the controls below each figure of the article, by the id of the figure."""
     environment = Environment(
-        loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True
+        loader=FileSystemLoader(THIS_FOLDER), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     largest = f"{max(fates['amplitudes']):.0f}"
     environment.globals.update(share=percent(share), largest=largest, fates=LOOKS)

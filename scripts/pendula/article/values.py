@@ -65,10 +65,8 @@ def gather(results: Results) -> dict[str, Any]:
         "spread_from": printed(number(spread_from(study)), UNBOUNDED, "level_speed"),
         "grown": grown(numbers),
         "least_between": printed(percent(least_between(results[FRONTS])), FRONTS, "power_between"),
-        "full_run": {
-            name: printed(time, TIMES) for name, time in full_run(results).items()
-        },
-    }  # fmt: skip
+        "full_run": {name: printed(time, TIMES) for name, time in full_run(results).items()},
+    }
 
 
 def times_as_long(speed: xr.Dataset, *peers: str) -> Printed:

@@ -46,5 +46,5 @@ def write_article(
     """
     copy_quoted(committed_results, quoted)
     results = Results([*datasets, *pictures, ledger, *quoted], html, differs=differs)
-    parts = None if differs else gather_live_parts(results, live, references)
-    ARTICLE.write(results, html, pdf, metadata, parts)
+    live_parts = None if differs else gather_live_parts(results, live, references)
+    ARTICLE.write(results, html, pdf, metadata, live_parts)

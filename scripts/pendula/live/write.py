@@ -27,7 +27,7 @@ from pendula.case_words import case_of
 from .experiments import EXPERIMENTS
 from .kernel import ODE45, compile_for_any_processor
 
-HERE = Path(__file__).parent
+THIS_FOLDER = Path(__file__).parent
 SCRIPTS = "runs.js", "panels.js", "pictures.js", "words.js", "chart.js", "live.js"
 DATA = '<script type="application/json" id="data"'
 """How the element begins that holds the page's data."""
@@ -47,22 +47,22 @@ def write_live(runs: list[str], trust: str, chart: str, html: str) -> None:
     by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
     trusted = read(trust).sel(solver="ode45")
     data = {
-        "solver": _solver(next(iter(by_case.values())).attrs),
+        "solver": _describe_solver(next(iter(by_case.values())).attrs),
         "cases": [
-            _case(name, run, trusted.sel(case=name))
+            _describe_case(name, run, trusted.sel(case=name))
             for name, run in by_case.items()
             if set(read_initial(run.attrs["initial"])) == {0}
         ],
-        "chart": _chart(read(chart)),
+        "chart": _describe_chart(read(chart)),
         "faults": FAULTS,
         "visible": VISIBLE,
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
     }
-    style = _read(page.HERE / "style.css") + _read(HERE / "live.css")
-    script = "".join(_read(HERE / name) for name in SCRIPTS)
+    style = _read(page.HERE / "style.css") + _read(THIS_FOLDER / "live.css")
+    script = "".join(_read(THIS_FOLDER / name) for name in SCRIPTS)
     text = page.render(
         "live.html.j2",
-        HERE,
+        THIS_FOLDER,
         data=Markup(json.dumps(data, ensure_ascii=False)),
         experiments=EXPERIMENTS,
         chart=data["chart"],
@@ -83,53 +83,56 @@ def data_of(page: str) -> str:
 
 def worker_text() -> str:
     """Return the script of the worker that runs the solver."""
-    return loader() + _read(HERE / "solver.js")
+    return loader() + _read(THIS_FOLDER / "solver.js")
 
 
-def marks(run: xr.Dataset) -> np.ndarray:
+def hash_outputs(run: xr.Dataset) -> np.ndarray:
     """Return the mark of each output time of a trajectory, (time,)."""
-    found = np.full(run.sizes["tau"], OFFSET)
-    kept = [(1, values) for values in (*run["linf"], *run["l2"], run["energy"])]
+    hashes = np.full(run.sizes["tau"], OFFSET)
+    retained = [(1, values) for values in (*run["linf"], *run["l2"], run["energy"])]
     if every := int(run.attrs["snapshot_every"]):
         half = run["modulus"].sel(site=slice(0, None))  # the data are even, and so is the run
-        kept += [(every, values) for component in half for values in component]
-    for step, values in kept:
+        retained += [(every, values) for component in half for values in component]
+    for step, values in retained:
         for words in np.ascontiguousarray(values).view("<u4").reshape(values.size, -1).T:
-            found[::step] = (found[::step] ^ words) * PRIME
-    return found
+            hashes[::step] = (hashes[::step] ^ words) * PRIME
+    return hashes
 
 
-def _solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
+def _describe_solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return what the page holds of its solver, with the controls of a trajectory's attributes."""
     controls = {name: float(attributes[f"solver_{name}"]) for name in ODE45.controls}
     return {
-        "code": _text(compile_for_any_processor()),
+        "code": _encode(compile_for_any_processor()),
         "controls": [*controls.values()],
         "named": yaml.safe_dump({"name": "ode45", **controls}, default_flow_style=True).strip(),
         "work": ODE45.work_arrays(sites=1, in_tiles=False),
     }
 
 
-def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
+def _describe_case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
     """Return what the page holds of a case; a time of `None` is not known."""
-    about = run.attrs
-    a, b = read_initial(about["initial"])[0]
-    settings = {key: float(about[key]) for key in ("omega", "gamma", "epsilon", "end_time")}
-    settings |= {"half_width": int(about["half_width"]), "boundary": str(about["boundary"])}
+    attributes = run.attrs
+    a, b = read_initial(attributes["initial"])[0]
+    settings = {key: float(attributes[key]) for key in ("omega", "gamma", "epsilon", "end_time")}
+    settings |= {
+        "half_width": int(attributes["half_width"]),
+        "boundary": str(attributes["boundary"]),
+    }
     settings |= {"a_re": a.real, "a_im": a.imag, "b_re": b.real, "b_im": b.imag}
     known = float(np.minimum(trust["horizon"], trust["known_until"]).fillna(0.0))
     return {
         "name": name,
         "title": f"Fig {name.removeprefix('fig')[0]}: {case_of(trust)}",
         "settings": settings,
-        "output_step": float(about["output_step"]),
-        "every": int(about["snapshot_every"]),
-        "marks": _text(marks(run).tobytes()),
+        "output_step": float(attributes["output_step"]),
+        "every": int(attributes["snapshot_every"]),
+        "marks": _encode(hash_outputs(run).tobytes()),
         "horizon": known or None,
     }
 
 
-def _chart(chart: xr.Dataset) -> dict[str, Any]:
+def _describe_chart(chart: xr.Dataset) -> dict[str, Any]:
     """Return the growth rates of the chain at rest, by Omega and then by gamma, in 256 levels."""
     rates = chart["measured"].transpose("omega", "gamma").values.clip(min=0)
     levels = np.rint(rates / rates.max() * LEVELS).astype(int)
@@ -141,5 +144,5 @@ def _read(file: Path) -> str:
     return file.read_text(encoding="utf-8")
 
 
-def _text(content: bytes) -> str:
+def _encode(content: bytes) -> str:
     return base64.b64encode(content).decode()

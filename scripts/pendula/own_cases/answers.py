@@ -16,22 +16,22 @@ TOO_LARGE = "broken: the errors of the run are too large"
 Answers = list[tuple[str, str]]
 
 
-def of_case(checks: xr.Dataset, moves: bool) -> Answers:
+def answer_questions(checks: xr.Dataset, moves: bool) -> Answers:
     """Return questions and answers on a case; `moves` says whether any site does."""
     if checks.attrs.get("model") == PENDULA:
-        specific, at_rest = _of_pendula, []
+        specific, at_rest = _answer_for_pendula, []
     elif "model_text" in checks.attrs:
-        specific, at_rest = _of_own_model, []
+        specific, at_rest = _answer_for_model, []
     else:
-        specific, at_rest = _of_amplitudes, _lemma_1(checks)
+        specific, at_rest = _answer_for_amplitudes, _answer_lemma_1(checks)
     if UNSTABLE_REST in checks.attrs:
         at_rest.append(("sites at rest", checks.attrs[UNSTABLE_REST]))
     if not moves:
         return [("motion", "the chain is at rest and stays so"), *at_rest]
-    return [_trust(checks), *at_rest, *specific(checks)]
+    return [_answer_agreement(checks), *at_rest, *specific(checks)]
 
 
-def _trust(checks: xr.Dataset) -> tuple[str, str]:
+def _answer_agreement(checks: xr.Dataset) -> tuple[str, str]:
     """Return until when the run agrees with one by another method."""
     question = f"agrees with {SOLVER_NAMES[str(checks.attrs['second_name'])]}"
     if reason := checks.attrs.get("second_refusal"):
@@ -48,7 +48,7 @@ def _trust(checks: xr.Dataset) -> tuple[str, str]:
     return question, f"until τ = {number(parted, 4)}, within {level} of full scale; {then}"
 
 
-def _of_pendula(checks: xr.Dataset) -> Answers:
+def _answer_for_pendula(checks: xr.Dataset) -> Answers:
     over, followed = (
         bool(np.isfinite(checks[name])) for name in ("over_the_top", "expansion_error")
     )
@@ -59,34 +59,36 @@ def _of_pendula(checks: xr.Dataset) -> Answers:
     ]
 
 
-def _of_own_model(checks: xr.Dataset) -> Answers:
+def _answer_for_model(checks: xr.Dataset) -> Answers:
     drifts = checks.get("conserved_drift", [])
     return [
-        _chaotic(checks),
-        ("a localised state", localised(checks)),
-        *((f"largest relative change of {one['conserved_quantity'].item()}", number(one))
-          for one in drifts),
-    ]  # fmt: skip
+        _answer_chaos(checks),
+        ("a localised state", describe_localised_state(checks)),
+        *(
+            (f"largest relative change of {drift['conserved_quantity'].item()}", number(drift))
+            for drift in drifts
+        ),
+    ]
 
 
-def localised(checks: xr.Dataset) -> str:
+def describe_localised_state(checks: xr.Dataset) -> str:
     """Return what the localised state of a model is like, or why there is none."""
     if reason := checks.attrs.get("breather_refusal"):
         return f"none: {reason}"
     frequency, growth = (float(checks[f"breather_{name}"]) for name in ("frequency", "growth"))
-    what = f"turns at the frequency {number(frequency)}" if frequency else "is steady"
+    state = f"turns at the frequency {number(frequency)}" if frequency else "is steady"
     if checks["breather_end"] > LOCALISED:
-        return f"{what}, but reaches the ends of the chain"
+        return f"{state}, but reaches the ends of the chain"
     grows = f"a perturbation grows at the rate {number(growth)}"
-    return f"{what}; {grows if growth else 'no perturbation grows'}"
+    return f"{state}; {grows if growth else 'no perturbation grows'}"
 
 
-def _chaotic(checks: xr.Dataset) -> tuple[str, str]:
+def _answer_chaos(checks: xr.Dataset) -> tuple[str, str]:
     lost = checks.attrs.get("sensitivity_refusal", "")
     return "chaotic", f"unknown: {lost}" if lost else "yes" if checks["chaotic"] else "no"
 
 
-def _lemma_1(checks: xr.Dataset) -> Answers:
+def _answer_lemma_1(checks: xr.Dataset) -> Answers:
     """Return whether the chain at rest is stable, and of which chain the statements are."""
     stable = {True: "unstable", False: "no growing mode"}
     rows = [
@@ -94,12 +96,17 @@ def _lemma_1(checks: xr.Dataset) -> Answers:
         ("Lemma 1, this chain at rest", stable[bool(checks["finite_rate"] > 0)]),
     ]
     if checks.attrs["epsilon"] < 0:
-        rows.append(("ε < 0", "the statements are about the equivalent chain with −ε and Ω − 4ε, "
-                     "where every second site has the opposite sign"))  # fmt: skip
+        rows.append(
+            (
+                "ε < 0",
+                "the statements are about the equivalent chain with −ε and Ω − 4ε, "
+                "where every second site has the opposite sign",
+            )
+        )
     return rows
 
 
-def _of_amplitudes(checks: xr.Dataset) -> Answers:
+def _answer_for_amplitudes(checks: xr.Dataset) -> Answers:
     error = np.nan_to_num(float(checks["largest_difference"]))
     limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
     growth, bound = (
@@ -108,7 +115,7 @@ def _of_amplitudes(checks: xr.Dataset) -> Answers:
     region = str(checks["region"].values)
     covered = "only Theorem 3 covers" if region == "none" else f"{region.capitalize()} covers"
     return [
-        _chaotic(checks),
+        _answer_chaos(checks),
         ("Lemma 2, growth of P", growth),
         ("Theorems 1 to 3, these initial conditions", f"{covered} them"),
         ("the smallest bound of these theorems", bound),

@@ -22,11 +22,11 @@ from pendula.problem import AMPLITUDES, PENDULA, Problem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 
 TITLE = "A case beside the paper's statements"
-KEPT: Mapping[str, tuple[str, ...]] = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
+READ_VARIABLES: Mapping[str, tuple[str, ...]] = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
 """What the statements read of a run beside its norms."""
 
 
-def beside_bounds(run: xr.Dataset) -> dict:
+def compare_with_bounds(run: xr.Dataset) -> dict:
     """Return the trajectory's numbers beside its bounds, and the theorem that covers it."""
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no ratios
         numbers = case_numbers(run)
@@ -39,7 +39,7 @@ def beside_bounds(run: xr.Dataset) -> dict:
     }
 
 
-def at_rest(problem: Problem) -> dict:
+def measure_rest(problem: Problem) -> dict:
     """Return the threshold and growth rates of a chain at rest, infinite and of this length."""
     epsilon, gamma, omega = problem.constants
     rate, unit = infinite_rate(omega, gamma, epsilon), "per unit of tau"
@@ -51,9 +51,11 @@ def at_rest(problem: Problem) -> dict:
     }
 
 
-def beside_statements(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+def compare_with_statements(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return what the paper states about a case, beside its trajectory."""
-    return xr.Dataset.from_dict(table(TITLE, {}, **beside_bounds(run), **at_rest(problem)))
+    return xr.Dataset.from_dict(
+        table(TITLE, {}, **compare_with_bounds(run), **measure_rest(problem))
+    )
 
 
 # --- The pendula ----------------------------------------------------------------------------------
@@ -61,13 +63,13 @@ def beside_statements(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 TITLE_OF_PENDULA = "A case of the pendula beside the expansion (3)"
 
 
-def over_the_top(run: xr.Dataset) -> float:
+def find_time_over_the_top(run: xr.Dataset) -> float:
     """Return the first tau of the outputs at which an angle exceeds pi, infinite if none does."""
     beyond = (run["linf"] > np.pi).any("component").values
     return float(run["tau"][beyond.argmax()]) if beyond.any() else np.inf
 
 
-def beside_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+def compare_with_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return the largest angle, and how far the angles at the end are from those of (3)."""
     angles = run["final"].sel(part="angle").values
     solver = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
@@ -75,14 +77,14 @@ def beside_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     try:
         amplitudes = simulate(changed).final
         expected = leading_angles(amplitudes, problem.constants.omega, problem.mu, problem.end_time)
-        apart = float(np.abs(angles - expected).max())
+        distance = float(np.abs(angles - expected).max())
     except IntegrationError:  # data of (4) may be refused that pendula can be followed from
-        apart = np.nan
+        distance = np.nan
     top = "first tau at which an angle exceeds pi, infinite: at no output"
     numbers = {
         "largest_angle": variable(float(run["linf"].max()), (), "largest angle", "rad"),
-        "over_the_top": variable(over_the_top(run), (), top),
-        "expansion_error": variable(apart, (), "largest |x - x of (3)| at the end", "rad"),
+        "over_the_top": variable(find_time_over_the_top(run), (), top),
+        "expansion_error": variable(distance, (), "largest |x - x of (3)| at the end", "rad"),
     }
     return xr.Dataset.from_dict(table(TITLE_OF_PENDULA, {}, **numbers))
 
@@ -96,8 +98,8 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     `run` is the trajectory that `simulate` made of `problem`.
     """
     if problem.model.name == PENDULA:
-        return merged(run, run_again(problem, run), beside_expansion(problem, run))
+        return merged(run, run_again(problem, run), compare_with_expansion(problem, run))
     if problem.model.name != AMPLITUDES:
         return checks.check_run(problem, run)
-    others = measure_sensitivity(problem), beside_statements(problem, run)
-    return merged(run, run_again(problem, run), *others)
+    statements = measure_sensitivity(problem), compare_with_statements(problem, run)
+    return merged(run, run_again(problem, run), *statements)

@@ -12,8 +12,12 @@ from pendula.problem import PENDULA
 EIGHT = 8.0
 """Outputs in a period of the pendula that show how they swing."""
 SYMBOLS = {
-    "omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M", "mu": r"\mu",
-}  # fmt: skip
+    "omega": r"\Omega",
+    "gamma": r"\gamma",
+    "epsilon": r"\epsilon",
+    "half_width": "M",
+    "mu": r"\mu",
+}
 FEW_OUTPUTS = (
     " There are fewer than eight outputs in a period of the pendula: use the upper edge of the "
     "curves, or give a shorter output_step."
@@ -31,11 +35,11 @@ def naming_of(data: xr.Dataset) -> Naming:
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
     """Return the norms of a trajectory, beside the second run that its checks hold."""
-    drawn, about = runs.gather_norms(run, checks), run.attrs
-    if about.get("model") != PENDULA:
+    drawn, attributes = runs.gather_norms(run, checks), run.attrs
+    if attributes.get("model") != PENDULA:
         return drawn
-    period = np.pi * about["mu"] ** 2 / frequency(about["omega"], about["mu"])
-    few = bool(about["output_step"] > period / EIGHT)
+    period = np.pi * attributes["mu"] ** 2 / frequency(attributes["omega"], attributes["mu"])
+    few = bool(attributes["output_step"] > period / EIGHT)
     return drawn.assign_attrs(caption=drawn.attrs["caption"] + FEW_OUTPUTS * few)
 
 

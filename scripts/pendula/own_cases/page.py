@@ -10,7 +10,7 @@ from replication.report.document import PageSection, PageTable, write_page
 from . import answers
 
 TITLE = "Cases of your own"
-PARTS = ("", ".spacetime", ".breather")
+FIGURE_SUFFIXES = ("", ".spacetime", ".breather")
 
 
 def write_report(
@@ -24,8 +24,8 @@ def write_report(
 
     Their `files` lie below its folder.
     """
-    folder, made = Path(html).parent, set(files)
-    sections = [_case(name, folder, made) for name in cases]
+    folder, written = Path(html).parent, set(files)
+    sections = [_case(name, folder, written) for name in cases]
     sections += [_many_runs("sweep", name, case, folder) for name, case in sweeps.items()]
     sections += [_many_runs("survey", name, case, folder) for name, case in surveys.items()]
     of_kind = {"trajectories": cases, "sweeps": sweeps, "surveys": surveys}
@@ -46,25 +46,27 @@ def _table(path: str, folder: Path) -> list[str]:
     return [line] if (folder / link).exists() else []
 
 
-def _case(name: str, folder: Path, made: set[str]) -> PageSection:
+def _case(name: str, folder: Path, written: set[str]) -> PageSection:
     run, checks = folder / f"trajectories/{name}.nc", folder / f"own/cases/{name}.checks.nc"
-    drawn = [folder / f"own/cases/{name}{part}.nc" for part in PARTS]
-    answered = answers.of_case(read(checks), moves=bool(read(run)["linf"].any()))
+    drawn = [folder / f"own/cases/{name}{suffix}.nc" for suffix in FIGURE_SUFFIXES]
+    answered = answers.answer_questions(read(checks), moves=bool(read(run)["linf"].any()))
     return PageSection(
-        f"case-{name}", f"The case {name}",
+        f"case-{name}",
+        f"The case {name}",
         lines=_table(f"trajectories/{name}.nc", folder),
         tables=[PageTable("What the checks say", ("question", "answer"), answered)],
-        figures=[figure(path, folder) for path in drawn if str(path) in made],
+        figures=[figure(path, folder) for path in drawn if str(path) in written],
         datasets={"Datasets": [dataset(run, folder), dataset(checks, folder)]},
-    )  # fmt: skip
+    )
 
 
 def _many_runs(kind: str, name: str, case: str, folder: Path) -> PageSection:
     """Return the section of a sweep or a survey."""
-    made = f"{kind}s/{name}.nc"
+    file = f"{kind}s/{name}.nc"
     return PageSection(
-        f"{kind}-{name}", f"The {kind} {name} of the case {case}",
-        lines=_table(made, folder),
-        figures=[figure(folder / f"own/{made}", folder)],
-        datasets={"Datasets": [dataset(folder / made, folder)]},
-    )  # fmt: skip
+        f"{kind}-{name}",
+        f"The {kind} {name} of the case {case}",
+        lines=_table(file, folder),
+        figures=[figure(folder / f"own/{file}", folder)],
+        datasets={"Datasets": [dataset(folder / file, folder)]},
+    )

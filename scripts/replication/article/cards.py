@@ -262,10 +262,10 @@ class Cards:
         varied = f"{source.variable}_varied"
         if varied not in self.results[source.dataset]:
             return Table()
-        again = self.results[source.dataset][varied]
-        columns = [again.sel(key) for key in table.keys]
+        varied_values = self.results[source.dataset][varied]
+        columns = [varied_values.sel(key) for key in table.keys]
         rows = []
-        for choice in again[VARIATION].values:
+        for choice in varied_values[VARIATION].values:
             values = [float(column.sel({VARIATION: choice})) for column in columns]
             if np.isfinite(values).any():
                 texts = ("" if np.isnan(value) else number(value, DIGITS) for value in values)

@@ -125,10 +125,10 @@ class Numbers:
         value = data[variable]
         if definition:
             error = data[f"{variable}_statistical_error"]
-            again = data[f"{variable}_varied"]
+            varied = data[f"{variable}_varied"]
             varies = [not str(label).startswith(definition) for label in data[VARIATION].values]
-            again = again.isel({VARIATION: varies})
-            values = [value - error, value + error, again]
+            varied = varied.isel({VARIATION: varies})
+            values = [value - error, value + error, varied]
         elif f"{variable}_low" in data:
             values = [data[f"{variable}_low"], data[f"{variable}_high"]]
         elif f"{variable}_error" in data:

@@ -13,7 +13,7 @@ from replication.report import page
 
 from .cards import Card, functions_of
 
-HERE = Path(__file__).parent
+THIS_FOLDER = Path(__file__).parent
 SCRIPT = "cards.js"
 ANNOTATION = re.compile(r"<annotation .*?</annotation>")
 """The TeX of a formula, which readers aloud, and whoever copies it, would get as well."""
@@ -41,7 +41,10 @@ def complete_page(
     cards = list(cards)
     script = "".join(
         f"{{\n{text}}}\n"  # each in a block, since both have names of their own
-        for text in ((HERE / SCRIPT).read_text(encoding="utf-8"), live.script if live else "")
+        for text in (
+            (THIS_FOLDER / SCRIPT).read_text(encoding="utf-8"),
+            live.script if live else "",
+        )
     )
     for figure, below in live.below_figures.items() if live else ():
         html = re.sub(
@@ -51,9 +54,9 @@ def complete_page(
             count=1,
             flags=re.DOTALL,
         )
-    parts = {
+    replacements = {
         "<!-- cards -->": page.render(
-            "cards.html.j2", HERE, cards=cards, functions=functions_of(cards)
+            "cards.html.j2", THIS_FOLDER, cards=cards, functions=functions_of(cards)
         ),
         "<!-- script -->": f"{live.data if live else ''}<script>{script}</script>",
         "/* style of live figures */": live.style if live else "",
@@ -61,7 +64,7 @@ def complete_page(
     }
     html = ANNOTATION.sub("", html)
     html = PICTURE.sub(lambda picture: _enlargeable(folder, *picture.groups()), html)
-    for place, content in parts.items():
+    for place, content in replacements.items():
         html = html.replace(place, content)
     return html
 

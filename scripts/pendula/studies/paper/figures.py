@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from replication.variables import REGULAR, mark
 
-from pendula.drawing import KEPT, draw_cases, name_case
+from pendula.drawing import CASE_ATTRIBUTES, draw_cases, name_case
 
 SIZES = ["small", "large"]
 MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
@@ -74,7 +74,7 @@ def gather_norms(
         cases = [case.assign(_bands(case, ensembles)) for case in cases]
         band = BAND_CAPTION.format(_share(ensembles))
     caption = NORMS_CAPTION + (divergence_text + band) * any(map(strips.diverges, cases))
-    data = mark(style.join(cases, SIZES, "initial_size", KEPT), REGULAR, "omega")
+    data = mark(style.join(cases, SIZES, "initial_size", CASE_ATTRIBUTES), REGULAR, "omega")
     return data.assign_attrs(caption=caption)
 
 
@@ -140,7 +140,7 @@ def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
     The divergence times of the runs are taken from the dataset of `gather_norms`.
     """
     cases = [panels.over_time(case) for case in runs]
-    data = mark(style.join(cases, SIZES, "initial_size", KEPT), REGULAR, "omega")
+    data = mark(style.join(cases, SIZES, "initial_size", CASE_ATTRIBUTES), REGULAR, "omega")
     data = data.assign(divergence_time=norms["divergence_time"])
     return data.assign_attrs(caption=SPACETIME_CAPTION)
 
@@ -182,7 +182,8 @@ def gather_sweeps(
     """
     sweeps = {"left": left, "right": right}
     readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
-    data = mark(panels.join_sweeps(sweeps, readings, list(norms), KEPT), REGULAR, "omega")
+    joined = panels.join_sweeps(sweeps, readings, list(norms), CASE_ATTRIBUTES)
+    data = mark(joined, REGULAR, "omega")
     if ensembles is not None:
         names = [sweep.attrs["case"] for sweep in sweeps.values()]
         every = ensembles.reindex(sweep=names, half_width=data["half_width"])
