@@ -89,6 +89,7 @@ class Accepted(Results):
         return self.path(f"{name}.nc").exists()
 
     def path(self, link: str) -> Path:
+        """Return the accepted file to which a page links."""
         return BASELINE.parents[1] / original_of(link) if is_quoted(link) else BASELINE / link
 
 

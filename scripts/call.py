@@ -1,10 +1,12 @@
 """A Snakemake job that calls a function with the paths of its inputs and outputs."""
 
+from typing import Any
+
 from pendula.contract.arguments import function_of, load_arguments
 from pendula.contract.log import run
 
 
-def call(snakemake) -> None:
+def call(snakemake: Any) -> None:
     """Call the function that `params.call` names; it reads and writes its files itself."""
     function = function_of(snakemake.params.call)
     function(**load_arguments(function, snakemake, {}).values)

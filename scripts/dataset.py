@@ -19,7 +19,7 @@ from pendula.contract.kinds import KINDS
 from xarray import Dataset
 
 
-def compute(snakemake) -> None:
+def compute(snakemake: Any) -> None:
     """Write what the function that `params.call` names returns, or each dataset that it yields.
 
     This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. Each

@@ -4,6 +4,8 @@ from pendula.contract.log import run  # first: its hook logs an import that fail
 
 # isort: split
 
+from typing import Any
+
 import pendula.names  # noqa: F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import read
 from latticode.datasets.stated import stated
@@ -13,7 +15,7 @@ from replication.differences import in_short
 from xarray import Dataset
 
 
-def draw(snakemake) -> None:
+def draw(snakemake: Any) -> None:
     """Draw by the function that `params.call` names, draw_x, what gather_x beside it returns.
 
     The inputs and parameters of the rule are the arguments of gather_x. `params.unlike_paper` lists

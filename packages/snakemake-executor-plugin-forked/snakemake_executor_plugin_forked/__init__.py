@@ -25,6 +25,6 @@ class ExecutorSettings(ExecutorSettingsBase):
 
     modules: str = field(default="", metadata={"help": HELP})
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Start the imports while Snakemake reads the workflow."""
         self.forks = Forks(self.modules.split())

@@ -3,8 +3,10 @@
 The tests exercise all of it, so they fail where a new Snakemake version changes it.
 """
 
+from concurrent.futures import Future
 from copy import copy
 from types import FunctionType
+from typing import Any
 
 import snakemake.executors.local
 from snakemake.benchmark import benchmarked
@@ -18,7 +20,7 @@ DEFAULT_LIMIT = 100, 1
 """Snakemake's limit where the user gives none: jobs that may start, in so many seconds."""
 
 
-def with_names(function, **names):
+def with_names(function: FunctionType, **names: Any) -> FunctionType:
     """Return a copy of a function in which these global names have other values."""
     names = {**function.__globals__, **names}
     return FunctionType(
@@ -31,14 +33,14 @@ class Executor(snakemake.executors.local.Executor):
 
     fallback_reported = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Have Python scripts run by forks."""
         super().__post_init__()
         self.forks = self.executor_settings.forks
         forked = type("Forked", (ForkedScript,), {"executor": self})
         self.script = with_names(script, PythonScript=forked)
 
-    def run_jobs(self, jobs):
+    def run_jobs(self, jobs: list[Any]) -> None:
         """Start jobs without Snakemake's limit of so many in a second, unless the user set one.
 
         The limit is meant for queues. For it, Snakemake looks for jobs anew a second after each
@@ -54,14 +56,14 @@ class Executor(snakemake.executors.local.Executor):
             scheduler.resources["_job_count"] = scheduler.global_resources["_job_count"]
         super().run_jobs(jobs)
 
-    def run_single_job(self, job):
+    def run_single_job(self, job: Any) -> Future:
         """Start a job, and return the future of its end."""
         if not job.is_script or job.is_shadow or job.pipe_group:
             return super().run_single_job(job)
         arguments = self.job_args_and_prepare(job)
         return self.pool.submit(self.cached_or_run, job, self.run_script, *arguments)
 
-    def run_script(self, rule, *arguments):
+    def run_script(self, rule: Any, *arguments: Any) -> None:
         """Run a job whose script is a fork."""
         rule = copy(rule)
         rule.run_func = with_names(rule.run_func, script=self.script)
@@ -70,18 +72,18 @@ class Executor(snakemake.executors.local.Executor):
         except SystemExit as end:  # the reason was printed, and Snakemake adds none
             raise SpawnedJobError from end
 
-    def print_job_error(self, job_info, msg=None, **options):
+    def print_job_error(self, job_info: Any, msg: str | None = None, **options: Any) -> None:
         """Report that a job failed, unless the user has interrupted the run."""
         if not self.forks.interrupted:
             super().print_job_error(job_info, msg, **options)
 
-    def cancel(self):
+    def cancel(self) -> None:
         """End all jobs: Snakemake alone would wait for them."""
         self.forks.interrupted = True
         self.forks.end()
         super().cancel()
 
-    def shutdown(self):
+    def shutdown(self) -> None:
         """End when all jobs have ended."""
         super().shutdown()
         self.forks.end()
@@ -92,7 +94,7 @@ class ForkedScript(PythonScript):
 
     executor: Executor
 
-    def execute_script(self, fname, edit=False):
+    def execute_script(self, fname: str, edit: bool = False) -> None:
         """Run the file as a fork, or as Snakemake does where a fork would differ."""
         forks, logger = self.executor.forks, self.executor.logger
         try:
@@ -116,7 +118,7 @@ class ForkedScript(PythonScript):
         if status:
             raise SystemExit(status)
 
-    def check_that_a_fork_is_the_same(self):
+    def check_that_a_fork_is_the_same(self) -> None:
         """Raise CannotForkError for a job of several threads or of another command than Python."""
         prefix_and_suffix = shell._get_process_prefix() + shell._process_suffix
         if self.threads != 1:

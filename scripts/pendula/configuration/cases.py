@@ -3,7 +3,7 @@
 A default is the value of the paper's cases, save for `solver` and `snapshot_step`.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from math import sqrt
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -163,7 +163,7 @@ def of_its_kind(raw: dict) -> type[cases.Case]:
     return cases.Case
 
 
-def _validated(value: Any, handler) -> cases.Case:
+def _validated(value: Any, handler: Callable) -> cases.Case:
     kind = of_its_kind(value) if isinstance(value, dict) else PaperCaseSection
     if kind is PaperCaseSection:
         return handler(value)

@@ -52,6 +52,7 @@ class Errors(logging.Handler):
         self.text = ""
 
     def emit(self, record: logging.LogRecord) -> None:
+        """Add a record to the text."""
         self.text += f"{self.format(record)}\n"
 
 
