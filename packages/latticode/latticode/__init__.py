@@ -34,7 +34,9 @@ if TYPE_CHECKING:  # what type checkers and editors read; a test compares it wit
     from latticode.notebook import draw_spacetime as draw_spacetime
     from latticode.notebook import draw_survey as draw_survey
     from latticode.notebook import draw_sweep as draw_sweep
+    from latticode.notebook import lyapunov as lyapunov
     from latticode.notebook import read as read
+    from latticode.notebook import section as section
     from latticode.notebook import simulate as simulate
     from latticode.notebook import survey as survey
     from latticode.notebook import sweep as sweep
@@ -44,8 +46,8 @@ __version__ = "0.2.0"
 
 _EQUATIONS = "Model ModelError abs2 conj cos exp lap log shift sin sqrt"
 _NOTEBOOK = (
-    "Case check draw_breather draw_norms draw_spacetime draw_survey draw_sweep read simulate survey"
-    " sweep"
+    "Case check draw_breather draw_norms draw_spacetime draw_survey draw_sweep lyapunov read"
+    " section simulate survey sweep"
 )
 _HOMES = {
     "latticode.configuration.files": "ConfigurationError",

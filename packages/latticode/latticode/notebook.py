@@ -28,11 +28,14 @@ from latticode.configuration.messages import in_words
 from latticode.configuration.schema import Configuration, Limits, load
 from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
+from latticode.datasets.motions import section_dataset, spectrum_dataset
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
 from latticode.datasets.surveys import COUNTS, runs_in, survey_contents
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
-from latticode.integrators.families import remark_on
+from latticode.integrators.families import pair_of, remark_on
+from latticode.localised.sections import DIRECTIONS, find_crossings
+from latticode.localised.spectra import count_directions, measure_spectrum
 from latticode.simulation import simulate as simulation
 from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
@@ -52,7 +55,9 @@ __all__ = [
     "draw_spacetime",
     "draw_survey",
     "draw_sweep",
+    "lyapunov",
     "read",
+    "section",
     "simulate",
     "survey",
     "sweep",
@@ -455,6 +460,88 @@ def check(
     if sentence := found.attrs.get(UNSTABLE_REST):
         print(sentence)
     return found
+
+
+def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr.Dataset:
+    """Measure the `count` largest Lyapunov exponents of the motion of a case, with their errors.
+
+    Tangent vectors are carried along with the solution by dop853 and made orthonormal again and
+    again; rates are those of the second half of the run, so that the first half is the transient.
+    Returns exponent and exponent_error (number,), largest first, per unit of tau, and log_growth
+    (number, growth_tau). The sum of all exponents is the mean divergence of the equations.
+
+    Raises ConfigurationError where there are fewer directions than exponents, or the work would
+    take more than `hours` (1 if it is left out); IntegrationError as `simulate`.
+
+    >>> from latticode import Model
+    >>> def dt(p, x, y, z):
+    ...     return 10 * (y - x), x * (28 - z) - y, x * y - 8 / 3 * z
+    >>> lorenz = Model(fields=("x", "y", "z"), parameters={}, dt=dt)
+    >>> case = Case(model=lorenz, sites=1, initial={0: [1, 1, 20]}, end_time=200)
+    >>> found = lyapunov(case, count=3)
+    >>> round(float(found["exponent"].sum()), 4)  # -10 - 1 - 8 / 3
+    -13.6667
+    """
+    require(case, cases.Case, CASE)
+    problem = case.kind.of(case.problem())
+    most = count_directions(problem)
+    if not isinstance(count, Integral) or isinstance(count, bool) or not 1 <= count <= most:
+        text = f"count: is {values.shown(count)}; give a whole number from 1 to {most}"
+        raise list_faults([text], "the spectrum")
+    one = case.cost(case.problem(solver=cost.OF_TANGENTS))
+    takes = cost.Cost((1 + count) * one.seconds, (1 + count) * one.memory)
+    limits = Limits(**_limits(hours, None)).model_dump()
+    if takes.excess(limits) > 1.0:
+        raise list_faults([_as_argument(f"count: {cost.refusal(takes, limits)}")], "the spectrum")
+    _announce(takes)
+    with shown("lyapunov"):
+        return spectrum_dataset(problem, measure_spectrum(problem, int(count)))
+
+
+def section(
+    case: cases.Case, when: Callable, direction: str = "up", site: int | None = None
+) -> xr.Dataset:
+    """Find the times and states at which a function of the fields crosses zero in a run.
+
+    when: a function (p, *fields), as the equations are, of what shall cross zero; of fields with
+        d2_dt2 it may take velocities too.
+    direction: "up" (from below zero), "down" or "both".
+    site: where the function is taken; the first of the sites 0..N-1, or 0.
+
+    Returns crossing_tau (crossing,) and crossing_state (part, component, site, crossing). A
+    crossing is seen where the sign changes from one output of the case to the next, and located by
+    runs from the output before it, to the last digits of the solver.
+
+    Raises ModelError where `when` cannot be traced; ConfigurationError for no direction or site;
+    IntegrationError as `simulate`.
+
+    >>> from latticode import Model
+    >>> swing = Model(fields="x", parameters={}, d2_dt2=lambda p, x: -x)
+    >>> case = Case(model=swing, sites=1, initial={0: [1]}, end_time=10)
+    >>> found = section(case, when=lambda p, x: x, direction="up")
+    >>> abs(float(found["crossing_tau"][0]) - 1.5 * 3.141592653589793) < 1e-12
+    True
+    """
+    require(case, cases.Case, CASE)
+    site = 0 if site is None else site
+    faults = []
+    if direction not in DIRECTIONS:
+        known = ", ".join(DIRECTIONS)
+        faults.append(f"direction: is {values.shown(direction)}; give one of {known}")
+    if site not in case.chain:
+        ends = f"{case.chain[0]} to {case.chain[-1]}"
+        faults.append(f"site: is {values.shown(site)}; the sites run from {ends}")
+    if not callable(when):
+        faults.append("when: is no function; give one such as lambda p, x: x - 1")
+    if faults:
+        raise list_faults(faults, "the section")
+    problem = case.kind.of(case.problem())
+    if problem.solver["name"] == "auto":  # its outputs are those of two methods
+        name = pair_of(case.solver_names)[0]
+        problem = problem.changed(solver={"name": name, **dict.fromkeys(("rtol", "atol"), 1e-13)})
+    with shown("section"):
+        crossings = find_crossings(problem, case.model.trace(when), site, direction)
+    return section_dataset(problem, crossings)
 
 
 def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":

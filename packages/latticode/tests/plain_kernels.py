@@ -55,6 +55,8 @@ VECTORS = {
     "largest_in_rows": largest_in_rows,
     "vector_views": lambda states: tuple(map(View, states)),
     "square_root": np.sqrt,
+    "TINY": 1e-150,
+    "zero_below": lambda level, value: np.where(np.abs(value) < level, 0.0, value),
     "select_positive": lambda condition, one, other: np.where(condition > 0.0, one, other),
     "power_of_two": lambda k: np.exp2(np.clip(k, -1022, 1023)),
     "whole_exponent": lambda x: np.floor(np.log2(x) + 0.5),

@@ -215,6 +215,25 @@ class Model:
         text = [*lines[:MOST_SHOWN], *["..."][: len(lines) > MOST_SHOWN]]
         return "\n    ".join(["; ".join([head, *values]), *text])
 
+    def trace(self, function: Callable) -> Node:
+        """Return the real expression of the fields that a function (p, *fields) returns.
+
+        It may take velocities as `d2_dt2` does. Raises ModelError where it cannot be traced, or
+        depends on no field.
+        """
+
+        def real_node(returned: Any) -> Node:
+            value = Value.of(returned)
+            if not _vanishes(value.im):
+                raise ModelError(f"{function.__name__} returns a complex number; give a real one")
+            if value.re.level != MOTION:
+                raise ModelError(f"{function.__name__} depends on no field")
+            if leaves_in([value.re], "matrix"):
+                raise ModelError(f"{function.__name__} has a couple(p.W, u), which only rates have")
+            return value.re
+
+        return self._twice(function, real_node)
+
     def _twice(self, function: Callable, nodes_of: Callable) -> Any:
         """Return the nodes of what a function of the model returns, which is traced twice.
 

@@ -25,7 +25,7 @@ def linearise(
     this weight: at 0 sites are independent.
     """
     model, values = problem.model, problem.parameter_values
-    places = _places(model.reach, problem.boundary, problem.sites, parity)
+    places = places_seen(model.reach, problem.boundary, problem.sites, parity)
     state_rows = state.reshape(len(model.rates), -1)
     rows, sites = state_rows.shape
 
@@ -68,7 +68,7 @@ def linearise(
 
 
 @lru_cache
-def _places(reach: int, boundary: str, sites: int, parity: int | None) -> np.ndarray:
+def places_seen(reach: int, boundary: str, sites: int, parity: int | None) -> np.ndarray:
     """Return which site stands at each one, from the first but `reach` to the last and `reach`.
 
     Below it stand its factor in the state, 0 where a site is at rest, and that in a perturbation.
