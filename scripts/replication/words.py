@@ -49,10 +49,10 @@ def number(value: float, digits: int = 3) -> str:
     if not np.isfinite(value):
         return "none" if np.isnan(value) else "infinite" if value > 0 else f"{MINUS}infinite"
     small = 0 < abs(value) < SMALL
-    plain = f"{value:.{digits - 1}e}" if small else f"{value:.{digits}g}"
-    mantissa, _, exponent = plain.partition("e")
+    digits_text = f"{value:.{digits - 1}e}" if small else f"{value:.{digits}g}"
+    mantissa, _, exponent = digits_text.partition("e")
     if not exponent:
-        return plain.replace("-", MINUS)
+        return digits_text.replace("-", MINUS)
     mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
     start = "" if mantissa == "1" else f"{mantissa}{FIRM}{TIMES}{FIRM}"
     return f"{start}10{raised(exponent)}".replace("-", MINUS)
@@ -95,13 +95,13 @@ def outward(value: float, digits: int, direction: Direction) -> float:
     return rounded(value, digits - 1 - int(np.floor(np.log10(abs(value)))), direction)
 
 
-def percent(part: float, digits: int = 2) -> str:
+def percent(fraction: float, digits: int = 2) -> str:
     """Return a fraction in per cent: 13 %. What is not the whole is not rounded to it: 99.5 %."""
-    value = 100.0 * float(part)
+    value = 100.0 * float(fraction)
     if abs(value) < 10:
         return f"{number(value, digits)}{FIRM}%"
     texts = (f"{value:.{places}f}" for places in range(8))
-    rounded = next((one for one in texts if value == 100 or float(one) != 100), "100")
+    rounded = next((text for text in texts if value == 100 or float(text) != 100), "100")
     rounded = rounded.replace("-", MINUS)
     return f"{rounded}{FIRM}%"
 
@@ -118,9 +118,9 @@ def enclosing_span(low: float, high: float, digits: int) -> str:
 
 def symbols(text: str) -> str:
     """Return a text of the ledger with its Greek letters and signs."""
-    text = _NAMES.sub(lambda found: SYMBOLS[found[0]], text.replace("l2^2", "(l2)²"))
-    text = _POWERS_OF_TEN.sub(lambda found: number(float(found[0]), len(found[0])), text)
-    text = _EXPONENTS.sub(lambda found: raised(found[1]), text)
+    text = _NAMES.sub(lambda match: SYMBOLS[match[0]], text.replace("l2^2", "(l2)²"))
+    text = _POWERS_OF_TEN.sub(lambda match: number(float(match[0]), len(match[0])), text)
+    text = _EXPONENTS.sub(lambda match: raised(match[1]), text)
     text = _MINUS.sub(MINUS, text)
     for written, sign in SIGNS.items():
         text = text.replace(written, sign)
@@ -139,7 +139,7 @@ def markdown(head: Sequence[str], rows: Iterable[Sequence]) -> str:
     return tabulate(cells, titles, "github", stralign=None, disable_numparse=True)
 
 
-def write_markdown(path: str | Path, *parts: str) -> None:
+def write_markdown(path: str | Path, *paragraphs: str) -> None:
     """Write a page of Markdown: titles, paragraphs and tables with an empty line between them."""
     with complete_or_absent(path) as partial:
-        Path(partial).write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+        Path(partial).write_text("\n\n".join(paragraphs) + "\n", encoding="utf-8")

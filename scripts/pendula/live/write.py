@@ -58,7 +58,7 @@ def write_live(runs: list[str], trust: str, chart: str, html: str) -> None:
         "visible": VISIBLE,
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
     }
-    style = _read(page.HERE / "style.css") + _read(THIS_FOLDER / "live.css")
+    style = _read(page.FOLDER / "style.css") + _read(THIS_FOLDER / "live.css")
     script = "".join(_read(THIS_FOLDER / name) for name in SCRIPTS)
     text = page.render(
         "live.html.j2",

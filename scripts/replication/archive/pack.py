@@ -24,7 +24,7 @@ from rocrate.rocrate import ROCrate
 
 from .contents import MANIFEST, ArchiveError, code_files
 
-MADE = 315532800
+PACKED_TIME = 315532800
 """All files get this time, 1980-01-01: if times differed, Snakemake would make some files again."""
 
 FORMATS = {".nc": "application/netcdf", ".png": "image/png", ".pdf": "application/pdf"}
@@ -83,13 +83,17 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
         open(archive, "wb") as raw,
         # The compressed bytes also depend on the version of zlib, the files in them do not. Level 9
         # would take twice the time for two thousandths of the size.
-        gzip.GzipFile("", "wb", 6, raw, mtime=MADE) as zipped,
+        gzip.GzipFile("", "wb", 6, raw, mtime=PACKED_TIME) as zipped,
         tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
     ):
         for name, content in sorted(data.items()):
             runs = name in files and files[name].stat().st_mode & 0o100
             entry = tarfile.TarInfo(f"{folder}/{name}")  # belongs to nobody
-            entry.size, entry.mtime, entry.mode = len(content), MADE, 0o755 if runs else 0o644
+            entry.size, entry.mtime, entry.mode = (
+                len(content),
+                PACKED_TIME,
+                0o755 if runs else 0o644,
+            )
             tar.addfile(entry, io.BytesIO(content))
     return len(data)
 
@@ -104,17 +108,17 @@ def describe(project: Project, members: dict[str, Path]) -> dict:
     crate = ROCrate(version="1.1")
 
     def entity(identifier: str, kind: str, name: str) -> ContextEntity:
-        about = {"@type": kind, "name": name}
-        return crate.add(ContextEntity(crate, identifier, properties=about))
+        properties = {"@type": kind, "name": name}
+        return crate.add(ContextEntity(crate, identifier, properties=properties))
 
     rights = [cited["license"], (project.folder / "LICENSE-DATA").read_text("utf-8").split()[1]]
     of_code, of_data = (
         entity(f"https://spdx.org/licenses/{name}", "CreativeWork", name) for name in rights
     )
     authors = [
-        ("Organization", one["name"]) if "name" in one
-        else ("Person", f"{one['given-names']} {one['family-names']}")
-        for one in cited["authors"]
+        ("Organization", author["name"]) if "name" in author
+        else ("Person", f"{author['given-names']} {author['family-names']}")
+        for author in cited["authors"]
     ]  # fmt: skip
     facts = {
         "name": cited["title"],
@@ -135,11 +139,11 @@ def describe(project: Project, members: dict[str, Path]) -> dict:
     crate.add_workflow(dest_path="Snakefile", main=True, properties=facts, **language)
     crate.add_file(dest_path="README.md", properties={"about": {"@id": "./"}})
     for name in sorted(name for name in members if name.startswith("results/")):
-        crate.add_file(dest_path=name, properties={**_about(name, members), "license": of_data})
+        crate.add_file(dest_path=name, properties={**_facts_of(name, members), "license": of_data})
     return crate.metadata.generate()
 
 
-def _about(name: str, members: dict[str, Path]) -> dict:
+def _facts_of(name: str, members: dict[str, Path]) -> dict:
     """Return facts on a result: of a dataset its title, of a figure the dataset that it shows."""
     path, data = members[name], Path(name).with_suffix(".nc").as_posix()
     facts = {"name": path.name, "encodingFormat": FORMATS.get(path.suffix, "text/plain")}

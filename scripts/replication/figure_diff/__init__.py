@@ -18,7 +18,7 @@ class Status(StrEnum):
         return self not in (Status.BEYOND, Status.WITHIN, Status.IDENTICAL)
 
 
-class Finding(NamedTuple):
+class FileResult(NamedTuple):
     """The finding for one file, which `name` gives by its path below results/."""
 
     name: str
@@ -26,11 +26,11 @@ class Finding(NamedTuple):
     says: str = ""
 
 
-class Verdict(NamedTuple):
+class ComparisonResult(NamedTuple):
     """What was found of all files, and in words by which measure they were judged."""
 
     judged: str
-    findings: Sequence[Finding]
+    findings: Sequence[FileResult]
 
     @property
     def counts(self) -> dict[Status, int]:

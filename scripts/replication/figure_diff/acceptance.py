@@ -28,8 +28,10 @@ from .compare_pictures import damage, edited
 from .compare_shown import hash_of
 
 ALL = "accept all files, so that all are of one run"
-OWN = """run it without --configfile and --config; for a baseline of another configuration give a \
-folder, as in `--config baseline=my_baseline`"""
+WAY_OUT = (
+    "run it without --configfile and --config; for a baseline of another configuration give a "
+    "folder, as in `--config baseline=my_baseline`"
+)
 
 
 class AcceptanceError(ValueError):
@@ -39,11 +41,13 @@ class AcceptanceError(ValueError):
         super().__init__(f"nothing is accepted: {why}")
 
 
-def check(now: Mapping, wanted: Mapping, whose: str, way_out: str) -> None:
+def check(now: Mapping, accepted: Mapping, owner: str, way_out: str) -> None:
     """Raise AcceptanceError unless a configuration or an environment is the wanted one."""
-    if said := unlike_settings(wanted, now):
-        told = "; ".join([*said[:3], *([f"and {len(said) - 3} more"] if said[3:] else [])])
-        raise AcceptanceError(f"this run is not of {whose}: {told}. What to do: {way_out}")
+    if differences := unlike_settings(accepted, now):
+        listed = "; ".join(
+            [*differences[:3], *([f"and {len(differences) - 3} more"] if differences[3:] else [])]
+        )
+        raise AcceptanceError(f"this run is not of {owner}: {listed}. What to do: {way_out}")
 
 
 def choose(words: Sequence[str], names: Iterable[str]) -> list[str]:
@@ -55,18 +59,18 @@ def choose(words: Sequence[str], names: Iterable[str]) -> list[str]:
     forms = {n: {n, stem, stem.removeprefix(FIGURES)} for n, stem in stems.items()}
     chosen = set()
     for word in words:
-        found = {n for n in forms if any(fnmatchcase(form, word) for form in forms[n])}
-        if not found:
+        named = {n for n in forms if any(fnmatchcase(form, word) for form in forms[n])}
+        if not named:
             near = difflib.get_close_matches(word, sorted(set().union(*forms.values())), 1)
             hint = f"; did you mean {near[0]}?" if near else ""
             raise AcceptanceError(f"{word} names no file of a full run{hint}")
-        chosen |= found
+        chosen |= named
     return sorted(chosen)
 
 
 def accept(
     names: Iterable[str],
-    made: Path,
+    results: Path,
     folder: Path,
     configuration: Mapping[str, Any],
     words: Sequence[str] = (),
@@ -77,28 +81,29 @@ def accept(
     is empty or damaged, or if two configurations or environments would mix.
     """
     try:
-        record, here, names = recorded(folder), environment(), set(names)
+        record, current, names = recorded(folder), environment(), set(names)
         was = record["files"]
-        taken = set(choose(words, names | was.keys())) if words else names | was.keys()
+        accepted = set(choose(words, names | was.keys())) if words else names | was.keys()
         if words and was:
             check(configuration, record["configuration"], "the accepted configuration", ALL)
-            check(here, record["environment"], "the accepted environment", ALL)
-        for name in taken - names:
+            check(current, record["environment"], "the accepted environment", ALL)
+        for name in accepted - names:
             if (folder / name).exists() and (fault := fault_of_kept(name, was, folder)):
                 raise AcceptanceError(f"{folder / name}, which no run makes, {fault}: delete it")
-        contents = {name: _read(name, made / name) for name in sorted(taken & names)}
+        contents = {name: _read(name, results / name) for name in sorted(accepted & names)}
         _require_declarations(contents, configuration)
     except DatasetError as error:
         raise AcceptanceError(error) from error
-    files = {name: told for name, told in was.items() if name not in taken}
-    files |= {n: _take(n, content, made / n, folder / n) for n, content in contents.items()}
-    for name in taken - names:
+    files = {name: content for name, content in was.items() if name not in accepted}
+    files |= {n: _take(n, content, results / n, folder / n) for n, content in contents.items()}
+    for name in accepted - names:
         (folder / name).unlink(missing_ok=True)
-    told = {"environment": here, "configuration": configuration}
-    write_json(folder / RECORD, told | {"files": dict(sorted(files.items()))})
+    content = {"environment": current, "configuration": configuration}
+    write_json(folder / RECORD, content | {"files": dict(sorted(files.items()))})
     changed = sum(files[name] != was.get(name) for name in contents)
+    removed = len(accepted - names)
     return (
-        f"{len(contents)} files accepted, {changed} of them new or changed, {len(taken - names)} "
+        f"{len(contents)} files accepted, {changed} of them new or changed, {removed} "
         f"removed: `git diff --stat {folder}` shows what has changed"
     )
 
@@ -131,17 +136,17 @@ def _read(name: str, path: Path) -> bytes | xr.Dataset:
     return content
 
 
-def _take(name: str, content: bytes | xr.Dataset, path: Path, kept: Path) -> str | dict[str, Any]:
+def _take(name: str, content: bytes | xr.Dataset, path: Path, copy: Path) -> str | dict[str, Any]:
     """Keep what the file at `path` holds if the baseline keeps it, and return its hashes."""
     if isinstance(content, bytes):
         if is_kept(name):
-            with complete_or_absent(kept) as partial:
+            with complete_or_absent(copy) as partial:
                 partial.write_bytes(content)
         return hash_of(name, content)
     if not is_kept(name):
         return hashes.of(content)
-    hashes.keep(kept, path)
-    return hashes.of(content) | {"kept": hashes.of_bytes(kept.read_bytes())}
+    hashes.keep(copy, path)
+    return hashes.of(content) | {"kept": hashes.of_bytes(copy.read_bytes())}
 
 
 def accept_results(

@@ -26,7 +26,7 @@ SHOWN_OTHERWISE = ("coordinates",)
 """Attributes that xarray shows by what they mean."""
 
 
-class Unlike(NamedTuple):
+class VariableDifference(NamedTuple):
     """One thing that differs: if it is a fault, how many numbers cannot be judged, in words."""
 
     is_fault: bool
@@ -38,15 +38,15 @@ def compare(
     name: str,
     new: Path,
     accepted: Mapping[str, Any],
-    kept: Path,
+    accepted_copy: Path,
     chaos: Chaos,
     scatter: Mapping[str, float],
     steps: tuple[str, ...] = (),
 ) -> tuple[Status, str]:
     """Return status and reason of the dataset `name`, in the file `new`, with its accepted hashes.
 
-    `kept` is the copy in the baseline, `scatter` what is known of chaotic variables (`scatter`),
-    and `steps` are the dimensions of `values.jumps`.
+    `accepted_copy` is the file in the baseline, `scatter` that of chaotic variables by right runs
+    (see the module `scatter`), and `steps` are the dimensions of `values.jumps`.
     """
     try:
         content = read(new)
@@ -58,15 +58,15 @@ def compare(
         return Status.IDENTICAL, ""
     if undeclared := chaos.undeclared(name, content):
         return Status.DIFFERENT, undeclared_words(undeclared)
-    was = read(kept)
-    found = list(differences(name, was, content, accepted["variables"], chaos, scatter))
-    faults = [each.says for each in found if each.is_fault]
+    was = read(accepted_copy)
+    unlike = list(differences(name, was, content, accepted["variables"], chaos, scatter))
+    faults = [each.says for each in unlike if each.is_fault]
     if faults := faults or [*values.jumps(was, content, steps)]:
         return Status.DIFFERENT, "; ".join(faults[:3])
-    if beyond := [each.says for each in found if each.beyond]:
-        count = sum(each.beyond for each in found)
+    if beyond := [each.says for each in unlike if each.beyond]:
+        count = sum(each.beyond for each in unlike)
         return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
-    return Status.WITHIN, "; ".join([each.says for each in found][:3])
+    return Status.WITHIN, "; ".join([each.says for each in unlike][:3])
 
 
 def undeclared_words(variables: list[str]) -> str:
@@ -100,8 +100,8 @@ def fault_of_form(path: Path, content: xr.Dataset) -> str:
                 if key not in (*content.variables[name].attrs, *SHOWN_OTHERWISE)
             ],
         }
-    told = [f"has a {kind}: {names[0]}" for kind, names in hidden.items() if names]
-    return told[0] if told else ""
+    faults = [f"has a {kind}: {names[0]}" for kind, names in hidden.items() if names]
+    return faults[0] if faults else ""
 
 
 def differences(
@@ -111,18 +111,18 @@ def differences(
     accepted: Mapping[str, str],
     chaos: Chaos,
     scatter: Mapping[str, float],
-) -> Iterator[Unlike]:
+) -> Iterator[VariableDifference]:
     """Yield all that differs from what is kept; `accepted` are the texts of hashes."""
     yield from _of_attributes("", was.attrs, now.attrs)
     for key in {**was.variables, **now.variables}:
         before, after = was.variables.get(key), now.variables.get(key)
         if before is None or after is None:
-            yield Unlike(True, 0, f"{key} is {'gone' if after is None else 'new'}")
+            yield VariableDifference(True, 0, f"{key} is {'gone' if after is None else 'new'}")
             continue
         kind, hash_of_values, _ = accepted[key].rsplit(" ", 2)
         yield from _of_attributes(f"{key}: ", before.attrs, after.attrs)
         if (now_kind := hashes.kind(after)) != kind:
-            yield Unlike(True, 0, f"{key} is {now_kind} in place of {kind}")
+            yield VariableDifference(True, 0, f"{key} is {now_kind} in place of {kind}")
         elif hashes.of_values(after) != hash_of_values:
             known = scatter.get(f"{name.removesuffix('.nc')}:{key}")
             if fault := _of_labels(key, after, chaos.time):
@@ -131,22 +131,22 @@ def differences(
             yield _of_values(key, before, after, chaos.freedom(name, key, now), now, known)
 
 
-def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[Unlike]:
+def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[VariableDifference]:
     before, after = hashes.in_words(was), hashes.in_words(now)
     for key in sorted({*before, *after}):
         pair = after.get(key, "absent"), before.get(key, "absent")
         if pair[0] != pair[1]:
             counts_work = key in WORK and "absent" not in pair
-            says = "{}attribute {} is {} in place of {}".format(where, key, *pair)
-            yield Unlike(not counts_work, int(counts_work), says)
+            reason = "{}attribute {} is {} in place of {}".format(where, key, *pair)
+            yield VariableDifference(not counts_work, int(counts_work), reason)
 
 
-def _of_labels(key: str, now: xr.Variable, time: str) -> Unlike | None:
+def _of_labels(key: str, now: xr.Variable, time: str) -> VariableDifference | None:
     """Return the fault of words or coordinates with other values; None for numbers."""
     if hashes.are_words(now):
-        return Unlike(True, 0, f"{key} holds other words")
+        return VariableDifference(True, 0, f"{key} holds other words")
     if are_coordinates(key, now, time):
-        return Unlike(True, 0, f"{key} holds other coordinates")
+        return VariableDifference(True, 0, f"{key} holds other coordinates")
     return None
 
 
@@ -157,11 +157,11 @@ def _of_values(
     freedom: np.ndarray,
     data: xr.Dataset,
     scatter: float | None,
-) -> Unlike:
+) -> VariableDifference:
     """Compare values with other bits; `freedom` says which of them rest on chaos."""
     chaotic = freedom > 0.0
     if fault := values.fault(key, was, now, freedom, data, scatter):
-        return Unlike(True, 0, fault)
+        return VariableDifference(True, 0, fault)
     count = int(chaotic.sum())
     of_chaos = f"{count} of {chaotic.size} numbers of {key} rest on chaos"
-    return Unlike(False, count, of_chaos if count else f"{key} is off by roundings")
+    return VariableDifference(False, count, of_chaos if count else f"{key} is off by roundings")

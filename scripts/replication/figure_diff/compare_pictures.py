@@ -27,7 +27,7 @@ TINTED, INKED = 1.2, 6.0
 sum where red and blue are exchanged. And the mean shade of a block on which something is drawn."""
 
 STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
-SHOWN = re.compile(rb"\bBT\b(.*?)\bET\b", re.DOTALL)
+SHOWN_TEXT = re.compile(rb"\bBT\b(.*?)\bET\b", re.DOTALL)
 IN_BRACKETS = re.compile(rb"\(((?:\\.|[^\\()])*)\)", re.DOTALL)
 ESCAPED = re.compile(rb"\\(?:\d{3}|.)", re.DOTALL)
 """Streams of a PDF, the parts of one that show text, texts there, and letters by their numbers."""
@@ -42,7 +42,7 @@ MARK = re.compile(rb"(?:Description\0|/Keywords \()([0-9a-f]{64})")
 
 
 def compare_picture(
-    new: Path, kept: Path, same_bytes: bool, described: Status
+    new: Path, accepted_copy: Path, same_bytes: bool, described: Status
 ) -> tuple[Status, str]:
     """Return status and reason of a PNG or a PDF; `described` is the status of its description."""
     content, text = new.read_bytes(), new.with_suffix(".json")
@@ -60,29 +60,31 @@ def compare_picture(
         json.loads(text.read_text())
     ):
         return Status.DIFFERENT, "has lost text that its description names"
-    if new.suffix == ".png" and (fault := _unlike(kept, new, described == Status.IDENTICAL)):
+    if new.suffix == ".png" and (
+        fault := _unlike(accepted_copy, new, described == Status.IDENTICAL)
+    ):
         return Status.DIFFERENT, f"{fault} the accepted picture"
     return Status.BEYOND, f"other bytes, which belong to its description; that is {described}"
 
 
-def _unlike(kept: Path, new: Path, same_description: bool) -> str:
+def _unlike(accepted_copy: Path, new: Path, same_description: bool) -> str:
     """Return in words how two pictures differ in a few large blocks, or an empty text.
 
     Other versions change the mean shade by up to 3 of 255, other chaotic curves by 2, other figures
     by 8. What is redder and what is bluer stays so: by up to 0.33 of their sum in other versions,
     and 0.62 for other chaotic curves. No block loses all of its ink where the same is described.
     """
-    with Image.open(kept) as was, Image.open(new) as now:
-        apart = np.subtract(was.size, now.size)
-        old, shown = (
+    with Image.open(accepted_copy) as was, Image.open(new) as now:
+        size_difference = np.subtract(was.size, now.size)
+        old, new_blocks = (
             np.asarray(image.convert("RGB").resize(BLOCKS, Image.Resampling.BOX), float)
             for image in (was, now)
         )
-    if abs(apart).max() > 4 or abs(shown - old).mean() >= 7.5:
+    if abs(size_difference).max() > 4 or abs(new_blocks - old).mean() >= 7.5:
         return "looks otherwise than"
     tints, inks = [
-        [blocks[..., 0] - blocks[..., 2] for blocks in (old, shown)],
-        [255.0 - blocks.mean(axis=-1) for blocks in (old, shown)],
+        [blocks[..., 0] - blocks[..., 2] for blocks in (old, new_blocks)],
+        [255.0 - blocks.mean(axis=-1) for blocks in (old, new_blocks)],
     ]
     if abs(tints[1] - tints[0]).sum() > TINTED * max(abs(tints[0]).sum(), tints[0].size):
         return "has other colours than"
@@ -96,26 +98,28 @@ def letters_in(pdf: bytes) -> int:
     count = 0
     for stream in STREAM.findall(pdf):
         with suppress(zlib.error):
-            shown = b"".join(SHOWN.findall(zlib.decompress(stream)))
-            count += sum(len(ESCAPED.sub(b"x", letters)) for letters in IN_BRACKETS.findall(shown))
+            texts = b"".join(SHOWN_TEXT.findall(zlib.decompress(stream)))
+            count += sum(len(ESCAPED.sub(b"x", letters)) for letters in IN_BRACKETS.findall(texts))
     return count
 
 
 def letters_of(description: Any, key: str = "") -> int:
     """Return how many letters the words of a description have, without commands of TeX."""
     if isinstance(description, dict):
-        shown = {name: part for name, part in description.items() if name not in NAMED_IN_A_LEGEND}
-        return sum(letters_of(part, name) for name, part in shown.items())
+        described = {
+            name: entry for name, entry in description.items() if name not in NAMED_IN_A_LEGEND
+        }
+        return sum(letters_of(entry, name) for name, entry in described.items())
     if isinstance(description, list):
-        return sum(letters_of(part, key) for part in description)
+        return sum(letters_of(entry, key) for entry in description)
     return len(TEX.sub("", description)) if key in WORDS else 0
 
 
 def damage(path: Path, content: bytes) -> str:
     """Return in words why a picture or a PDF is not whole, or nothing."""
     if path.suffix == ".pdf":
-        whole = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
-        return "" if whole else "is no whole PDF"
+        is_complete = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
+        return "" if is_complete else "is no whole PDF"
     try:
         Image.open(BytesIO(content)).verify()  # checksums, at which `load` does not look
         Image.open(BytesIO(content)).load()

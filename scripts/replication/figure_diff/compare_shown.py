@@ -75,11 +75,11 @@ def comparable(name: str, content: bytes) -> bytes:
     """
     if name in OF_THE_CODE:
         content = OF_THE_CODE[name].sub(b"", content)
-    parts = OF_THE_MACHINE[name].findall(content) if name in OF_THE_MACHINE else []
-    if len(parts) != 1:
+    machine_texts = OF_THE_MACHINE[name].findall(content) if name in OF_THE_MACHINE else []
+    if len(machine_texts) != 1:
         return content
-    words = PROCESSOR.sub(rb"\1", JOB.sub(b"", parts[0]))
-    return content.replace(parts[0], VERSION_OR_TIME.sub(b"#", words))
+    words = PROCESSOR.sub(rb"\1", JOB.sub(b"", machine_texts[0]))
+    return content.replace(machine_texts[0], VERSION_OR_TIME.sub(b"#", words))
 
 
 def hash_of(name: str, content: bytes) -> str:
@@ -87,14 +87,16 @@ def hash_of(name: str, content: bytes) -> str:
 
     The words follow no number.
     """
-    shown = comparable(name, content)
+    compared = comparable(name, content)
     if not name.endswith(".html"):
-        return hashes.of_bytes(shown)
-    of_versions = b"".join(OF_VERSIONS[name].findall(shown)) if name in OF_VERSIONS else b""
-    rest = OF_VERSIONS[name].sub(b"(of versions)", shown) if name in OF_VERSIONS else shown
-    words = re.split(IN_TAGS, shown)
-    words = words if name == "live.html" else [part for part in words if not DIGIT.search(part)]
-    return " ".join(map(hashes.of_bytes, (of_versions, rest, b"|".join(words))))
+        return hashes.of_bytes(compared)
+    of_versions = b"".join(OF_VERSIONS[name].findall(compared)) if name in OF_VERSIONS else b""
+    remaining = (
+        OF_VERSIONS[name].sub(b"(of versions)", compared) if name in OF_VERSIONS else compared
+    )
+    words = re.split(IN_TAGS, compared)
+    words = words if name == "live.html" else [text for text in words if not DIGIT.search(text)]
+    return " ".join(map(hashes.of_bytes, (of_versions, remaining, b"|".join(words))))
 
 
 def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> tuple[Status, str]:
@@ -119,20 +121,23 @@ def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> 
         if judged not in (Status.BEYOND, Status.WITHIN):
             return (
                 Status.DIFFERENT,
-                f"reads {_beside(*map(str, pair))} ({'.'.join(map(str, path))})",
+                f"reads {_excerpts(*map(str, pair))} ({'.'.join(map(str, path))})",
             )
         beyond += judged == Status.BEYOND
     if beyond:
         return Status.BEYOND, f"{beyond} entries follow what cannot be compared"
     if not may_differ:
-        return Status.DIFFERENT, f"reads {_beside(was, now)}" if was != now else "shows other data"
+        return (
+            Status.DIFFERENT,
+            f"reads {_excerpts(was, now)}" if was != now else "shows other data",
+        )
     return Status.WITHIN, "follows the datasets, with the same words"
 
 
 def _paragraphs(text: str) -> list[str]:
     """Return the lines of tables and the paragraphs of a text, without the width of columns."""
-    parts = re.split(r"\n(?=[-|#]|\n)", RULE.sub("---", text))
-    return [" ".join(part.split()) for part in parts]
+    paragraphs = re.split(r"\n(?=[-|#]|\n)", RULE.sub("---", text))
+    return [" ".join(paragraph.split()) for paragraph in paragraphs]
 
 
 def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, Any, Any]]:
@@ -150,7 +155,7 @@ def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, 
 
 def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> Status:
     """Return whether one entry of `texts`, before and after, may read `now` in place of `was`."""
-    entries = {part for part in path if isinstance(part, str)}
+    entries = {key for key in path if isinstance(key, str)}
     chaotic = _follows_chaos(path, entries, texts[0], datasets)
     if chaotic and (entries & FREE or ("ticks" in entries and "x" not in entries)):
         return Status.BEYOND
@@ -191,8 +196,8 @@ def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bo
     panels = [_entry(text, path[:2]) for text in (before, after)]
     if "y" in path and panels[0]["y"].get("scale") == "log":
         return 1 / values.SCATTER <= now / was <= values.SCATTER
-    beside, grown = _entry(before, path[:-1]), 1.0
-    largest = max(map(abs, beside if isinstance(beside, list) else [was]))
+    ends, grown = _entry(before, path[:-1]), 1.0
+    largest = max(map(abs, ends if isinstance(ends, list) else [was]))
     if "limits" in path and "y" in path:
         reached, reaches = map(_reach, panels)
         grown = reaches / reached if reached else 1.0
@@ -205,30 +210,30 @@ def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bo
 
 def _reach(panel: Mapping[str, Any]) -> float:
     """Return how far from zero the curves, bands and bars of a panel reach."""
-    shown = [*panel.get("curves", ()), *panel.get("areas", ())]
-    return max((abs(end) for one in shown for end in one.get("y", ())), default=0.0)
+    drawn = [*panel.get("curves", ()), *panel.get("areas", ())]
+    return max((abs(end) for entry in drawn for end in entry.get("y", ())), default=0.0)
 
 
-def _entry(whole: Any, path: tuple) -> Any:
-    for part in path:
-        whole = whole[part]
-    return whole
+def _entry(content: Any, path: tuple) -> Any:
+    for key in path:
+        content = content[key]
+    return content
 
 
-def _follows_chaos(path: tuple, entries: set[str], whole: Any, datasets: Known) -> bool:
+def _follows_chaos(path: tuple, entries: set[str], content: Any, datasets: Known) -> bool:
     """Return whether an entry rests on chaos: in a row of a ledger, what decides it must do so.
 
     A control is fed with other datasets than its claim.
     """
     names = datasets.keys()
     if path[:1] == ("rows",) and len(path) > 2 and "controls" not in entries:
-        names = {f"{name}.nc" for name in _entry(whole, path[:2])["decided_by"]} & names
+        names = {f"{name}.nc" for name in _entry(content, path[:2])["decided_by"]} & names
     return any(datasets[name] == Status.BEYOND for name in names)
 
 
 def _words(text: str) -> str:
     """Return a text without its numbers."""
-    return "#".join(" ".join(part.split()) for part in NUMBER.split(text))
+    return "#".join(" ".join(piece_of_text.split()) for piece_of_text in NUMBER.split(text))
 
 
 def _close(was: str, now: str) -> bool:
@@ -238,12 +243,12 @@ def _close(was: str, now: str) -> bool:
     return abs(float(now) - float(was)) <= max(TOLERANCE * abs(float(was)), digit)
 
 
-def _beside(was: str, now: str) -> str:
+def _excerpts(was: str, now: str) -> str:
     """Return both texts from shortly before the first letter in which they differ."""
-    apart = (i for i, letters in enumerate(zip(was, now, strict=False)) if len({*letters}) > 1)
-    first = next(apart, min(len(was), len(now)))
-    parts = (" ".join(text[max(0, first - 30) : first + 30].split()) for text in (now, was))
-    return " in place of ".join(f'"{part}"' for part in parts)
+    differing = (i for i, letters in enumerate(zip(was, now, strict=False)) if len({*letters}) > 1)
+    first = next(differing, min(len(was), len(now)))
+    excerpts = (" ".join(text[max(0, first - 30) : first + 30].split()) for text in (now, was))
+    return " in place of ".join(f'"{excerpt}"' for excerpt in excerpts)
 
 
 def compare_description(
@@ -252,10 +257,10 @@ def compare_description(
     """Return status and reason of a description; `data` is the status of the dataset beside it."""
     try:
         text = new.read_text("utf-8")
-        shown, described = digest(read(new.with_suffix(".nc"))), json.loads(text)["data"]
+        data_digest, described = digest(read(new.with_suffix(".nc"))), json.loads(text)["data"]
     except (DatasetError, ValueError, KeyError, TypeError):
         return Status.DAMAGED, "it, or the dataset that it describes, cannot be read"
-    if described != shown:
+    if described != data_digest:
         return Status.DIFFERENT, "describes other data than the dataset beside it holds"
     was = accepted.read_text("utf-8")
     same = Status.IDENTICAL, ""

@@ -8,22 +8,28 @@ from latticode.datasets.json_files import write_json
 
 from replication.report import page
 
-from . import Status, Verdict
+from . import ComparisonResult, Status
 from .baseline import compare
 from .chaos import Trust
 
 
-def render(verdict: Verdict, made: Path, folder: Path) -> str:
-    """Return the page; images are read from below `made` and from the baseline's folder."""
-    told = [found for found in verdict.findings if found.status != Status.IDENTICAL]
+def render(verdict: ComparisonResult, results: Path, folder: Path) -> str:
+    """Return the page; images are read from below `results` and from the baseline's folder."""
+    unlike = [result for result in verdict.findings if result.status != Status.IDENTICAL]
     pictures = {
-        name: {"reference": _address(folder / name), "new": _address(made / name)}
-        for name, *_ in told
+        name: {"reference": _address(folder / name), "new": _address(results / name)}
+        for name, *_ in unlike
         if name.endswith(".png")
     }
     title = f"Figure diff: {verdict.faults} fault{'' if verdict.faults == 1 else 's'}"
-    shown = {"title": title, "sections": [], "verdict": verdict, "told": told, "pictures": pictures}
-    return page.render("comparison_page.html.j2", Path(__file__).parent, **shown)
+    values = {
+        "title": title,
+        "sections": [],
+        "verdict": verdict,
+        "told": unlike,
+        "pictures": pictures,
+    }
+    return page.render("comparison_page.html.j2", Path(__file__).parent, **values)
 
 
 def _address(path: Path) -> str:
@@ -50,7 +56,10 @@ def compare_results(
     """
     names = [Path(path).relative_to(made).as_posix() for path in results]
     folders = Path(made), Path(baseline)
-    found = compare(names, *folders, configuration, trust, any_bits)
+    comparison = compare(names, *folders, configuration, trust, any_bits)
     with complete_or_absent(html) as partial:
-        partial.write_text(render(found, *folders), "utf-8")
-    write_json(verdict, {"faults": found.faults, "counts": found.counts, "lines": found.lines})
+        partial.write_text(render(comparison, *folders), "utf-8")
+    write_json(
+        verdict,
+        {"faults": comparison.faults, "counts": comparison.counts, "lines": comparison.lines},
+    )

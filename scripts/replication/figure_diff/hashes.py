@@ -35,11 +35,11 @@ def of_bytes(content: bytes) -> str:
 
 def of(data: xr.Dataset) -> dict[str, Any]:
     """Return the hash of the attributes; by variable its type, shape, and hashes, in a text."""
-    told = {
+    variables = {
         name: f"{kind(each)} {of_values(each)} {_of_attributes(each.attrs)}"
         for name, each in data.variables.items()
     }
-    return {"attributes": _of_attributes(data.attrs), "variables": told}
+    return {"attributes": _of_attributes(data.attrs), "variables": variables}
 
 
 def are_words(variable: xr.Variable) -> bool:
@@ -64,17 +64,17 @@ def _of_attributes(attributes: Mapping[str, Any]) -> str:
 
 def in_words(attributes: Mapping[str, Any]) -> dict[str, str]:
     """Return the attributes that belong to the result, each as text with all digits."""
-    kept = {name: each for name, each in attributes.items() if name not in NO_RESULT}
-    return {name: json.dumps(np.asarray(each).tolist()) for name, each in kept.items()}
+    of_result = {name: each for name, each in attributes.items() if name not in NO_RESULT}
+    return {name: json.dumps(np.asarray(each).tolist()) for name, each in of_result.items()}
 
 
-def keep(kept: Path, path: Path) -> None:
-    """Copy the dataset at `path` to `kept`: every sample, in single precision, compressed.
+def keep(copy_path: Path, path: Path) -> None:
+    """Copy the dataset at `path` to `copy_path`: every sample, in single precision, compressed.
 
     A variable that declares more digits than single precision has is copied as it is.
     """
     with (
-        complete_or_absent(kept) as partial,
+        complete_or_absent(copy_path) as partial,
         netCDF4.Dataset(path) as source,
         netCDF4.Dataset(partial, "w") as target,
     ):

@@ -37,15 +37,23 @@ def measure(folder: Path, runs: Sequence[Path], trust: Trust | None) -> dict[str
     record = load_json(folder / RECORD)
     chaos, scatter = known_chaos(folder, record["configuration"], trust), {}
     for name in (name for name in record["files"] if name.endswith(".nc")):
-        was, others = read(folder / name), [read(run / name) for run in runs]
+        was, right_runs = read(folder / name), [read(run / name) for run in runs]
         for key in map(str, was.variables):
-            parts = [part for now in others for part in _parts(name, key, was, now, chaos)]
-            if parts:
-                scatter[f"{name.removesuffix('.nc')}:{key}"] = float(f"{max(parts):.{DIGITS}g}")
+            differences = [
+                difference
+                for now in right_runs
+                for difference in _relative_differences(name, key, was, now, chaos)
+            ]
+            if differences:
+                scatter[f"{name.removesuffix('.nc')}:{key}"] = float(
+                    f"{max(differences):.{DIGITS}g}"
+                )
     return scatter
 
 
-def _parts(name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos) -> Iterator[float]:
+def _relative_differences(
+    name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos
+) -> Iterator[float]:
     """Yield the mean difference of each chaotic row of a variable, as a part of its mean size."""
     if was[key].dtype.kind not in "fi" or values.is_statistic(was.variables[key]):
         return

@@ -26,7 +26,7 @@ UNIT, FACTOR = 1e-15, 100.0
 GROWN = 0.01
 """How much larger a proven bound may be, which is no error of rounding however small it is."""
 
-TIMES_SCATTER, LEAST, APART = 2.5, 0.05, 0.6
+TIMES_SCATTER, LEAST, UNKNOWN_SCATTER = 2.5, 0.05, 0.6
 """Limit of the mean difference of a chaotic row: so many times its scatter, but at least so large a
 part of its mean size, and such a part where the scatter is not known."""
 
@@ -58,16 +58,16 @@ def fault(
     """
     before, after = was.values.astype(float), now.values.astype(float)
     largest, is_exact = hashes.largest(before), now.dtype.kind != "f"
-    apart = APART if scatter is None else max(TIMES_SCATTER * scatter, LEAST)
+    most = UNKNOWN_SCATTER if scatter is None else max(TIMES_SCATTER * scatter, LEAST)
     for row in rows(now, data):
         old, new, free = (np.atleast_1d(each[row]) for each in (before, after, freedom))
         rests = free > 0.0
-        says = _of_regular(now, old[~rests], new[~rests], largest, is_exact)
-        if not says and rests.any():
-            says = _soon_after_the_horizon(now, old, new, free)
-            says = says or _of_chaotic(now, old[rests], new[rests], SMALL * largest, apart)
-        if says:
-            return f"{key} {says}"
+        reason = _of_regular(now, old[~rests], new[~rests], largest, is_exact)
+        if not reason and rests.any():
+            reason = _soon_after_the_horizon(now, old, new, free)
+            reason = reason or _of_chaotic(now, old[rests], new[rests], SMALL * largest, most)
+        if reason:
+            return f"{key} {reason}"
     return ""
 
 
@@ -113,13 +113,13 @@ def _of_regular(
     variable: xr.Variable, old: np.ndarray, new: np.ndarray, largest: float, exact: bool
 ) -> str:
     with np.errstate(invalid="ignore"):
-        apart = abs(new - old)  # NaN where only one of two is finite, or none
+        difference = abs(new - old)  # NaN where only one of two is finite, or none
     same = (old == new) | (np.isnan(old) & np.isnan(new))
-    if gaps := int((~same & ~np.isfinite(apart)).sum()):
+    if gaps := int((~same & ~np.isfinite(difference)).sum()):
         return f"has NaN or infinity elsewhere, at {gaps} places"
     if variable.attrs.get(KIND) == BOUND:
         return _of_proven(old[~same], new[~same])
-    scale, off = hashes.largest(old), float(apart[~same].max(initial=0.0))
+    scale, off = hashes.largest(old), float(difference[~same].max(initial=0.0))
     tolerance = TOLERANCE * (FACTOR if is_statistic(variable) else 1.0)
     if off <= (0.0 if exact else tolerance * scale + NOISE * largest):
         return ""
@@ -173,13 +173,14 @@ def _of_chaotic(
         return ""
     if old.min() >= 0 > new.min():
         return "is negative, as it never was"
-    size, new_size, apart = (float(abs(each).mean()) for each in (old, new, new - old))
+    size, new_size, difference = (float(abs(each).mean()) for each in (old, new, new - old))
     differs = f"rests on chaos, but differs by too much: {new_size:.3g} in place of {size:.3g}"
     if is_statistic(variable) or old.min() < 0 < old.max() or new.min() < 0 < new.max():
         is_alike = 1 / SCATTER <= (new_size + small) / (size + small) <= SCATTER
         return "" if is_alike else differs
-    if apart > most * size + small:
-        return f"rests on chaos, but differs by too much: by {apart / (size or 1):.2g} of its size"
+    if difference > most * size + small:
+        relative = difference / (size or 1)
+        return f"rests on chaos, but differs by too much: by {relative:.2g} of its size"
     outside = max(new.max() - old.max(), old.min() - new.min())
     if old.size >= LONG and outside > np.ptp(old) + small:
         return f"leaves the range of the accepted values by {outside:.2g}"

@@ -65,7 +65,7 @@ def chance_to_turn(findings: Sequence[Finding]) -> Chance:
              if finding.criterion]  # fmt: skip
     if len(rooms) < len(findings):
         return Chance(0.0)
-    series = {name: [one[name] for one in rooms] for name in rooms[0]}
+    series = {name: [rooms_of_run[name] for rooms_of_run in rooms] for name in rooms[0]}
     (verdict,) = verdicts
     failing = set.intersection(
         *(set(finding.criterion.failing(finding.measured)) for finding in findings)
@@ -86,9 +86,9 @@ def chance_of_claim(looks: Sequence[Mapping[str, Finding]], moves: Iterable[str]
     Moves count where the verdict is confirmed: it has a caveat if one of them turns it. `looks`
     has the findings of each run, with the cut-offs as "", and by the names of the `moves`.
     """
-    found = chance_to_turn([look[""] for look in looks])
+    unmoved = chance_to_turn([look[""] for look in looks])
     if any(look[""].verdict != Verdict.CONFIRMED for look in looks):
-        return found
+        return unmoved
     moved = [chance_to_turn([look[move] for look in looks]) for move in moves]
-    nearest = max([found, *moved], key=lambda one: one.value)
-    return Chance(min(1.0, found.value + sum(one.value for one in moved)), nearest.nearest)
+    nearest = max([unmoved, *moved], key=lambda chance: chance.value)
+    return Chance(min(1.0, unmoved.value + sum(chance.value for chance in moved)), nearest.nearest)

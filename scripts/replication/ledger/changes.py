@@ -54,42 +54,45 @@ def repeat(along: str, label, at, names: Names = ()) -> Change:
     """Put what stands at one label at other ones too; `names` alone if they are given."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
-        here = _found(data, along, at)
-        order = np.where(here, _place(data, along, label), np.arange(data.sizes[along]))
+        is_replaced = _is_at(data, along, at)
+        order = np.where(is_replaced, _place(data, along, label), np.arange(data.sizes[along]))
         return _ordered(data, along, order, names)
 
     return changed
 
 
-def take(**others: str) -> Change:
+def take(**replacements: str) -> Change:
     """Put other variables in the place of some, which keep their attributes."""
     return lambda data: data.assign(
-        {name: data[other].assign_attrs(data[name].attrs) for name, other in others.items()}
+        {
+            name: data[replacement].assign_attrs(data[name].attrs)
+            for name, replacement in replacements.items()
+        }
     )
 
 
 def take_from(*names: str, **at) -> Callable[[xr.Dataset, xr.Dataset], xr.Dataset]:
     """Put variables of another dataset, which is given second, in the place of its own."""
-    return lambda data, other: _in_place(names, lambda values: other[values.name], at)(data)
+    return lambda data, source: _in_place(names, lambda values: source[values.name], at)(data)
 
 
 def keep(**at) -> Change:
     """Drop all but these labels."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
-        return data.isel({along: np.flatnonzero(_found(data, along, at[along])) for along in at})
+        return data.isel({along: np.flatnonzero(_is_at(data, along, at[along])) for along in at})
 
     return changed
 
 
 def _in_place(names: Names, change: Callable, at: Mapping) -> Change:
     def changed(data: xr.Dataset) -> xr.Dataset:
-        here = xr.DataArray(True)
-        for along, wanted in at.items():
-            here = here & _found(data, along, wanted)
+        is_changed = xr.DataArray(True)
+        for along, requested in at.items():
+            is_changed = is_changed & _is_at(data, along, requested)
         with xr.set_options(keep_attrs=True):
             return data.assign(
-                {name: data[name].where(~here, change(data[name])) for name in _each(names)}
+                {name: data[name].where(~is_changed, change(data[name])) for name in _each(names)}
             )
 
     return changed
@@ -99,7 +102,11 @@ def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names) -> xr.Datas
     """Return the variables with their numbers in this order along a coordinate, which stays."""
     chosen = {name: data.variables[name] for name in _each(names) or data}
     return data.assign(
-        {n: one.isel({along: order}) for n, one in chosen.items() if along in one.dims}
+        {
+            n: variable.isel({along: order})
+            for n, variable in chosen.items()
+            if along in variable.dims
+        }
     )
 
 
@@ -108,23 +115,25 @@ def _each(names: Names) -> tuple[str, ...]:
 
 
 def _place(data: xr.Dataset, along: str, label) -> int:
-    return int(np.flatnonzero(_found(data, along, label))[0])
+    return int(np.flatnonzero(_is_at(data, along, label))[0])
 
 
-def _found(data: xr.Dataset, along: str, wanted) -> xr.DataArray:
+def _is_at(data: xr.Dataset, along: str, requested) -> xr.DataArray:
     """Return where a coordinate has one of some labels, of which one at least must be there."""
     labels = data[along]
-    if isinstance(wanted, slice):
-        low = -np.inf if wanted.start is None else wanted.start
-        high = np.inf if wanted.stop is None else wanted.stop
-        found = (labels >= low) & (labels <= high)
+    if isinstance(requested, slice):
+        low = -np.inf if requested.start is None else requested.start
+        high = np.inf if requested.stop is None else requested.stop
+        is_requested = (labels >= low) & (labels <= high)
     elif labels.dtype.kind == "f":
-        found = labels.copy(
-            data=np.isclose(labels.values[:, None], np.atleast_1d(wanted), NEAR, 0.0).any(axis=1)
+        is_requested = labels.copy(
+            data=np.isclose(labels.values[:, None], np.atleast_1d(requested), NEAR, 0.0).any(axis=1)
         )
     else:
-        found = labels.isin(np.atleast_1d(wanted))
-    if not found.any():
-        told = f"from {low:g} to {high:g}" if isinstance(wanted, slice) else f"= {wanted}"
-        raise UndecidableError(f"there is no {along} {told}")
-    return found
+        is_requested = labels.isin(np.atleast_1d(requested))
+    if not is_requested.any():
+        described = (
+            f"from {low:g} to {high:g}" if isinstance(requested, slice) else f"= {requested}"
+        )
+        raise UndecidableError(f"there is no {along} {described}")
+    return is_requested

@@ -38,8 +38,8 @@ class Control(NamedTuple):
     @property
     def names(self) -> list[str]:
         """The other datasets that it needs."""
-        parts = [wrong if isinstance(wrong, tuple) else (wrong,) for wrong in self.fed.values()]
-        return [part[0] for part in parts if isinstance(part[0], str)]
+        sources = [wrong if isinstance(wrong, tuple) else (wrong,) for wrong in self.fed.values()]
+        return [source[0] for source in sources if isinstance(source[0], str)]
 
 
 class Origin(StrEnum):
@@ -90,7 +90,7 @@ class Claim(NamedTuple):
 
 def claim(
     place: str,
-    says: str,
+    statement: str,
     needs: tuple[str, ...],
     controls: tuple[Control, ...] = (),
     on: tuple[str, ...] = (),
@@ -106,7 +106,7 @@ def claim(
     def declare(function: Callable) -> Callable:
         fed = tuple(_by_name(control, needs) for control in controls)
         function.claim = Claim(
-            function.__name__, place, says, needs, function, fed, on, kind, origin, rejected
+            function.__name__, place, statement, needs, function, fed, on, kind, origin, rejected
         )
         return function
 
@@ -115,7 +115,7 @@ def claim(
 
 def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
     """Return the control with what it feeds by names that all have their folder."""
-    fed, found = control.fed, {}
+    fed, complete = control.fed, {}
     if not isinstance(fed, Mapping):
         if len(needs) > 1:
             raise ValueError(f"control {control.says!r}: say which of {', '.join(needs)} it feeds")
@@ -124,11 +124,11 @@ def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
         right = [need for need in needs if name in (need, need.partition("/")[2])]
         if len(right) != 1:
             raise ValueError(f"control {control.says!r}: {name} is not one of {', '.join(needs)}")
-        other, *change = wrong if isinstance(wrong, tuple) else (wrong,)
-        if isinstance(other, str) and "/" not in other:
-            other = f"{right[0].partition('/')[0]}/{other}"
-        found[right[0]] = (other, *change) if change else other
-    return control._replace(fed=found)
+        replacement, *change = wrong if isinstance(wrong, tuple) else (wrong,)
+        if isinstance(replacement, str) and "/" not in replacement:
+            replacement = f"{right[0].partition('/')[0]}/{replacement}"
+        complete[right[0]] = (replacement, *change) if change else replacement
+    return control._replace(fed=complete)
 
 
 def claims_of(modules: Iterable[ModuleType]) -> tuple[Claim, ...]:

@@ -48,12 +48,12 @@ class Limit(Criterion):
     def __init__(self, limit: SupportsFloat, *names: str, says: str = ""):
         self.limit, self.names, self.says = float(limit), names, says
 
-    def keeps(self, value: float) -> bool:
+    def is_within(self, value: float) -> bool:
         """Return whether one number keeps the limit."""
         return RELATIONS[self.sign](value, self.limit)
 
     def failing(self, measured: Measured) -> list[str]:
-        return [name for name in self.names if not self.keeps(measured[name])]
+        return [name for name in self.names if not self.is_within(measured[name])]
 
     def room(self, value: float) -> float:
         """Return how far one number lies within the limit; it is negative beyond it."""
@@ -68,7 +68,7 @@ class Limit(Criterion):
         return self.says or ", ".join(map(in_words, self.names))
 
     def __str__(self) -> str:
-        return f"{self.words} {self.sign} {plain(self.limit)}"
+        return f"{self.words} {self.sign} {limit_as_text(self.limit)}"
 
 
 class Below(Limit):
@@ -108,14 +108,14 @@ class AtLeast(Limit):
 class WithinFactor(Below):
     """Each number lies between one over the limit and the limit, which is a factor above one."""
 
-    def keeps(self, value: float) -> bool:
+    def is_within(self, value: float) -> bool:
         return 1.0 / self.limit < value < self.limit
 
     def room(self, value: float) -> float:
         return float(log(self.limit) - abs(log(value))) if value > 0.0 else -math.inf
 
     def __str__(self) -> str:
-        return f"{plain(1.0 / self.limit)} < {super().__str__()}"
+        return f"{limit_as_text(1.0 / self.limit)} < {super().__str__()}"
 
 
 class Near(Limit):
@@ -125,7 +125,7 @@ class Near(Limit):
         super().__init__(limit, *names, says=says)
         self.target = float(target)
 
-    def keeps(self, value: float) -> bool:
+    def is_within(self, value: float) -> bool:
         return abs(value - self.target) <= self.limit
 
     def room(self, value: float) -> float:
@@ -133,28 +133,34 @@ class Near(Limit):
 
     def __str__(self) -> str:
         if self.target == 0.0:
-            return f"|{self.words}| <= {plain(self.limit)}"
-        return f"{self.words} within {plain(self.limit)} of {plain(self.target)}"
+            return f"|{self.words}| <= {limit_as_text(self.limit)}"
+        return f"{self.words} within {limit_as_text(self.limit)} of {limit_as_text(self.target)}"
 
 
 class AllOf(Criterion):
     """Several criteria; every single one must hold."""
 
     def __init__(self, *criteria: Criterion):
-        self.names = tuple(dict.fromkeys(name for one in criteria for name in one.names))
+        self.names = tuple(
+            dict.fromkeys(name for criterion in criteria for name in criterion.names)
+        )
         self.criteria = criteria
 
     def failing(self, measured: Measured) -> list[str]:
-        return [name for one in self.criteria for name in one.failing(measured)]
+        return [name for criterion in self.criteria for name in criterion.failing(measured)]
 
     def rooms(self, measured: Measured) -> dict[str, float]:
-        return {name: room for one in self.criteria for name, room in one.rooms(measured).items()}
+        return {
+            name: room
+            for criterion in self.criteria
+            for name, room in criterion.rooms(measured).items()
+        }
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.criteria))
 
 
-def plain(number: float) -> str:
+def limit_as_text(number: float) -> str:
     """Return a limit as text: with up to eight digits if exact, else with four; or "infinity"."""
     if math.isinf(number):
         return "infinity"
@@ -214,8 +220,8 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
         if all(math.isnan(numbers[name]) for name in off):
             unknown = f"unknown: {', '.join(map(in_words, off))}"
             return Finding(numbers, criterion, Verdict.UNDECIDED, unknown)
-        told = ", ".join(f"{in_words(name)} is {numbers[name]:.3g}" for name in off)
-        return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails or told)
+        reasons = ", ".join(f"{in_words(name)} is {numbers[name]:.3g}" for name in off)
+        return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails or reasons)
     verdict = Verdict.CAVEAT if caveat else Verdict.CONFIRMED
     return Finding(numbers, criterion, verdict, caveat)
 

@@ -55,9 +55,9 @@ def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> lis
     `verdict_of` decides again.
     """
     return [
-        f"{other} with {value:.3g} instead of {cutoff.number:.3g}"
-        for cutoff, value, other in each_move(read, verdict_of)
-        if other != verdict
+        f"{moved_verdict} with {value:.3g} instead of {cutoff.number:.3g}"
+        for cutoff, value, moved_verdict in each_move(read, verdict_of)
+        if moved_verdict != verdict
     ]
 
 
@@ -78,17 +78,20 @@ def once(measure: Callable) -> Callable:
 
     What reads a cut-off is measured again while this cut-off is moved.
     """
-    kept: dict[tuple, tuple] = {}
+    stored: dict[tuple, tuple] = {}
 
     @wraps(measure)
-    def measured(*given: Any) -> Any:
-        key = tuple(one if isinstance(one, str | float | int) else ("", id(one)) for one in given)
-        found, read, _ = kept.get(key, (None, None, ()))
+    def measured(*arguments: Any) -> Any:
+        key = tuple(
+            argument if isinstance(argument, str | float | int) else ("", id(argument))
+            for argument in arguments
+        )
+        result, read, _ = stored.get(key, (None, None, ()))
         if read is None or read & _moved.keys():
-            found, read = reading(lambda: measure(*given))
+            result, read = reading(lambda: measure(*arguments))
             if not _moved:
-                kept[key] = found, read, given  # kept too: no other object gets the same id
+                stored[key] = result, read, arguments  # kept too: no other object gets the same id
         _read.update(read)
-        return found
+        return result
 
     return measured

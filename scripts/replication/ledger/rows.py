@@ -22,8 +22,8 @@ def load(results: Results) -> list[dict]:
 def on_figure(rows: list[dict], figure: int) -> list[dict]:
     """Return the rows of the paper's claims on a figure, whose place may be "Figs 2 and 6"."""
     named = re.compile(rf"Figs? [\d, and]*{figure}")
-    found = (row for row in rows if named.search(row["place"]))
-    return [row for row in found if row["origin"] == Origin.PAPER]
+    matching = (row for row in rows if named.search(row["place"]))
+    return [row for row in matching if row["origin"] == Origin.PAPER]
 
 
 def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
@@ -47,13 +47,16 @@ def counted(rows: list[dict]) -> list[str]:
 def counted_verdicts(rows: list[dict]) -> str:
     """Return how many rows have each verdict, such as "2 confirmed, 1 not reproduced"."""
     counts = Counter(row["verdict"] for row in rows)
-    return _in_words({str(one): counts[one] for one in Verdict if counts[one]}) or "none"
+    return (
+        _in_words({str(verdict): counts[verdict] for verdict in Verdict if counts[verdict]})
+        or "none"
+    )
 
 
 def counted_origins(rows: list[dict]) -> str:
     """Return how many rows are of each origin, such as "2 of the paper, 1 of this project"."""
     counts = Counter(row["origin"] for row in rows)
-    return ", ".join(f"{counts[one]} {one}" for one in Origin if counts[one])
+    return ", ".join(f"{counts[origin]} {origin}" for origin in Origin if counts[origin])
 
 
 def whether_it_holds(rows: list[dict]) -> str:

@@ -41,16 +41,16 @@ def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
 
-    def made(name: str, wrong: Wrong):
+    def replace(name: str, wrong: Wrong):
         if isinstance(wrong, str):
             return sources[wrong]
         if isinstance(wrong, tuple):
-            other, change = wrong
-            return change(sources[name], sources[other])
+            source, change = wrong
+            return change(sources[name], sources[source])
         return wrong(sources[name])
 
     try:
-        fed = {name: made(name, wrong) for name, wrong in control.fed.items()}
+        fed = {name: replace(name, wrong) for name, wrong in control.fed.items()}
     except UndecidableError as reason:
         return undecided({}, str(reason))
     return decide(claim, {**sources, **fed})
@@ -63,8 +63,8 @@ def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
     """
     finding, cutoffs = reading(lambda: decide(claim, sources))
     moves = {
-        f"{value:.4g} instead of {cutoff.number:.4g} ({cutoff.origin})": other
-        for cutoff, value, other in each_move(cutoffs, lambda: decide(claim, sources))
+        f"{value:.4g} instead of {cutoff.number:.4g} ({cutoff.origin})": finding_when_moved
+        for cutoff, value, finding_when_moved in each_move(cutoffs, lambda: decide(claim, sources))
     }
     controls = {control.says: feed(claim, control, sources) for control in claim.controls}
     return {"": finding} | moves | controls
@@ -134,12 +134,12 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
         "kind": str(claim.kind),
         "decided_by": list(claim.needs),
         "function": f"{claim.decide.__module__}.{claim.name}",
-        "measured": {name: plain(value) for name, value in finding.measured.items()},
+        "measured": {name: as_json(value) for name, value in finding.measured.items()},
         "criterion": str(finding.criterion or ""),
         "verdict": str(finding.verdict),
         "because": finding.because,
         "cutoffs": [
-            {"value": plain(cutoff.number), "from": cutoff.origin} for cutoff in sorted(cutoffs)
+            {"value": as_json(cutoff.number), "from": cutoff.origin} for cutoff in sorted(cutoffs)
         ],
         "rests_on": moved,
         "controls": [
@@ -166,10 +166,10 @@ def _severe(finding: Finding, moved: list[str], controls: list[tuple[Control, Fi
         return finding
     rests = f"depends on the cut-off: {'; '.join(moved)}"
     because = f"{finding.because}; {rests}" if finding.because else rests
-    kept = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
-    return finding._replace(because=because, verdict=kept)
+    verdict = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
+    return finding._replace(because=because, verdict=verdict)
 
 
-def plain(value: float) -> float | str:
+def as_json(value: float) -> float | str:
     """Return a number as JSON can hold it: six digits, the infinite as a word."""
     return float(f"{value:.6g}") if math.isfinite(value) else "infinite" if value > 0 else "none"

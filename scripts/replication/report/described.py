@@ -30,8 +30,8 @@ class DescribedFigure(NamedTuple):
     @property
     def label(self) -> str:
         """The name of a figure of the paper, such as Fig 5, and nothing for others."""
-        found = re.fullmatch(r"figures/fig(\d)", self.stem)
-        return f"Fig {found[1]}" if found else ""
+        match = re.fullmatch(r"figures/fig(\d)", self.stem)
+        return f"Fig {match[1]}" if match else ""
 
     @property
     def headline(self) -> str:
@@ -70,19 +70,21 @@ def figure(path: Path, page: Path) -> DescribedFigure:
 def dataset(path: Path, page: Path) -> DescribedDataset:
     """Return what the dataset at `path` says, for a page in the folder `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
-        about = {name: value for name, value in vars(data).items() if name not in SHARED}
-        variables = [_variable(one) for one in data.variables.values()]
-    told = {name: _in_words(value) for name, value in about.items()}
-    title = told.pop("title", "")
-    return DescribedDataset(path.relative_to(page).as_posix(), title, told, variables)
+        raw_attributes = {name: value for name, value in vars(data).items() if name not in SHARED}
+        variables = [_variable(variable) for variable in data.variables.values()]
+    attributes = {name: _in_words(value) for name, value in raw_attributes.items()}
+    title = attributes.pop("title", "")
+    return DescribedDataset(path.relative_to(page).as_posix(), title, attributes, variables)
 
 
-def _variable(one: netCDF4.Variable) -> DescribedVariable:
-    about = vars(one)
-    dimensions = " × ".join(f"{k} {n}" for k, n in zip(one.dimensions, one.shape, strict=True))
-    units = about.get("units", "1")
+def _variable(variable: netCDF4.Variable) -> DescribedVariable:
+    attributes = vars(variable)
+    dimensions = " × ".join(
+        f"{k} {n}" for k, n in zip(variable.dimensions, variable.shape, strict=True)
+    )
+    units = attributes.get("units", "1")
     return DescribedVariable(
-        one.name, about.get("long_name", ""), "" if units == "1" else units, dimensions
+        variable.name, attributes.get("long_name", ""), "" if units == "1" else units, dimensions
     )
 
 

@@ -17,7 +17,7 @@ from replication.logs import run_times
 from replication.words import number, plainly, symbols
 
 from .described import DescribedDataset, DescribedFigure, dataset, figure
-from .page import HERE, render, script_of_report
+from .page import FOLDER, render, script_of_report
 
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
 """Claims with these verdicts are folded; readers look for the others first."""
@@ -104,7 +104,7 @@ def write_page(
     template: str,
     title: str,
     sections: Sequence[PageSection],
-    folder: Path = HERE,
+    folder: Path = FOLDER,
     **values: Any,
 ) -> None:
     """Write the page of a template with these sections; the template lies in `folder`."""

@@ -11,7 +11,7 @@ import xarray as xr
 from latticode.datasets.netcdf import save
 from latticode.drawing import style
 from matplotlib.figure import Figure
-from replication.figure_diff import Verdict as ComparisonResult
+from replication.figure_diff import ComparisonResult as ComparisonResult
 from replication.figure_diff import acceptance, baseline
 from replication.ledger.changes import scale
 from replication.ledger.claim import Claim, Control, claim

@@ -11,7 +11,7 @@ import netCDF4
 import pytest
 from latticode.datasets.json_files import ENTRY, load_json, write_json
 from latticode.datasets.netcdf import LENGTH, MARK, read
-from replication.figure_diff import Finding, Verdict, acceptance, baseline, scatter
+from replication.figure_diff import ComparisonResult, FileResult, acceptance, baseline, scatter
 
 
 class Run(NamedTuple):
@@ -20,15 +20,15 @@ class Run(NamedTuple):
     made: Path
     accepted: Path
 
-    def judge(self, names=made_up.NAMES, any_bits=False) -> Verdict:
+    def judge(self, names=made_up.NAMES, any_bits=False) -> ComparisonResult:
         """Compare these files of the run with the baseline."""
         return baseline.compare(names, *self, made_up.CONFIGURATION, made_up.TRUSTED, any_bits)
 
-    def findings(self, **options) -> dict[str, Finding]:
+    def findings(self, **options) -> dict[str, FileResult]:
         """Compare, and return what was found of each file."""
         return {finding.name: finding for finding in self.judge(**options).findings}
 
-    def anew(self, name: str, known: dict[str, Finding]) -> list[Finding]:
+    def anew(self, name: str, known: dict[str, FileResult]) -> list[FileResult]:
         """Judge a file, and those of its figure, where all others are `known`.
 
         Return what is found of it in the accepted environment, there where any bits will do, and in
@@ -107,7 +107,7 @@ def accepted_run(tmp_path_factory) -> Run:
 
 
 @pytest.fixture(scope="session")
-def known(accepted_run) -> dict[str, Finding]:
+def known(accepted_run) -> dict[str, FileResult]:
     """Return what is found of each file of the run."""
     return accepted_run.findings(any_bits=True)
 
@@ -120,7 +120,7 @@ def moved_run(accepted_run, tmp_path_factory) -> Run:
 
 
 @pytest.fixture(scope="session")
-def known_of_moved(moved_run) -> dict[str, Finding]:
+def known_of_moved(moved_run) -> dict[str, FileResult]:
     """Return what is found of each file of the other run."""
     return moved_run.findings(any_bits=True)
 

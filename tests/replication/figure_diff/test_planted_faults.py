@@ -18,7 +18,7 @@ from made_up_results import HORIZON, PICTURE, TAU
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 from replication.figure_diff import Status
-from replication.figure_diff.compare_pictures import SHOWN, STREAM
+from replication.figure_diff.compare_pictures import SHOWN_TEXT, STREAM
 from replication.ledger.changes import exchange, put, roll, scale, shift
 
 REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING = made_up.NAMES[:6]
@@ -137,7 +137,7 @@ def with_a_white_box(pixels: np.ndarray) -> np.ndarray:
 
 
 def without_text(stream: bytes) -> bytes:
-    return SHOWN.sub(b"", stream)
+    return SHOWN_TEXT.sub(b"", stream)
 
 
 def with_exchanged_strokes(stream: bytes) -> bytes:

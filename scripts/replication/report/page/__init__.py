@@ -7,30 +7,30 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-HERE = Path(__file__).parent
+FOLDER = Path(__file__).parent
 
 
-def render(template: str, folder: Path = HERE, **values) -> str:
+def render(template: str, folder: Path = FOLDER, **values) -> str:
     """Return the page of a template filled with values, with its style and the style's hash.
 
     The template lies in `folder` or in this package, which has that of a page with sections. Text
     is escaped; a value that the template names and nobody gave is an error.
     """
     environment = Environment(
-        loader=FileSystemLoader([folder, HERE / "templates"]),
+        loader=FileSystemLoader([folder, FOLDER / "templates"]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    style = (HERE / "style.css").read_text(encoding="utf-8")
+    style = (FOLDER / "style.css").read_text(encoding="utf-8")
     common = {"style": Markup(style), "style_hash": digest(style), "script": ""}
     return environment.get_template(template).render(**common | values)
 
 
 def script_of_report() -> dict[str, str]:
     """Return the script that filters the claims of a report, and its hash, for its template."""
-    script = (HERE / "report.js").read_text(encoding="utf-8")
+    script = (FOLDER / "report.js").read_text(encoding="utf-8")
     return {"script": Markup(script), "script_hash": digest(script)}
 
 
