@@ -72,7 +72,7 @@ def loader() -> str:
 
 def _code_of(kernel, types: tuple) -> str:
     """Return the intermediate code of a kernel for these types, and of all that it calls."""
-    if not hasattr(kernel, "part"):
+    if not hasattr(kernel, "subroutine"):
         raise WebAssemblyError(
             f"code of numba {numba.__version__} counts references, which WebAssembly cannot: take"
             f" numba {' or '.join(TESTED)}"
