@@ -67,18 +67,18 @@ def controls(name: str, accuracy: float) -> dict:
 
 def _prepare_own(problem: Problem, name: str) -> Solve:
     def solve(accuracy: float) -> tuple[np.ndarray, float]:
-        given = problem.changed(solver=controls(name, float(accuracy)))
-        run, seconds = timed(lambda: simulate(given))
+        controlled = problem.changed(solver=controls(name, float(accuracy)))
+        run, seconds = timed(lambda: simulate(controlled))
         return run.final, seconds
 
     return solve
 
 
-OWN = {
+SOLVERS = {
     name: Contestant(name, STEPS.get(name, TOLERANCES), partial(_prepare_own, name=name))
     for name in ("ode45", *ITERATED, "dop853", "taylor", "kahan_li")
 }
-OURS = {name: own for name, own in OWN.items() if name != "kahan_li"}
+OURS = {name: contestant for name, contestant in SOLVERS.items() if name != "kahan_li"}
 """The solvers of the amplitudes."""
 
 
@@ -169,14 +169,15 @@ def compete(
 
     `say` is called with the title of each contestant before it is measured.
     """
-    found = {}
+    points = {}
     for name, contestant in {**ours, **peers}.items():
         say(contestant.title)
         # peers need not err much less than what they are compared at
         goal = 0.0 if name in ours else 0.3 * target
-        found[name] = measure_points(contestant, problem, exact, goal)
-    own = {name: (contestant, found[name]) for name, contestant in ours.items()}
+        points[name] = measure_points(contestant, problem, exact, goal)
+    measured = {name: (contestant, points[name]) for name, contestant in ours.items()}
     pairs = {
-        name: compare(problem, target, (peer, found[name]), own) for name, peer in peers.items()
+        name: compare(problem, target, (peer, points[name]), measured)
+        for name, peer in peers.items()
     }
-    return found, pairs
+    return points, pairs

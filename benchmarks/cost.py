@@ -21,11 +21,11 @@ CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 def measure() -> dict[str, Variable]:
     """Return the variables of the dataset: the median time over (sites, solver)."""
     seconds = np.array([[time_chain(sites, name) for name in SOLVERS] for sites in SITES])
-    said = "time a site and unit of slow time"
+    label = "time a site and unit of slow time"
     return {
         "sites": Variable(("sites",), np.array(SITES)),
         "solver": Variable(("solver",), np.array(SOLVERS)),
-        "seconds": Variable(("sites", "solver"), seconds, said, "s"),
+        "seconds": Variable(("sites", "solver"), seconds, label, "s"),
     }
 
 

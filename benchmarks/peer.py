@@ -51,7 +51,7 @@ def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = WHOLE) 
     y = state.reshape(4, -1)
     if problem.model.name == AMPLITUDES:
         return unpack(y, reduction)
-    return np.array([unfold(y[part::2, 1:-1], reduction) for part in (0, 1)])
+    return np.array([unfold(y[re_im::2, 1:-1], reduction) for re_im in (0, 1)])
 
 
 def with_ghosts(inner: np.ndarray) -> np.ndarray:

@@ -100,14 +100,14 @@ def equations(problem: Problem, n: int) -> list:
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
     squares = rows[0::2] ** 2 + rows[1::2] ** 2
 
-    def part(row, j, drive):
+    def component_rate(row, j, drive):
         u = rows[row]
         linear = epsilon * (neighbours(u, j) - 2.0 * u[j]) + omega * u[j]
         linear = linear + drive * (rows[(row + 2) % 4][j] - u[j])
         return linear + 0.5 * squares[row // 2, j] * u[j]
 
     rates = [
-        part(row + 1, j, -gamma) if row % 2 == 0 else -part(row - 1, j, gamma)
+        component_rate(row + 1, j, -gamma) if row % 2 == 0 else -component_rate(row - 1, j, gamma)
         for row in range(4)
         for j in range(n)
     ]
@@ -123,15 +123,15 @@ def equations_of_pendula(problem: Problem, n: int) -> list:
     names = [f"{row}_{site}" for row in ("x", "u", "y", "v") for site in range(n)]
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
 
-    def force(x, other, j):
+    def force(x, partner, j):
         bonds = factors["coupling"] * (neighbours(x, j) - 2.0 * x[j])
-        return bonds + drive * (other[j] - x[j]) - heyoka.sin(x[j])
+        return bonds + drive * (partner[j] - x[j]) - heyoka.sin(x[j])
 
-    found = []
+    pairs = []
     for row in (0, 2):
-        found += [(rows[row, j], rows[row + 1, j]) for j in range(n)]
-        found += [(rows[row + 1, j], force(rows[row], rows[2 - row], j)) for j in range(n)]
-    return found
+        pairs += [(rows[row, j], rows[row + 1, j]) for j in range(n)]
+        pairs += [(rows[row + 1, j], force(rows[row], rows[2 - row], j)) for j in range(n)]
+    return pairs
 
 
 def prepare_heyoka(problem: Problem) -> Solve:

@@ -10,7 +10,7 @@ from latticode.datasets.netcdf import Variable
 from latticode.simulation.simulate import simulate
 from pendula.problem import Problem
 
-from .contestants import OWN, Contestant, compete, error_of
+from .contestants import SOLVERS, Contestant, compete, error_of
 from .problems import until
 from .work_precision import POINT_FIELDS, by_pair, by_point, name_contestants
 
@@ -18,7 +18,7 @@ MU, END_TIME, TARGET = 0.1, 1.0, 1e-10
 """Of the comparison: the small parameter, the slow time at the end, and the error in rad."""
 AGREED = 1e-12
 """Rad by which two methods at their tightest may differ: so exact is what errors are taken from."""
-OURS = {name: OWN[name] for name in ("taylor", "dop853", "ode45", "kahan_li")}
+OURS = {name: SOLVERS[name] for name in ("taylor", "dop853", "ode45", "kahan_li")}
 FIELDS = POINT_FIELDS | {"error": ("error of an angle or a velocity, the largest", "rad")}
 
 
@@ -33,13 +33,13 @@ def exact_state(problem: Problem) -> np.ndarray:
     Raises RuntimeError where they do not.
     """
     tight = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}
-    found = [
+    finals = [
         simulate(problem.changed(solver=solver)).final
         for solver in (tight, {"name": "kahan_li", "step": 0.05})
     ]
-    if not error_of(*found) < AGREED:
-        raise RuntimeError(f"two methods differ by {error_of(*found):.1e} rad: nothing is exact")
-    return found[0]
+    if not error_of(*finals) < AGREED:
+        raise RuntimeError(f"two methods differ by {error_of(*finals):.1e} rad: nothing is exact")
+    return finals[0]
 
 
 def measure(
@@ -48,18 +48,18 @@ def measure(
     say: Callable[[str], None],
 ) -> dict[str, Variable]:
     """Return the variables of the dataset on these cases, which are of the amplitudes."""
-    found, pairs = {}, {}
-    for case, given in problems.items():
-        problem = as_pendula(given)
+    points, pairs = {}, {}
+    for case, cases in problems.items():
+        problem = as_pendula(cases)
         for contestant in OURS.values():  # what compiles now is not timed
             contestant.prepare(until(problem, 1e-3))(contestant.accuracies[0])
         exact = exact_state(problem)
-        found[case], pairs[case] = compete(
+        points[case], pairs[case] = compete(
             problem, exact, TARGET, OURS, peers, lambda who, case=case: say(f"{case}: {who}")
         )
     return {
         "case": Variable(("case",), np.array(list(problems))),
         **name_contestants({**OURS, **peers}),
-        **by_point(FIELDS, found),
+        **by_point(FIELDS, points),
         **by_pair(pairs, list(peers)),
     }

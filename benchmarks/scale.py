@@ -33,8 +33,8 @@ def survey() -> dict[str, float]:
     case = Case(omega=-4, half_width=30, end_time=50)
     problem, plan = case.kind.of(case.problem()), Survey(MAP, ("max_l2", "mean_l2"), (10.0, 50.0))
     simulate(problem)  # compiles
-    found, seconds = timed(lambda: run_survey(problem, plan))
-    runs = found["max_l2"][..., 0].size
+    results, seconds = timed(lambda: run_survey(problem, plan))
+    runs = results["max_l2"][..., 0].size
     return {
         "runs": runs,
         "half_width": 30,
@@ -64,21 +64,21 @@ def timed(action: Callable):
     return action(), process_time() - start
 
 
-def measured(what: Callable, *given) -> dict[str, float]:
-    """Return what `what` returns, with all its processor time and the largest memory in MB."""
-    found = what(*given)
+def measured(measure: Callable, *arguments) -> dict[str, float]:
+    """Return what `measure` returns, with all its processor time and the largest memory in MB."""
+    figures = measure(*arguments)
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return found | {"megabytes": kilobytes / 1e3, "machine": describe_machine()}
+    return figures | {"megabytes": kilobytes / 1e3, "machine": describe_machine()}
 
 
 def main(*names: str) -> None:
     """Measure what is named, or all, and write it into the file."""
-    found = json.loads(WRITTEN.read_text(encoding="utf-8")) if WRITTEN.exists() else {}
+    figures = json.loads(WRITTEN.read_text(encoding="utf-8")) if WRITTEN.exists() else {}
     for name in names or JOBS:
         with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-            found[name] = pool.submit(measured, *JOBS[name]).result()
-        print(name, found[name], flush=True)
-        WRITTEN.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+            figures[name] = pool.submit(measured, *JOBS[name]).result()
+        print(name, figures[name], flush=True)
+        WRITTEN.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

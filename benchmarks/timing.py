@@ -32,15 +32,15 @@ def repeat(run: Run, count: int) -> float:
     return float(np.median([run() for _ in range(count)]))
 
 
-def in_turns(one: Run, other: Run, turns: int, block: float) -> np.ndarray:
-    """Return `turns` ratios of the time of `one` to that of `other`, measured alternately.
+def in_turns(first: Run, second: Run, turns: int, block: float) -> np.ndarray:
+    """Return `turns` ratios of the time of `first` to that of `second`, measured alternately.
 
     What slows the machine down slows both of a pair, so that ratios scatter less than times. Short
     runs are repeated until one side of a pair takes about `block` seconds. Each run is first made
     once to warm up.
     """
     counts = []
-    for run in (one, other):
+    for run in (first, second):
         run()  # what is not compiled yet is compiled before the first turn
         seconds = run()
         counts.append(max(1, round(block / seconds)) if seconds > 0.0 else 1)
@@ -48,7 +48,7 @@ def in_turns(one: Run, other: Run, turns: int, block: float) -> np.ndarray:
     def mean(run: Run, count: int) -> float:
         return sum(run() for _ in range(count)) / count
 
-    return np.array([mean(one, counts[0]) / mean(other, counts[1]) for _ in range(turns)])
+    return np.array([mean(first, counts[0]) / mean(second, counts[1]) for _ in range(turns)])
 
 
 @contextmanager

@@ -36,13 +36,13 @@ def measure(
     name of each measurement before it starts. The published least times and mean ratios are stored
     beside the measurements from which they follow.
     """
-    found, pairs, best = {}, {}, []
+    points, pairs, best = {}, {}, []
     for case, problem in problems.items():
         target = REGIMES[REGIME_OF[case]].target
         announce = lambda who, case=case: say(f"{case}: {who}")  # noqa: E731
         exact = references[case]
-        found[case], pairs[case] = compete(problem, exact, target, OURS, peers, announce)
-        reached = [cheapest(found[case][name], target) for name in OURS]
+        points[case], pairs[case] = compete(problem, exact, target, OURS, peers, announce)
+        reached = [cheapest(points[case][name], target) for name in OURS]
         best.append([point.seconds if point else np.nan for point in reached])
     regimes = [REGIME_OF[case] for case in problems]
     horizons, targets = (
@@ -56,7 +56,7 @@ def measure(
         "target": Variable(("case",), np.array(targets), "error of the comparison"),
         "solver": Variable(("solver",), np.array(list(OURS))),
         **name_contestants({**OURS, **peers}),
-        **by_point(POINT_FIELDS, found),
+        **by_point(POINT_FIELDS, points),
         "best_seconds": Variable(
             ("case", "solver"),
             np.array(best),
@@ -78,14 +78,14 @@ def name_contestants(contestants: Mapping[str, Contestant]) -> dict[str, Variabl
 
 
 def by_point(
-    fields: Mapping[str, tuple], found: Mapping[str, Mapping[str, list[Point]]]
+    fields: Mapping[str, tuple], points: Mapping[str, Mapping[str, list[Point]]]
 ) -> dict[str, Variable]:
     """Return one variable a field over (case, contestant, point), NaN beyond the last point.
 
-    `found` has the points by case and by name, each in the order of `fields`.
+    `points` has the points by case and by name, each in the order of `fields`.
     """
-    rows = [list(one.values()) for one in found.values()]
-    longest = max(len(points) for one in rows for points in one)
+    rows = [list(rows.values()) for rows in points.values()]
+    longest = max(len(points) for rows in rows for points in rows)
     table = np.full((len(rows), len(rows[0]), longest, len(fields)), np.nan)
     for i, j in np.ndindex(table.shape[:2]):
         if rows[i][j]:

@@ -16,8 +16,8 @@ from latticode.kernels.cache import keep_source
 from . import toolbox
 from .rate_rules import Rule, densities_text, rates_text, rule_text, tangents_text
 from .series_graph import with_carried
-from .series_rules import Series
-from .statements import Names, Parts, affine, parts_of
+from .series_rules import SeriesWriter
+from .statements import ModelInputs, Names, affine, inputs_of
 
 HEAD = f"from {toolbox.__name__} import *\n"
 AT_TIME = """
@@ -47,18 +47,18 @@ CLOCK_SERIES = """\
 
 
 @cache
-def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
+def inputs_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> ModelInputs:
     """Return the parts of rates, and of what their series carry along."""
     # where a function becomes a leaf, a sign may move out of a constant: -p.k / (1 + x * x)
-    with_leaves, _, found = with_carried(list(rates), site_dependent)
-    carried = (one for pair in found for one in pair)
-    return parts_of([*rates, *with_leaves, *carried], site_dependent)
+    with_leaves, _, carried_rates = with_carried(list(rates), site_dependent)
+    carried = (expression for pair in carried_rates for expression in pair)
+    return inputs_of([*rates, *with_leaves, *carried], site_dependent)
 
 
-def at_time_text(parts: Parts, names: Names) -> str:
+def at_time_text(inputs: ModelInputs, names: Names) -> str:
     """Return the function `at_time`, which puts the functions of the time into a system."""
-    now, count = [], len(parts.clocks)
-    for i, clock in enumerate(parts.clocks):
+    now, count = [], len(inputs.clocks)
+    for i, clock in enumerate(inputs.clocks):
         value = "t, 1.0"
         if clock.operation != "time":
             speed, phase = map(names.constant, affine(clock.operands[0]))
@@ -70,10 +70,10 @@ def at_time_text(parts: Parts, names: Names) -> str:
     return AT_TIME.format(now="\n".join(now), values=values)
 
 
-def clocks_text(parts: Parts, names: Names) -> str:
+def clocks_text(inputs: ModelInputs, names: Names) -> str:
     """Return the functions that continue the functions of the time as power series."""
-    series, count = [], len(parts.clocks)
-    for i, clock in enumerate(parts.clocks):
+    series, count = [], len(inputs.clocks)
+    for i, clock in enumerate(inputs.clocks):
         speed = "0.0"
         if clock.operation != "time":
             speed = names.constant(affine(clock.operands[0])[0])
@@ -83,26 +83,26 @@ def clocks_text(parts: Parts, names: Names) -> str:
 
 def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
     """Return the text of the module of a model with these rates, and their series."""
-    parts = parts_of_rates(rates, site_dependent)
-    names = Names(parts)
-    texts = [HEAD, rates_text(rates, names, reach), at_time_text(parts, names)]
+    inputs = inputs_of_rates(rates, site_dependent)
+    names = Names(inputs)
+    texts = [HEAD, rates_text(rates, names, reach), at_time_text(inputs, names)]
     if not switches(rates):  # else there is no power series
-        texts[2:2] = [Series(rates, names, site_dependent).text(reach)]
-        texts.append(clocks_text(parts, names))
+        texts[2:2] = [SeriesWriter(rates, names, site_dependent).text(reach)]
+        texts.append(clocks_text(inputs, names))
     return "".join(texts)
 
 
 def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
     """Return the text of the module with the rates of a solution and its tangent vectors."""
-    parts = parts_of_rates(tangent.rates, site_dependent)
-    names = Names(parts)
-    return "".join([HEAD, tangents_text(tangent, names), at_time_text(parts, names)])
+    inputs = inputs_of_rates(tangent.rates, site_dependent)
+    names = Names(inputs)
+    return "".join([HEAD, tangents_text(tangent, names), at_time_text(inputs, names)])
 
 
 def conserved_text(model: Model, site_dependent: frozenset[str], observe: str) -> str:
     """Return `observe`, which keeps what a model conserves beside what the other one keeps."""
     densities = tuple(model.conserved.values())
-    names = Names(parts_of(densities, site_dependent))
+    names = Names(inputs_of(densities, site_dependent))
     return densities_text(densities, names, model.reach_of_densities, len(model.fields), observe)
 
 
@@ -112,8 +112,10 @@ def load_series(model: Model) -> ModuleType:
     The system has the parameters and the clocks of the model by their names. The coefficients of
     the clocks are expected one after the other from `spare_start` on.
     """
-    names = Names(parts_of_rates(model.rates, frozenset()), by_name=True)
-    return load_text(HEAD + Series(model.rates, names, frozenset(), alike=True).text(model.reach))
+    names = Names(inputs_of_rates(model.rates, frozenset()), by_name=True)
+    return load_text(
+        HEAD + SeriesWriter(model.rates, names, frozenset(), exchangeable=True).text(model.reach)
+    )
 
 
 def load_rule(rates: tuple[Node, ...], *states: str):
@@ -130,12 +132,12 @@ def load_function(nodes: tuple[Node, ...]) -> Callable:
     They may be arrays or expressions. seen(field, part, by) gives those of a field at the site
     n + `by`, and the system has the parameters by their names.
     """
-    rule = Rule(Names(parts_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
+    rule = Rule(Names(inputs_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
     values = ", ".join(map(rule.value, nodes))
-    made: dict[str, Callable] = {}
+    namespace: dict[str, Callable] = {}
     lines = ["def function(system, seen):", *rule.code.lines, f"    return {values}"]
-    exec("\n".join(lines), made)
-    return made["function"]
+    exec("\n".join(lines), namespace)
+    return namespace["function"]
 
 
 @cache

@@ -9,7 +9,7 @@ from latticode.equations.graph import MOTION, Node, in_order
 from latticode.equations.model import Model
 from latticode.equations.symbols import ModelError
 
-from .statements import Code, Names, parts_of, require_alike, stages_of
+from .statements import FunctionText, Names, inputs_of, require_exchangeable, stages_of
 
 RULE = """
 @inlined_by_llvm
@@ -62,30 +62,30 @@ class Rule:
     """
 
     def __init__(self, names: Names, place: Callable[[int, int, int], str]):
-        self.code, self.names, self.place = Code(1), names, place
+        self.code, self.names, self.place = FunctionText(1), names, place
 
-    def value(self, one: Node) -> str:
+    def value(self, expression: Node) -> str:
         """Return the name of a value, whose statements are written where they are not yet."""
-        return self.code.name(one, lambda: self._text(one))
+        return self.code.name(expression, lambda: self._text(expression))
 
-    def is_scalar(self, one: Node) -> bool:
+    def is_scalar(self, expression: Node) -> bool:
         """Return whether a value is one number for all sites."""
-        return one.level < MOTION and not any(
-            part in self.names.at_sites for part in in_order([one])
+        return expression.level < MOTION and not any(
+            node in self.names.at_sites for node in in_order([expression])
         )
 
-    def _text(self, one: Node) -> str:
-        if one in self.names.at_sites:
-            return f"at[{self.names.at_sites[one]}, j]"
-        if one in self.names.clocks:
-            return self.names.clocks[one]
-        if one in self.names.constants or one.operation == "number":
-            return self.names.constant(one)
-        match one.operation, *one.operands:
+    def _text(self, expression: Node) -> str:
+        if expression in self.names.at_sites:
+            return f"at[{self.names.at_sites[expression]}, j]"
+        if expression in self.names.clocks:
+            return self.names.clocks[expression]
+        if expression in self.names.constants or expression.operation == "number":
+            return self.names.constant(expression)
+        match expression.operation, *expression.operands:
             case "field", component, part, by:
                 return self.place(component, part, by)
             case "couple", *_:
-                return f"coupled[{self.names.couples[one]}, j]"
+                return f"coupled[{self.names.couples[expression]}, j]"
             case "neg", a:
                 return f"-{self.value(a)}"
             case "mul", a, b:
@@ -108,11 +108,13 @@ class Rule:
             case "log" | "sqrt" as which, a:
                 name = {"log": "logarithm", "sqrt": "root"}[which]
                 return f"{name}_and_inverse({self.value(a)})[0]"
-        raise ModelError(f"{one.operation} of a field or of the time has no rule")
+        raise ModelError(f"{expression.operation} of a field or of the time has no rule")
 
-    def _factor(self, one: Node) -> str:
+    def _factor(self, expression: Node) -> str:
         """Return the name of a factor of a product, which is zero where it is tiny: see `rest`."""
-        return self.code.name(("factor", one), lambda: f"zero_below(TINY, {self.value(one)})")
+        return self.code.name(
+            ("factor", expression), lambda: f"zero_below(TINY, {self.value(expression)})"
+        )
 
     def _sum(self, a: Node, b: Node, sign: str) -> str:
         first, second = self.value(a), self.value(b)
@@ -122,8 +124,8 @@ class Rule:
 
     def write(self, rows: list[str], rates: tuple[Node, ...]) -> str:
         """Return the statements that write rates to rows; one number becomes that of all sites."""
-        found = [self.value(rate) for rate in rates]
-        for c, (row, rate, value) in enumerate(zip(rows, rates, found, strict=True)):
+        values = [self.value(rate) for rate in rates]
+        for c, (row, rate, value) in enumerate(zip(rows, rates, values, strict=True)):
             row_of_field = (c // 2, c % 2) if not self.names.couples else (0, 0)
             spread = f" + 0.0 * {self.place(*row_of_field, 0)}" if self.is_scalar(rate) else ""
             self.code(f"dy[{row}, j] = {value}{spread}")
@@ -157,18 +159,18 @@ def tangents_text(tangent: Model, names: Names) -> str:
     """
     rows = len(tangent.rates) // 2
     wide, at = tangent.reach > 1, bool(names.at_sites)
-    given = names, tangent.reach, ("y", "w"), rows // 2
+    arguments = names, tangent.reach, ("y", "w"), rows // 2
     states = f"system.wide[:{rows}], system.wide[{rows}:]" if wide else "y, w"
     states += ", system.at" * at + ", system.couplings.products" * bool(names.couples)
     known = {one for stage in stages_of(tangent.rates[:rows]) for one in stage}
     stages = [
         [one for one in stage if one not in known] for stage in stages_of(tangent.rates[rows:])
     ]
-    rules, couple = _coupling("tangent_rates", stages, states, 2, *given)
+    rules, couple = _coupling("tangent_rates", stages, states, 2, *arguments)
     return (
         rates_text(tangent.rates[:rows], names, tangent.reach)
         + rules
-        + _rule_of_rows("tangent_rates", tangent.rates[rows:], *given)
+        + _rule_of_rows("tangent_rates", tangent.rates[rows:], *arguments)
         + TANGENT_RATES.format(
             rows=rows,
             prepare=f"widen(system, w, system.wide[{rows}:])" if wide else "close(system, w)",
@@ -226,16 +228,16 @@ def _rule_of_rows(
     """
     offset = reach - 1
 
-    def place(component: int, part: int, by: int) -> str:
+    def place(component: int, re_im: int, by: int) -> str:
         by += offset
-        state, row = states[component // fields], 2 * (component % fields) + part
+        state, row = states[component // fields], 2 * (component % fields) + re_im
         return f"{state}[{row}, j{f' {by:+d}' if by else ''}]"
 
     rows = list(range(len(rates))) if rows is None else rows
     statements = Rule(names, place).write([str(row) for row in rows], rates)
     arrays = [*states, *["at"] * bool(names.at_sites), *["coupled"] * bool(names.couples)]
-    given = ", ".join(arrays)
-    return RULE.format(name=name, given=f"{given}, = states", statements=statements)
+    unpacked = ", ".join(arrays)
+    return RULE.format(name=name, given=f"{unpacked}, = states", statements=statements)
 
 
 def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
@@ -244,15 +246,15 @@ def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
     `rates` are those of the four rows; the fields are two of each of `states`. The system has the
     parameters by their names.
     """
-    require_alike(rates)
+    require_exchangeable(rates)
     rows = [["re", "re + 1"], ["other", "other + 1"]]
 
-    def place(component: int, part: int, by: int) -> str:
-        state, row = states[component // 2], rows[component % 2][part]
+    def place(component: int, re_im: int, by: int) -> str:
+        state, row = states[component // 2], rows[component % 2][re_im]
         return f"{state}[{row}, j{f' {by:+d}' if by else ''}]"
 
-    names = Names(parts_of(rates, frozenset()), by_name=True)
+    names = Names(inputs_of(rates, frozenset()), by_name=True)
     statements = Rule(names, place).write(rows[0], rates[:2])
-    other = f"other = {states[0]}.shape[0] - 2 - re"
-    given = f"{', '.join(states)}, = states\n    {other}"
-    return RULE.format(name="rates", given=given, statements=statements)
+    partner = f"other = {states[0]}.shape[0] - 2 - re"
+    unpacked = f"{', '.join(states)}, = states\n    {partner}"
+    return RULE.format(name="rates", given=unpacked, statements=statements)

@@ -42,31 +42,31 @@ def close_ends(reach):
 
     @inlined_by_llvm
     def close(chain, series, k, at_left, at_right):
-        m, kept, before = series.memory, series.sites_in_last, series.blocks - 1
+        m, sites_in_last, before = series.memory, series.sites_in_last, series.blocks - 1
         for i in range(reach):
-            after_end = place_of(chain, series, before * LANES + kept + i)
+            after_end = place_of(chain, series, before * LANES + sites_in_last + i)
             before_start = place_of(chain, series, -1 - i)
             sign = sign_at(chain, -1, 1)  # of what stands beyond both ends
             for component in range(series.components):
                 ghosts = ghosts_start(series, component)
-                for part in range(X, Y + 1, Y - X):
-                    start = block_start(series, component, 0) + k * ORDER_STRIDE + part
+                for re_im in range(X, Y + 1, Y - X):
+                    start = block_start(series, component, 0) + k * ORDER_STRIDE + re_im
                     last = start + before * BLOCK_SIZE
                     if at_right:
                         value = sign * m[start + after_end] if after_end >= 0 else 0.0
                         if i == 0:
-                            store(m, last, keep_lanes(load(m, last), kept, value))
-                            store(m, ghosts + RIGHT + part, fill(value))
-                        elif kept + i < LANES:
-                            m[last + kept + i] = value
+                            store(m, last, keep_lanes(load(m, last), sites_in_last, value))
+                            store(m, ghosts + RIGHT + re_im, fill(value))
+                        elif sites_in_last + i < LANES:
+                            m[last + sites_in_last + i] = value
                         else:
-                            m[ghosts + RIGHT + part + kept + i - LANES] = value
+                            m[ghosts + RIGHT + re_im + sites_in_last + i - LANES] = value
                     if at_left:
                         value = sign * m[start + before_start] if before_start >= 0 else 0.0
                         if i == 0:  # at once: a vector is read sooner if it is written as one
-                            store(m, ghosts + LEFT + part, fill(value))
+                            store(m, ghosts + LEFT + re_im, fill(value))
                         else:
-                            m[ghosts + LEFT + part + LANES - 1 - i] = value
+                            m[ghosts + LEFT + re_im + LANES - 1 - i] = value
 
     return close
 

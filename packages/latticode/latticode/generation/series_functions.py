@@ -14,7 +14,7 @@ from collections.abc import Callable
 
 from latticode.equations.graph import Node, node
 
-from .statements import Code
+from .statements import FunctionText
 
 PAIR = {"sin": ("sin", "cos"), "cos": ("sin", "cos")}
 """Functions whose coefficients follow from one another."""
@@ -55,15 +55,15 @@ def members(function: Node) -> list[Node]:
 class _Coefficients:
     """The text of the coefficients of a node by their order."""
 
-    def __init__(self, one: Node, load: Callable[[Node, str], str]):
-        self.one, self.load = one, load
+    def __init__(self, expression: Node, load: Callable[[Node, str], str]):
+        self.expression, self.load = expression, load
 
     def __getitem__(self, order: str | int) -> str:
-        return self.load(self.one, str(order))
+        return self.load(self.expression, str(order))
 
 
 def write_function(
-    code: Code,
+    code: FunctionText,
     function: Node,
     load: Callable[[Node, str], str],
     store: Callable[[Node, str], str],
@@ -77,19 +77,19 @@ def write_function(
     rows = members(function)
     kind = rows[0].operation
     coefficients = {
-        name: _Coefficients(one, load)
-        for name, one in zip("sab", [function.operands[-1], *rows], strict=False)
+        name: _Coefficients(member, load)
+        for name, member in zip("sab", [function.operands[-1], *rows], strict=False)
     }
     sums = [f"sum{i}" for i in range(len(rows))]
     if even:
         code("if k == 0:")
         code(f"{', '.join(sums)} = {STARTS[kind].format(s=coefficients['s'][0])}", 1)
-        for one, text in zip(rows, sums, strict=True):
-            code(store(one, text), 1)
+        for member, text in zip(rows, sums, strict=True):
+            code(store(member, text), 1)
         code("else:")
     code(f"{', '.join(sums)} = {', '.join(['fill(0.0)'] * len(rows))}", even)
     code(f"for j in range(1, k{' + 1' * (kind not in WITHOUT_LAST)}):", even)
     for name, term in zip(sums, TERMS[kind], strict=True):
         code(f"{name} = {name} + {term.format(**coefficients)}", even + 1)
-    for one, value in zip(rows, VALUES[kind], strict=True):
-        code(store(one, value.format(*sums, **coefficients)), even)
+    for member, value in zip(rows, VALUES[kind], strict=True):
+        code(store(member, value.format(*sums, **coefficients)), even)

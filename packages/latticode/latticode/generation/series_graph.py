@@ -34,28 +34,32 @@ def with_half_squares(nodes: list[Node]) -> list[Node]:
     """Return expressions with squares as twice half of them: the sum over orders of a half is
     half as long."""
 
-    def change(one: Node, operands: list[Node]) -> Node | None:
-        if one.operation == "mul" and operands[0] is operands[1] and one.level == MOTION:
+    def change(expression: Node, operands: list[Node]) -> Node | None:
+        if (
+            expression.operation == "mul"
+            and operands[0] is operands[1]
+            and expression.level == MOTION
+        ):
             return mul(TWO, node("half_square", operands[0]))
         return None
 
     return rebuilt(nodes, change)
 
 
-def is_product(one: Node) -> bool:
+def is_product(expression: Node) -> bool:
     """Return whether the coefficients of a node are sums over orders."""
-    if one.operation == "half_square":
+    if expression.operation == "half_square":
         return True
-    return one.operation == "mul" and one.operands[0].level > CONSTANT
+    return expression.operation == "mul" and expression.operands[0].level > CONSTANT
 
 
-def is_sum_of_products(one: Node) -> bool:
+def is_sum_of_products(expression: Node) -> bool:
     """Return whether a node is made of products by sums and constant factors alone."""
-    if is_product(one):
+    if is_product(expression):
         return True
-    if one.operation in ("add", "sub", "neg"):
-        return all(map(is_sum_of_products, one.operands))
-    return one.operation == "mul" and is_sum_of_products(one.operands[1])
+    if expression.operation in ("add", "sub", "neg"):
+        return all(map(is_sum_of_products, expression.operands))
+    return expression.operation == "mul" and is_sum_of_products(expression.operands[1])
 
 
 def carried(i: int) -> Node:
@@ -72,18 +76,18 @@ class Carried(NamedTuple):
 
     def rates(self, speed: Node) -> list[Node]:
         """Return the rates of the rows, where the argument has the rate `speed`."""
-        one, other = carried(self.first), carried(self.first + 1)
+        first, second = carried(self.first), carried(self.first + 1)
         match self.kind:
             case "turn":  # sine, cosine
-                return [mul(other, speed), neg(mul(one, speed))]
+                return [mul(second, speed), neg(mul(first, speed))]
             case "exp":
-                return [mul(one, speed)]
+                return [mul(first, speed)]
             case "inverse":
-                return [neg(mul(mul(one, one), speed))]
+                return [neg(mul(mul(first, first), speed))]
             case "log":  # logarithm, inverse
-                return [mul(other, speed), neg(mul(mul(other, other), speed))]
-        half = mul(number(0.5), mul(other, speed))  # root, inverse of the root
-        return [half, neg(mul(mul(other, other), half))]
+                return [mul(second, speed), neg(mul(mul(second, second), speed))]
+        half = mul(number(0.5), mul(second, speed))  # root, inverse of the root
+        return [half, neg(mul(mul(second, second), half))]
 
 
 KINDS = {
@@ -94,9 +98,9 @@ KINDS = {
 ROWS = {"turn": 2, "exp": 1, "inverse": 1, "log": 2, "sqrt": 2}
 
 
-def is_function(one: Node) -> bool:
+def is_function(expression: Node) -> bool:
     """Return whether the coefficients of a node follow from those of its argument."""
-    return one.operation in KINDS and one.level == MOTION
+    return expression.operation in KINDS and expression.level == MOTION
 
 
 def has_rate(argument: Node, rates: list[Node]) -> bool:
@@ -106,8 +110,8 @@ def has_rate(argument: Node, rates: list[Node]) -> bool:
     of a matrix stays where it is.
     """
     return not leaves_in([argument], "matrix") and all(
-        by == 0 or rates[2 * component + part].operation == "field"
-        for component, part, by in (leaf.operands for leaf in leaves_in([argument], "field"))
+        by == 0 or rates[2 * component + re_im].operation == "field"
+        for component, re_im, by in (leaf.operands for leaf in leaves_in([argument], "field"))
     )
 
 
@@ -116,30 +120,34 @@ def with_carried(
 ) -> tuple[list[Node], list[Carried], list[tuple[Node, Node]]]:
     """Return the rates with the functions that are carried along as leaves, these functions, and
     (argument, rate) of each of their rows. Functions of neighbours stay in the rates."""
-    kept: dict[tuple[str, Node], Carried] = {}
+    groups: dict[tuple[str, Node], Carried] = {}
 
-    def as_leaf(one: Node, operands: list[Node]) -> Node | None:
-        if one.level == CONSTANT or one.operation not in KINDS or is_clock(one, site_dependent):
+    def as_leaf(expression: Node, operands: list[Node]) -> Node | None:
+        if (
+            expression.level == CONSTANT
+            or expression.operation not in KINDS
+            or is_clock(expression, site_dependent)
+        ):
             return None
-        kind, row = KINDS[one.operation]
-        argument = one.operands[-1]
+        kind, row = KINDS[expression.operation]
+        argument = expression.operands[-1]
         if not has_rate(argument, rates):
             return mul(operands[0], node("div", ONE, operands[1])) if kind == "inverse" else None
-        first = sum(ROWS[name] for name, _ in kept)
-        found = kept.setdefault((kind, argument), Carried(kind, argument, first))
-        leaf = carried(found.first + row)
-        return mul(operands[0], leaf) if one.operation == "div" else leaf
+        first = sum(ROWS[name] for name, _ in groups)
+        carried_group = groups.setdefault((kind, argument), Carried(kind, argument, first))
+        leaf = carried(carried_group.first + row)
+        return mul(operands[0], leaf) if expression.operation == "div" else leaf
 
-    def flow(one: Node) -> Node:
-        if one.operation == "field":
-            component, part, by = one.operands
-            return shifted(rates[2 * component + part], by)
-        return number(one.operation == "time")
+    def flow(leaf: Node) -> Node:
+        if leaf.operation == "field":
+            component, re_im, by = leaf.operands
+            return shifted(rates[2 * component + re_im], by)
+        return number(leaf.operation == "time")
 
-    made, found, done = rebuilt(rates, as_leaf), [], 0
-    while done < len(kept):
-        group = list(kept.values())[done]
+    rates_with_leaves, row_rates, done = rebuilt(rates, as_leaf), [], 0
+    while done < len(groups):
+        group = list(groups.values())[done]
         argument, speed = rebuilt([group.argument, derivative([group.argument], flow)[0]], as_leaf)
-        found += [(argument, rate) for rate in group.rates(speed)]
+        row_rates += [(argument, rate) for rate in group.rates(speed)]
         done += 1
-    return made, list(kept.values()), found
+    return rates_with_leaves, list(groups.values()), row_rates

@@ -24,8 +24,8 @@ from .series_graph import (
     with_carried,
     with_half_squares,
 )
-from .series_sums import Sums
-from .statements import Code, Names, require_alike, stages_of
+from .series_sums import CauchySumWriter
+from .statements import FunctionText, Names, require_exchangeable, stages_of
 
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
@@ -52,7 +52,7 @@ continue_in_waves = in_waves(write_next_order, {reach}{everywhere})
 """
 
 
-class Series:
+class SeriesWriter:
     """The text of the rule that continues the series of a model.
 
     One that is for fields that are `alike` is written once, and goes through both of them.
@@ -63,79 +63,87 @@ class Series:
         model_rates: tuple[Node, ...],
         names: Names,
         site_dependent: frozenset[str],
-        alike: bool = False,
+        exchangeable: bool = False,
     ):
-        self.alike, self.names = alike, names
-        rows = list(model_rates[:2] if alike else model_rates)
-        rates, self.groups, self.found = with_carried(rows, site_dependent)
-        nodes = with_half_squares([*rates, *(part for pair in self.found for part in pair)])
+        self.exchangeable, self.names = exchangeable, names
+        rows = list(model_rates[:2] if exchangeable else model_rates)
+        rates, self.groups, self.row_rates = with_carried(rows, site_dependent)
+        nodes = with_half_squares(
+            [*rates, *(expression for pair in self.row_rates for expression in pair)]
+        )
         self.components = len(rates) // 2
-        self.clocks = {one: i for i, one in enumerate(names.clocks)}
+        self.clocks = {expression: i for i, expression in enumerate(names.clocks)}
         self.rates = nodes[: len(rates)]
         self.angles = nodes[len(rates) :: 2]
         self.flows = nodes[len(rates) + 1 :: 2]
         nodes = in_order([*self.rates, *self.flows])
-        self.products = [one for one in nodes if is_product(one)]
-        self.functions = [one for one in nodes if is_function(one)]
-        self.kept = self._kept()  # what is kept of each block beside the fields, and its place
-        self.sums = Sums(self.products, self.load, self.clocks)
-        if alike:
-            require_alike(model_rates, self.kept)
+        self.products = [expression for expression in nodes if is_product(expression)]
+        self.functions = [expression for expression in nodes if is_function(expression)]
+        self.stored = (
+            self._number_stored()
+        )  # what is kept of each block beside the fields, and its place
+        self.sums = CauchySumWriter(self.products, self.load, self.clocks)
+        if exchangeable:
+            require_exchangeable(model_rates, self.stored)
         self.partial: dict[tuple[int, Node], int] = {}  # sums of products that are not kept
         # the products of matrices that follow each pass over the blocks but for the last
         self.stages = stages_of([*self.rates, *self.flows])
         self.stage = 0  # the pass that is written
-        self.couples = {one: i for i, one in enumerate(chain.from_iterable(self.stages))}
-        more = max(0, len(self.kept) - self.components)
+        self.couples = {
+            expression: i for i, expression in enumerate(chain.from_iterable(self.stages))
+        }
+        more = max(0, len(self.stored) - self.components)
         self.spare = more * (ORDER + 1)  # vectors of a block beside its own
 
-    def _kept(self) -> dict[Node, int]:
+    def _number_stored(self) -> dict[Node, int]:
         operands = [operand for product in self.products for operand in product.operands]
         for function in self.functions:
             operands += [function.operands[-1], *members(function)]
-        absent = [one for one in operands if not self._is_stored(one)]
-        wanted = dict.fromkeys([*map(carried, range(len(self.found))), *absent])
-        return {one: i for i, one in enumerate(wanted)}
+        absent = [expression for expression in operands if not self._is_stored(expression)]
+        needed = dict.fromkeys([*map(carried, range(len(self.row_rates))), *absent])
+        return {expression: i for i, expression in enumerate(needed)}
 
-    def _is_stored(self, one: Node) -> bool:
+    def _is_stored(self, expression: Node) -> bool:
         """Return whether all orders are known anyway: of clocks, of fields at the site, and of the
         difference of two of these."""
-        if one.operation == "sub":
-            return all(a.operation == "field" and self._is_stored(a) for a in one.operands)
-        return one in self.clocks or (one.operation == "field" and one.operands[2] == 0)
+        if expression.operation == "sub":
+            return all(a.operation == "field" and self._is_stored(a) for a in expression.operands)
+        return expression in self.clocks or (
+            expression.operation == "field" and expression.operands[2] == 0
+        )
 
     # --- Places in memory
 
-    def place(self, one: Node, order: str) -> str:
+    def place(self, expression: Node, order: str) -> str:
         """Return where the coefficient of an order of a kept node or a field lies."""
-        if one not in self.kept:
-            component, part, _ = one.operands
-            return f"i{component} + ({order}) * ORDER_STRIDE + {'XY'[part]}"
-        i = self.kept[one]
+        if expression not in self.stored:
+            component, re_im, _ = expression.operands
+            return f"i{component} + ({order}) * ORDER_STRIDE + {'XY'[re_im]}"
+        i = self.stored[expression]
         if i < self.components:
             return f"i{i} + ({order}) * ORDER_STRIDE + EXTRA"
         return f"s + ({(i - self.components) * (ORDER + 1)} + {order}) * LANES"
 
-    def partial_place(self, one: Node, even: bool) -> str:
+    def partial_place(self, expression: Node, even: bool) -> str:
         """Return where a sum of products of an odd order waits for its last terms.
 
         The places of the order after it are free until then.
         """
-        if one in self.kept:
-            return self.place(one, "k + 1" if even else "k")
-        i = self.partial.setdefault((self.stage, one), len(self.partial))
+        if expression in self.stored:
+            return self.place(expression, "k + 1" if even else "k")
+        i = self.partial.setdefault((self.stage, expression), len(self.partial))
         if i < len(self.rates):
             return f"i{i // 2} + (k + {1 + even}) * ORDER_STRIDE + {'XY'[i % 2]}"
         return f"s + {self.spare + i - len(self.rates)} * LANES"
 
-    def load(self, one: Node, order: str) -> str:
+    def load(self, expression: Node, order: str) -> str:
         """Return the coefficient of an order of what is kept or stored, from memory."""
-        if one in self.clocks:
-            return f"fill(m[d + {self.clocks[one] * (ORDER + 1)} + {order}])"
-        if one.operation == "sub" and one not in self.kept:
-            a, b = one.operands
+        if expression in self.clocks:
+            return f"fill(m[d + {self.clocks[expression] * (ORDER + 1)} + {order}])"
+        if expression.operation == "sub" and expression not in self.stored:
+            a, b = expression.operands
             return f"(load(m, {self.place(a, order)}) - load(m, {self.place(b, order)}))"
-        return f"load(m, {self.place(one, order)})"
+        return f"load(m, {self.place(expression, order)})"
 
     # --- The order of the work
 
@@ -148,25 +156,25 @@ class Series:
         written: set[Node] = set()
         passes = []
         for stage, couples in enumerate(self.stages):
-            self.stage, code = stage, Code(3)
-            factors = [one.operands[1] for one in couples]
+            self.stage, code = stage, FunctionText(3)
+            factors = [expression.operands[1] for expression in couples]
             self._write_kept(code, factors, written, even)
-            for one in couples:
-                row = self.couples[one]
-                value = self._value(code, one.operands[1], even)
+            for expression in couples:
+                row = self.couples[expression]
+                value = self._value(code, expression.operands[1], even)
                 code(f"store(system.couplings.factors_by_block, {self._in_block(row)}, {value})")
             passes.append(code.lines)
-        code, factors = Code(3), {}
+        code, factors = FunctionText(3), {}
         self.stage = len(self.stages)
         self._write_kept(code, None, written, even)
         rows = [self._next(code, rate, even, factors) for rate in [*self.rates, *self.flows]]
-        for i, found in enumerate(rows):
+        for i, text in enumerate(rows):
             if i < len(self.rates):
                 to = f"i{i // 2} + (k + 1) * ORDER_STRIDE + {'XY'[i % 2]}"
             else:
                 to = self.place(carried(i - len(self.rates)), "k + 1")
-                found = f"zero_below(TINY, {found})"
-            code(f"store(m, {to}, {found})")
+                text = f"zero_below(TINY, {text})"
+            code(f"store(m, {to}, {text})")
         return [f"        {name} = {text}" for text, name in factors.items()], [*passes, code.lines]
 
     def _in_block(self, row: int) -> str:
@@ -174,7 +182,7 @@ class Series:
         return f"{row} * system.couplings.products_by_block.shape[1] + block * LANES"
 
     def _write_kept(
-        self, code: Code, roots: list[Node] | None, written: set[Node], even: bool
+        self, code: FunctionText, roots: list[Node] | None, written: set[Node], even: bool
     ) -> None:
         """Write the kept coefficients of order k that the roots need, and the sums of products.
 
@@ -186,7 +194,7 @@ class Series:
             self._start_carried(code)
         for one in written:
             code.alias(("value", one), self.load(one, "k"))
-        kept = [one for one in self.kept if one in needed and one not in written]
+        kept = [one for one in self.stored if one in needed and one not in written]
         for now in range(1, max(depth.values(), default=0) + 2):
             for one in kept:
                 if depth[one] == now - 1 and not (one.operation == "carried" or is_function(one)):
@@ -200,12 +208,12 @@ class Series:
         """Return how many products or functions stand inside one another in each node: so many
         passes."""
         depth: dict[Node, int] = {}
-        for one in in_order([*self.rates, *self.flows, *self.kept]):
-            depth[one] = max((depth[a] for a in one.inputs), default=0)
-            depth[one] += is_product(one) or is_function(one)
+        for expression in in_order([*self.rates, *self.flows, *self.stored]):
+            depth[expression] = max((depth[a] for a in expression.inputs), default=0)
+            depth[expression] += is_product(expression) or is_function(expression)
         return depth
 
-    def _write_functions(self, code: Code, nodes: list[Node], even: bool) -> None:
+    def _write_functions(self, code: FunctionText, nodes: list[Node], even: bool) -> None:
         """Write the coefficients of order k of those of the nodes that are functions."""
         written: set[Node] = set()
         for function in filter(is_function, nodes):
@@ -213,11 +221,11 @@ class Series:
                 written.update(members(function))
                 write_function(code, function, self.load, self._store, even)
 
-    def _store(self, one: Node, text: str) -> str:
+    def _store(self, expression: Node, text: str) -> str:
         """Return the statement that keeps the coefficient of order k."""
-        return f"store(m, {self.place(one, 'k')}, zero_below(TINY, {text}))"
+        return f"store(m, {self.place(expression, 'k')}, zero_below(TINY, {text}))"
 
-    def _start_carried(self, code: Code) -> None:
+    def _start_carried(self, code: FunctionText) -> None:
         """Write the functions that are carried along at order 0, from their arguments."""
         for group in self.groups:
             argument = self._start(self.angles[group.first], code)
@@ -228,106 +236,106 @@ class Series:
                 place = self.place(carried(group.first + row), "0")
                 code(f"store(m, {place}, zero_below(TINY, {name}))", 1)
 
-    def _start(self, one: Node, code: Code) -> str:
+    def _start(self, expression: Node, code: FunctionText) -> str:
         """Return the expression of the coefficient of order 0."""
-        if one.level == CONSTANT:
-            return self._constant(one)
-        if one in self.clocks:
-            return self.load(one, "0")
-        operands = [self._start(a, code) for a in one.inputs]
-        match one.operation:
+        if expression.level == CONSTANT:
+            return self._constant(expression)
+        if expression in self.clocks:
+            return self.load(expression, "0")
+        operands = [self._start(a, code) for a in expression.inputs]
+        match expression.operation:
             case "half_square":
                 return f"0.5 * ({operands[0]}) * ({operands[0]})"
             case "neg":
                 return f"-({operands[0]})"
             case "add" | "sub" | "mul" as how:
                 return f"({operands[0]}) {SIGNS[how]} ({operands[1]})"
-        return self._text(code, one, True)
+        return self._text(code, expression, True)
 
-    def _combined(self, code: Code, one: Node, which: str) -> str:
-        """Return a sum of products, each by its sum `which`: now, next or last."""
-        if is_product(one):
-            return code.known((which, one))
-        if one.level == CONSTANT:
-            return self._constant(one)
-        operands = [self._combined(code, part, which) for part in one.operands]
-        if one.operation == "neg":
+    def _combined(self, code: FunctionText, expression: Node, stage: str) -> str:
+        """Return a sum of products, each by its sum `stage`: now, next or last."""
+        if is_product(expression):
+            return code.known((stage, expression))
+        if expression.level == CONSTANT:
+            return self._constant(expression)
+        operands = [self._combined(code, operand, stage) for operand in expression.operands]
+        if expression.operation == "neg":
             return f"(-{operands[0]})"
-        return f"({operands[0]} {SIGNS[one.operation]} {operands[1]})"
+        return f"({operands[0]} {SIGNS[expression.operation]} {operands[1]})"
 
     # --- The coefficient of order k
 
-    def _value(self, code: Code, one: Node, even: bool) -> str:
+    def _value(self, code: FunctionText, expression: Node, even: bool) -> str:
         """Return the name of the coefficient of order k of a node."""
-        return code.name(("value", one), lambda: self._text(code, one, even))
+        return code.name(("value", expression), lambda: self._text(code, expression, even))
 
-    def _text(self, code: Code, one: Node, even: bool) -> str:
+    def _text(self, code: FunctionText, expression: Node, even: bool) -> str:
         """Return the expression of the coefficient of order k."""
-        if is_sum_of_products(one):
-            return self._sum_text(code, one, even)
-        if one.level == CONSTANT:
-            numbers = f"at_start * {self._constant(one)}"
-            return numbers if one in self.names.at_sites else f"fill({numbers})"
-        if one in self.clocks or is_function(one):
-            return self.load(one, "k")
-        match one.operation, *one.operands:
+        if is_sum_of_products(expression):
+            return self._sum_text(code, expression, even)
+        if expression.level == CONSTANT:
+            numbers = f"at_start * {self._constant(expression)}"
+            return numbers if expression in self.names.at_sites else f"fill({numbers})"
+        if expression in self.clocks or is_function(expression):
+            return self.load(expression, "k")
+        match expression.operation, *expression.operands:
             case ("field", _, _, 0) | ("carried", _):
-                return self.load(one, "k")
+                return self.load(expression, "k")
             case "couple", *_:
-                place = self._in_block(self.couples[one])
+                place = self._in_block(self.couples[expression])
                 return f"load(system.couplings.products_by_block, {place})"
             case "field", *_:
-                return self._neighbour(code, one, even)
+                return self._neighbour(code, expression, even)
             case "neg", a:
                 return f"-{self._value(code, a, even)}"
             case "mul", a, b:
                 return f"{self._constant(a)} * {self._value(code, b, even)}"
             case "add" | "sub" as how, a, b:
                 return f"{self._value(code, a, even)} {SIGNS[how]} {self._value(code, b, even)}"
-        raise ModelError(f"{one.operation} of a field or of the time has no rule")
+        raise ModelError(f"{expression.operation} of a field or of the time has no rule")
 
-    def _constant(self, one: Node) -> str:
-        if one in self.names.at_sites:
-            row = self.names.at_sites[one]
+    def _constant(self, expression: Node) -> str:
+        if expression in self.names.at_sites:
+            row = self.names.at_sites[expression]
             return f"load(system.at, {row} * system.at.shape[1] + 1 + block * LANES)"
-        return self.names.constant(one)
+        return self.names.constant(expression)
 
-    def _sum_text(self, code: Code, one: Node, even: bool) -> str:
-        waiting = self.partial_place(one, even)
+    def _sum_text(self, code: FunctionText, expression: Node, even: bool) -> str:
+        waiting = self.partial_place(expression, even)
         if even:
-            code(f"store(m, {waiting}, {self._combined(code, one, 'next')})")
-            return self._combined(code, one, "now")
-        return f"load(m, {waiting}) + {self._combined(code, one, 'last')}"
+            code(f"store(m, {waiting}, {self._combined(code, expression, 'next')})")
+            return self._combined(code, expression, "now")
+        return f"load(m, {waiting}) + {self._combined(code, expression, 'last')}"
 
-    def _neighbour(self, code: Code, one: Node, even: bool) -> str:
-        component, part, by = one.operands
-        place = f"{'left' if by < 0 else 'right'}{component} + {'XY'[part]}"
+    def _neighbour(self, code: FunctionText, expression: Node, even: bool) -> str:
+        component, re_im, by = expression.operands
+        place = f"{'left' if by < 0 else 'right'}{component} + {'XY'[re_im]}"
         side = code.name(("side", place), f"load(m, {place})")
-        here = self._value(code, node("field", component, part, 0), even)
-        both = f"{side}, {here}" if by < 0 else f"{here}, {side}"
+        at_site = self._value(code, node("field", component, re_im, 0), even)
+        both = f"{side}, {at_site}" if by < 0 else f"{at_site}, {side}"
         first = by % LANES
         return f"{SHIFTS.get(first, f'shift_{first}')}({both})"
 
     # --- The coefficient of order k + 1 of a row
 
-    def _next(self, code: Code, rate: Node, even: bool, factors: dict[str, str]) -> str:
+    def _next(self, code: FunctionText, rate: Node, even: bool, factors: dict[str, str]) -> str:
         """Return the coefficient of order k of a rate, over k + 1."""
-        plain = [term for term in self._terms(rate) if not self._has_factor(term)]
-        if len(plain) > 1 or rate.operation == "field":
+        without_factor = [term for term in self._terms(rate) if not self._has_factor(term)]
+        if len(without_factor) > 1 or rate.operation == "field":
             return f"share * {self._value(code, rate, even)}"
 
-        def write(one: Node, sign: str) -> tuple[str, str]:
+        def write(term: Node, sign: str) -> tuple[str, str]:
             """Return the sign of a term and the rest; `sign` goes into its factor if it has one."""
-            if self._has_factor(one):
-                factor = f"{sign.replace('+', '')}(share * {self._constant(one.operands[0])})"
+            if self._has_factor(term):
+                factor = f"{sign.replace('+', '')}(share * {self._constant(term.operands[0])})"
                 name = factors.setdefault(factor, f"f{len(factors)}")
-                return "+", f"{name} * {self._value(code, one.operands[1], even)}"
-            if self._terms(one) == [one]:
-                return sign, f"share * {self._value(code, one, even)}"
-            if one.operation == "neg":
-                return write(one.operands[0], NEGATED[sign])
-            a_sign, a = write(one.operands[0], sign)
-            b_sign, b = write(one.operands[1], sign if one.operation == "add" else NEGATED[sign])
+                return "+", f"{name} * {self._value(code, term.operands[1], even)}"
+            if self._terms(term) == [term]:
+                return sign, f"share * {self._value(code, term, even)}"
+            if term.operation == "neg":
+                return write(term.operands[0], NEGATED[sign])
+            a_sign, a = write(term.operands[0], sign)
+            b_sign, b = write(term.operands[1], sign if term.operation == "add" else NEGATED[sign])
             if (a_sign, b_sign) == ("-", "+"):
                 return "+", f"({b} - {a})"
             return a_sign, f"({a} {'+' if a_sign == b_sign else '-'} {b})"
@@ -335,19 +343,26 @@ class Series:
         sign, text = write(rate, "+")
         return sign.replace("+", "") + text
 
-    def _has_factor(self, one: Node) -> bool:
+    def _has_factor(self, expression: Node) -> bool:
         """Return whether 1 / (k + 1) can go into a constant that multiplies a term."""
-        if one.operation != "mul" or one.level == CONSTANT or is_sum_of_products(one):
+        if (
+            expression.operation != "mul"
+            or expression.level == CONSTANT
+            or is_sum_of_products(expression)
+        ):
             return False
-        return one.operands[0].level == CONSTANT and one.operands[0] not in self.names.at_sites
+        return (
+            expression.operands[0].level == CONSTANT
+            and expression.operands[0] not in self.names.at_sites
+        )
 
-    def _terms(self, one: Node) -> list[Node]:
+    def _terms(self, expression: Node) -> list[Node]:
         """Return the terms of a sum; a sum of products is one term, and one of constants."""
-        if one.level == CONSTANT or is_sum_of_products(one):
-            return [one]
-        if one.operation not in ("add", "sub", "neg"):
-            return [one]
-        return [term for operand in one.operands for term in self._terms(operand)]
+        if expression.level == CONSTANT or is_sum_of_products(expression):
+            return [expression]
+        if expression.operation not in ("add", "sub", "neg"):
+            return [expression]
+        return [term for operand in expression.operands for term in self._terms(operand)]
 
     # --- The whole
 
@@ -358,7 +373,7 @@ class Series:
         begin = self._begin(clocks)
         even, odd = self._in_passes(begin, even), self._in_passes(begin, odd)
         work = ["    if k % 2 == 0:", *factors, *even, "    else:", *factors, *odd]
-        if self.alike:
+        if self.exchangeable:
             loop = "    for component in range(series.components):"
             work = [loop, *("    " + line for line in work)]
         return RULE.format(
@@ -386,18 +401,21 @@ class Series:
 
     def _begin(self, clocks: int) -> list[str]:
         """Return the loop over blocks, and where each of them and its neighbours begin."""
-        here = {c: str(c) for c in range(self.components)}
+        components = {c: str(c) for c in range(self.components)}
         block = "block"
-        if self.alike:
-            here = {0: "component", 1: "series.components - 1 - component"}
+        if self.exchangeable:
+            components = {0: "component", 1: "series.components - 1 - component"}
             block = "(component * series.blocks + block)"
         return [
             "        for block in range(first, last):",
             f"            s = d + {clocks} + {block} * SPARE",
-            *(f"            i{c} = block_start(series, {at}, block)" for c, at in here.items()),
+            *(
+                f"            i{c} = block_start(series, {at}, block)"
+                for c, at in components.items()
+            ),
             *(
                 f"            left{c}, _, right{c} = sides_of(series, k, {at}, block)"
-                for c, at in here.items()
+                for c, at in components.items()
             ),
         ]
 

@@ -12,10 +12,10 @@ from collections.abc import Callable, Collection
 
 from latticode.equations.graph import Node
 
-from .statements import Code
+from .statements import FunctionText
 
 
-class Sums:
+class CauchySumWriter:
     """Writes the sums of some products, and names each by ("now", product) for an even order k.
 
     What is known of order k + 1 then has the name ("next", product), and in the pass over that
@@ -26,37 +26,43 @@ class Sums:
         self, products: list[Node], load: Callable[[Node, str], str], clocks: Collection[Node]
     ):
         self.load, self.clocks = load, clocks
-        self.names = {one: f"q{i}" for i, one in enumerate(products)}
+        self.names = {product: f"q{i}" for i, product in enumerate(products)}
 
-    def write(self, code: Code, products: list[Node], even: bool) -> None:
+    def write(self, code: FunctionText, products: list[Node], even: bool) -> None:
         """Write the sums of products whose operands are known up to order k."""
         if not even:
-            for one in products:
-                code.alias(("last", one), self._last(code, one))
+            for product in products:
+                code.alias(("last", product), self._last(code, product))
             return
-        squares = [one for one in products if one.operation == "half_square"]
-        others = [one for one in products if one.operation != "half_square"]
+        squares = [product for product in products if product.operation == "half_square"]
+        unequal = [product for product in products if product.operation != "half_square"]
         if squares:
-            self._write_squares(code, [(self.names[one], one.operands[0]) for one in squares])
-        if others:
-            self._write_others(code, [(self.names[one], *one.operands) for one in others])
-        for one in products:
-            code.alias(("now", one), self.names[one])
-            code.alias(("next", one), f"{self.names[one]}n")
+            self._write_squares(
+                code, [(self.names[product], product.operands[0]) for product in squares]
+            )
+        if unequal:
+            self._write_unequal(
+                code, [(self.names[product], *product.operands) for product in unequal]
+            )
+        for product in products:
+            code.alias(("now", product), self.names[product])
+            code.alias(("next", product), f"{self.names[product]}n")
 
-    def _ends(self, code: Code, one: Node) -> list[str]:
+    def _ends(self, code: FunctionText, operand: Node) -> list[str]:
         """Return the names of the coefficients of orders 0 and k."""
-        return [code.name((one, order), self.load(one, order)) for order in ("0", "k")]
+        return [code.name((operand, order), self.load(operand, order)) for order in ("0", "k")]
 
-    def _last(self, code: Code, one: Node) -> str:
+    def _last(self, code: FunctionText, product: Node) -> str:
         """Return the terms that hold a coefficient of the odd order k."""
-        (a0, ak), *others = (self._ends(code, operand) for operand in one.operands)
-        if not others:
+        (a0, ak), *second = (self._ends(code, operand) for operand in product.operands)
+        if not second:
             return f"{a0} * {ak}"
-        ((b0, bk),) = others
-        return f"{a0} * {bk}" if one.operands[0] in self.clocks else f"({ak} * {b0} + {a0} * {bk})"
+        ((b0, bk),) = second
+        return (
+            f"{a0} * {bk}" if product.operands[0] in self.clocks else f"({ak} * {b0} + {a0} * {bk})"
+        )
 
-    def _write_squares(self, code: Code, squares: list[tuple[str, Node]]) -> None:
+    def _write_squares(self, code: FunctionText, squares: list[tuple[str, Node]]) -> None:
         """Write the sums q of order k, and those qn of order k + 1 but for a_0 a_{k+1}."""
         for q, a in squares:
             middle = code.name((a, "k // 2"), self.load(a, "k // 2"))
@@ -69,7 +75,7 @@ class Sums:
             code(f"{q}l = {self.load(a, 'j')}", 1)
             code(f"{q}n = {q}n + {q}l * {q}h", 1)
 
-    def _write_others(self, code: Code, products: list[tuple[str, Node, Node]]) -> None:
+    def _write_unequal(self, code: FunctionText, products: list[tuple[str, Node, Node]]) -> None:
         """Write the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} for order k + 1: one loop."""
         firsts = {a: f"a{i}" for i, (_, a, _) in enumerate(products)}
         seconds = {b: f"b{i}" for i, (_, _, b) in enumerate(products)}

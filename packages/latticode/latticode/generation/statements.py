@@ -19,7 +19,7 @@ from latticode.equations.graph import (
 from latticode.equations.symbols import ModelError
 
 
-class Code:
+class FunctionText:
     """Statements of a function, with a name for each value, so that none is computed twice."""
 
     def __init__(self, indent: int):
@@ -47,7 +47,7 @@ class Code:
         return self._names[key]
 
 
-class Parts(NamedTuple):
+class ModelInputs(NamedTuple):
     """What the kernels of a model take from outside: constants and functions of the time."""
 
     constants: tuple[Node, ...]  # one number each
@@ -56,29 +56,31 @@ class Parts(NamedTuple):
     couples: tuple[Node, ...] = ()  # products of a matrix, each after those that it is made of
 
 
-def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
+def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInputs:
     """Return the largest expressions of parameters alone, and the functions of time."""
     constants, at_sites, clocks = {}, {}, {}
 
-    def visit(one: Node) -> None:
-        if one.level == CONSTANT:
-            if not is_number(one):
-                (at_sites if depends_on_site(one, site_dependent) else constants)[one] = None
-        elif one.operation in ("time", "clock"):
-            clocks[one] = None
-        elif is_clock(one, site_dependent):
-            clocks[one] = None
-            for found in affine(one.operands[0]):
-                visit(found)
+    def visit(expression: Node) -> None:
+        if expression.level == CONSTANT:
+            if not is_number(expression):
+                (at_sites if depends_on_site(expression, site_dependent) else constants)[
+                    expression
+                ] = None
+        elif expression.operation in ("time", "clock"):
+            clocks[expression] = None
+        elif is_clock(expression, site_dependent):
+            clocks[expression] = None
+            for coefficient in affine(expression.operands[0]):
+                visit(coefficient)
         else:
-            for operand in one.inputs:
+            for operand in expression.inputs:
                 visit(operand)
 
     nodes = list(nodes)
-    for one in nodes:
-        visit(one)
-    couples = [one for one in in_order(nodes) if one.operation == "couple"]
-    return Parts(tuple(constants), tuple(at_sites), tuple(clocks), tuple(couples))
+    for expression in nodes:
+        visit(expression)
+    couples = [expression for expression in in_order(nodes) if expression.operation == "couple"]
+    return ModelInputs(tuple(constants), tuple(at_sites), tuple(clocks), tuple(couples))
 
 
 def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
@@ -94,17 +96,17 @@ def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
     return [[one for one in couples if depth[one] == stage] for stage in range(1, last + 1)]
 
 
-def depends_on_site(one: Node, site_dependent: frozenset[str]) -> bool:
+def depends_on_site(expression: Node, site_dependent: frozenset[str]) -> bool:
     """Return whether an expression has a parameter with a value for each site."""
-    return any(part.operands[0] in site_dependent for part in leaves_in([one], "parameter"))
+    return any(leaf.operands[0] in site_dependent for leaf in leaves_in([expression], "parameter"))
 
 
-def is_clock(one: Node, site_dependent: frozenset[str]) -> bool:
+def is_clock(expression: Node, site_dependent: frozenset[str]) -> bool:
     """Return whether a node is a sine or cosine of the time that is the same at all sites, and
     whose angle grows steadily."""
-    if one.level != CLOCK or one.operation not in ("sin", "cos"):
+    if expression.level != CLOCK or expression.operation not in ("sin", "cos"):
         return False
-    angle = one.operands[0]
+    angle = expression.operands[0]
     return affine(angle)[0].level == CONSTANT and not depends_on_site(angle, site_dependent)
 
 
@@ -122,39 +124,39 @@ class Names:
     Where `by_name`, all are parameters or clocks that the system has by their names.
     """
 
-    def __init__(self, parts: Parts, by_name: bool = False):
+    def __init__(self, inputs: ModelInputs, by_name: bool = False):
         def named(group: str, nodes: tuple[Node, ...]) -> dict[Node, str]:
             return {
-                one: f"system.{one.operands[0] if by_name else f'{group}[{i}]'}"
-                for i, one in enumerate(nodes)
+                expression: f"system.{expression.operands[0] if by_name else f'{group}[{i}]'}"
+                for i, expression in enumerate(nodes)
             }
 
-        self.constants = named("constants", parts.constants)
-        self.clocks = named("clocks", parts.clocks)
-        self.at_sites = {one: i for i, one in enumerate(parts.at_sites)}
-        self.couples = {one: i for i, one in enumerate(parts.couples)}
-        matrices = sorted({leaf.operands[0] for leaf in leaves_in(parts.couples, "matrix")})
+        self.constants = named("constants", inputs.constants)
+        self.clocks = named("clocks", inputs.clocks)
+        self.at_sites = {expression: i for i, expression in enumerate(inputs.at_sites)}
+        self.couples = {expression: i for i, expression in enumerate(inputs.couples)}
+        matrices = sorted({leaf.operands[0] for leaf in leaves_in(inputs.couples, "matrix")})
         self.matrices = {name: i for i, name in enumerate(matrices)}
 
-    def constant(self, one: Node) -> str:
+    def constant(self, expression: Node) -> str:
         """Return the text of a number, or of an expression of parameters alone."""
-        return self.constants.get(one) or repr(one.operands[0])
+        return self.constants.get(expression) or repr(expression.operands[0])
 
 
-def require_alike(rates: Iterable[Node], kept: Iterable[Node] = ()) -> None:
+def require_exchangeable(rates: Iterable[Node], stored: Iterable[Node] = ()) -> None:
     """Raise ModelError unless two fields move alike, and each of what is kept is of one field.
 
     One rule then serves both fields, and one of them alone where the two are the same. There may
     be several states of the two.
     """
 
-    def exchanged(one: Node, _) -> Node | None:
-        if one.operation != "field":
+    def exchanged(leaf: Node, _) -> Node | None:
+        if leaf.operation != "field":
             return None
-        component, *place = one.operands
+        component, *place = leaf.operands
         return node("field", component ^ 1, *place)
 
     first, second = list(rates)[:2], list(rates)[2:]
-    mixed = any(one.operands[0] for one in leaves_in(kept, "field"))
+    mixed = any(leaf.operands[0] for leaf in leaves_in(stored, "field"))
     if mixed or rebuilt(first, exchanged) != second:
         raise ModelError("the two fields do not obey the same equation with their names exchanged")

@@ -34,7 +34,7 @@ from .chain import at_every_site, close, sum_from_middle, unfold, widen
 from .series import in_waves, sides_of
 
 
-class Sums(NamedTuple):
+class DensityWorkspace(NamedTuple):
     """What the densities of a model are given, whose sums over the whole chain a run keeps.
 
     They go on beyond ends at rest as far as they look, so that the bonds to them count.
@@ -90,7 +90,7 @@ class System(NamedTuple):
     clocks: tuple[float, ...]  # the functions of the time, and behind them their derivatives
     at: np.ndarray  # (row, 1 + site), parameters that depend on the site, with room for a vector
     wide: np.ndarray  # (row, reach + site), room for a state with more ghost columns
-    sums: Sums
+    sums: DensityWorkspace
     couplings: Couplings
     left: int
     right: int
@@ -106,7 +106,7 @@ STRAIGHT = 1e-65
 
 
 @inlined_by_llvm
-def _whole(x):
+def _nearest_integer(x):
     """Return the whole number nearest to x, for abs(x) < 2^51; x is a number or a Vector."""
     return -(6755399441055744.0 - (6755399441055744.0 + x))  # 1.5 * 2^52, where doubles are whole
 
@@ -118,15 +118,15 @@ def _reduced(x):
     o is -1, 0 or 1, and s = (-1)^j. So sin x = s (sin r + o cos r) with one of the two terms, and
     no lane of a vector needs another code than the next.
     """
-    quarters = _whole((1.0 / HALF_PI[0]) * x)
+    quarters = _nearest_integer((1.0 / HALF_PI[0]) * x)
     near = (x - HALF_PI[0] * quarters) - HALF_PI[1] * quarters
-    rest = -(HALF_PI[2] * quarters)
-    halves = _whole(0.5 * quarters)
+    low = -(HALF_PI[2] * quarters)
+    halves = _nearest_integer(0.5 * quarters)
     odd = quarters - 2.0 * halves
-    parity = halves - 2.0 * _whole(0.5 * halves)
+    parity = halves - 2.0 * _nearest_integer(0.5 * halves)
     sign = 1.0 - 2.0 * (parity * parity)
     bent = zero_below(STRAIGHT, near)
-    return near + sine_less_angle(bent, rest), cosine_near_zero(bent, rest), odd, sign
+    return near + sine_less_angle(bent, low), cosine_near_zero(bent, low), odd, sign
 
 
 @inlined_by_llvm
@@ -146,14 +146,14 @@ A1, A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12 = elementary.ATANH
 @inlined_by_llvm
 def exponential(x):
     """Return e^x with an error of some 1e-16 of it, 0 or infinity beyond the range of doubles."""
-    k = _whole((1.0 / LN2[0]) * x)
-    start, rest = x - LN2[0] * k, LN2[1] * k
-    r = start - rest
+    k = _nearest_integer((1.0 / LN2[0]) * x)
+    start, low = x - LN2[0] * k, LN2[1] * k
+    r = start - low
     far = E10 + r * (E11 + r * (E12 + r * (E13 + E14 * r)))
     near = E5 + r * (E6 + r * (E7 + r * (E8 + r * (E9 + r * far))))
     curved = r * r * (E2 + r * (E3 + r * (E4 + r * near)))
-    t = r + (curved + ((start - r) - rest))
-    half = _whole(0.5 * k)
+    t = r + (curved + ((start - r) - low))
+    half = _nearest_integer(0.5 * k)
     return ((1.0 + t) * power_of_two(half)) * power_of_two(k - half)
 
 
@@ -161,7 +161,7 @@ def exponential(x):
 def logarithm_and_inverse(x):
     """Return log(x), with an error of some 1e-16, and 1 / x, for normal x > 0; else NaN."""
     k = whole_exponent(x)
-    half = _whole(0.5 * k)
+    half = _nearest_integer(0.5 * k)
     f = -(1.0 - (x * power_of_two(-half)) * power_of_two(-(k - half)))
     s = f / (2.0 + f)
     z = s * s

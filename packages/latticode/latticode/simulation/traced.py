@@ -12,9 +12,9 @@ from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import evaluate
 from latticode.equations.initial_values import InitialValueProblem
 from latticode.equations.model import Model
-from latticode.generation.modules import conserved_text, load_text, module_text, parts_of_rates
-from latticode.generation.statements import Parts, parts_of
-from latticode.generation.toolbox import Couplings, Sums, System
+from latticode.generation.modules import conserved_text, inputs_of_rates, load_text, module_text
+from latticode.generation.statements import ModelInputs, inputs_of
+from latticode.generation.toolbox import Couplings, DensityWorkspace, System
 from latticode.integrators.method import Method
 from latticode.integrators.methods import METHODS, NAMED, methods_taking
 from latticode.kernels.simd import LANES
@@ -96,7 +96,7 @@ def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
     """Return what the kernels of a model take for its parameters, at time 0."""
     model = problem.model
     sites = problem.half_width + 1 if reduction.even else problem.sites
-    parts = parts_of_rates(model.rates, problem.site_dependent)
+    parts = inputs_of_rates(model.rates, problem.site_dependent)
     constants, at_sites = _values(problem, parts)
     wide = np.zeros((2 * len(model.fields), sites + 2 * model.reach))
     clocks = (0.0,) * 2 * len(parts.clocks)
@@ -109,7 +109,7 @@ DENSE = 0.25
 """The part of a matrix from which on it is multiplied with its zeros, which is faster."""
 
 
-def _couplings(problem: InitialValueProblem, parts: Parts, sites: int) -> Couplings:
+def _couplings(problem: InitialValueProblem, parts: ModelInputs, sites: int) -> Couplings:
     """Return the matrices of a model, and room for what they are multiplied with."""
     values, names = problem.parameter_values, sorted(problem.model.matrices)
     count, padded = max(1, len(parts.couples)), -(-sites // LANES) * LANES
@@ -134,21 +134,21 @@ def _flat_entries(matrices: list, sites: int) -> tuple[np.ndarray, np.ndarray, n
     return np.array([*weights, 0.0]), np.array([*columns, 0], np.int64), starts
 
 
-def _sums(problem: InitialValueProblem) -> Sums:
+def _sums(problem: InitialValueProblem) -> DensityWorkspace:
     """Return what the densities of a model are given: see Sums."""
     model, reach = problem.model, problem.model.reach_of_densities
     if not model.conserved:
-        return Sums((), *np.zeros((3, 1, 3)))
+        return DensityWorkspace((), *np.zeros((3, 1, 3)))
     margin = reach if ends_of(problem.boundary).sees is None else 0
     sites = problem.sites + 2 * margin
-    parts = parts_of(model.conserved.values(), problem.site_dependent)
+    parts = inputs_of(model.conserved.values(), problem.site_dependent)
     constants, at_sites = _values(problem, parts, margin)
     wide = np.zeros((2 * len(model.fields), sites + 2 * reach))
-    return Sums(constants, at_sites, wide, np.zeros((len(model.conserved), sites + 2)))
+    return DensityWorkspace(constants, at_sites, wide, np.zeros((len(model.conserved), sites + 2)))
 
 
 def _values(
-    problem: InitialValueProblem, parts: Parts, margin: int = 0
+    problem: InitialValueProblem, parts: ModelInputs, margin: int = 0
 ) -> tuple[tuple[float, ...], np.ndarray]:
     """Return constants, and what depends on the site, with so many sites more beyond each end."""
     values = problem.parameter_values

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from latticode.equations.graph import leaf, node
 from latticode.generation.series_functions import members, write_function
-from latticode.generation.statements import Code
+from latticode.generation.statements import FunctionText
 from numpy.polynomial import polynomial
 
 ORDER = 16
@@ -40,7 +40,7 @@ def coefficients(name, argument):
     places = {one: f"row{i}" for i, one in enumerate([ARGUMENT, *members(function)])}
     rows = {place: np.zeros(ORDER + 1) for place in places.values()} | {"row0": argument}
     for k in range(ORDER + 1):
-        code = Code(0)
+        code = FunctionText(0)
         write_function(
             code,
             function,
