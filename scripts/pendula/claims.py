@@ -81,7 +81,7 @@ SENSITIVITY = "breathers/sensitivity"
 MAJORITY = Cutoff(0.5, '"most": more than half')
 
 
-class AlmostEqual(NamedTuple):
+class PerturbedShare(NamedTuple):
     """The share of runs that spread from data this close, what it must keep, and a caveat."""
 
     measured: dict[str, float]
@@ -94,7 +94,7 @@ class AlmostEqual(NamedTuple):
         return judge(measured | self.measured, every, "; ".join(caveats))
 
 
-def almost_equal(sensitivity, within: float) -> AlmostEqual:
+def almost_equal(sensitivity, within: float) -> PerturbedShare:
     """Return what the shares that spread say of an ensemble whose data are `within` the paper's.
 
     Where no change that small was tried, the smallest that was stands for it.
@@ -111,7 +111,9 @@ def almost_equal(sensitivity, within: float) -> AlmostEqual:
             f" {share[found[0]]:.0%} for {sizes[found[0]]:g}"
         )
     says = "least share of equally perturbed runs that spread"
-    return AlmostEqual({"share_nearby": least}, Above(MAJORITY, "share_nearby", says=says), caveat)
+    return PerturbedShare(
+        {"share_nearby": least}, Above(MAJORITY, "share_nearby", says=says), caveat
+    )
 
 
 FAR_AS_NEAR = Control(

@@ -34,7 +34,7 @@ FORMATS |= {".html": "text/html", ".md": "text/markdown", ".json": "application/
 class AliasFreeDumper(yaml.SafeDumper):
     """Writes what occurs twice in a configuration twice, so that people can edit it."""
 
-    def ignore_aliases(self, data) -> bool:
+    def ignore_aliases(self, data: object) -> bool:
         return True
 
 
@@ -116,10 +116,11 @@ def describe(project: Project, members: dict[str, Path]) -> dict:
         entity(f"https://spdx.org/licenses/{name}", "CreativeWork", name) for name in rights
     )
     authors = [
-        ("Organization", author["name"]) if "name" in author
+        ("Organization", author["name"])
+        if "name" in author
         else ("Person", f"{author['given-names']} {author['family-names']}")
         for author in cited["authors"]
-    ]  # fmt: skip
+    ]
     facts = {
         "name": cited["title"],
         "version": project.version,

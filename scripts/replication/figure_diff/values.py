@@ -96,8 +96,11 @@ def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
 
     The words may be the coordinate of a dimension, or any text along it alone.
     """
-    texts = {each.dims[0] for each in data.variables.values()
-             if each.ndim == 1 and hashes.are_words(each)}  # fmt: skip
+    texts = {
+        each.dims[0]
+        for each in data.variables.values()
+        if each.ndim == 1 and hashes.are_words(each)
+    }
     words = [dim in texts for dim in variable.dims]
     sizes = [size if word else 1 for size, word in zip(variable.shape, words, strict=True)]
     for place in np.ndindex(*sizes):

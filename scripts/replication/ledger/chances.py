@@ -61,8 +61,7 @@ def chance_to_turn(findings: Sequence[Finding]) -> Chance:
     if len(verdicts) > 1:
         (_, most), *_ = verdicts.most_common(1)
         return Chance(1.0 - most / len(findings), "verdicts")
-    rooms = [finding.criterion.rooms(finding.measured) for finding in findings
-             if finding.criterion]  # fmt: skip
+    rooms = [finding.criterion.rooms(finding.measured) for finding in findings if finding.criterion]
     if len(rooms) < len(findings):
         return Chance(0.0)
     series = {name: [rooms_of_run[name] for rooms_of_run in rooms] for name in rooms[0]}

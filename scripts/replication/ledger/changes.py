@@ -6,6 +6,7 @@ or a slice of them with both ends; the labels of a dimension without any are its
 """
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -50,7 +51,7 @@ def exchange(along: str, *labels, names: Names = ()) -> Change:
     return changed
 
 
-def repeat(along: str, label, at, names: Names = ()) -> Change:
+def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
     """Put what stands at one label at other ones too; `names` alone if they are given."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
