@@ -44,14 +44,15 @@ def lacks_avx512() -> str | None:
 
 
 @cache
-def compiled(contract: str, lanes: int):
+def compiled(contract: str, lanes: int, rest: bool):
     """Return the C function `solve` with vectors of `lanes` numbers.
 
-    GCC joins a product and a sum where `contract` is "fast".
+    GCC joins a product and a sum where `contract` is "fast". With `rest`, tiny numbers count as
+    zero, as in this project's solvers.
     """
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder) / "taylor.so"
-        chosen = [target(), f"-DLANES={lanes}", f"-ffp-contract={contract}"]
+        chosen = [target(), f"-DLANES={lanes}", f"-ffp-contract={contract}", *["-DREST"] * rest]
         command = ["g++", *OPTIONS, *chosen, str(SOURCE), "-o", str(library)]
         subprocess.run(command, check=True, capture_output=True)
         function = ctypes.CDLL(str(library)).solve  # stays loaded when the folder goes
@@ -61,10 +62,10 @@ def compiled(contract: str, lanes: int):
     return function
 
 
-def prepare_taylor(problem: Problem, contract: str, lanes: int = 4) -> Solve:
+def prepare_taylor(problem: Problem, contract: str, lanes: int = 4, rest: bool = False) -> Solve:
     """Return the solver of half the chain, compiled into a temporary folder."""
     _, start, end = begin(problem, HALF)
-    function, numbers = compiled(contract, lanes), tuple(problem.constants)
+    function, numbers = compiled(contract, lanes, rest), tuple(problem.constants)
 
     def solve(rtol):
         y = start[:, 1:-1].copy()
@@ -88,5 +89,15 @@ PEERS = {
         "Taylor in C++, no contraction, vectors of eight",
         lacks_avx512,
         partial(prepare_taylor, contract="off", lanes=8),
+    ),
+    "cpp_taylor_rest": Peer(
+        "Taylor in C++, no contraction, tiny numbers as rest",
+        lacks_compiler,
+        partial(prepare_taylor, contract="off", rest=True),
+    ),
+    "cpp_taylor_eight_rest": Peer(
+        "Taylor in C++, no contraction, vectors of eight, tiny numbers as rest",
+        lacks_avx512,
+        partial(prepare_taylor, contract="off", lanes=8, rest=True),
     ),
 }

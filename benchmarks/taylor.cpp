@@ -36,6 +36,15 @@ struct Chain {
     Block *begin() { return blocks.data(); }
 };
 
+// Numbers below `level` as zero, where this is compiled in: subnormal numbers are slow (see integrators/rest.py).
+static inline Vec without_tiny(Vec value, double level) {
+#ifdef REST
+    return (Vec)((Mask)value & ~((value < level) & (value > -level)));
+#else
+    return value;
+#endif
+}
+
 // Load into a register once: left alone, GCC loads anew for each product.
 static inline Vec load(const Vec &source) {
     Vec value = source;
@@ -82,7 +91,7 @@ template <int K> static inline void even_order(Chain &s, Block *b, int re) {
         later_y += low_y * high_y;
     }
     Vec sum = sum_x + sum_y, later = later_x + later_y;
-    density(K) = sum + sum;
+    density(K) = without_tiny(sum + sum, 1e-150);
     density(K + 1) = later + later;
     Vec now_x = ZERO, now_y = ZERO, next_x = ZERO, next_y = ZERO, here = load(density(0));
 #pragma GCC unroll 16
@@ -102,7 +111,7 @@ template <int K> static inline void even_order(Chain &s, Block *b, int re) {
 // Order k, odd: add the terms that hold its own coefficients.
 static inline void odd_order(Chain &s, Block *b, int k, int re) {
     Vec x0 = b->c[0][re], y0 = b->c[0][re + 1], x = b->c[k][re], y = b->c[k][re + 1];
-    Vec half = x0 * x + y0 * y, density = b->density[k][re / 2] + (half + half);
+    Vec half = x0 * x + y0 * y, density = without_tiny(b->density[k][re / 2] + (half + half), 1e-150);
     Vec first = b->density[0][re / 2];
     b->density[k][re / 2] = density;
     Vec cubic_x = b->c[k + 1][re] + (density * x0 + first * x);
@@ -151,7 +160,7 @@ static void advance(Chain &s, double h) {
             Vec total = c(ORDER);
             for (int k = ORDER; k >= 4; k -= 4)
                 total = total * h4 + ((c(k - 1) * h3 + c(k - 2) * h2) + (c(k - 3) * h + c(k - 4)));
-            b->c[0][row] = total;
+            b->c[0][row] = without_tiny(total, 1e-130);
         }
 }
 
