@@ -13,7 +13,7 @@ import pendula.names  # noqa: F401, so that datasets have the paper's words
 from latticode.datasets.netcdf import Variable, read, save, write
 from latticode.datasets.stated import COMPUTED_BY, COMPUTED_FROM, stated
 from latticode.datasets.trajectories import Contents
-from latticode.simulation.runs import ManyRuns, joined, run_part
+from latticode.simulation.runs import ManyRuns, join_chunks, run_chunk
 from pendula.contract.arguments import Arguments, function_of, load_arguments
 from pendula.contract.kinds import KINDS
 from xarray import Dataset
@@ -66,14 +66,14 @@ def without_provenance(attributes: Mapping[str, Any]) -> dict[str, Any]:
 def retained_of(runs: ManyRuns, files: Sequence[str] | None) -> dict[str, np.ndarray]:
     """Return what is retained of all runs: read from files of chunks, or made if there are none."""
     if files:
-        return joined(map(arrays_in, files))
-    return run_part(runs.problems, runs.retain, progress=Progress())
+        return join_chunks(map(arrays_in, files))
+    return run_chunk(runs.problems, runs.retain, progress=Progress())
 
 
 def write_chunk(path: str, runs: ManyRuns, chunk: str) -> None:
     """Make the runs of one chunk, such as ".parts/2-of-8", and write what is retained of them."""
     number, count = map(int, re.findall(r"\d+", chunk))
-    retained = run_part(runs.problems, runs.retain, number - 1, count, Progress())
+    retained = run_chunk(runs.problems, runs.retain, number - 1, count, Progress())
     variables = {
         name: Variable(
             ("run", *(f"{name}_{axis}" for axis in range(1, values.ndim))), values, "of each run"

@@ -95,7 +95,7 @@ class Case(cases.PaperCaseSection):
         return notebook.Case(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
 
     def __init__(self, /, **keys: Unpack[CaseKeys]) -> None:
-        notebook.made(super().__init__, keys, root=Sections)
+        notebook.validate_case(super().__init__, keys, root=Sections)
 
     def changed(self, **keys: Unpack[ChangedKeys]) -> "Case":
         """Return the case with other values under `keys`, checked anew.

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from latticode.simulation.runs import joined, run_part
+from latticode.simulation.runs import join_chunks, run_chunk
 from pendula.studies.breathers.fates import map_fates
 from pendula.studies.chaos.ensembles import measure_ensembles
 from pendula.studies.paper.runs import run_sweep
@@ -37,7 +37,7 @@ def endless():
 
 
 def in_chunks(count, problems, make):
-    return joined([run_part(problems, make, chunk, count) for chunk in range(count)])
+    return join_chunks([run_chunk(problems, make, chunk, count) for chunk in range(count)])
 
 
 @pytest.mark.parametrize("study", [maps, ensembles, sweeps, endless])

@@ -11,7 +11,7 @@ use rule dataset as own_checks with:
         made="own/cases/<own_case>.checks",
     resources:
         **resources_for(
-            lambda wildcards: SETTINGS.takes(wildcards.case)[1](
+            lambda wildcards: SETTINGS.cost_estimate(wildcards.case)[1](
                 SETTINGS.shown_problem(wildcards.case)
             )
         ),

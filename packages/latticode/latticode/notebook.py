@@ -40,7 +40,7 @@ from latticode.simulation import simulate as simulation
 from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
 from latticode.simulation.problem import Problem
-from latticode.simulation.progress import shown
+from latticode.simulation.progress import show_progress
 from latticode.simulation.runs import Retained, run_until_interrupted
 from latticode.simulation.survey import Survey, names_of
 
@@ -105,23 +105,25 @@ class Case(cases.Case):
     """
 
     def __init__(self, /, **keys: Unpack[CaseKeys]) -> None:
-        made(super().__init__, keys)
+        validate_case(super().__init__, keys)
 
     def changed(self, **keys: Unpack[ChangedKeys]) -> "Case":
         """Return the case with other values under `keys`, checked anew."""
         values = self.model_dump()
         if end_of_run(keys.get("initial")) is not None:
             del values["start_time"]  # that of the run
-        for key, other in (("sites", "half_width"), ("half_width", "sites")):
-            if keys.get(key) is not None and other in values:  # one length replaces the other
-                values[other] = None
+        for key, replaced in (("sites", "half_width"), ("half_width", "sites")):
+            if keys.get(key) is not None and replaced in values:  # one length replaces the other
+                values[replaced] = None
         return type(self)(**{**values, **keys})
 
 
 show_keys(Case, ("model", "parameters", "initial"))
 
 
-def made(initialise: Callable, keys: Mapping, root: type[Configuration] = Configuration) -> None:
+def validate_case(
+    initialise: Callable, keys: Mapping, root: type[Configuration] = Configuration
+) -> None:
     """Make a case of its keys, which belong to a configuration of the type `root`.
 
     Raises ConfigurationError with all that is wrong with them.
@@ -134,25 +136,25 @@ def made(initialise: Callable, keys: Mapping, root: type[Configuration] = Config
 
 def _limits(hours: float | None, gigabytes: float | None) -> dict[str, float]:
     """Return the limits that are given, by name."""
-    given = {"hours": hours, "gigabytes": gigabytes}
-    return {name: limit for name, limit in given.items() if limit is not None}
+    limits = {"hours": hours, "gigabytes": gigabytes}
+    return {name: limit for name, limit in limits.items() if limit is not None}
 
 
-def _affordable(case: cases.Case, given: Mapping[str, float]) -> None:
+def _require_affordable(case: cases.Case, chosen_limits: Mapping[str, float]) -> None:
     """Raise ConfigurationError if a run takes more than it may.
 
     A run of minutes says what it will take.
     """
     require(case, cases.Case, CASE)
     try:
-        limits = Limits(**given)
+        limits = Limits(**chosen_limits)
     except ValidationError as error:
         raise in_words(error, "the limit", Limits) from None
     # The second problem chooses the times of its snapshots, which needs a run that is not too long.
     for problem in (case.problem, case.shown_problem):
-        found = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
-        if found:
-            raise list_faults([f"{found[0]}: {_as_argument(found[1])}"], "the case")
+        excess = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
+        if excess:
+            raise list_faults([f"{excess[0]}: {_as_argument(excess[1])}"], "the case")
     _announce(case.cost(case.shown_problem()))
 
 
@@ -173,9 +175,9 @@ def _load(sections: Mapping, limits: Mapping[str, float]) -> Configuration:
         raise ConfigurationError(_as_argument(str(error))) from None
 
 
-def _announce(takes: cost.Cost) -> None:
-    if takes.seconds > cost.WORTH_SAYING:
-        print(f"the run takes {takes}", flush=True)
+def _announce(estimate: cost.Cost) -> None:
+    if estimate.seconds > cost.WORTH_SAYING:
+        print(f"the run takes {estimate}", flush=True)
 
 
 NEEDLESS = (
@@ -199,21 +201,23 @@ def _require_run_of(case: cases.Case, run: xr.Dataset) -> None:
     problem = case.kind.of(case.shown_problem())
     made_of = {"model": None} | describe_run("", problem, problem.solver)
     compared = [key for key in sorted(made_of) if not key.startswith(OF_A_RUN)]
-    other = [key for key in compared if run.attrs.get(key) != made_of[key]]
-    if other:
+    differing = [key for key in compared if run.attrs.get(key) != made_of[key]]
+    if differing:
         raise ConfigurationError(
-            f"the run is of another case: they differ in {', '.join(other)}; give the run of this "
-            "case, or leave it out"
+            f"the run is of another case: they differ in {', '.join(differing)}; give the run of"
+            " this case, or leave it out"
         )
 
 
-def require(given: Any, kind: type[Any], what: str, *variables: str) -> None:
+def require(argument: Any, kind: type[Any], description: str, *variables: str) -> None:
     """Raise ConfigurationError unless an argument is of a kind, and a dataset has `variables`."""
-    if not isinstance(given, kind):
-        raise ConfigurationError(f"this takes {what}, and not {values.shown(given)}")
-    absent = [name for name in variables if name not in given]
+    if not isinstance(argument, kind):
+        raise ConfigurationError(f"this takes {description}, and not {values.excerpt_of(argument)}")
+    absent = [name for name in variables if name not in argument]
     if absent:
-        raise ConfigurationError(f"this takes {what}; the dataset has no {', '.join(absent)}")
+        raise ConfigurationError(
+            f"this takes {description}; the dataset has no {', '.join(absent)}"
+        )
 
 
 CASE = "a case, as `Case` makes it"
@@ -252,10 +256,10 @@ def simulate(
     >>> run["l2"].shape, run["modulus"].shape, round(float(run["l2"][0, -1]), 12)
     ((1, 201), (1, 21, 201), 1.5)
     """
-    _affordable(case, _limits(hours, gigabytes))
+    _require_affordable(case, _limits(hours, gigabytes))
     require(name, str, "a name for the dataset")
     problem = case.kind.of(case.shown_problem())
-    with shown("simulate"):
+    with show_progress("simulate"):
         trajectory = simulation.simulate(problem)
     _print_remark(trajectory.solver)
     if anew := simulation.remark_on_start(problem):
@@ -319,7 +323,7 @@ def sweep(
     settings = _load({"cases": {name: case}, "sweeps": {name: asked}}, limits)
     _announce(settings.cost_of_sweep(name))
     checked, problem = settings.sweeps[name], case.kind.of(settings.swept_problem(name))
-    with shown("sweep"):
+    with show_progress("sweep"):
         result = sweeps.sweep(problem, checked.half_widths, checked.windows)
     return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
 
@@ -370,41 +374,41 @@ def survey(
     """
     require(case, cases.Case, CASE)
     if not isinstance(cores, Integral) or isinstance(cores, bool) or cores < 1:
-        text = f"cores: is {values.shown(cores)}; give a whole number of 1 or more"
+        text = f"cores: is {values.excerpt_of(cores)}; give a whole number of 1 or more"
         raise list_faults([text], "the survey")
-    kept = [keep] if isinstance(keep, str) or callable(keep) else list(keep)
-    if not kept:
+    quantities = [keep] if isinstance(keep, str) or callable(keep) else list(keep)
+    if not quantities:
         raise list_faults(["keep: is empty; give what is kept of each run"], "the survey")
-    for key, given in (("axes", axes), ("together", together)):
-        if not isinstance(given, Mapping | None):
-            text = f"{key}: is {values.shown(given)}, not a mapping of names to values"
+    for key, argument in (("axes", axes), ("together", together)):
+        if not isinstance(argument, Mapping | None):
+            text = f"{key}: is {values.excerpt_of(argument)}, not a mapping of names to values"
             raise list_faults([text], "the survey")
     asked = {
         "case": name,
         "axes": {axis: _listed(values) for axis, values in (axes or {}).items()},
         "together": {axis: _listed(values) for axis, values in (together or {}).items()},
         "members": dict(members) if isinstance(members, Mapping) else members,
-        "keep": [one for one in kept if not callable(one)] or ["max_l2"],
+        "keep": [quantity for quantity in quantities if not callable(quantity)] or ["max_l2"],
         "window": _listed(window),
     }
     limits = _limits(hours, gigabytes)
     settings = _load({"cases": {name: case}, "surveys": {name: asked}}, limits)
     _announce(settings.cost_of_survey(name))
     plan = settings.surveys[name].plan._replace(
-        keep=tuple(kept), by_half_width=settings.values_by_half_width(name)
+        keep=tuple(quantities), by_half_width=settings.values_by_half_width(name)
     )
     try:
         names_of(plan)
     except ValueError as error:
         raise list_faults([str(error)], "the survey") from None
-    plain = settings.surveyed_problem(name)
-    if any(map(callable, kept)):  # which may read the snapshots that the case asks for
-        plain = case.problem()
-    problem = case.kind.of(plain)
+    plain_values = settings.surveyed_problem(name)
+    if any(map(callable, quantities)):  # which may read the snapshots that the case asks for
+        plain_values = case.problem()
+    problem = case.kind.of(plain_values)
     retained = {} if resume is None else _runs_to_resume(resume, name, problem, plan)
     run = partial(run_until_interrupted, cores=cores, retained=retained)
-    found = survey_runs.run_survey(problem, plan, run)
-    return as_xarray(*survey_contents(name, problem, plan, found))
+    results = survey_runs.run_survey(problem, plan, run)
+    return as_xarray(*survey_contents(name, problem, plan, results))
 
 
 def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Survey) -> Retained:
@@ -427,12 +431,12 @@ def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Surve
     return runs_in(resume, names, plan.shape)
 
 
-def _listed(given: Any) -> Any:
+def _listed(argument: Any) -> Any:
     """Return a list of what can be iterated, such as a range, and all else as it is."""
     return (
-        [_listed(one) for one in given]
-        if isinstance(given, Iterable) and not isinstance(given, str | dict)
-        else given
+        [_listed(item) for item in argument]
+        if isinstance(argument, Iterable) and not isinstance(argument, str | dict)
+        else argument
     )
 
 
@@ -455,11 +459,11 @@ def check(
     run = simulate(case) if run is None else run
     require(run, xr.Dataset, RUN, "linf", "l2", "tau", *variables)
     _require_run_of(case, run)
-    with shown("check"):
-        found = checks(case.kind.of(case.shown_problem()), run)
-    if sentence := found.attrs.get(UNSTABLE_REST):
+    with show_progress("check"):
+        measured = checks(case.kind.of(case.shown_problem()), run)
+    if sentence := measured.attrs.get(UNSTABLE_REST):
         print(sentence)
-    return found
+    return measured
 
 
 def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr.Dataset:
@@ -494,7 +498,7 @@ def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr
     if takes.excess(limits) > 1.0:
         raise list_faults([_as_argument(f"count: {cost.refusal(takes, limits)}")], "the spectrum")
     _announce(takes)
-    with shown("lyapunov"):
+    with show_progress("lyapunov"):
         return spectrum_dataset(problem, measure_spectrum(problem, int(count)))
 
 
@@ -539,7 +543,7 @@ def section(
     if problem.solver["name"] == "auto":  # its outputs are those of two methods
         name = pair_of(case.solver_names)[0]
         problem = problem.changed(solver={"name": name, **dict.fromkeys(("rtol", "atol"), 1e-13)})
-    with shown("section"):
+    with show_progress("section"):
         crossings = find_crossings(problem, case.model.trace(when), site, direction)
     return section_dataset(problem, crossings)
 
@@ -627,6 +631,6 @@ def gathered_sweep(
     for window in (max_window, mean_window):
         if window is not None and window not in known:
             raise ConfigurationError(
-                f"there is no window {values.shown(window)}; known are {', '.join(known)}"
+                f"there is no window {values.excerpt_of(window)}; known are {', '.join(known)}"
             )
     return runs.gather_sweep(sweep, max_window, mean_window)

@@ -106,7 +106,7 @@ class PaperCaseSection(cases.Case):
             text = "the square of the pendula's frequency, 1 + mu^2 Omega, is not positive"
             yield "mu", f"{text}; with omega {self.omega:g} it must be less than {largest:.4g}"
 
-    def _given(self) -> dict[str, Any]:
+    def _values_by_name(self) -> dict[str, Any]:
         return {}  # the constants stand as keys of their own
 
     @property
@@ -129,7 +129,7 @@ class PaperCaseSection(cases.Case):
 
         The constants come first, as in datasets.
         """
-        plain_values = self._plain(**changes)
+        plain_values = self._plain_values(**changes)
         values = {key: plain_values[key] for key in CONSTANTS if key in plain_values} | plain_values
         if values["model"] == AMPLITUDES:
             del values["model"], values["mu"]

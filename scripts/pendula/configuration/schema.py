@@ -50,10 +50,10 @@ class PaperConfiguration(schema.Configuration):
             text = f"case {name!r} is of {self.cases[name].equations}"
             yield key, f"{text}, and this is about the amplitude equations"
 
-    def takes(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
+    def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
         """Return in words what is made of a case: those of a user are checked after their run."""
         if name in PAPER_CASES:
-            return super().takes(name)
+            return super().cost_estimate(name)
         return "the run and its checks", self.cases[name].cost_with_checks
 
     def run_of(self, case: str, tolerance: float, solver: str = "taylor", **changes) -> dict:

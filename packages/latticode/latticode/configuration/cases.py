@@ -40,14 +40,14 @@ from .values import (
     Complex,
     Count,
     Distinct,
+    Integer,
     Model,
     Natural,
     Number,
     Positive,
-    Whole,
+    excerpt_of,
     fault,
     faults,
-    shown,
 )
 
 FEWEST = 200
@@ -66,8 +66,8 @@ def choose_every(outputs: int, sites: int) -> int:
     They divide the run, so that its last state is among the snapshots.
     """
     most = max(1, MOST_NUMBERS // (2 * sites))
-    whole = [every for every in range(1, outputs // FEWEST + 1) if outputs % every == 0]
-    every = whole[-1] if whole else 1
+    divisors = [every for every in range(1, outputs // FEWEST + 1) if outputs % every == 0]
+    every = divisors[-1] if divisors else 1
     while outputs // every > most or outputs % every:
         every += 1
     return every
@@ -87,11 +87,11 @@ def _nearest_multiples(time: float, step: float) -> str:
     return f"the nearest are {near[0]} and {near[1]}" if count else f"the shortest is {near[0]}"
 
 
-def _nearest_parts(whole: float, part: float) -> str:
-    """Return in words the steps next to `part` that divide `whole`."""
-    count = min(whole / part, MOST_COUNTED)
-    near = [whole / max(1, int(count) + more) for more in (0, 1)]
-    shortest = f"the longest that does is {whole:.12g}"
+def _nearest_parts(span: float, step: float) -> str:
+    """Return in words the steps next to `step` that divide `span`."""
+    count = min(span / step, MOST_COUNTED)
+    near = [span / max(1, int(count) + more) for more in (0, 1)]
+    shortest = f"the longest that does is {span:.12g}"
     return shortest if count < 1 else f"the nearest that do are {near[1]:.12g} and {near[0]:.12g}"
 
 
@@ -102,14 +102,14 @@ def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
     return f"the nearest that do are {below * step:.12g} and {above * step:.12g}"
 
 
-def _initial(given: Any, by_site: ValidatorFunctionWrapHandler) -> Any:
+def _initial(raw_value: Any, by_site: ValidatorFunctionWrapHandler) -> Any:
     """Return data by site as numbers; arrays and functions get the sites of a chain later."""
-    data = read_initial(given)
+    data = read_initial(raw_value)
     return by_site(data) if isinstance(data, dict) else data
 
 
 Initial = Annotated[
-    dict[Whole, tuple[Complex, ...]],
+    dict[Integer, tuple[Complex, ...]],
     Field(min_length=1),
     WrapValidator(_initial),
     PlainSerializer(lambda data: data),
@@ -117,8 +117,8 @@ Initial = Annotated[
 """Data by site, an array of a number for each site, or a function of the sites."""
 
 
-def _listed_times(given: Any) -> Any:
-    return given.tolist() if isinstance(given, np.ndarray) else given
+def _listed_times(raw_value: Any) -> Any:
+    return raw_value.tolist() if isinstance(raw_value, np.ndarray) else raw_value
 
 
 Time = Annotated[Number, Field(ge=0)]
@@ -135,7 +135,7 @@ def _as_model(value: Any) -> Traced:
                 " holds no code"
             )
         if not isinstance(value, Traced | str | Path):
-            raise fault(f"is {shown(value)}; give a Model, or the path of its file")
+            raise fault(f"is {excerpt_of(value)}; give a Model, or the path of its file")
         return value if isinstance(value, Traced) else Traced.read(value)
     except ModelError as error:
         raise fault(str(error)) from None
@@ -179,35 +179,37 @@ class Case(Model):
 
     @model_validator(mode="before")
     @classmethod
-    def _one_length(cls, given: Any) -> Any:
+    def _one_length(cls, raw_keys: Any) -> Any:
         """Leave `half_width` out where the chain has a number of `sites`; refuse both."""
-        if not isinstance(given, Mapping) or given.get("sites") is None:
-            if isinstance(given, Mapping) and given.get("half_width", 0) is None:
+        if not isinstance(raw_keys, Mapping) or raw_keys.get("sites") is None:
+            if isinstance(raw_keys, Mapping) and raw_keys.get("half_width", 0) is None:
                 raise faults([("half_width", "is empty; give half_width or sites")])
-            return given
-        if given.get("half_width") is not None:
+            return raw_keys
+        if raw_keys.get("half_width") is not None:
             text = "is given beside half_width; sites: 32 has the sites 0..31, half_width: 16 has"
             raise faults([("sites", f"{text} -16..16: leave one of them out")])
-        return {**given, "half_width": None}
+        return {**raw_keys, "half_width": None}
 
     @field_validator("solver", mode="before")
     @classmethod
-    def _known(cls, given: Any, info: ValidationInfo) -> Any:
+    def _known(cls, raw_value: Any, info: ValidationInfo) -> Any:
         """Refuse a name of no solver, with the names of those that take the model."""
-        if not isinstance(given, Mapping) or "model" not in info.data:
-            return given
-        name, known = given.get("name"), cls.solvers_taking(info.data["model"])
-        if "name" not in given:
+        if not isinstance(raw_value, Mapping) or "model" not in info.data:
+            return raw_value
+        name, known = raw_value.get("name"), cls.solvers_taking(info.data["model"])
+        if "name" not in raw_value:
             raise faults([("name", f"is missing; it must be one of {', '.join(known)}")])
         if not isinstance(name, str) or name not in Solvers.model_fields:
             near = difflib.get_close_matches(str(name), known, 1, 0.5)
             hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
             raise fault(f"there is no solver {name!r}; {hint}")
-        return given
+        return raw_value
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in type(self).model_fields:
-            text = f"a case does not change; case.changed({name}={shown(value)}) returns another"
+            text = (
+                f"a case does not change; case.changed({name}={excerpt_of(value)}) returns another"
+            )
             raise ConfigurationError(text)
         super().__setattr__(name, value)
 
@@ -283,7 +285,7 @@ class Case(Model):
 
     def faults_of_parameters(self, sites: range) -> Iterator[tuple[str, str]]:
         """Yield the fault of each parameter that has no values on the sites of such a chain."""
-        for name, value in self._given().items():
+        for name, value in self._values_by_name().items():
             try:
                 self.model.value_at(name, value, sites)
             except ValueError as error:
@@ -296,12 +298,12 @@ class Case(Model):
         All chains have the values of the longest at their sites, which must be those that a
         function gives for them.
         """
-        longest, found = max(half_widths), []
+        longest, without_values = max(half_widths), []
         for name, text in self.faults_of_parameters(chain_sites(longest)):
-            found.append(name)
+            without_values.append(name)
             yield name, f"on the longest chain: {text}"
-        for name, value in self._given().items():
-            if callable(value) and f"parameters.{name}" not in found:
+        for name, value in self._values_by_name().items():
+            if callable(value) and f"parameters.{name}" not in without_values:
                 longest_values = self.model.value_at(name, value, chain_sites(longest))
                 if any(
                     at_middle(longest_values, m) != self.model.value_at(name, value, chain_sites(m))
@@ -310,15 +312,19 @@ class Case(Model):
                     text = "is a function with other values at the same sites of a longer chain"
                     yield f"parameters.{name}", f"{text}; let them follow from the site alone"
 
-    def _given(self) -> dict[str, Any]:
-        return {k: self.parameters.get(k, one) for k, one in self.model.parameters.items()}
+    def _values_by_name(self) -> dict[str, Any]:
+        return {k: self.parameters.get(k, default) for k, default in self.model.parameters.items()}
 
     def _values(self, sites: range) -> dict[str, float | list[float]]:
-        return {k: self.model.value_at(k, value, sites) for k, value in self._given().items()}
+        return {
+            k: self.model.value_at(k, value, sites) for k, value in self._values_by_name().items()
+        }
 
     def values_by_half_width(self, half_widths: list[int]) -> dict[int, dict[str, Any]]:
         """Return the values of the parameters that are functions of the sites, by half-width."""
-        functions = {name: value for name, value in self._given().items() if callable(value)}
+        functions = {
+            name: value for name, value in self._values_by_name().items() if callable(value)
+        }
         if not functions:
             return {}
         chains = {m: chain_sites(m) for m in half_widths}
@@ -332,17 +338,19 @@ class Case(Model):
     ) -> tuple[Obstacle | None, float]:
         """Return what keeps data of the size `peak` from being followed, and how fast they turn."""
         values = self._values(self.chain)
-        found = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
-        return found, self.model.rate(values, peak)
+        obstacle = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
+        return obstacle, self.model.rate(values, peak)
 
     def problem(self, **changes) -> dict:
         """Return the case as plain values of a Problem, some of them changed.
 
         Each parameter is what it is on the sites of the chain, so that a job depends on the values.
         """
-        found = self._plain(**changes)
-        values = self._values(chain_sites(found["half_width"], found.get("site_count")))
-        return {**found, "model": self.model.plain, "parameters": values}
+        plain_values = self._plain_values(**changes)
+        values = self._values(
+            chain_sites(plain_values["half_width"], plain_values.get("site_count"))
+        )
+        return {**plain_values, "model": self.model.plain, "parameters": values}
 
     def cost(self, problem: Mapping) -> Cost:
         """Return what such a problem of the case takes, given as plain values."""
@@ -382,12 +390,16 @@ class Case(Model):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Case":
-        found = [*self._faults_of_initial(), *self._faults_of_model(), *self._faults_of_times()]
-        found += [*self.faults_of_solver(self.solver)] or [*self.faults_of_step(self.solver)]
-        if not any(key.startswith(UNKNOWN) for key, _ in found):
-            found += self.obstacles()
-        if found:
-            raise faults(found)
+        all_faults = [
+            *self._faults_of_initial(),
+            *self._faults_of_model(),
+            *self._faults_of_times(),
+        ]
+        all_faults += [*self.faults_of_solver(self.solver)] or [*self.faults_of_step(self.solver)]
+        if not any(key.startswith(UNKNOWN) for key, _ in all_faults):
+            all_faults += self.obstacles()
+        if all_faults:
+            raise faults(all_faults)
         return self
 
     def _faults_of_initial(self) -> Iterator[tuple[str, str]]:
@@ -427,10 +439,10 @@ class Case(Model):
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a solver that does not take the equations of the case."""
         if solver.name not in self.solver_names and not getattr(solver, FLAG, False):
-            known, what = ", ".join(self.solver_names), self.equations
+            known, equations = ", ".join(self.solver_names), self.equations
             why = self.why_no_series if solver.name == "taylor" else ""
-            what += f", which {why}" if why else ""
-            yield "solver.name", f"{solver.name} does not take {what}; give one of {known}"
+            equations += f", which {why}" if why else ""
+            yield "solver.name", f"{solver.name} does not take {equations}; give one of {known}"
 
     def _faults_of_times(self) -> Iterator[tuple[str, str]]:
         step, off_grid = self.output_step, []
@@ -487,29 +499,29 @@ class Case(Model):
         `solver` and `span` take the place of the case's own solver and end time.
         """
         span = span or self.span
-        given = self._solver_of_run((solver or self.solver).model_dump())
-        if given["name"] == "auto":  # its first run, which asks for least
-            tolerance = first_tolerance(given["error"], 0.0)
+        controls = self._solver_of_run((solver or self.solver).model_dump())
+        if controls["name"] == "auto":  # its first run, which asks for least
+            tolerance = first_tolerance(controls["error"], 0.0)
             name, _ = pair_of(self.solver_names)
-            given = {"name": name, "rtol": tolerance, "atol": tolerance}
+            controls = {"name": name, "rtol": tolerance, "atol": tolerance}
         amplitudes = [z for values in self.data.values() for z in values]
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
-        found, speed = self._fault_and_rate(peak, span, given)
+        obstacle, speed = self._fault_and_rate(peak, span, controls)
         angle = speed * span
         ends = {"end_time": self.start_time + span, "snapshot_step": None, "times": None}
-        took = self.cost(self.problem(solver=given, **ends))
-        if found is not None and cost.HOUR < took.seconds < inf:
-            found = found[0], f"{found[1]}, and would take {took}"
-        if found is not None and MOST_STEPS < angle < inf:
+        took = self.cost(self.problem(solver=controls, **ends))
+        if obstacle is not None and cost.HOUR < took.seconds < inf:
+            obstacle = obstacle[0], f"{obstacle[1]}, and would take {took}"
+        if obstacle is not None and MOST_STEPS < angle < inf:
             # three digits never round up beyond it
             longest = self.start_time + 0.99 * MOST_STEPS / speed
-            found = found[0], f"{found[1]}; end_time may be at most {longest:.3g} here"
-        if found is None and 0.0 < angle < SMALLEST_ANGLE:
+            obstacle = obstacle[0], f"{obstacle[1]}; end_time may be at most {longest:.3g} here"
+        if obstacle is None and 0.0 < angle < SMALLEST_ANGLE:
             text = f"is so short that the data turn by {angle:.0e} radians: nothing would be seen"
-            found = "end_time", f"{span:g} {text}"
-        return [found] if found else []
+            obstacle = "end_time", f"{span:g} {text}"
+        return [obstacle] if obstacle else []
 
-    def _plain(self, **changes) -> dict:
+    def _plain_values(self, **changes) -> dict:
         values = {**self.model_dump(), **changes}
         count = values.pop("sites", None)
         counted = {} if count is None else {"site_count": count}

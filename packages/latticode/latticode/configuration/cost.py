@@ -68,8 +68,10 @@ def demand(problem: Mapping) -> Demand:
     peak = max(max(map(abs, values)) for values in initial.values())
     if not model.real:
         peak *= 0.5**0.5  # of both parts of a complex field, whose squares add up to its own
-    alike = model.even and not any(isinstance(one, list) for one in problem["parameters"].values())
-    even = alike and all(initial.get(-site) == values for site, values in initial.items())
+    same_equations = model.even and not any(
+        isinstance(value, list) for value in problem["parameters"].values()
+    )
+    even = same_equations and all(initial.get(-site) == values for site, values in initial.items())
     even = even and problem.get("site_count") is None
     sites = problem["half_width"] + 1 if even else _sites_of(problem)
     return Demand(model.rate(problem["parameters"], peak), 0.5 * len(model.fields) * sites)
@@ -96,9 +98,9 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
             solvers = [{"name": name, "rtol": tolerance} for name in pair_of(solvers_of(problem))]
         outputs = span_of(problem) / problem["output_step"] + 1
         fields = len(next(iter(problem["initial"].values())))
-        kept = STATE_BYTES if problem.get("keep") == "state" else MODULUS_BYTES
-        snapshots = kept * fields * sites * (outputs / every) if every else 0.0
-        seconds = sum(_solver_seconds(one, problem, needs, outputs) for one in solvers)
+        bytes_of_value = STATE_BYTES if problem.get("keep") == "state" else MODULUS_BYTES
+        snapshots = bytes_of_value * fields * sites * (outputs / every) if every else 0.0
+        seconds = sum(_solver_seconds(method, problem, needs, outputs) for method in solvers)
         pair_bytes = METHODS[solvers[0]["name"]].cost.pair_bytes
         memory = pair_bytes * needs.pairs + SITE_BYTES * sites
         return Cost(seconds, memory + OUTPUT_BYTES * outputs + snapshots)
@@ -130,11 +132,11 @@ def runs_of_checks(problem: Mapping) -> list[Mapping]:
     Both runs keep fields at the snapshots. A tangent is carried beside the solution, which takes
     twice the work.
     """
-    other = other_family(problem["solver"]["name"], solvers_of(problem))
-    again = {**problem, "solver": {"name": other, "rtol": METHODS[other].tightest}}
-    plain = {**problem, "snapshot_every": 0}
-    tangent = plain | {"solver": OF_TANGENTS, "output_step": span_of(problem)}
-    return [problem, again, tangent, tangent]
+    second = other_family(problem["solver"]["name"], solvers_of(problem))
+    second_run = {**problem, "solver": {"name": second, "rtol": METHODS[second].tightest}}
+    without_snapshots = {**problem, "snapshot_every": 0}
+    tangent = without_snapshots | {"solver": OF_TANGENTS, "output_step": span_of(problem)}
+    return [problem, second_run, tangent, tangent]
 
 
 KEPT_TO_COMPARE = 2.5
@@ -148,7 +150,7 @@ MOST_UNKNOWNS = 1000
 
 def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
     """Return the cost of a run and of all its checks, a localised state among them."""
-    runs = of_checked([estimate(one, measure) for one in [problem, *runs_of_checks(problem)]])
+    runs = of_checked([estimate(run, measure) for run in [problem, *runs_of_checks(problem)]])
     unknowns = 4.0 * measure(problem).pairs  # two real numbers a field and site
     entries = unknowns**2 if unknowns <= MOST_UNKNOWNS else 0.0
     state = Cost(LOCALISED["seconds"] * entries, LOCALISED["bytes"] * entries)
@@ -165,7 +167,7 @@ def of_checked(runs: Iterable[Cost]) -> Cost:
 def total(costs: Iterable[Cost]) -> Cost:
     """Return the cost of runs that are made one after another."""
     costs = list(costs)
-    return Cost(sum(one.seconds for one in costs), max(one.memory for one in costs))
+    return Cost(sum(cost.seconds for cost in costs), max(cost.memory for cost in costs))
 
 
 def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
@@ -189,23 +191,23 @@ ORDINARY = {
 def find_excess(
     problem: Mapping,
     limits: Mapping[str, float],
-    takes: Callable[[Mapping], Cost] = estimate,
+    estimate_cost: Callable[[Mapping], Cost] = estimate,
     ordinary: Mapping[str, Mapping] = ORDINARY,
-    what: str = "the run",
+    subject: str = "the run",
 ) -> Obstacle | None:
     """Return the key that makes a run longer or larger than is allowed, and what it would take.
 
-    It is the key whose change to its `ordinary` values would save most. `takes` estimates the cost
-    of `what`.
+    It is the key whose change to its `ordinary` values would save most. `estimate_cost` returns the
+    cost of a problem; messages call it by `subject`.
     """
-    cost = takes(problem)
+    cost = estimate_cost(problem)
     if cost.excess(limits) <= 1.0:
         return None
-    rest = {key: takes({**problem, **plain}) for key, plain in ordinary.items()}
-    return min(rest, key=lambda key: rest[key].excess(limits)), refusal(cost, limits, what)
+    costs = {key: estimate_cost({**problem, **values}) for key, values in ordinary.items()}
+    return min(costs, key=lambda key: costs[key].excess(limits)), refusal(cost, limits, subject)
 
 
-def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> str:
+def refusal(cost: Cost, limits: Mapping[str, float], subject: str = "the run") -> str:
     """Return the words for a run that costs more than is allowed."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
@@ -215,8 +217,8 @@ def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> s
         time = f"a little over {allowed}"
     elif memory == limit:
         memory = f"a little over {limit}"
-    takes, advice = f"{time} and {memory} of memory", "make it smaller, or raise the limit"
-    return f"{what} would take {takes}, and limits.{name} allows {limit}; {advice}"
+    needs, advice = f"{time} and {memory} of memory", "make it smaller, or raise the limit"
+    return f"{subject} would take {needs}, and limits.{name} allows {limit}; {advice}"
 
 
 def duration(seconds: float) -> str:

@@ -33,9 +33,9 @@ OF_MODELS = ".py"
 """How the names of files end that hold equations."""
 PATHS = {"model": (OF_MODELS,), "initial": (".nc", ".npy", ".py")}
 """Keys of a case that may be the path of a file, and how its name ends."""
-PLAIN = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
+PLAIN_TAGS = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The tags of YAML that a configuration may have; others would make objects of programs."""
-WHOLE = ("initial",)
+SINGLE_VALUES = ("initial",)
 """Keys of mappings that are one value: a later file replaces them, and adds nothing to them."""
 
 
@@ -43,9 +43,9 @@ class ConfigurationError(ValueError):
     """The configuration has errors; the message lists them all."""
 
 
-def list_faults(lines: list[str], what: str) -> ConfigurationError:
-    """Return the exception that lists all errors of `what`, a line each."""
-    many = f"{what} has {len(lines)} error{'s' * (len(lines) > 1)}:"
+def list_faults(lines: list[str], subject: str) -> ConfigurationError:
+    """Return the exception that lists all errors of `subject`, a line each."""
+    many = f"{subject} has {len(lines)} error{'s' * (len(lines) > 1)}:"
     return ConfigurationError("\n  ".join([many, *lines]))
 
 
@@ -60,34 +60,34 @@ def read(path: Path | str) -> dict:
         raise ConfigurationError(f"{path} is not a text in UTF-8: save it in that code") from None
     except OSError as error:
         raise ConfigurationError(f"{path} cannot be read: {error.strerror}") from None
-    found, faults = parse(text)
-    if not faults and not isinstance(found, dict):
-        what = "is empty" if found is None else "holds no keys"
-        faults = [f"{what}; give cases: {{mine: {{model: mine.py, initial: ...}}}}"]
+    configuration, faults = parse(text)
+    if not faults and not isinstance(configuration, dict):
+        fault = "is empty" if configuration is None else "holds no keys"
+        faults = [f"{fault}; give cases: {{mine: {{model: mine.py, initial: ...}}}}"]
     if faults:
         raise list_faults(faults, str(path))
-    return found
+    return configuration
 
 
 def read_entries(entries: Iterable[str]) -> dict:
     """Return what entries "name=value" of a command line hold, each value read as a file is."""
-    found: dict = {}
+    values: dict = {}
     faults = []
     for entry in entries:
         name, _, text = entry.partition("=")
         value, wrong = parse(text.strip("'\""))  # quotes that a shell left
         faults += [_of_entry(name, text) for text in wrong]
-        faults += [f"{name}: is given twice"] if name in found else []
-        found[name] = value
+        faults += [f"{name}: is given twice"] if name in values else []
+        values[name] = value
     if faults:
         raise list_faults(faults, "--config")
-    return found
+    return values
 
 
 def _of_entry(name: str, text: str) -> str:
     """Return a fault of the value of an entry behind the whole path of its key."""
-    place, _, what = text.removeprefix("line 1: ").rpartition(": ")
-    return f"{name}.{place}: {what}" if place else f"{name}: {what}"
+    place, _, fault = text.removeprefix("line 1: ").rpartition(": ")
+    return f"{name}.{place}: {fault}" if place else f"{name}: {fault}"
 
 
 def parse(text: str) -> tuple[Any, list[str]]:
@@ -136,20 +136,20 @@ def _size_fault(text: str) -> str | None:
 
 def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
     """Yield what YAML would read in silence, with its line and dotted path."""
-    here = f"line {node.start_mark.line + 1}: {'.'.join(place)}".rstrip(": ") + ":"
+    position = f"line {node.start_mark.line + 1}: {'.'.join(place)}".rstrip(": ") + ":"
     if id(node) in above:
-        yield f"{here} contains itself"
+        yield f"{position} contains itself"
         return
     loader.seen = getattr(loader, "seen", 0) + 1
     if loader.seen > MOST_VALUES:
         if loader.seen == MOST_VALUES + 1:
-            yield f"{here} {TOO_MANY}"
+            yield f"{position} {TOO_MANY}"
         return
     tag = node.tag.removeprefix("tag:yaml.org,2002:")
-    if tag not in PLAIN:
-        yield f"{here} the tag {node.tag} is not read: a configuration holds plain values"
+    if tag not in PLAIN_TAGS:
+        yield f"{position} the tag {node.tag} is not read: a configuration holds plain values"
     elif isinstance(node, yaml.ScalarNode):
-        yield from (f"{here} {text}" for text in _surprises(node, tag, loader))
+        yield from (f"{position} {text}" for text in _surprises(node, tag, loader))
     elif isinstance(node, yaml.SequenceNode):
         for i, item in enumerate(node.value):
             yield from _faults(item, (*place, str(i)), above | {id(node)}, loader)
@@ -186,9 +186,9 @@ def _read_as(key: yaml.ScalarNode, tag: str, loader) -> Any:
 
 def _surprises(node: yaml.ScalarNode, tag: str, loader) -> Iterator[str]:
     text = node.value
-    for pattern, what in SURPRISES.get(tag, ()):
+    for pattern, reason in SURPRISES.get(tag, ()):
         if not node.style and pattern.fullmatch(text) and text.strip("+-0"):
-            yield f"{text} {what}; write it in decimals, or in quotes if it is a word"
+            yield f"{text} {reason}; write it in decimals, or in quotes if it is a word"
             return
     try:
         if tag not in ("merge", "value"):
@@ -199,15 +199,15 @@ def _surprises(node: yaml.ScalarNode, tag: str, loader) -> Iterator[str]:
 
 def _in_words(error: yaml.YAMLError, text: str) -> str:
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    what = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
+    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
     if mark is None:
-        return f"is not YAML: {what}"
+        return f"is not YAML: {problem}"
     line = [*text.split("\n"), ""][min(mark.line, text.count("\n") + 1)]
-    if "start any token" in what and line[mark.column : mark.column + 1] == "\t":
-        what = "a tab stands where blanks must: YAML is indented by blanks alone"
+    if "start any token" in problem and line[mark.column : mark.column + 1] == "\t":
+        problem = "a tab stands where blanks must: YAML is indented by blanks alone"
     if "single document" in str(getattr(error, "context", "")):
-        what = "a second document starts; a configuration is one"
-    return f"line {mark.line + 1}: {what}"
+        problem = "a second document starts; a configuration is one"
+    return f"line {mark.line + 1}: {problem}"
 
 
 def merge(below: Mapping, above: Mapping) -> dict:
@@ -216,15 +216,17 @@ def merge(below: Mapping, above: Mapping) -> dict:
     Mappings are merged key by key, but not those under the keys WHOLE, which are one value, and
     not the controls of another solver.
     """
-    found = dict(below)
+    merged = dict(below)
     for key, value in above.items():
-        old = found.get(key)
-        if isinstance(value, Mapping) and isinstance(old, Mapping) and key not in WHOLE:
-            other = key == "solver" and value.get("name", old.get("name")) != old.get("name")
-            found[key] = dict(value) if other else merge(old, value)
+        old = merged.get(key)
+        if isinstance(value, Mapping) and isinstance(old, Mapping) and key not in SINGLE_VALUES:
+            is_second_solver = key == "solver" and value.get("name", old.get("name")) != old.get(
+                "name"
+            )
+            merged[key] = dict(value) if is_second_solver else merge(old, value)
         else:
-            found[key] = value
-    return found
+            merged[key] = value
+    return merged
 
 
 def with_paths(configuration: dict, folder: Path) -> dict:
@@ -232,19 +234,19 @@ def with_paths(configuration: dict, folder: Path) -> dict:
     cases = configuration.get("cases")
     if not isinstance(cases, dict):
         return configuration
-    found = dict(cases)
+    located_cases = dict(cases)
     for name, case in cases.items():
         for key, endings in PATHS.items():
             path = case.get(key) if isinstance(case, dict) else None
             if isinstance(path, str) and path.endswith(endings):
                 case = {**case, key: str(folder / path)}
-        found[name] = case
-    return {**configuration, "cases": found}
+        located_cases[name] = case
+    return {**configuration, "cases": located_cases}
 
 
-def gather(files: list[Path], given: Mapping) -> dict:
-    """Return what files hold, each laid over those before it, and `given` over all."""
-    found: dict = {}
+def gather(files: list[Path], entries: Mapping) -> dict:
+    """Return what files hold, each laid over those before it, and `entries` over all."""
+    merged: dict = {}
     for path in files:
-        found = merge(found, with_paths(read(path), Path(path).parent))
-    return merge(found, with_paths(dict(given), Path()))
+        merged = merge(merged, with_paths(read(path), Path(path).parent))
+    return merge(merged, with_paths(dict(entries), Path()))

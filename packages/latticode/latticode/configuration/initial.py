@@ -14,7 +14,7 @@ from latticode.equations.model_file import call_on_sites, run_file
 from latticode.equations.symbols import ModelError
 
 from .files import PATHS
-from .values import as_complex, as_whole, fault, shown
+from .values import as_complex, as_whole, excerpt_of, fault
 
 FORMS = (
     "data by site such as {0: [1, 0.1]}, an array of a number for each site, a function of the"
@@ -34,46 +34,48 @@ class LabelledFields(NamedTuple):
     sites: tuple[int, ...]
 
 
-def read_initial(given: Any) -> Any:
+def read_initial(data: Any) -> Any:
     """Return data by site, an array, a function or `LabelledFields`, of all that a case may take.
 
     Raises the fault of what is none of these.
     """
-    if isinstance(given, str | Path) and Path(given).suffix in PATHS["initial"]:
-        given = _read_file(Path(given))
-    if isinstance(given, Mapping) and not hasattr(given, "data_vars"):
-        return _by_number(given)
-    if hasattr(given, "data_vars"):
-        given = final_of(given)
-    if hasattr(given, "dims"):
-        return _labelled(given)
-    if callable(given) or isinstance(given, LabelledFields):
-        return given
-    if isinstance(given, np.ndarray | list | tuple):
-        return _as_numbers(given)
-    raise fault(f"is {shown(given)}, not {FORMS}")
+    if isinstance(data, str | Path) and Path(data).suffix in PATHS["initial"]:
+        data = _read_file(Path(data))
+    if isinstance(data, Mapping) and not hasattr(data, "data_vars"):
+        return _by_number(data)
+    if hasattr(data, "data_vars"):
+        data = final_of(data)
+    if hasattr(data, "dims"):
+        return _labelled(data)
+    if callable(data) or isinstance(data, LabelledFields):
+        return data
+    if isinstance(data, np.ndarray | list | tuple):
+        return _as_numbers(data)
+    raise fault(f"is {excerpt_of(data)}, not {FORMS}")
 
 
-def end_of_run(given: Any) -> float | None:
+def end_of_run(data: Any) -> float | None:
     """Return the time at which a run ends, or the run in a file; None for all other data."""
-    if isinstance(given, str | Path) and Path(given).suffix == ".nc" and Path(given).exists():
-        given = _read_file(Path(given))
-    end = getattr(given, "attrs", {}).get("end_time") if hasattr(given, "data_vars") else None
+    if isinstance(data, str | Path) and Path(data).suffix == ".nc" and Path(data).exists():
+        data = _read_file(Path(data))
+    end = getattr(data, "attrs", {}).get("end_time") if hasattr(data, "data_vars") else None
     return None if end is None else float(end)
 
 
-def _by_number(given: Mapping) -> dict[int, list]:
+def _by_number(data: Mapping) -> dict[int, list]:
     """Return data by the number of their site; refuse a site that stands twice."""
-    found: dict = {}
-    for key, values in given.items():
+    by_site: dict = {}
+    for key, values in data.items():
         site = as_whole(key)
-        if site in found and len(found) < len(given):
+        if site in by_site and len(by_site) < len(data):
             raise fault(f"the site {site} stands twice, as a number and as a word")
         values = values.tolist() if isinstance(values, np.ndarray) else values
         if not isinstance(values, list | tuple):
-            raise fault(f"site {site} has {shown(values)}; give a list of a value for each field")
-        found[site] = values
-    return found
+            raise fault(
+                f"site {site} has {excerpt_of(values)}; give a list of a value for each field"
+            )
+        by_site[site] = values
+    return by_site
 
 
 def _read_file(path: Path) -> Any:
@@ -113,8 +115,8 @@ def _labelled(array) -> LabelledFields:
         raise fault("has no dimension site")
     values = array.transpose(*(name for name in known if name in array.dims)).values
     if "part" in array.dims:
-        parts = np.moveaxis(values, values.ndim - 2, 0)
-        values = parts[0] + 1j * parts[1] if len(parts) > 1 else parts[0]
+        re_im = np.moveaxis(values, values.ndim - 2, 0)
+        values = re_im[0] + 1j * re_im[1] if len(re_im) > 1 else re_im[0]
     if "component" not in array.dims:
         values = values[None]
     names = array["component"].values if "component" in array.dims else []
@@ -124,30 +126,30 @@ def _labelled(array) -> LabelledFields:
     )
 
 
-def _as_numbers(given: Any) -> np.ndarray:
+def _as_numbers(raw_value: Any) -> np.ndarray:
     """Return an array of finite complex numbers; refuse all else."""
     try:
-        values = np.asarray(given)
+        values = np.asarray(raw_value)
     except ValueError:
-        raise fault(f"is {shown(given)}, whose rows are not of one length") from None
+        raise fault(f"is {excerpt_of(raw_value)}, whose rows are not of one length") from None
     if values.dtype.kind == "U":  # complex numbers as Python writes them
-        values = np.reshape([as_complex(one) for one in values.flat], values.shape)
+        values = np.reshape([as_complex(text) for text in values.flat], values.shape)
     if values.dtype.kind not in "iufc" or not values.size:
-        raise fault(f"is {shown(given)}, not {FORMS}")
+        raise fault(f"is {excerpt_of(raw_value)}, not {FORMS}")
     return values.astype(complex) + 0.0
 
 
-def fields_on(given: Any, names: Sequence[str], sites: Sequence[int]) -> BySite:
+def fields_on(data: Any, names: Sequence[str], sites: Sequence[int]) -> BySite:
     """Return initial data {site: a value for each of the named fields} on the sites of a chain.
 
     Raises ValueError with what is wrong, to stand behind `initial`.
     """
-    if isinstance(given, Mapping):
-        return given
-    if isinstance(given, LabelledFields):
-        values, sites = _of_labels(given, names, sites)
+    if isinstance(data, Mapping):
+        return data
+    if isinstance(data, LabelledFields):
+        values, sites = _of_labels(data, names, sites)
     else:
-        values = _called(given, len(names), np.array(sites)) if callable(given) else given
+        values = _called(data, len(names), np.array(sites)) if callable(data) else data
         values = _of_shape(values, len(names), len(sites))
     wrong = np.argwhere(~np.isfinite(values))
     if wrong.size:
@@ -161,15 +163,15 @@ def fields_on(given: Any, names: Sequence[str], sites: Sequence[int]) -> BySite:
 
 
 def _of_labels(
-    given: LabelledFields, names: Sequence[str], sites: Sequence[int]
+    data: LabelledFields, names: Sequence[str], sites: Sequence[int]
 ) -> tuple[np.ndarray, Sequence[int]]:
-    values = given.values
-    if given.fields:
-        if absent := [name for name in names if name not in given.fields]:
-            raise ValueError(f"has no field {absent[0]}; it has {', '.join(given.fields)}")
-        values = values[[given.fields.index(name) for name in names]]
-    if given.sites:
-        return _of_shape(values, len(names), len(given.sites)), given.sites
+    values = data.values
+    if data.fields:
+        if absent := [name for name in names if name not in data.fields]:
+            raise ValueError(f"has no field {absent[0]}; it has {', '.join(data.fields)}")
+        values = values[[data.fields.index(name) for name in names]]
+    if data.sites:
+        return _of_shape(values, len(names), len(data.sites)), data.sites
     return _of_shape(values, len(names), len(sites)), sites
 
 
@@ -186,11 +188,11 @@ def _called(function: Callable, fields: int, sites: np.ndarray) -> Any:
     return call_on_sites(on_sites, sites)
 
 
-def _of_shape(given: Any, fields: int, sites: int) -> np.ndarray:
+def _of_shape(data: Any, fields: int, sites: int) -> np.ndarray:
     """Return values as (field, site)."""
-    values = np.asarray(given)
+    values = np.asarray(data)
     if values.dtype.kind not in "iufc":
-        raise ValueError(f"is {shown(given)}, not numbers")
+        raise ValueError(f"is {excerpt_of(data)}, not numbers")
     if values.ndim == 1 and fields == 1:
         values = values[None]
     if values.shape != (fields, sites):

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ValidationError
 
 from .files import ConfigurationError, list_faults
 from .solvers import Solvers
-from .values import LONGEST_SHOWN, shown
+from .values import LONGEST_SHOWN, excerpt_of
 
 SOLVERS = tuple(Solvers.model_fields)
 HINTS = {
@@ -44,10 +44,10 @@ WORDS = {
 
 
 def in_words(
-    error: ValidationError, what: str, root: type[BaseModel], place: tuple = ()
+    error: ValidationError, subject: str, root: type[BaseModel], place: tuple = ()
 ) -> ConfigurationError:
-    """Return the error that lists every fault of `what`, which stands at `place` in a `root`."""
-    return list_faults(lines_of(error, root, place), what)
+    """Return the error that lists every fault of `subject`, which stands at `place` in a `root`."""
+    return list_faults(lines_of(error, root, place), subject)
 
 
 def lines_of(error: ValidationError, root: type[BaseModel], place: tuple = ()) -> list[str]:
@@ -62,37 +62,37 @@ def lines_of(error: ValidationError, root: type[BaseModel], place: tuple = ()) -
 
 
 def _describe(fault: dict, root: type[BaseModel]) -> str:
-    kind, where, given = fault["type"], _dotted(fault["loc"]), fault["input"]
+    kind, where, raw_value = fault["type"], _dotted(fault["loc"]), fault["input"]
     if kind == "faults":
         inside = f"{where}." if where else ""
         return "\n".join(f"{inside}{key}: {text}" for key, text in fault["ctx"]["found"])
     if kind == "extra_forbidden":
         return f"{where}: is not a known key; {_nearest(fault['loc'], root)}"
     if kind == "union_tag_invalid":
-        name = given.get("name")
+        name = raw_value.get("name")
         return f"{where}: there is no solver {name!r}; {_closest(str(name), SOLVERS)}"
     if kind == "union_tag_not_found":
         return f"{where}.name: is missing; it must be one of {', '.join(SOLVERS)}"
-    values = {**fault.get("ctx", {}), "input": shown(given)}
-    if kind == "too_short" and not given:
+    values = {**fault.get("ctx", {}), "input": excerpt_of(raw_value)}
+    if kind == "too_short" and not raw_value:
         return f"{where}: is empty; give at least {values['min_length']}"
     return f"{where}: {WORDS[kind].format(**values) if kind in WORDS else fault['msg']}"
 
 
 def _dotted(place: tuple) -> str:
     """Return the path as the file has it: without the solver's tag, which pydantic inserts."""
-    parts = [
-        _printed(str(part))
-        for before, part in zip(("", *place), place, strict=False)
-        if not (before == "solver" and part in SOLVERS) and part != "[key]"
+    keys = [
+        _printed(str(key))
+        for before, key in zip(("", *place), place, strict=False)
+        if not (before == "solver" and key in SOLVERS) and key != "[key]"
     ]
-    return ".".join(parts)
+    return ".".join(keys)
 
 
-def _printed(part: str) -> str:
+def _printed(key: str) -> str:
     """Return a key as a path shows it: in quotes where it could not be seen otherwise."""
-    part = part if len(part) <= LONGEST_SHOWN else f"{part[:LONGEST_SHOWN]}..."
-    return part if part.isprintable() and part.strip() == part != "" else repr(part)
+    key = key if len(key) <= LONGEST_SHOWN else f"{key[:LONGEST_SHOWN]}..."
+    return key if key.isprintable() and key.strip() == key != "" else repr(key)
 
 
 def _nearest(place: tuple, root: type[BaseModel]) -> str:
@@ -116,9 +116,9 @@ def _keys_at(place: tuple, root: type[BaseModel]) -> list[str]:
     of cases and numbers of items lead to no other model.
     """
     models = [root]
-    for part in place[:-1]:
-        tagged = [model for model in models if _tag_of(model) == part]
-        fields = [field for model in models if (field := model.model_fields.get(str(part)))]
+    for key in place[:-1]:
+        tagged = [model for model in models if _tag_of(model) == key]
+        fields = [field for model in models if (field := model.model_fields.get(str(key)))]
         models = tagged or (_models_in(fields[0].annotation) if fields else models)
     fields = models[0].model_fields.items()
     return [key for key, field in fields if field.repr and not field.exclude]
@@ -128,7 +128,7 @@ def _models_in(annotation) -> list[type[BaseModel]]:
     """Return the models that a type is made of: itself, or those of its parts."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
-    return [model for part in get_args(annotation) for model in _models_in(part)]
+    return [model for argument in get_args(annotation) for model in _models_in(argument)]
 
 
 def _tag_of(model: type[BaseModel]) -> str | None:

@@ -21,7 +21,7 @@ from .cost import Cost
 from .messages import in_words
 from .solvers import DEFAULT, Solver, Solvers, with_controls
 from .surveys import Survey
-from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
+from .values import Distinct, Model, Name, Natural, Positive, Window, excerpt_of, faults
 
 Faults = Iterator[tuple[str, str]]
 """Pairs: the dotted path of a key, from the mapping that is checked, and what is wrong with it."""
@@ -49,7 +49,7 @@ class Sweep(Model):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Sweep":
-        found = [
+        all_faults = [
             ("windows", f"[{start:g}, {end:g}] does not run forward from a time >= 0")
             for start, end in self.windows
             if not 0 <= start < end
@@ -57,11 +57,11 @@ class Sweep(Model):
         names = [name_window(window) for window in self.windows]
         twice = [name for i, name in enumerate(names) if name in names[:i]]
         if twice:
-            found.append(("windows", f"two are so near that both are named {twice[0]}"))
+            all_faults.append(("windows", f"two are so near that both are named {twice[0]}"))
         if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
-            found.append(("draw", "takes windows that stand under windows only"))
-        if found:
-            raise faults(found)
+            all_faults.append(("draw", "takes windows that stand under windows only"))
+        if all_faults:
+            raise faults(all_faults)
         return self
 
     @property
@@ -107,24 +107,24 @@ class Configuration(Model):
 
     @model_validator(mode="after")
     def _runs_are_possible(self) -> "Configuration":
-        found = [
+        all_faults = [
             (f"sweeps.{name}.{key}", text)
             for name in self.sweeps
             for key, text in self._faults_of_sweep(name)
         ]
-        found += [
+        all_faults += [
             (f"surveys.{name}.{key}", text)
             for name in self.surveys
             for key, text in self._faults_of_survey(name)
         ]
-        found += self._same_files()
-        found += [
+        all_faults += self._same_files()
+        all_faults += [
             (f"cases.{name}.{key}", text)
             for name in self.cases
             for key, text in self._excess_of_case(name)
         ]
-        if found:
-            raise faults(found)
+        if all_faults:
+            raise faults(all_faults)
         return self
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
@@ -133,9 +133,9 @@ class Configuration(Model):
             if name not in getattr(self, section):
                 near = difflib.get_close_matches(name, getattr(self, section), 1)
                 hint = f"; did you mean {near[0]!r}?" if near else ""
-                yield key, f"there is no {section.removesuffix('s')} {shown(name)}{hint}"
+                yield key, f"there is no {section.removesuffix('s')} {excerpt_of(name)}{hint}"
 
-    def takes(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
+    def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
         """Return in words what is made of a case, and what estimates its cost."""
         return "the run", self.cases[name].cost
 
@@ -144,23 +144,29 @@ class Configuration(Model):
         for section in ("cases", "sweeps", "surveys"):
             seen: dict[str, str] = {}
             for name in getattr(self, section):
-                other = seen.setdefault(name.lower(), name)
-                if other != name:
-                    text = f"and {other!r} differ in capitals alone, and so would their files"
+                first_name = seen.setdefault(name.lower(), name)
+                if first_name != name:
+                    text = f"and {first_name!r} differ in capitals alone, and so would their files"
                     yield f"{section}.{name}", text
 
     def _excess_of_case(self, name: str) -> list[tuple[str, str]]:
-        case, limits, (what, takes) = self.cases[name], self.limits.model_dump(), self.takes(name)
-        found = cost.find_excess(case.problem(), limits, case.cost, case.ordinary)
+        case, limits, (subject, estimate_cost) = (
+            self.cases[name],
+            self.limits.model_dump(),
+            self.cost_estimate(name),
+        )
+        excess = cost.find_excess(case.problem(), limits, case.cost, case.ordinary)
         # the times of its snapshots are chosen for a run that is not too long
-        found = found or cost.find_excess(case.shown_problem(), limits, takes, case.ordinary, what)
-        return [found] if found else []
+        excess = excess or cost.find_excess(
+            case.shown_problem(), limits, estimate_cost, case.ordinary, subject
+        )
+        return [excess] if excess else []
 
     def _faults_of_sweep(self, name: str) -> list[tuple[str, str]]:
         sweep = self.sweeps[name]
         if sweep.case not in self.cases:
             return list(self.absent("cases", "case", [sweep.case]))
-        case, found = self.cases[sweep.case], []
+        case, all_faults = self.cases[sweep.case], []
         if case.sites is not None:
             text = "has a number of sites; give it half_width, which a sweep changes"
             return [("case", f"{sweep.case!r} {text}")]
@@ -171,11 +177,11 @@ class Configuration(Model):
         reach, shortest = max(map(abs, data)), min(sweep.half_widths)
         if reach > shortest:
             text = f"lies outside the chain of half-width {shortest}"
-            found.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
+            all_faults.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
         unknown = case.faults_of_half_widths(sweep.half_widths)
-        found += [("half_widths", f"case {sweep.case!r}: {k}: {text}") for k, text in unknown]
-        if found:
-            return found
+        all_faults += [("half_widths", f"case {sweep.case!r}: {k}: {text}") for k, text in unknown]
+        if all_faults:
+            return all_faults
         start = case.start_time
         if early := [window for window in sweep.windows if window[0] < start]:
             text = f"{name_window(early[0])} begins before the run, which starts at {start:g}"
@@ -184,16 +190,20 @@ class Configuration(Model):
         off_grid = [time for time in times if not is_multiple(time - start, case.output_step)]
         if off_grid:
             text = f"is not a whole number of output steps of {case.output_step:g}"
-            found.append(("windows", f"{off_grid[0]:g} {text}"))
+            all_faults.append(("windows", f"{off_grid[0]:g} {text}"))
         if sweep.solver is not None:
-            found += [*case.faults_of_solver(sweep.solver)] or case.faults_of_step(sweep.solver)
-            if found:
-                return found
+            all_faults += [*case.faults_of_solver(sweep.solver)] or case.faults_of_step(
+                sweep.solver
+            )
+            if all_faults:
+                return all_faults
         for key, text in case.obstacles(sweep.solver, max(times) - start):
-            own = key.startswith("solver") and sweep.solver is not None
-            here = key if own else "windows" if key == "end_time" else "case"
-            found.append((here, text if own else f"in case {sweep.case!r}, {key}: {text}"))
-        return found or self._excess_of_sweep(name)
+            of_sweep_solver = key.startswith("solver") and sweep.solver is not None
+            sweep_key = key if of_sweep_solver else "windows" if key == "end_time" else "case"
+            all_faults.append(
+                (sweep_key, text if of_sweep_solver else f"in case {sweep.case!r}, {key}: {text}")
+            )
+        return all_faults or self._excess_of_sweep(name)
 
     def _excess_of_sweep(self, name: str) -> list[tuple[str, str]]:
         """Return which key makes a sweep too long, `windows` or `half_widths`, and its cost."""
@@ -214,14 +224,14 @@ class Configuration(Model):
     def _sum_of(self, name: str, changes: Iterable[Mapping]) -> Cost:
         """Return what the problem of a sweep takes, run once with each of the changes."""
         problem, case = self.swept_problem(name), self.cases[self.sweeps[name].case]
-        return cost.total(case.cost({**problem, **one}) for one in changes)
+        return cost.total(case.cost({**problem, **values}) for values in changes)
 
     def _faults_of_survey(self, name: str) -> list[tuple[str, str]]:
         survey = self.surveys[name]
         if survey.case not in self.cases:
             return list(self.absent("cases", "case", [survey.case]))
-        if found := survey.faults_of(self.cases[survey.case]):
-            return found
+        if all_faults := survey.faults_of(self.cases[survey.case]):
+            return all_faults
         limits, total = self.limits.model_dump(), self.cost_of_survey(name)
         return [("axes", cost.refusal(total, limits))] if total.excess(limits) > 1.0 else []
 
@@ -241,22 +251,22 @@ class Configuration(Model):
         """Return a survey as plain values, as the parameters of a job have them."""
         survey = self.surveys[name]
         members = survey.members and survey.members.model_dump()
-        kept, window = survey.keep, survey.window and list(survey.window)
+        names, window = survey.keep, survey.window and list(survey.window)
         return {
             "axes": survey.plan.axes,
             "members": members,
-            "keep": kept,
+            "keep": names,
             "window": window,
             "by_half_width": self.values_by_half_width(name),
         }
 
-    def cost_of_survey(self, name: str, parts: int = 1) -> Cost:
+    def cost_of_survey(self, name: str, chunks: int = 1) -> Cost:
         """Return what one of so many parts takes, if each run is as dear as the dearest corner."""
         survey, base = self.surveys[name], self.cases[self.surveys[name].case]
-        runs = -(-prod(survey.plan.shape) // parts)
+        runs = -(-prod(survey.plan.shape) // chunks)
         dearest = max(
             (case.cost(case.problem()) for case in map(base.at, survey.corners())),
-            key=lambda one: one.seconds,
+            key=lambda run_cost: run_cost.seconds,
         )
         twice = 2.0 if "divergence" in survey.keep else 1.0
         return dearest._replace(seconds=twice * runs * dearest.seconds)
@@ -270,14 +280,18 @@ class Configuration(Model):
 
         Runs by another solver than the default come first.
         """
-        found = {}
+        costs = {}
         for name, case in self.cases.items():
-            what, takes = self.takes(name)
-            verb = "take" if " and " in what else "takes"
-            found[f"cases.{name}: {what} {verb}"] = takes(case.shown_problem())
-        found |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
-        found |= {f"surveys.{n}: its runs take": self.cost_of_survey(n) for n in self.surveys}
-        long = [f"{what} {one}" for what, one in found.items() if one.seconds > cost.WORTH_SAYING]
+            subject, estimate_cost = self.cost_estimate(name)
+            verb = "take" if " and " in subject else "takes"
+            costs[f"cases.{name}: {subject} {verb}"] = estimate_cost(case.shown_problem())
+        costs |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
+        costs |= {f"surveys.{n}: its runs take": self.cost_of_survey(n) for n in self.surveys}
+        long = [
+            f"{subject} {run_cost}"
+            for subject, run_cost in costs.items()
+            if run_cost.seconds > cost.WORTH_SAYING
+        ]
         solvers = {name: case.problem()["solver"] for name, case in self.cases.items()}
         remarks = {name: remark_on(solver) for name, solver in solvers.items()}
         return [*(f"cases.{name}: {text}" for name, text in remarks.items() if text), *long]
@@ -295,16 +309,16 @@ class Configuration(Model):
 
     def swept_problem(self, sweep: str, solver: str | None = None) -> dict:
         """Return the case of a sweep as plain values, to be run to the end of the last window."""
-        given = self.sweeps[sweep]
+        section = self.sweeps[sweep]
         changes = {
-            "end_time": max(end for _, end in given.windows),
-            "half_width": max(given.half_widths),
+            "end_time": max(end for _, end in section.windows),
+            "half_width": max(section.half_widths),
             "snapshot_step": None,
             "times": None,
         }
-        if given.solver is not None:
-            changes["solver"] = given.solver.model_dump()
-        return self.cases[given.case].problem(**changes | self._by(solver))
+        if section.solver is not None:
+            changes["solver"] = section.solver.model_dump()
+        return self.cases[section.case].problem(**changes | self._by(solver))
 
     def _by(self, solver: str | None) -> dict:
         return {} if solver is None else {"solver": getattr(self.solvers, solver).model_dump()}

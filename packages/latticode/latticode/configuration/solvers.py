@@ -18,7 +18,7 @@ from pydantic import (
 from latticode.integrators.method import Control, Method
 from latticode.integrators.methods import METHODS
 
-from .values import Model, Positive, Whole
+from .values import Integer, Model, Positive
 
 FLAG = "by_default"
 DEFAULT = {"name": "taylor", FLAG: True}
@@ -47,7 +47,7 @@ class Auto(Model):
 
 
 def _field(control: Control) -> tuple[Any, Any]:
-    kind = Whole if control.whole else Positive
+    kind = Integer if control.whole else Positive
     bounds = Field(ge=control.at_least, le=control.at_most, lt=control.below)
     return Annotated[kind, bounds], control.default
 
@@ -77,14 +77,14 @@ Solver = Annotated[reduce(or_, CONTROLS.values()), Field(discriminator="name")]
 
 def with_controls(item: Any, shared: Any) -> Any:
     """Return a case or sweep whose solver is a mapping, completed from the shared controls."""
-    given = item.get("solver") if isinstance(item, dict) else None
-    given = {"name": given} if isinstance(given, str) else given
-    if not isinstance(given, dict) or not isinstance(shared, dict):
+    raw_solver = item.get("solver") if isinstance(item, dict) else None
+    raw_solver = {"name": raw_solver} if isinstance(raw_solver, str) else raw_solver
+    if not isinstance(raw_solver, dict) or not isinstance(shared, dict):
         return item
-    name = given.get("name")
+    name = raw_solver.get("name")
     controls = shared.get(name) if isinstance(name, str) else None
     controls = _sound(name, controls) if isinstance(controls, dict) else {}
-    return {**item, "solver": {**controls, **given}}
+    return {**item, "solver": {**controls, **raw_solver}}
 
 
 def _sound(name: str, controls: dict) -> dict:

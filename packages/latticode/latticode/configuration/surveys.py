@@ -16,15 +16,15 @@ from .values import (
     Complex,
     Count,
     Distinct,
+    Integer,
     Model,
     Name,
     Number,
     Positive,
-    Whole,
     Window,
+    excerpt_of,
     fault,
     faults,
-    shown,
 )
 
 MOST_RUNS = 10_000_000
@@ -39,7 +39,7 @@ class Grid(Model):
 
     first: Number
     last: Number
-    points: Annotated[Whole, Field(ge=2, le=MOST_RUNS)]
+    points: Annotated[Integer, Field(ge=2, le=MOST_RUNS)]
 
     @property
     def values(self) -> list[float]:
@@ -62,7 +62,7 @@ def _as_axis(value: Any) -> Any:
 def _one_of(known) -> BeforeValidator:
     def check(name: Any) -> Any:
         if name not in known:
-            raise fault(f"is {shown(name)}; give one of {', '.join(known)}")
+            raise fault(f"is {excerpt_of(name)}; give one of {', '.join(known)}")
         return name
 
     return BeforeValidator(check)
@@ -70,7 +70,7 @@ def _one_of(known) -> BeforeValidator:
 
 Column = Annotated[list[Complex], BeforeValidator(_as_axis), Field(min_length=1)]
 Axis = Annotated[Column, Distinct]
-Kept = Annotated[str, _one_of(survey.NAMES)]
+KeptName = Annotated[str, _one_of(survey.NAMES)]
 
 
 class Members(Model):
@@ -78,7 +78,7 @@ class Members(Model):
 
     count: Count
     size: Positive
-    seed: Whole
+    seed: Integer
     kind: Annotated[str, _one_of(PERTURBATIONS)] = "even"
 
 
@@ -90,7 +90,7 @@ class Survey(Model):
     together: dict[str, Column] = {}
     """What varies along one more axis, the last: all at once, from one value to the next."""
     members: Members | None = None
-    keep: Annotated[list[Kept], Field(min_length=1), Distinct] = ["max_l2"]
+    keep: Annotated[list[KeptName], Field(min_length=1), Distinct] = ["max_l2"]
     window: Window | None = None
     chunks: Count | None = None
 
@@ -99,18 +99,18 @@ class Survey(Model):
         if len({len(values) for values in self.together.values()}) > 1:
             counts = ", ".join(f"{len(values)} of {name}" for name, values in self.together.items())
             raise faults([("together", f"has {counts}; give as many values of each")])
-        found, runs = [], prod(self.plan.shape)
+        all_faults, runs = [], prod(self.plan.shape)
         if twice := self.axes.keys() & self.together.keys():
-            found.append(("together", f"varies {min(twice)}, which is an axis of its own"))
+            all_faults.append(("together", f"varies {min(twice)}, which is an axis of its own"))
         if not (self.axes or self.together or self.members):
-            found.append(("axes", "is empty, and there are no members: give what is varied"))
+            all_faults.append(("axes", "is empty, and there are no members: give what is varied"))
         if runs > MOST_RUNS:
-            found.append(("axes", f"make {runs} runs; a survey may have {MOST_RUNS}"))
+            all_faults.append(("axes", f"make {runs} runs; a survey may have {MOST_RUNS}"))
         if self.window and not 0 <= self.window[0] < self.window[1]:
             text = f"[{self.window[0]:g}, {self.window[1]:g}] does not run forward from a time >= 0"
-            found.append(("window", text))
-        if found:
-            raise faults(found)
+            all_faults.append(("window", text))
+        if all_faults:
+            raise faults(all_faults)
         return self
 
     @property
@@ -126,8 +126,8 @@ class Survey(Model):
 
     def _columns(self) -> dict[str, list]:
         """Return the values of all that varies, by name."""
-        given = {**self.axes, **self.together}
-        return {name: [_plain(name, z) for z in values] for name, values in given.items()}
+        columns = {**self.axes, **self.together}
+        return {name: [_plain_number(name, z) for z in values] for name, values in columns.items()}
 
     @property
     def half_widths(self) -> list[int]:
@@ -136,23 +136,23 @@ class Survey(Model):
 
     def faults_of(self, case: Case) -> list[tuple[str, str]]:
         """Return what keeps the survey from being made of a case, and under which key."""
-        found = []
+        all_faults = []
         for key, names in (("axes", self.axes), ("together", self.together)):
             for name in names:
                 text = survey.fault_of_axis(name, case.varied, case.data, len(case.fields))
                 if name == "half_width" and case.sites is not None:
                     text = "half_width: the case has a number of sites; give it half_width instead"
-                found += [(key, text)] if text else []
+                all_faults += [(key, text)] if text else []
         twice = {name for name in [*self.axes, *self.together] if name in self.keep}
-        found += [
+        all_faults += [
             ("keep", f"{name} is an axis too, and its dataset has one {name}") for name in twice
         ]
-        if found:
-            return found
+        if all_faults:
+            return all_faults
         if self.members:
-            found = self._faults_of_members(case)
-        if found:
-            return found
+            all_faults = self._faults_of_members(case)
+        if all_faults:
+            return all_faults
         for point in [*self.corners(), *self._values_one_by_one()]:
             try:
                 case.at(point)
@@ -163,8 +163,8 @@ class Survey(Model):
         span = min(self._columns().get("end_time", [case.end_time]))
         if self.window and self.window[1] > span + 1e-9:
             text = f"ends at {self.window[1]:g}, after the shortest run, which ends at {span:g}"
-            found.append(("window", text))
-        return found
+            all_faults.append(("window", text))
+        return all_faults
 
     def _faults_of_members(self, case: Case) -> list[tuple[str, str]]:
         """Return why no solver can follow data as large as those of a member may be."""
@@ -202,7 +202,7 @@ def _texts(fault: dict) -> list[tuple[str, str]]:
     return fault["ctx"]["found"] if fault["type"] == "faults" else [("", fault["msg"])]
 
 
-def _plain(name: str, value: complex) -> Any:
+def _plain_number(name: str, value: complex) -> Any:
     if value.imag:
         return value
     return int(value.real) if name == "half_width" and value.real.is_integer() else value.real

@@ -26,7 +26,7 @@ LONGEST_SHOWN = 60
 """Names are no longer than that either: they make file names, whose length file systems bound."""
 
 
-def shown(value: Any) -> str:
+def excerpt_of(value: Any) -> str:
     """Return a value as a message shows it: short, whatever its length, and words in quotes."""
     if value is None:
         return "empty"
@@ -48,20 +48,20 @@ def fault(text: str) -> PydanticCustomError:
     return PydanticCustomError("fault", "{text}", {"text": text})
 
 
-def faults(found: list[tuple[str, str]]) -> PydanticCustomError:
+def faults(texts_by_key: list[tuple[str, str]]) -> PydanticCustomError:
     """Return the error that says of each key, whose path starts where this is raised, its text."""
-    return PydanticCustomError("faults", "{found}", {"found": found})
+    return PydanticCustomError("faults", "{found}", {"found": texts_by_key})
 
 
-def _plain(value: Any, what: str = "a number") -> Any:
+def _require_number(value: Any, kind: str = "a number") -> Any:
     """Refuse what would be read as a number without being one."""
     if isinstance(value, bool):
-        raise fault(f"is {value}, not {what}")
+        raise fault(f"is {value}, not {kind}")
     if isinstance(value, int) and digits(value) > MOST_DIGITS + 3:
-        raise fault(f"is {shown(value)}, too many to be computed with")
+        raise fault(f"is {excerpt_of(value)}, too many to be computed with")
     if isinstance(value, str):
         if not NUMBER.fullmatch(value.strip(" ")) or len(value) > LONGEST_SHOWN:
-            raise fault(f"is {shown(value)}, not {what}")
+            raise fault(f"is {excerpt_of(value)}, not {kind}")
         return value.strip(" ")
     return value
 
@@ -80,7 +80,7 @@ def as_whole(value: Any) -> Any:
 
 def _countable(value: int) -> int:
     if digits(value) > MOST_DIGITS:
-        raise fault(f"is {shown(value)}, more than can be counted to")
+        raise fault(f"is {excerpt_of(value)}, more than can be counted to")
     return value
 
 
@@ -93,13 +93,15 @@ def as_complex(value: Any) -> complex:
             raise TypeError
         number = complex(value)
     except OverflowError:
-        raise fault(f"is {shown(value)}, too many to be computed with") from None
+        raise fault(f"is {excerpt_of(value)}, too many to be computed with") from None
     except (TypeError, ValueError):
-        hint = "; the imaginary unit is written j" if re.search(r"\di'?$", shown(value)) else ""
-        text = f'is {shown(value)}, not a complex number such as "-0.3+0.4j"{hint}'
+        hint = (
+            "; the imaginary unit is written j" if re.search(r"\di'?$", excerpt_of(value)) else ""
+        )
+        text = f'is {excerpt_of(value)}, not a complex number such as "-0.3+0.4j"{hint}'
         raise fault(text) from None
     if not (math.isfinite(number.real) and math.isfinite(number.imag)):
-        raise fault(f"is {shown(value)}, which is not finite")
+        raise fault(f"is {excerpt_of(value)}, which is not finite")
     return number + 0.0  # no negative zeros
 
 
@@ -116,25 +118,25 @@ def _distinct(values: list) -> list:
 def _aperiodic(name: str) -> str:
     if re.search(r"(.+?)\1{19}", name):
         raise fault(
-            f"is {shown(name)}, which repeats the same letters twenty times: Snakemake takes such "
-            "a file name for an endless recursion"
+            f"is {excerpt_of(name)}, which repeats the same letters twenty times: Snakemake takes"
+            " such a file name for an endless recursion"
         )
     return name
 
 
 Complex = Annotated[complex, BeforeValidator(as_complex)]
-AnyNumber = Annotated[float, BeforeValidator(lambda value: _plain(value))]
+AnyNumber = Annotated[float, BeforeValidator(lambda value: _require_number(value))]
 # without negative zeros
 Number = Annotated[AnyNumber, AfterValidator(lambda x: x + 0.0), Field(allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
 Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
-Whole = Annotated[
+Integer = Annotated[
     int,
-    BeforeValidator(lambda value: as_whole(_plain(value, "a whole number"))),
+    BeforeValidator(lambda value: as_whole(_require_number(value, "a whole number"))),
     AfterValidator(_countable),
 ]
-Count = Annotated[Whole, Field(ge=1)]
-Natural = Annotated[Whole, Field(ge=0)]
+Count = Annotated[Integer, Field(ge=1)]
+Natural = Annotated[Integer, Field(ge=0)]
 Name = Annotated[
     str,
     Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_SHOWN),

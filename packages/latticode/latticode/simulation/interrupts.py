@@ -64,7 +64,7 @@ class _Worker:
 
     def _work(self) -> None:
         while task := self.runs.get():
-            _here.stop = task[1][-1]
+            _thread_state.stop = task[1][-1]
             end = _end_of(*task)
             del task  # arrays of a run that is over
             self.ends.put(end)
@@ -107,7 +107,7 @@ class _Watch:
         self._caught_up.get()
 
 
-_here = threading.local()
+_thread_state = threading.local()
 """In a worker: the flag of the run that it does."""
 _idle: list[_Worker] = []
 """Workers that wait for a run."""
@@ -135,7 +135,7 @@ def interruptible(run: Callable, *arguments) -> Any:
     raises, and KeyboardInterrupt if the caller is interrupted meanwhile, or if it is one of many
     threads and the main thread is interrupted.
     """
-    stop = getattr(_here, "stop", None)
+    stop = getattr(_thread_state, "stop", None)
     if stop is not None:
         result = run(*arguments, stop)
         if stop[0]:
@@ -154,10 +154,10 @@ def _can_be_watched() -> bool:
         return False
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
         return False
-    taken = signal.set_wakeup_fd(-1)  # there is no other way to ask
-    if taken != -1:
-        signal.set_wakeup_fd(taken)
-    return taken == -1
+    descriptor = signal.set_wakeup_fd(-1)  # there is no other way to ask
+    if descriptor != -1:
+        signal.set_wakeup_fd(descriptor)
+    return descriptor == -1
 
 
 def _run_watched(run: Callable, arguments: tuple) -> Any:

@@ -117,7 +117,7 @@ if hasattr(os, "register_at_fork"):  # Windows has no forks
 
 
 @contextmanager
-def shown(name: str, runs: Sized | None = None, total: int = 1) -> Iterator[None]:
+def show_progress(name: str, runs: Sized | None = None, total: int = 1) -> Iterator[None]:
     """Show how far the work of the block is, after two seconds, and end it in a line on Ctrl-C.
 
     `runs` fills with the `total` runs of a survey; other work is a run, or some one after another,

@@ -14,7 +14,7 @@ import numpy as np
 
 from .interrupts import Interrupted, interruptible
 from .problem import Problem
-from .progress import shown
+from .progress import show_progress
 
 Make = Callable[[Problem], Mapping[str, Any]]
 """What makes the run of a problem and returns what is kept of it, by name."""
@@ -24,21 +24,21 @@ Run = Callable[[Sequence[Problem], Make], dict[str, np.ndarray]]
 """What makes the runs of problems, such as `run_all`, and returns what is kept, each (run, ...)."""
 
 
-def run_part(
+def run_chunk(
     problems: Sequence[Problem],
     make: Make,
-    part: int = 0,
-    parts: int = 1,
+    chunk: int = 0,
+    chunks: int = 1,
     progress: Callable[[int, int], None] = lambda done, count: None,
     retained: Retained | None = None,
 ) -> dict[str, np.ndarray]:
-    """Return what is kept of every `parts`-th run from number `part` on, each (run, ...).
+    """Return what is kept of every `chunks`-th run from number `chunk` on, each (run, ...).
 
     `progress` is called with the number of runs that are done, and of all in the part. Runs that
     are in `retained` are not made again, and what is kept of the others is added to it. Where what
     is kept has not the same shape of all runs, NaN fill it up.
     """
-    numbers = range(part, len(problems), parts)
+    numbers = range(chunk, len(problems), chunks)
     retained = {} if retained is None else retained
 
     def make_all(stop: np.ndarray) -> None:  # all in one thread: handing over takes time
@@ -54,23 +54,25 @@ def run_part(
 def table_of(runs: Sequence[Mapping[str, Any]]) -> dict[str, np.ndarray]:
     """Return what is kept of runs by name, each (run, ...)."""
     names = dict.fromkeys(name for run in runs for name in run)
-    return {name: stacked([run[name] for run in runs if name in run]) for name in names}
+    return {name: stack([run[name] for run in runs if name in run]) for name in names}
 
 
-def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
+def join_chunks(chunks: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
     """Return what all parts hold in the order of the runs, each (run, ...)."""
-    parts, found = list(parts), {}
-    for name in parts[0]:
-        values = [part[name] for part in parts if name in part]  # more parts than runs: no values
-        rank, kind = max(one.ndim for one in values), np.result_type(*values)
-        values = [one.reshape(one.shape + (1,) * (rank - one.ndim)) for one in values]
-        rest = np.max([one.shape[1:] for one in values], axis=0).astype(int)
+    chunks, tables = list(chunks), {}
+    for name in chunks[0]:
+        values = [
+            chunk[name] for chunk in chunks if name in chunk
+        ]  # more parts than runs: no values
+        rank, kind = max(array.ndim for array in values), np.result_type(*values)
+        values = [array.reshape(array.shape + (1,) * (rank - array.ndim)) for array in values]
+        shape = np.max([array.shape[1:] for array in values], axis=0).astype(int)
         nothing = np.nan if kind.kind in "fc" else 0
-        whole = np.full((sum(map(len, values)), *rest), nothing, kind)
-        for number, one in enumerate(values):
-            whole[(slice(number, None, len(parts)), *map(slice, one.shape[1:]))] = one
-        found[name] = whole
-    return found
+        table = np.full((sum(map(len, values)), *shape), nothing, kind)
+        for number, array in enumerate(values):
+            table[(slice(number, None, len(chunks)), *map(slice, array.shape[1:]))] = array
+        tables[name] = table
+    return tables
 
 
 def run_all(
@@ -87,17 +89,17 @@ def run_all(
         if ended.is_set():
             raise KeyboardInterrupt
 
-    parts = max(1, min(cores, len(problems)))
-    with ThreadPoolExecutor(parts) as pool:
-        shared = parts, go_on, retained
+    chunks = max(1, min(cores, len(problems)))
+    with ThreadPoolExecutor(chunks) as pool:
+        shared = chunks, go_on, retained
         try:  # from the first part on, which runs while others are handed over
-            made = [pool.submit(run_part, problems, make, n, *shared) for n in range(parts)]
-            over, _ = wait(made, return_when=FIRST_EXCEPTION)
+            futures = [pool.submit(run_chunk, problems, make, n, *shared) for n in range(chunks)]
+            over, _ = wait(futures, return_when=FIRST_EXCEPTION)
         finally:
             ended.set()
-        for part in over:  # raise the error of the part that failed, not that of parts it ended
-            part.result()
-        return joined([part.result() for part in made])
+        for future in over:  # raise the error of the part that failed, not that of parts it ended
+            future.result()
+        return join_chunks([future.result() for future in futures])
 
 
 class ManyRuns(NamedTuple):
@@ -125,7 +127,7 @@ def run_until_interrupted(
     The others then have NaN. Shows progress. Raises Interrupted where no run is done.
     """
     try:
-        with shown("survey", retained, len(problems)):
+        with show_progress("survey", retained, len(problems)):
             return run_all(problems, make, cores, retained)
     except Interrupted:
         if not retained:
@@ -147,12 +149,12 @@ def nothing_like(value: Any) -> np.ndarray:
     return np.full(values.shape, np.nan if values.dtype.kind in "fc" else 0, values.dtype)
 
 
-def shaped(found: Mapping[str, np.ndarray], shape: Sequence[int]) -> dict[str, np.ndarray]:
+def reshape_runs(table: Mapping[str, np.ndarray], shape: Sequence[int]) -> dict[str, np.ndarray]:
     """Return what is kept of runs (run, ...) with as many dimensions in place of the first."""
-    return {name: values.reshape(*shape, *values.shape[1:]) for name, values in found.items()}
+    return {name: values.reshape(*shape, *values.shape[1:]) for name, values in table.items()}
 
 
-def stacked(values: Sequence[Any]) -> np.ndarray:
+def stack(values: Sequence[Any]) -> np.ndarray:
     """Return values of runs as one array (run, ...), with NaN behind those of smaller shapes."""
-    arrays = [np.asarray(one) for one in values]
-    return joined([{"": one[None]} for one in arrays])[""]
+    arrays = [np.asarray(array) for array in values]
+    return join_chunks([{"": array[None]} for array in arrays])[""]

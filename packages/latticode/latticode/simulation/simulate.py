@@ -77,7 +77,9 @@ def simulate(
             simulate(problem.changed(snapshots_at=()), reduction, conserved), problem
         )
     if problem.solver["name"] == "auto":
-        return _simulate_to_error(problem, lambda one: _simulate_once(one, reduction, conserved))
+        return _simulate_to_error(
+            problem, lambda tried: _simulate_once(tried, reduction, conserved)
+        )
     try:
         return _simulate_once(problem, reduction, conserved)
     except GaveUpError as error:
@@ -170,8 +172,8 @@ def _gave_up(problem: Problem, time: float, outcome: Outcome) -> IntegrationErro
 def find_obstacle(equations: Equations) -> str | None:
     """Return why a problem cannot be integrated, or None if it can."""
     problem = equations.problem
-    parts = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary ones
-    peak = float(np.abs(parts).max(initial=0.0))  # NaN where there is one
+    re_im = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary ones
+    peak = float(np.abs(re_im).max(initial=0.0))  # NaN where there is one
     numbers = {k: v for k, v in problem.parameters.items() if isinstance(v, int | float)}
     rates, span = equations.rates(peak), float(problem.span)
     obstacle = find_fault(numbers, rates, peak, span, problem.solver, equations.clock)
@@ -190,7 +192,7 @@ SNAPSHOTS = 20
 MARGIN = 2.0
 """Two families do not err alike: the larger of their errors is at most so many times what they are
 apart."""
-ALIKE = 0.1
+SELF_AGREEMENT = 0.1
 """A method agrees with itself where a finer tolerance moves it by less than this part of what two
 methods are apart."""
 
@@ -211,12 +213,14 @@ def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) 
     runs = _Runs(problem.changed(snapshot_every=every), problem.solver["error"], make)
     methods = problem.equations.methods
     try:
-        found = runs.agreeing(methods)
+        trajectory = runs.agreeing(methods)
     except GaveUpError:
         if "taylor" not in methods:
             raise
-        found = runs.agreeing([name for name in methods if name != "taylor"])  # its series ended
-    return found if problem.snapshot_every else without_snapshots(found)
+        trajectory = runs.agreeing(
+            [name for name in methods if name != "taylor"]
+        )  # its series ended
+    return trajectory if problem.snapshot_every else without_snapshots(trajectory)
 
 
 class _Runs(NamedTuple):
@@ -236,9 +240,9 @@ class _Runs(NamedTuple):
         solver = {"name": name, "rtol": tolerance, "atol": tolerance}
         return self.make(self.problem.changed(solver=solver))
 
-    def apart(self, one: Trajectory, other: Trajectory) -> Agreement:
+    def compared(self, first: Trajectory, second: Trajectory) -> Agreement:
         """Return how far two trajectories are apart."""
-        return compare(one, other)
+        return compare(first, second)
 
     def agreeing(self, methods: Sequence[str]) -> Trajectory:
         """Return the run of the first of these methods that agrees with one of the second."""
@@ -246,12 +250,12 @@ class _Runs(NamedTuple):
         tolerance, before = first_tolerance(self.error, angle_of(self.problem)), None
         while True:
             pair = tuple(self.by(name, tolerance) for name in names)
-            between = self.apart(*pair)
+            between = self.compared(*pair)
             if MARGIN * between.largest <= self.error:
                 return self.accepted(*pair)
             if before:
-                moved = max(self.apart(*same).largest for same in zip(before, pair, strict=True))
-                if moved < ALIKE * between.largest:
+                moved = max(self.compared(*same).largest for same in zip(before, pair, strict=True))
+                if moved < SELF_AGREEMENT * between.largest:
                     return self.supported(pair, between, third_of(names, methods))
             if tolerance <= FINEST:
                 break
@@ -262,12 +266,12 @@ class _Runs(NamedTuple):
             f" {self.symbol} = {lost:g}: end the run earlier, or ask for a larger error"
         )
 
-    def accepted(self, one: Trajectory, other: Trajectory, **more: str) -> Trajectory:
+    def accepted(self, first: Trajectory, second: Trajectory, **more: str) -> Trajectory:
         """Return the first of two trajectories, whose controls say how far it is true."""
-        estimate = MARGIN * self.apart(one, other).largest
-        found = {"requested_error": self.error, "estimated_error": estimate}
-        solver = {**one.solver, **found, "agrees_with": other.solver["name"], **more}
-        return one._replace(solver=solver)
+        estimate = MARGIN * self.compared(first, second).largest
+        errors = {"requested_error": self.error, "estimated_error": estimate}
+        solver = {**first.solver, **errors, "agrees_with": second.solver["name"], **more}
+        return first._replace(solver=solver)
 
     def supported(
         self, pair: tuple[Trajectory, ...], between: Agreement, third: str | None
@@ -276,15 +280,17 @@ class _Runs(NamedTuple):
 
         Each of the two methods agrees with itself and not with the other, so that one is wrong.
         """
-        names = [one.solver["name"] for one in pair]
+        names = [trajectory.solver["name"] for trajectory in pair]
         differ = f"{names[0]} and {names[1]} differ by {between.largest:.1e} at any tolerance"
         if third:
             tolerance = first_tolerance(0.1 * self.error, angle_of(self.problem))
             judge = self.by(third, tolerance)
-            for one in reversed(pair):
-                if MARGIN * self.apart(one, judge).largest <= self.error:
-                    name = one.solver["name"]
-                    return self.accepted(one, judge, disagreement=f"{differ}; {third} like {name}")
+            for trajectory in reversed(pair):
+                if MARGIN * self.compared(trajectory, judge).largest <= self.error:
+                    name = trajectory.solver["name"]
+                    return self.accepted(
+                        trajectory, judge, disagreement=f"{differ}; {third} like {name}"
+                    )
         supports = f"and {third} supports neither" if third else "and no third method can decide"
         since = between.first_above(self.error / MARGIN)
         raise IntegrationError(

@@ -109,20 +109,22 @@ def names_of_axis(axis: str) -> list[str]:
 
 def names_of(survey: Survey) -> list[str]:
     """Return the names of what is kept; raise ValueError for what there is not."""
-    for kept in survey.keep:
-        if not callable(kept) and kept not in NAMES:
-            raise ValueError(f"keep: there is no {kept!r}; there are {', '.join(NAMES)}")
-        if callable(kept) and (fault := _fault_of_function(kept)):
+    for quantity in survey.keep:
+        if not callable(quantity) and quantity not in NAMES:
+            raise ValueError(f"keep: there is no {quantity!r}; there are {', '.join(NAMES)}")
+        if callable(quantity) and (fault := _fault_of_function(quantity)):
             raise ValueError(f"keep: {fault}")
-    return [kept if isinstance(kept, str) else kept.__name__ for kept in survey.keep]
+    return [
+        quantity if isinstance(quantity, str) else quantity.__name__ for quantity in survey.keep
+    ]
 
 
-def _fault_of_function(kept: Callable) -> str | None:
-    name = getattr(kept, "__name__", "")
+def _fault_of_function(function: Callable) -> str | None:
+    name = getattr(function, "__name__", "")
     if not name.isidentifier():
         return "a function is kept under its name, and this one has none: make it by def"
     try:
-        inspect.signature(kept).bind(None, None)
+        inspect.signature(function).bind(None, None)
     except TypeError:
         return f"{name} must take (problem, run)"
     return None
@@ -138,7 +140,11 @@ def fault_of_axis(
     if name in parameters or name in ("half_width", "end_time"):
         return None
     head, *place = name.split(".")
-    if head != "initial" or len(place) != 2 or not all(one.lstrip("-").isdigit() for one in place):
+    if (
+        head != "initial"
+        or len(place) != 2
+        or not all(number.lstrip("-").isdigit() for number in place)
+    ):
         options = ", ".join([*parameters, "half_width", "end_time"])
         return f"{name!r} names nothing to change; give one of {options}, or initial.SITE.FIELD"
     site, field = map(int, place)

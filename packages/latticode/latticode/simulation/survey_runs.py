@@ -11,7 +11,7 @@ from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
 
 from .problem import Problem
-from .runs import ManyRuns, Run, run_all, shaped
+from .runs import ManyRuns, Run, reshape_runs, run_all
 from .simulate import IntegrationError, Trajectory, simulate
 from .survey import CHAINS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
 from .sweep import mean_of, within
@@ -39,21 +39,21 @@ def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
         if fault := fault_of_axis(name, known, range(-reach, reach + 1), fields):
             raise ValueError(f"axes: {fault}")
     problems = Surveyed(problem, survey)
-    return ManyRuns(problems, partial(_kept_of, survey=survey), partial(_in_shape, problems))
+    return ManyRuns(problems, partial(_measure_run, survey=survey), partial(_in_shape, problems))
 
 
-def _in_shape(problems: Surveyed, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+def _in_shape(problems: Surveyed, table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Return what is kept of all runs in the survey's shape; print what failed."""
-    texts = found.pop(TEXT)
-    for kind, what in KINDS.items():
+    texts = table.pop(TEXT)
+    for kind, outcome in KINDS.items():
         chosen = np.char.startswith(texts, kind)
         if chosen.any():
-            found[kind] = np.char.replace(np.where(chosen, texts, ""), f"{kind}: ", "", 1)
+            table[kind] = np.char.replace(np.where(chosen, texts, ""), f"{kind}: ", "", 1)
             first = int(chosen.argmax())
             at = problems.place_of(first)
-            count = f"{chosen.sum()} of {len(problems)} runs {what}"
-            print(f"{count}; the first, {at}: {found[kind][first]}", flush=True)
-    return shaped(found, problems.survey.shape)
+            count = f"{chosen.sum()} of {len(problems)} runs {outcome}"
+            print(f"{count}; the first, {at}: {table[kind][first]}", flush=True)
+    return reshape_runs(table, problems.survey.shape)
 
 
 KINDS = {
@@ -66,7 +66,7 @@ TEXT = "text"
 """Under which name a run keeps why it failed, or why it is by another solver; empty if neither."""
 
 
-def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:
+def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
     """Return what is kept of one run."""
     fields = len(problem.initial)
     try:
@@ -76,19 +76,19 @@ def _kept_of(problem: Problem, survey: Survey) -> dict[str, Any]:
             text = f"remark: {remark}"
     except IntegrationError as error:
         run, text = None, f"failure: {error}"
-    found = {TEXT: text}
-    for kept in survey.keep:
-        if callable(kept):
-            found[kept.__name__] = np.nan if run is None else kept(problem, run)
+    quantities = {TEXT: text}
+    for quantity in survey.keep:
+        if callable(quantity):
+            quantities[quantity.__name__] = np.nan if run is None else quantity(problem, run)
         elif run is None:
-            found[kept] = np.nan if kept in CHAINS else np.full(fields, np.nan)
-        elif kept == "divergence":
-            found[kept] = _divergence(problem, run)
-        elif kept == "exponent":
-            found[kept] = _exponent(run, survey.window)
+            quantities[quantity] = np.nan if quantity in CHAINS else np.full(fields, np.nan)
+        elif quantity == "divergence":
+            quantities[quantity] = _divergence(problem, run)
+        elif quantity == "exponent":
+            quantities[quantity] = _exponent(run, survey.window)
         else:
-            found[kept] = _statistic(run, survey.window, *kept.split("_"))
-    return found
+            quantities[quantity] = _statistic(run, survey.window, *quantity.split("_"))
+    return quantities
 
 
 def _statistic(run: Trajectory, window, statistic: str, norm: str) -> np.ndarray:
@@ -112,12 +112,12 @@ def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
 
 def _divergence(problem: Problem, run: Trajectory) -> float:
     """Return the first time at which a run by another method differs by the visible part."""
-    other = other_family(run.solver["name"], problem.equations.methods)
+    method = other_family(run.solver["name"], problem.equations.methods)
     try:
-        again = simulate(
-            problem.changed(solver={"name": other, "rtol": 1e-13, "atol": 1e-13}), conserved=False
+        second_run = simulate(
+            problem.changed(solver={"name": method, "rtol": 1e-13, "atol": 1e-13}), conserved=False
         )
     except IntegrationError:
         return np.nan
-    apart = norm_difference(run.linf, run.l2, again.linf, again.l2)
-    return float(first_above(run.tau, apart, VISIBLE))
+    difference = norm_difference(run.linf, run.l2, second_run.linf, second_run.l2)
+    return float(first_above(run.tau, difference, VISIBLE))

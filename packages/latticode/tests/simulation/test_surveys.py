@@ -10,7 +10,7 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.surveys import survey_contents
 from latticode.equations.initial_values import on_sites
 from latticode.simulation import survey_runs
-from latticode.simulation.runs import joined, run_all, run_part
+from latticode.simulation.runs import join_chunks, run_all, run_chunk
 from latticode.simulation.simulate import simulate
 from latticode.simulation.survey import Members, Survey, Surveyed
 from latticode.simulation.survey_runs import run_survey
@@ -37,7 +37,7 @@ def test_the_bits_do_not_depend_on_the_number_of_parts(parts):
     whole = run_survey(problem, survey)["max_l2"]
 
     def in_parts(problems, make):
-        return joined([run_part(problems, make, part, parts) for part in range(parts)])
+        return join_chunks([run_chunk(problems, make, part, parts) for part in range(parts)])
 
     np.testing.assert_array_equal(run_survey(problem, survey, in_parts)["max_l2"], whole)
     assert whole.shape == (3, 2, 4, 2) and np.unique(whole[0, 0, :, 0]).size == 4
@@ -46,7 +46,7 @@ def test_the_bits_do_not_depend_on_the_number_of_parts(parts):
 @pytest.mark.parametrize("cores", [1, 3])
 def test_cores_change_no_bit_and_an_interrupt_ends_all_of_them(cores, monkeypatch):
     problem, survey = dimers(), Survey(AXES, members=Members(count=5, size=0.1, seed=3))
-    whole = run_survey(problem, survey, run_part)["max_l2"]
+    whole = run_survey(problem, survey, run_chunk)["max_l2"]
     run = partial(run_all, cores=cores)
     np.testing.assert_array_equal(run_survey(problem, survey, run)["max_l2"], whole)
 
@@ -103,7 +103,8 @@ def test_values_of_unlike_shapes_have_nan_behind_the_shorter():
         return {"l2": simulate(one).l2[0], "count": 1}
 
     whole, again = (
-        joined([run_part(problems, make, part, parts) for part in range(parts)]) for parts in (1, 2)
+        join_chunks([run_chunk(problems, make, part, parts) for part in range(parts)])
+        for parts in (1, 2)
     )
     assert np.isnan(whole["l2"][:, -1]).tolist() == [True, False, True]
     assert whole["count"].tolist() == [1, 1, 1] and whole["count"].dtype.kind == "i"
@@ -149,7 +150,7 @@ def test_reasons_of_failed_runs_are_joined_from_parts(parts):
     survey = Survey({"omega": [1.0, 2.0, 1e300, 3.0]}, ("max_l2",))
 
     def in_parts(problems, make):
-        return joined([run_part(problems, make, part, parts) for part in range(parts)])
+        return join_chunks([run_chunk(problems, make, part, parts) for part in range(parts)])
 
     found = run_survey(dimers(), survey, in_parts)
     assert [bool(text) for text in found["failure"]] == [False, False, True, False]

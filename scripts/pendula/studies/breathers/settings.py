@@ -7,6 +7,7 @@ import numpy as np
 from latticode.configuration.values import (
     Count,
     Counts,
+    Integer,
     Model,
     Name,
     Natural,
@@ -15,7 +16,6 @@ from latticode.configuration.values import (
     Positive,
     Positives,
     Tolerance,
-    Whole,
     Window,
     model,
 )
@@ -27,7 +27,7 @@ from pendula.configuration.schema import Faults, PaperConfiguration
 OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
 """Choices of runs that the long studies change."""
 
-Steady = model(omegas=Numbers, half_width=Annotated[Whole, Field(ge=4)])
+Steady = model(omegas=Numbers, half_width=Annotated[Integer, Field(ge=4)])
 
 # Solitons A = B of the scalar equation, on two chains: rates that differ belong to the ends.
 Solitons = model(
@@ -37,7 +37,7 @@ Solitons = model(
 Periodic = model(
     omegas=Numbers,
     frequencies=Positives,
-    half_width=Annotated[Whole, Field(ge=2)],
+    half_width=Annotated[Integer, Field(ge=2)],
     solitons=Solitons,
     long=model(
         omega=Number,
@@ -63,12 +63,12 @@ class Fates(Model):
     """The map of the fates of initial conditions on one pair."""
 
     omegas: Numbers
-    half_width: Annotated[Whole, Field(ge=4)]
+    half_width: Annotated[Integer, Field(ge=4)]
     end_time: Positive
     largest: Positive
-    points: Annotated[Whole, Field(ge=3)]
+    points: Annotated[Integer, Field(ge=3)]
     long: model(
-        points=Annotated[Whole, Field(ge=3)],
+        points=Annotated[Integer, Field(ge=3)],
         variations=dict[Literal[*OF_RUNS, "stride"], Positives],
     )
     tolerance: Tolerance

@@ -5,11 +5,11 @@ from typing import Annotated
 from latticode.configuration.files import ConfigurationError
 from latticode.configuration.values import (
     Count,
+    Integer,
     Model,
     Name,
     Number,
     Positive,
-    Whole,
     model,
 )
 from pydantic import Field
@@ -20,8 +20,8 @@ from pendula.problem import AMPLITUDES
 
 # Precision of a curve of integers, and how often its error bound changes frames.
 Frames = model(
-    bits=Annotated[Whole, Field(ge=32, le=4096)],
-    order=Annotated[Whole, Field(ge=8, le=400)],
+    bits=Annotated[Integer, Field(ge=32, le=4096)],
+    order=Annotated[Integer, Field(ge=8, le=400)],
     outputs_per_frame=Count,
 )
 
@@ -38,7 +38,7 @@ class Breathers(Model):
     """Steady breathers whose existence is proved."""
 
     gamma: Positive
-    half_width: Annotated[Whole, Field(ge=2, le=200)]  # at the largest a proof takes minutes
+    half_width: Annotated[Integer, Field(ge=2, le=200)]  # at the largest a proof takes minutes
     proofs: Annotated[list[ProofSection], Field(min_length=1)]
     control_omegas: Annotated[
         list[Number], Field(min_length=2, max_length=2)

@@ -15,7 +15,7 @@ from latticode.equations.ensembles import draw_members
 from latticode.equations.initial_values import name_window
 from latticode.measures.levels import bands, correlation
 from latticode.numerics.elementary import square_modulus
-from latticode.simulation.runs import ManyRuns, shaped
+from latticode.simulation.runs import ManyRuns, reshape_runs
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import QUANTITIES, pair_l2, pair_linf
 from replication.variables import REGULAR, SCATTERED, missing
@@ -82,7 +82,7 @@ def measure_members(
     attributes_of_study = {"perturbation": size, "members": members, "seed": seed}
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:
-        numbers = shaped(retained, (len(problems), members))
+        numbers = reshape_runs(retained, (len(problems), members))
         variables, attributes = _members_contents(problems, windows, reach, numbers)
         return variables, {
             **attributes,

@@ -7,13 +7,13 @@ from latticode.configuration.values import (
     Count,
     Counts,
     Distinct,
+    Integer,
     Model,
     Name,
     Names,
     Natural,
     Positive,
     Tolerance,
-    Whole,
     Window,
     model,
 )
@@ -47,7 +47,7 @@ VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", 
 # The largest exponents of every case, on a span of time.
 Lyapunov = model(
     span=Window,
-    members=Annotated[Whole, Field(ge=2)],
+    members=Annotated[Integer, Field(ge=2)],
     spectrum=Spectrum,
     **RANDOM,
 )
@@ -55,7 +55,7 @@ Lyapunov = model(
 # Sweeps of ensembles: on chains of each half-width, `members` runs from slightly perturbed data.
 Ensembles = model(
     sweeps=Annotated[
-        dict[Name, model(half_widths=Counts, members=Annotated[Whole, Field(ge=2)])],
+        dict[Name, model(half_widths=Counts, members=Annotated[Integer, Field(ge=2)])],
         Field(min_length=1),
     ],
     output_step=Positive,
@@ -66,8 +66,8 @@ Ensembles = model(
 SecondSolver = model(
     sweep=Name,
     half_widths=Counts,
-    members=Annotated[Whole, Field(ge=2)],
-    first_members=Annotated[Whole, Field(ge=2)],
+    members=Annotated[Integer, Field(ge=2)],
+    first_members=Annotated[Integer, Field(ge=2)],
     seed=Natural,
 )
 
@@ -75,7 +75,7 @@ SecondSolver = model(
 Members = model(
     windows=Annotated[list[Window], Field(min_length=2, max_length=2), Distinct],
     output_step=Positive,
-    members=Annotated[Whole, Field(ge=3)],
+    members=Annotated[Integer, Field(ge=3)],
     **RANDOM,
 )
 

@@ -5,7 +5,7 @@ NaN and infinite numbers are allowed, because solvers must reject them.
 
 from typing import Annotated, Any, Literal
 
-from latticode.configuration.values import AnyNumber, Model, Whole, faults
+from latticode.configuration.values import AnyNumber, Integer, Model, faults
 from pydantic import Field, create_model, model_validator
 
 ARGUMENTS = {
@@ -35,7 +35,7 @@ class AnySolver(Model):
     atol: AnyNumber | None = None
     step: AnyNumber | None = None
     tolerance: AnyNumber | None = None
-    iterations: Whole | None = None
+    iterations: Integer | None = None
 
     @model_validator(mode="after")
     def _complete(self) -> "AnySolver":
@@ -50,7 +50,7 @@ Arguments = create_model(
     __base__=Model,
     __doc__="All arguments of the functions of `errors`; each function uses some of them.",
     **dict.fromkeys(NUMBERS, (AnyNumber | None, None)),
-    **dict.fromkeys(INTEGERS, (Whole | None, None)),
+    **dict.fromkeys(INTEGERS, (Integer | None, None)),
 )
 
 

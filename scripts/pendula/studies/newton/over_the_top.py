@@ -26,7 +26,7 @@ from latticode.measures.confidence import (
     event_rate,
     share_limits,
 )
-from latticode.simulation.runs import ManyRuns, run_all, shaped
+from latticode.simulation.runs import ManyRuns, reshape_runs, run_all
 from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC, FEW_CHOICES, missing
 
@@ -86,7 +86,7 @@ def measure_over_the_top(
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:
         return _passage_contents(
-            amplitude_problems, mus, settled, shaped(retained, (len(mus), members))
+            amplitude_problems, mus, settled, reshape_runs(retained, (len(mus), members))
         )
 
     return ManyRuns(each, measure_passage, conclude)

@@ -2,12 +2,12 @@
 
 from typing import Annotated
 
-from latticode.configuration.values import Model, Name, Positives, Whole
+from latticode.configuration.values import Integer, Model, Name, Positives
 from pydantic import Field
 
 from pendula.configuration.schema import PAPER_SWEEPS, Faults, PaperConfiguration
 
-Bits = Annotated[Whole, Field(ge=64, le=4096)]
+Bits = Annotated[Integer, Field(ge=64, le=4096)]
 
 
 class Settings(Model):

@@ -9,7 +9,7 @@ from latticode.datasets.registry import NAMES
 from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
 from latticode.numerics.draws import normal
-from latticode.simulation.runs import ManyRuns, shaped
+from latticode.simulation.runs import ManyRuns, reshape_runs
 from replication.variables import CHAOTIC, REGULAR, missing
 
 from pendula.problem import Problem
@@ -69,7 +69,7 @@ def spread_case(
     title = f"Norms, fronts and the state behind them of {name} on infinite chains"
 
     def conclude(retained: dict[str, np.ndarray]) -> Contents:
-        series = shaped(retained, (len(problems), members))
+        series = reshape_runs(retained, (len(problems), members))
         variables = run_variables(problems, series, levels, edges)
         return variables, attributes(title, name, problems, rest_threshold, **ensemble)
 

@@ -11,6 +11,7 @@ from latticode.configuration.solvers import Dop853, Taylor
 from latticode.configuration.values import (
     Count,
     Counts,
+    Integer,
     Model,
     Name,
     Names,
@@ -20,7 +21,6 @@ from latticode.configuration.values import (
     Positive,
     Positives,
     Tolerance,
-    Whole,
     model,
 )
 from pydantic import Field
@@ -106,7 +106,7 @@ class Settings(Model):
     cases: Names
     omegas: model(case=Name, values=Numbers)
     starts: model(case=Name, values=Annotated[list[tuple[Number, Number]], Field(min_length=1)])
-    nodes: Annotated[Whole, Field(ge=8, le=100)]
+    nodes: Annotated[Integer, Field(ge=8, le=100)]
     short: Size
     long: LongSize
 
