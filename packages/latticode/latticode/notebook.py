@@ -490,7 +490,7 @@ def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr
     problem = case.kind.of(case.problem())
     most = count_directions(problem)
     if not isinstance(count, Integral) or isinstance(count, bool) or not 1 <= count <= most:
-        text = f"count: is {values.shown(count)}; give a whole number from 1 to {most}"
+        text = f"count: is {values.excerpt_of(count)}; give a whole number from 1 to {most}"
         raise list_faults([text], "the spectrum")
     one = case.cost(case.problem(solver=cost.OF_TANGENTS))
     takes = cost.Cost((1 + count) * one.seconds, (1 + count) * one.memory)
@@ -531,10 +531,10 @@ def section(
     faults = []
     if direction not in DIRECTIONS:
         known = ", ".join(DIRECTIONS)
-        faults.append(f"direction: is {values.shown(direction)}; give one of {known}")
+        faults.append(f"direction: is {values.excerpt_of(direction)}; give one of {known}")
     if site not in case.chain:
         ends = f"{case.chain[0]} to {case.chain[-1]}"
-        faults.append(f"site: is {values.shown(site)}; the sites run from {ends}")
+        faults.append(f"site: is {values.excerpt_of(site)}; the sites run from {ends}")
     if not callable(when):
         faults.append("when: is no function; give one such as lambda p, x: x - 1")
     if faults:
