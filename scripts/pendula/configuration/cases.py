@@ -15,7 +15,7 @@ from latticode.configuration.messages import lines_of
 from latticode.configuration.schema import Configuration
 from latticode.configuration.solvers import FLAG, Solver, Taylor
 from latticode.configuration.values import Number, Positive, faults
-from latticode.equations.initial_values import KEPT
+from latticode.equations.initial_values import STORED_OBSERVABLES
 from latticode.equations.model import Model
 from latticode.simulation.feasibility import Obstacle
 from pydantic import (
@@ -51,7 +51,7 @@ class PaperCaseSection(cases.Case):
     initial: Initial = {0: (1, 0.1)}
     model: Literal["amplitudes", "pendula"] = AMPLITUDES
     mu: Positive | None = None
-    keep: Literal[KEPT] = "moduli"
+    keep: Literal[STORED_OBSERVABLES] = "moduli"
     parameters: Annotated[dict, Field(exclude=True, max_length=0)] = {}
     sites: Annotated[None, Field(exclude=True)] = None
 

@@ -21,7 +21,7 @@ from pydantic import (
 
 from latticode.equations.couplings import at_middle
 from latticode.equations.ends import ENDS
-from latticode.equations.initial_values import KEPT
+from latticode.equations.initial_values import STORED_OBSERVABLES
 from latticode.equations.model import Model as Traced
 from latticode.equations.model import ModelError
 from latticode.equations.model_file import chain_sites
@@ -165,7 +165,7 @@ class Case(Model):
     output_step: Positive = 0.025
     snapshot_step: Positive | None = None
     times: Times | None = None
-    keep: Literal[KEPT] = "state"
+    keep: Literal[STORED_OBSERVABLES] = "state"
     solver: Solver = Taylor(**DEFAULT)
 
     @model_validator(mode="before")

@@ -16,20 +16,20 @@ Entries = Mapping[str, Any]
 """A matrix as plain values."""
 
 
-def entries_of(given: Any, sites: range) -> Entries:
+def entries_of(matrix: Any, sites: range) -> Entries:
     """Return the entries of an N x N matrix of the sites of a chain.
 
-    `given` is an array or nested lists, a matrix of scipy.sparse, a function of the array of sites
+    `matrix` is an array or nested lists, a matrix of scipy.sparse, a function of the array of sites
     that returns either, or entries. Raises ValueError with what is wrong, to stand behind its name.
     """
-    if callable(given):
-        given = call_on_sites(given, np.array(sites))
-    if isinstance(given, Mapping):
-        if given.keys() != {"sites", "rows", "columns", "weights"}:
+    if callable(matrix):
+        matrix = call_on_sites(matrix, np.array(sites))
+    if isinstance(matrix, Mapping):
+        if matrix.keys() != {"sites", "rows", "columns", "weights"}:
             raise ValueError("is a mapping; give a matrix as nested lists, or as an array")
-        _require_sites((given["sites"], given["sites"]), len(sites))
-        return given
-    rows, columns, weights = _nonzero(given, len(sites))
+        _require_sites((matrix["sites"], matrix["sites"]), len(sites))
+        return matrix
+    rows, columns, weights = _nonzero(matrix, len(sites))
     wrong = np.flatnonzero(~np.isfinite(weights))
     if wrong.size:
         place = f"({sites[rows[wrong[0]]]}, {sites[columns[wrong[0]]]})"
@@ -43,23 +43,22 @@ def entries_of(given: Any, sites: range) -> Entries:
     }
 
 
-def _nonzero(given: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _nonzero(matrix: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the rows, columns and values of a matrix where it is not zero."""
-    if hasattr(given, "tocoo"):
-        _require_sites(given.shape, count)
-        sparse = given.tocsr().tocoo()  # which adds up entries that are given twice
-        matrix, (rows, columns) = sparse.data, (sparse.row, sparse.col)
-        weights = matrix
+    if hasattr(matrix, "tocoo"):
+        _require_sites(matrix.shape, count)
+        sparse = matrix.tocsr().tocoo()  # which adds up entries that are given twice
+        rows, columns, weights = sparse.row, sparse.col, sparse.data
     else:
         try:
-            matrix = np.asarray(given)
+            matrix = np.asarray(matrix)
         except ValueError:
             raise ValueError("is a matrix whose rows are not of one length") from None
         _require_sites(matrix.shape, count)
         rows, columns = np.nonzero(matrix)
         weights = matrix[rows, columns]
-    if matrix.dtype.kind not in "iufb":
-        kind = "complex" if matrix.dtype.kind == "c" else "no numbers"
+    if weights.dtype.kind not in "iufb":
+        kind = "complex" if weights.dtype.kind == "c" else "no numbers"
         hint = "; couple its real and its imaginary part by a matrix each" * (kind == "complex")
         raise ValueError(f"is a matrix of {kind}, and couple takes real ones{hint}")
     return rows, columns, weights

@@ -47,14 +47,14 @@ class Node:
     @cached_property
     def level(self) -> int:
         """CONSTANT, CLOCK or MOTION."""
-        own = LEAVES.get(self.operation, CONSTANT)
-        return max((one.level for one in self.inputs), default=own)
+        leaf_level = LEAVES.get(self.operation, CONSTANT)
+        return max((entry.level for entry in self.inputs), default=leaf_level)
 
     @cached_property
     def reach(self) -> int:
         """How many sites away its farthest leaf is."""
-        own = abs(self.operands[-1]) if self.operation in ("field", "parameter") else 0
-        return max((one.reach for one in self.inputs), default=own)
+        leaf_reach = abs(self.operands[-1]) if self.operation in ("field", "parameter") else 0
+        return max((entry.reach for entry in self.inputs), default=leaf_reach)
 
 
 node = cache(Node)
@@ -66,12 +66,12 @@ def number(x: float) -> Node:
     return node("number", float(x))
 
 
-def leaf(component: int, part: int, by: int = 0) -> Node:
+def leaf(component: int, re_im: int, by: int = 0) -> Node:
     """Return the node of a row of a field, at the site n + `by`."""
-    return node("field", component, part, by)
+    return node("field", component, re_im, by)
 
 
-ZERO, ONE, TWO = number(0.0), number(1.0), number(2.0)
+ZERO, UNIT, TWO = number(0.0), number(1.0), number(2.0)
 
 # --- Nodes from nodes ---------------------------------------------------------------------------
 
@@ -147,14 +147,14 @@ def mul(a: Node, b: Node) -> Node:
 
 def reciprocal(a: Node) -> Node:
     """Return 1 / a."""
-    return number(1.0 / a.operands[0]) if is_number(a) else node("div", ONE, a)
+    return number(1.0 / a.operands[0]) if is_number(a) else node("div", UNIT, a)
 
 
 def div(a: Node, b: Node) -> Node:
     """Return a / b; by a constant it is a product with its reciprocal."""
     if a is ZERO:
         return a
-    return mul(reciprocal(b), a) if b.level == CONSTANT and a is not ONE else node("div", a, b)
+    return mul(reciprocal(b), a) if b.level == CONSTANT and a is not UNIT else node("div", a, b)
 
 
 def couple(matrix: Node, a: Node) -> Node:
@@ -179,27 +179,27 @@ BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul, "couple": couple}
 
 def in_order(nodes: Iterable[Node]) -> list[Node]:
     """Return the nodes and all that they are made of, each after its operands."""
-    found: dict[Node, None] = {}
+    ordered: dict[Node, None] = {}
 
-    def visit(one: Node) -> None:
-        if one not in found:
-            for operand in one.inputs:
+    def visit(entry: Node) -> None:
+        if entry not in ordered:
+            for operand in entry.inputs:
                 visit(operand)
-            found[one] = None
+            ordered[entry] = None
 
-    for one in nodes:
-        visit(one)
-    return list(found)
+    for entry in nodes:
+        visit(entry)
+    return list(ordered)
 
 
 def leaves_in(nodes: Iterable[Node], operation: str) -> list[Node]:
     """Return the leaves of a kind that expressions hold."""
-    return [one for one in in_order(nodes) if one.operation == operation]
+    return [entry for entry in in_order(nodes) if entry.operation == operation]
 
 
 def switches(nodes: Iterable[Node]) -> bool:
-    """Return whether expressions change from one to another where a field or the time has it so."""
-    return any(one.operation == "where" and one.level > CONSTANT for one in in_order(nodes))
+    """Return whether expressions switch by a condition on the fields or the time."""
+    return any(entry.operation == "where" and entry.level > CONSTANT for entry in in_order(nodes))
 
 
 def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | None]) -> list[Node]:
@@ -208,24 +208,24 @@ def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | N
     change(node, operands) is given each node and its new operands; where it returns None, the node
     stays what it is, of these operands.
     """
-    made: dict[Node, Node] = {}
-    for one in in_order(nodes):
-        operands = [made[a] for a in one.inputs]
-        new = change(one, operands)
+    rebuilt_nodes: dict[Node, Node] = {}
+    for entry in in_order(nodes):
+        operands = [rebuilt_nodes[a] for a in entry.inputs]
+        new = change(entry, operands)
         if new is None:
-            build = BUILD.get(one.operation, partial(node, one.operation))
-            new = build(*operands) if operands else one
-        made[one] = new
-    return [made[one] for one in nodes]
+            build = BUILD.get(entry.operation, partial(node, entry.operation))
+            new = build(*operands) if operands else entry
+        rebuilt_nodes[entry] = new
+    return [rebuilt_nodes[entry] for entry in nodes]
 
 
 def shifted(a: Node, by: int) -> Node:
     """Return the expression at the site n + `by`."""
 
-    def moved(one: Node, _) -> Node | None:
-        if one.operation not in ("field", "parameter"):
+    def moved(entry: Node, _) -> Node | None:
+        if entry.operation not in ("field", "parameter"):
             return None
-        return node(one.operation, *one.operands[:-1], one.operands[-1] + by)
+        return node(entry.operation, *entry.operands[:-1], entry.operands[-1] + by)
 
     return rebuilt([a], moved)[0]
 
@@ -259,17 +259,19 @@ def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
     It is written as source code: who evaluates a graph often would spend most time on the walk.
     """
     order = in_order(nodes)
-    names = {one: f"v{i}" for i, one in enumerate(order)}
-    leaves = [one for one in order if not one.inputs]
-    lines = [f"    {''.join(f'{names[one]}, ' for one in leaves)} = leaves" if leaves else ""]
-    for one in order:
-        if one.inputs:
-            how = ARITHMETIC.get(one.operation, f"functions.{one.operation}({{}})")
-            lines.append(f"    {names[one]} = {how.format(*(names[a] for a in one.inputs))}")
-    made: dict[str, Callable] = {"where": np.where, "times": _times}
-    values = ", ".join(names[one] for one in nodes)
-    exec("\n".join(["def compute(leaves, functions):", *lines, f"    return [{values}]"]), made)
-    return leaves, made["compute"]
+    names = {entry: f"v{i}" for i, entry in enumerate(order)}
+    leaves = [entry for entry in order if not entry.inputs]
+    lines = [f"    {''.join(f'{names[entry]}, ' for entry in leaves)} = leaves" if leaves else ""]
+    for entry in order:
+        if entry.inputs:
+            how = ARITHMETIC.get(entry.operation, f"functions.{entry.operation}({{}})")
+            lines.append(f"    {names[entry]} = {how.format(*(names[a] for a in entry.inputs))}")
+    namespace: dict[str, Callable] = {"where": np.where, "times": _times}
+    values = ", ".join(names[entry] for entry in nodes)
+    exec(
+        "\n".join(["def compute(leaves, functions):", *lines, f"    return [{values}]"]), namespace
+    )
+    return leaves, namespace["compute"]
 
 
 def _times(matrix: Any, values: Any) -> Any:
@@ -281,45 +283,45 @@ def _times(matrix: Any, values: Any) -> Any:
 
 def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[Node]:
     """Return how expressions change to first order where each leaf changes by change(leaf)."""
-    made: dict[Node, Node] = {}
+    derivatives: dict[Node, Node] = {}
 
     def of_sum(build: Callable, a: Node, b: Node) -> Node:
         """A product b = c d at the end of a sum adds c d' to a', and then c' d."""
         if b.operation != "mul" or b.operands[0] is b.operands[1]:
-            return build(made[a], made[b])
+            return build(derivatives[a], derivatives[b])
         c, d = b.operands
-        return build(build(made[a], mul(c, made[d])), mul(made[c], d))
+        return build(build(derivatives[a], mul(c, derivatives[d])), mul(derivatives[c], d))
 
-    def of(one: Node) -> Node:
-        if one.level == CONSTANT:
+    def of(entry: Node) -> Node:
+        if entry.level == CONSTANT:
             return ZERO
-        match one.operation, *one.inputs:
+        match entry.operation, *entry.inputs:
             case "add" | "sub" as name, a, b:
                 return of_sum(BUILD[name], a, b)
             case "neg", a:
-                return neg(made[a])
+                return neg(derivatives[a])
             case "mul", a, b if a is b:
-                return mul(TWO, mul(a, made[a]))
+                return mul(TWO, mul(a, derivatives[a]))
             case "mul", a, b:
-                return add(mul(a, made[b]), mul(made[a], b))
+                return add(mul(a, derivatives[b]), mul(derivatives[a], b))
             case "sin", a:
-                return mul(node("cos", a), made[a])
+                return mul(node("cos", a), derivatives[a])
             case "cos", a:
-                return neg(mul(node("sin", a), made[a]))
+                return neg(mul(node("sin", a), derivatives[a]))
             case "exp", a:
-                return mul(one, made[a])
+                return mul(entry, derivatives[a])
             case "log", a:
-                return div(made[a], a)
+                return div(derivatives[a], a)
             case "sqrt", a:
-                return div(made[a], mul(TWO, one))
+                return div(derivatives[a], mul(TWO, entry))
             case "div", a, b:
-                return div(sub(made[a], mul(one, made[b])), b)
+                return div(sub(derivatives[a], mul(entry, derivatives[b])), b)
             case "couple", matrix, a:
-                return couple(matrix, made[a])
+                return couple(matrix, derivatives[a])
             case "where", condition, a, b:
-                return where(condition, made[a], made[b])
-        return change(one)
+                return where(condition, derivatives[a], derivatives[b])
+        return change(entry)
 
-    for one in in_order(nodes):
-        made[one] = of(one)
-    return [made[one] for one in nodes]
+    for entry in in_order(nodes):
+        derivatives[entry] = of(entry)
+    return [derivatives[entry] for entry in nodes]

@@ -19,7 +19,7 @@ from .ends import ends_of
 from .model import Model
 from .model_file import chain_sites
 
-KEPT = ("norms", "moduli", "state")
+STORED_OBSERVABLES = ("norms", "moduli", "state")
 """What datasets may have of the snapshots: nothing, moduli in single precision, or beside them the
 whole state in double precision."""
 
@@ -57,16 +57,18 @@ class InitialValueProblem:
     def __post_init__(self):
         ends_of(self.boundary)
         initial, fields = np.array(self.initial, complex), self.model.fields
-        wanted = "an odd number of sites" if self.site_count is None else f"{self.site_count} sites"
+        expected = (
+            "an odd number of sites" if self.site_count is None else f"{self.site_count} sites"
+        )
         if initial.ndim != 2 or len(initial) != len(fields) or not self._fits(initial.shape[1]):
-            raise ValueError(f"data of {' and '.join(fields)} on {wanted}, not {initial.shape}")
+            raise ValueError(f"data of {' and '.join(fields)} on {expected}, not {initial.shape}")
         if self.half_width is not None and self.site_count is None:
             require_inside(initial.shape[1] // 2, self.half_width)
         if self.model.form == "dt":
             initial = initial.real + 0j
         initial.flags.writeable = False
-        if self.keep not in KEPT:
-            raise ValueError(f"keep is {self.keep!r}; give one of {', '.join(KEPT)}")
+        if self.keep not in STORED_OBSERVABLES:
+            raise ValueError(f"keep is {self.keep!r}; give one of {', '.join(STORED_OBSERVABLES)}")
         object.__setattr__(self, "snapshots_at", tuple(self.snapshots_at))
         object.__setattr__(self, "initial", initial)
         object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
@@ -117,7 +119,7 @@ class InitialValueProblem:
         values = {name: value for name, value in values.items() if name in known}
         half_width = changes.get("half_width")
         if half_width is not None:
-            values = {name: at_middle(one, half_width) for name, one in values.items()}
+            values = {name: at_middle(value, half_width) for name, value in values.items()}
         return replace(self, **changes, parameters=values)
 
     @cached_property
@@ -251,8 +253,8 @@ def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:
 def is_even(text: str) -> bool:
     """Return whether data, as datasets keep them, are the same on sites n and -n."""
     sites = read_initial(text)
-    rest = (0.0, 0.0)
-    return all(tuple(sites.get(-site, rest)) == tuple(pair) for site, pair in sites.items())
+    at_rest = (0.0, 0.0)
+    return all(tuple(sites.get(-site, at_rest)) == tuple(pair) for site, pair in sites.items())
 
 
 def read_initial(text: str) -> dict[int, tuple[complex, complex]]:

@@ -139,41 +139,43 @@ class Model:
         except (OSError, UnicodeDecodeError) as error:
             why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
             raise ModelError(f"{path} cannot be read: {why}") from None
-        model, again = (cls._of_run(run_file(path, text), path.name, text) for _ in range(2))
-        if again.plain["nodes"] != model.plain["nodes"]:
+        model, reread = (cls._of_run(run_file(path, text), path.name, text) for _ in range(2))
+        if reread.plain["nodes"] != model.plain["nodes"]:
             raise ModelError(f"{path.name} gives other equations each time. {SEED}")
         for name, value in model.parameters.items():
-            if not (callable(value) or same(value, again.parameters.get(name))):
+            if not (callable(value) or same(value, reread.parameters.get(name))):
                 raise ModelError(f"{path.name} gives {name} another value each time. {SEED}")
         return model
 
     @classmethod
-    def _of_run(cls, given: Mapping[str, Any], name: str, text: str) -> "Model":
+    def _of_run(cls, namespace: Mapping[str, Any], name: str, text: str) -> "Model":
         """Return the model that the names of a file make, once the file has run."""
-        absent = [key for key in ("fields", "parameters") if key not in given]
+        absent = [key for key in ("fields", "parameters") if key not in namespace]
         if absent:
             raise ModelError(f"{name} has no {' and no '.join(absent)}")
         known = ("fields", "parameters", *FORMS, "conserved")
-        return cls(**{key: given[key] for key in known if key in given}, name=name, text=text)
+        return cls(
+            **{key: namespace[key] for key in known if key in namespace}, name=name, text=text
+        )
 
     @cached_property
     def plain(self) -> dict[str, Any]:
         """The model as plain values, from which `of_plain` makes it without running its code."""
         roots = (*self.rates, *self.conserved.values())
         order = in_order(roots)
-        place = {one: i for i, one in enumerate(order)}
+        place = {entry: i for i, entry in enumerate(order)}
         count = len(self.rates)
-        at = [place[one] for one in roots]
+        at = [place[entry] for entry in roots]
         return {
             "name": self.name,
             "text": self.text,
             "fields": list(self.fields),
             "form": self.form,
             "nodes": [
-                [one.operation, *(place[a] for a in one.inputs)]
-                if one.inputs
-                else [one.operation, *one.operands]
-                for one in order
+                [entry.operation, *(place[a] for a in entry.inputs)]
+                if entry.inputs
+                else [entry.operation, *entry.operands]
+                for entry in order
             ],
             "rates": at[:count],
             "conserved": dict(zip(self.conserved, at[count:], strict=True)),
@@ -194,7 +196,7 @@ class Model:
         ]
         velocities = [Value(leaf(c, 1)) for c in range(len(self.fields))]
         known = [values, values + velocities] if self.second_order else [values]
-        symbols = next((one for one in known if _takes(function, 1 + len(one))), None)
+        symbols = next((names for names in known if _accepts(function, 1 + len(names))), None)
         if symbols is None:
             named = ", ".join(("p", *self.fields))
             more = f", or ({named}, and a velocity of each)" * self.second_order
@@ -240,8 +242,8 @@ class Model:
         Equal expressions are one node. So random numbers and counters inside a function, which
         would be frozen at their first values and recorded nowhere, show as other nodes.
         """
-        nodes, again = (nodes_of(self._called(function)) for _ in range(2))
-        if again != nodes:
+        nodes, retraced = (nodes_of(self._called(function)) for _ in range(2))
+        if retraced != nodes:
             name = function.__name__
             raise ModelError(f"{self.name}: {name} gives other equations each time. {BEFORE}")
         return nodes
@@ -250,26 +252,26 @@ class Model:
         """Return the rates of all rows from what the function of the equations returned."""
         if returned is None:
             raise ModelError(f"{self.name} returns nothing: its function needs a return")
-        found = returned if isinstance(returned, tuple | list) else (returned,)
-        found = [Value.of(one) for one in found]
-        if len(found) != len(self.fields):
-            wrong = f"{len(found)} values for {len(self.fields)} fields"
+        values = returned if isinstance(returned, tuple | list) else (returned,)
+        values = [Value.of(value) for value in values]
+        if len(values) != len(self.fields):
+            wrong = f"{len(values)} values for {len(self.fields)} fields"
             raise ModelError(f"{self.name} returns {wrong}")
         if not self.real:  # i u' = F: Re u' = Im F and Im u' = -Re F
-            return tuple(row for one in found for row in (one.im, neg(one.re)))
-        if any(one.im is not ZERO for one in found):
+            return tuple(row for value in values for row in (value.im, neg(value.re)))
+        if any(value.im is not ZERO for value in values):
             text = f"{self.form} returns complex numbers, and its fields are real"
             raise ModelError(f"{self.name}: {text}")
         if self.form == "dt":
-            return tuple(row for one in found for row in (one.re, ZERO))
-        return tuple(row for c, one in enumerate(found) for row in (leaf(c, 1), one.re))
+            return tuple(row for value in values for row in (value.re, ZERO))
+        return tuple(row for c, value in enumerate(values) for row in (leaf(c, 1), value.re))
 
     def _require_real_fields_to_move(self) -> None:
         """Raise ModelError where `i_dt` is that of a real field without its factor 1j.
 
         Then the field's real part, which alone is read, never moves.
         """
-        read = {one.operands[:2] for one in leaves_in(self.rates, "field")}
+        read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         for c, field in enumerate(self.fields if self.form == "i_dt" else ()):
             real, imaginary = self.rates[2 * c : 2 * c + 2]
             read_alone = (c, 0) in read and (c, 1) not in read
@@ -295,17 +297,22 @@ class Model:
         if not isinstance(returned, Mapping):
             text = 'conserved returns no dictionary of densities, such as {"P": abs2(u)}'
             raise ModelError(f"{self.name}: {text}")
-        found = {}
-        for name, given in returned.items():
-            density, what = Value.of(given), f"{self.name}: the density {name!r} in conserved"
+        densities = {}
+        for name, returned_value in returned.items():
+            density, description = (
+                Value.of(returned_value),
+                f"{self.name}: the density {name!r} in conserved",
+            )
             if not _vanishes(density.im):
-                raise ModelError(f"{what} is complex; give its real part, (...).real")
+                raise ModelError(f"{description} is complex; give its real part, (...).real")
             if leaves_in([density.re], "time"):
-                raise ModelError(f"{what} depends on the time p.t, so that it is not conserved")
+                raise ModelError(
+                    f"{description} depends on the time p.t, so that it is not conserved"
+                )
             if density.re.level != MOTION:
-                raise ModelError(f"{what} depends on no field")
-            found[str(name)] = density.re
-        return found
+                raise ModelError(f"{description} depends on no field")
+            densities[str(name)] = density.re
+        return densities
 
     # --- What follows from it
 
@@ -324,17 +331,17 @@ class Model:
         """The names of the parameters that are matrices, which couple any sites."""
         return frozenset(leaf.operands[0] for leaf in leaves_in(self.rates, "matrix"))
 
-    def value_at(self, name: str, given: Any, sites: range) -> Any:
+    def value_at(self, name: str, value: Any, sites: range) -> Any:
         """Return what a parameter is on the sites of a chain: a number, a list, or `Entries`.
 
         Raises ValueError with what is wrong, to stand behind its name.
         """
-        return entries_of(given, sites) if name in self.matrices else values_at(given, sites)
+        return entries_of(value, sites) if name in self.matrices else values_at(value, sites)
 
     @cached_property
     def farthest(self) -> int:
         """How many sites away the farthest neighbour is that an equation or a density sees."""
-        return max(one.reach for one in (*self.rates, *self.conserved.values()))
+        return max(entry.reach for entry in (*self.rates, *self.conserved.values()))
 
     @cached_property
     def reach(self) -> int:
@@ -353,26 +360,26 @@ class Model:
         if self.matrices:  # nobody knows what is symmetric in them
             return False
 
-        def ordered(one: Node, operands: list[Node]) -> Node | None:
-            return node("add", *sorted(operands, key=id)) if one.operation == "add" else None
+        def ordered(entry: Node, operands: list[Node]) -> Node | None:
+            return node("add", *sorted(operands, key=id)) if entry.operation == "add" else None
 
-        def reflected(one: Node, operands: list[Node]) -> Node | None:
-            if one.operation == "field":
-                return leaf(*one.operands[:-1], -one.operands[-1])
-            return ordered(one, operands)
+        def reflected(entry: Node, operands: list[Node]) -> Node | None:
+            if entry.operation == "field":
+                return leaf(*entry.operands[:-1], -entry.operands[-1])
+            return ordered(entry, operands)
 
         return rebuilt(self.rates, reflected) == rebuilt(self.rates, ordered)
 
     @cached_property
     def separable(self) -> bool:
         """Whether the equations are of second order and their forces free of velocities."""
-        found = leaves_in(self.rates[1::2], "field")
-        return self.second_order and not any(one.operands[1] for one in found)
+        leaves = leaves_in(self.rates[1::2], "field")
+        return self.second_order and not any(entry.operands[1] for entry in leaves)
 
     @cached_property
     def without_imaginary_parts(self) -> tuple[str, ...]:
         """The complex fields whose imaginary parts never change and are never read."""
-        read = {one.operands[:2] for one in leaves_in(self.rates, "field")}
+        read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         return tuple(
             field for c, field in enumerate(self.fields)
             if self.form != "d2_dt2" and (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
@@ -390,27 +397,28 @@ class Model:
         draw = np.random.default_rng(1).uniform(0.5, 1.5, 1000)
         leaves = leaves_in(self.rates, "field")
         weights = {
-            (c, by): number(draw[i]) for i, (c, _, by) in enumerate(one.operands for one in leaves)
+            (c, by): number(draw[i])
+            for i, (c, _, by) in enumerate(entry.operands for entry in leaves)
         }
 
-        def along(part: int) -> list[Node]:
+        def along(re_im: int) -> list[Node]:
             return derivative(
                 self.rates,
-                lambda one: (
-                    weights[one.operands[::2]]
-                    if one.operation == "field" and one.operands[1] == part
+                lambda entry: (
+                    weights[entry.operands[::2]]
+                    if entry.operation == "field" and entry.operands[1] == re_im
                     else ZERO
                 ),
             )
 
         real, imaginary = along(0), along(1)
-        still = rebuilt(
+        real_rates = rebuilt(
             self.rates[1::2],
-            lambda one, _: ZERO if one.operation == "field" and one.operands[1] else None,
+            lambda entry, _: ZERO if entry.operation == "field" and entry.operands[1] else None,
         )
         odd = [sub(a, b) for a, b in zip(real[::2], imaginary[1::2], strict=True)]
         odd += [add(a, b) for a, b in zip(real[1::2], imaginary[::2], strict=True)]
-        return bool(leaves_in(real, "field")) and all(map(_vanishes, [*still, *odd]))
+        return bool(leaves_in(real, "field")) and all(map(_vanishes, [*real_rates, *odd]))
 
     @cached_property
     def driven(self) -> bool:
@@ -436,15 +444,15 @@ class Model:
 
         Where a function has no derivative at rest, that of the fields at rest leaves it out.
         """
-        given = {name: value for name, value in self.parameters.items() if not callable(value)}
-        sizes = {name: _size_of(value) for name, value in (given | parameters).items()}
+        defaults = {name: value for name, value in self.parameters.items() if not callable(value)}
+        sizes = {name: _size_of(value) for name, value in (defaults | parameters).items()}
 
-        def size(one: Node) -> float:
-            if one.operation == "number":
-                return one.operands[0]
-            if one.operation == "field":
+        def size(entry: Node) -> float:
+            if entry.operation == "number":
+                return entry.operands[0]
+            if entry.operation == "field":
                 return peak
-            return sizes.get(one.operands[0], 1.0) if one.operands else 1.0
+            return sizes.get(entry.operands[0], 1.0) if entry.operands else 1.0
 
         columns, changes = self._slopes
         with np.errstate(all="ignore"):
@@ -461,8 +469,8 @@ class Model:
         """The rows of the fields that rates read, and the derivatives of all rates by each."""
         columns, changes = [], []
         for entry in leaves_in(self.rates, "field"):
-            component, part, _ = entry.operands
-            columns.append(2 * component + part)
+            component, re_im, _ = entry.operands
+            columns.append(2 * component + re_im)
             changes += derivative(self.rates, lambda leaf, entry=entry: number(leaf is entry))
         return columns, tuple(changes)
 
@@ -470,14 +478,14 @@ class Model:
         """Return the model of a solution and a small perturbation of it: twice the fields."""
         count = len(self.fields)
 
-        def change(one: Node) -> Node:
-            if one.operation != "field":
+        def change(entry: Node) -> Node:
+            if entry.operation != "field":
                 return ZERO
-            component, *place = one.operands
+            component, *place = entry.operands
             return leaf(component + count, *place)
 
-        other = object.__new__(Model)
-        other.__dict__.update(
+        tangent = object.__new__(Model)
+        tangent.__dict__.update(
             fields=(*self.fields, *(f"d{field}" for field in self.fields)),
             parameters=self.parameters,
             name=self.name,
@@ -486,7 +494,7 @@ class Model:
             rates=(*self.rates, *derivative(self.rates, change)),
             conserved={},
         )
-        return other
+        return tangent
 
 
 def _size_of(value: Any) -> float:
@@ -567,15 +575,15 @@ def _of_json(text: str) -> Model:
     return model
 
 
-def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
+def _names(kind: str, names: Iterable[str], model: str) -> tuple[str, ...]:
     """Return the names of fields or parameters.
 
     Raises ModelError with the first that is no valid name, and why.
     """
-    if not isinstance(given, Iterable):
-        raise ModelError(f"{model}: {kind} is {given!r}; give names, such as ('u',)")
-    found = tuple(given)
-    for place, name in enumerate(found):
+    if not isinstance(names, Iterable):
+        raise ModelError(f"{model}: {kind} is {names!r}; give names, such as ('u',)")
+    checked = tuple(names)
+    for place, name in enumerate(checked):
         why = None
         if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
             why = "is no name in Python; write fields = ('u', 'v') for two fields"
@@ -589,13 +597,13 @@ def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
             why = "is a key of a case or a dimension of its datasets; give it another name"
         elif kind == "fields" and name == ALL_FIELDS:
             why = "stands for all fields together in sweeps; give the field another name"
-        elif name in found[:place]:
+        elif name in checked[:place]:
             why = "is given twice"
         if why:
             raise ModelError(f"{model}: the name {name!r} in {kind} {why}")
-    if kind == "fields" and not found:
+    if kind == "fields" and not checked:
         raise ModelError(f"{model}: fields is empty; give the name of a field, such as ('u',)")
-    return found
+    return checked
 
 
 def _is_sum_of_squares(term: Node) -> bool:
@@ -612,9 +620,9 @@ def _is_sum_of_squares(term: Node) -> bool:
     return False
 
 
-def _vanishes(one: Node) -> bool:
+def _vanishes(entry: Node) -> bool:
     """Return whether an expression is zero, but for rounding, at numbers drawn for its leaves."""
-    if one is ZERO:
+    if entry is ZERO:
         return True
     rng = np.random.default_rng(2017)
     drawn: dict[Node, Any] = {}
@@ -625,10 +633,10 @@ def _vanishes(one: Node) -> bool:
         shape = (8, 8) if leaf.operation == "matrix" else 8
         return drawn.setdefault(leaf, rng.uniform(0.5, 1.5, shape))
 
-    return bool(np.abs(evaluate([one], value)[0]).max() < 1e-12)
+    return bool(np.abs(evaluate([entry], value)[0]).max() < 1e-12)
 
 
-def _takes(function: Callable, count: int) -> bool:
+def _accepts(function: Callable, count: int) -> bool:
     """Return whether a function can be called with so many values."""
     try:
         inspect.signature(function).bind(*range(count))

@@ -25,7 +25,7 @@ def run_file(path: Path, text: str) -> dict[str, Any]:
 
     Raises ModelError with the line of the file where it fails.
     """
-    folder, given = path.resolve().parent, {"__file__": str(path), "__name__": path.stem}
+    folder, namespace = path.resolve().parent, {"__file__": str(path), "__name__": path.stem}
     known, bytecode = _modules_in(folder), sys.dont_write_bytecode
     for name in known:
         del sys.modules[name]
@@ -33,7 +33,7 @@ def run_file(path: Path, text: str) -> dict[str, Any]:
     sys.path.insert(0, str(folder))
     sys.dont_write_bytecode = True
     try:
-        exec(compile(text, str(path), "exec"), given)
+        exec(compile(text, str(path), "exec"), namespace)
     except (Exception, SystemExit) as error:
         raise ModelError(placed(error, str(path), text, path.name)) from None
     finally:
@@ -42,7 +42,7 @@ def run_file(path: Path, text: str) -> dict[str, Any]:
         for name in _modules_in(folder):
             del sys.modules[name]
         sys.modules.update(known)
-    return given
+    return namespace
 
 
 def _modules_in(folder: Path) -> dict[str, Any]:
@@ -54,14 +54,16 @@ def _modules_in(folder: Path) -> dict[str, Any]:
 
 def placed(error: BaseException, place: str, text: str, name: str) -> str:
     """Return what is wrong, with the line of the user's file or notebook where it is."""
-    frames = [one for one in traceback.extract_tb(error.__traceback__) if one.filename == place]
+    frames = [
+        frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == place
+    ]
     at = frames[-1].lineno if frames else getattr(error, "lineno", None)
-    what = f"{error}" if isinstance(error, ModelError) else f"{type(error).__name__}: {error}"
+    reason = f"{error}" if isinstance(error, ModelError) else f"{type(error).__name__}: {error}"
     if at is None:
-        return f"{name}: {what}"
+        return f"{name}: {reason}"
     in_file, lines = place.endswith(name), text.splitlines()
     line = lines[at - 1] if in_file and at <= len(lines) else frames[-1].line if frames else ""
-    return f"{name}, line {at}: {what}\n    {(line or '').strip()}"
+    return f"{name}, line {at}: {reason}\n    {(line or '').strip()}"
 
 
 def chain_sites(half_width: int | None, site_count: int | None = None) -> range:
@@ -69,15 +71,15 @@ def chain_sites(half_width: int | None, site_count: int | None = None) -> range:
     return range(-half_width, half_width + 1) if site_count is None else range(site_count)
 
 
-def values_at(given: Any, sites: range) -> float | list[float]:
+def values_at(value: Any, sites: range) -> float | list[float]:
     """Return a parameter as a number, or as a list of one for each of the sites of a chain.
 
-    `given` is a number, a list or an array of one for each site, or a function of the array of
+    `value` is a number, a list or an array of one for each site, or a function of the array of
     sites that returns either. Raises ValueError with what is wrong, to stand behind its name.
     """
-    if callable(given):
-        given = call_on_sites(given, np.array(sites))
-    values = _as_array(given)
+    if callable(value):
+        value = call_on_sites(value, np.array(sites))
+    values = _as_array(value)
     if values.shape not in ((), (len(sites),)):
         size = " x ".join(map(str, values.shape))
         hint = "; a matrix is taken by couple(p.W, u)" if values.ndim == 2 else ""
@@ -98,20 +100,20 @@ def _as_array(given: Any) -> np.ndarray:
         if kind in "iufU":
             return values.astype(float)
     real = ", and complex; give its real and its imaginary part" if kind == "c" else ""
-    raise ValueError(f"is {_shown(given)}, not a number or a list of one for each site{real}")
+    raise ValueError(f"is {_as_text(given)}, not a number or a list of one for each site{real}")
 
 
 def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
     """Return what a function of the sites gives, which must be the same each time."""
     with np.errstate(all="ignore"):
         try:
-            found, again = function(sites.copy()), function(sites.copy())
+            first, second = function(sites.copy()), function(sites.copy())
         except Exception as error:
             text = f"is a function of the sites that fails: {type(error).__name__}: {error}"
             raise ValueError(text) from None
-    if not same(found, again):
+    if not same(first, second):
         raise ValueError(f"is a function of the sites with other values each time. {SEED}")
-    return found
+    return first
 
 
 def same(a: Any, b: Any) -> bool:
@@ -124,6 +126,6 @@ def same(a: Any, b: Any) -> bool:
         return True
 
 
-def _shown(given: Any) -> str:
-    text = " ".join(repr(given).split())
+def _as_text(value: Any) -> str:
+    text = " ".join(repr(value).split())
     return text if len(text) <= 60 else f"{text[:57]}..."

@@ -88,21 +88,21 @@ class Value:
         """The value at the site n - 1."""
         return shift(self, -1)
 
-    def __add__(self, other):
-        other = Value.of(other)
-        return Value(add(self.re, other.re), add(self.im, other.im))
+    def __add__(self, operand):
+        operand = Value.of(operand)
+        return Value(add(self.re, operand.re), add(self.im, operand.im))
 
-    def __sub__(self, other):
-        other = Value.of(other)
-        return Value(sub(self.re, other.re), sub(self.im, other.im))
+    def __sub__(self, operand):
+        operand = Value.of(operand)
+        return Value(sub(self.re, operand.re), sub(self.im, operand.im))
 
-    def __mul__(self, other):
-        other = Value.of(other)
-        if self is other or (self.re is other.re and self.im is other.im):
+    def __mul__(self, operand):
+        operand = Value.of(operand)
+        if self is operand or (self.re is operand.re and self.im is operand.im):
             return self._square()
         return Value(
-            sub(mul(self.re, other.re), mul(self.im, other.im)),
-            add(mul(self.re, other.im), mul(self.im, other.re)),
+            sub(mul(self.re, operand.re), mul(self.im, operand.im)),
+            add(mul(self.re, operand.im), mul(self.im, operand.re)),
         )
 
     def _square(self):
@@ -110,13 +110,13 @@ class Value:
         squares = sub(mul(self.re, self.re), mul(self.im, self.im))
         return Value(squares, mul(TWO, product))
 
-    def __truediv__(self, other):
-        other = Value.of(other)
-        if other.im is not ZERO:
-            return self * other.conjugate() / abs2(other)
-        if other.re.level > CONSTANT:
-            return Value(div(self.re, other.re), div(self.im, other.re))
-        inverse = reciprocal(other.re)
+    def __truediv__(self, operand):
+        operand = Value.of(operand)
+        if operand.im is not ZERO:
+            return self * operand.conjugate() / abs2(operand)
+        if operand.re.level > CONSTANT:
+            return Value(div(self.re, operand.re), div(self.im, operand.re))
+        inverse = reciprocal(operand.re)
         return Value(mul(inverse, self.re), mul(inverse, self.im))
 
     def __pow__(self, exponent):
@@ -140,17 +140,17 @@ class Value:
     def __pos__(self):
         return self
 
-    def __radd__(self, other):
-        return Value.of(other) + self
+    def __radd__(self, operand):
+        return Value.of(operand) + self
 
-    def __rsub__(self, other):
-        return Value.of(other) - self
+    def __rsub__(self, operand):
+        return Value.of(operand) - self
 
-    def __rmul__(self, other):
-        return Value.of(other) * self
+    def __rmul__(self, operand):
+        return Value.of(operand) * self
 
-    def __rtruediv__(self, other):
-        return Value.of(other) / self
+    def __rtruediv__(self, operand):
+        return Value.of(operand) / self
 
     def conjugate(self):
         """Return the complex conjugate."""
@@ -168,17 +168,17 @@ class Value:
             return Value.__pow__(*operands)
         return rule(*map(Value.of, operands))
 
-    def __gt__(self, other) -> "Condition":
-        return Condition(sub(_real_part(self, ">"), _real_part(other, ">")))
+    def __gt__(self, operand) -> "Condition":
+        return Condition(sub(_real_part(self, ">"), _real_part(operand, ">")))
 
-    def __lt__(self, other) -> "Condition":
-        return Value.of(other) > self
+    def __lt__(self, operand) -> "Condition":
+        return Value.of(operand) > self
 
-    def __ge__(self, other) -> "Condition":
-        return Condition((self < other).difference, negated=True)
+    def __ge__(self, operand) -> "Condition":
+        return Condition((self < operand).difference, negated=True)
 
-    def __le__(self, other) -> "Condition":
-        return Value.of(other) >= self
+    def __le__(self, operand) -> "Condition":
+        return Value.of(operand) >= self
 
     def _refuse(self, *_):
         raise ModelError(BRANCH)
@@ -228,8 +228,10 @@ def shift(w: Value, sites: int) -> Value:
     try:
         sites = index(sites)
     except (TypeError, ModelError):
-        what = "a symbol" if isinstance(sites, Value) else repr(sites)
-        raise ModelError(f"shift(u, m) takes a whole number m, such as 2, not {what}") from None
+        shown_number = "a symbol" if isinstance(sites, Value) else repr(sites)
+        raise ModelError(
+            f"shift(u, m) takes a whole number m, such as 2, not {shown_number}"
+        ) from None
     w = Value.of(w)
     if sites and leaves_in([w.re, w.im], "matrix"):
         text = "what couple(p.W, u) returns has no neighbours; move the rows of the matrix instead"
@@ -301,15 +303,16 @@ def sqrt(w: Value) -> Value:
     return _of_real("sqrt", w)
 
 
-def where(condition: Condition, one: Value, other: Value) -> Value:
-    """Return `one` at the sites where a condition such as x > 0 holds, `other` elsewhere."""
+def where(condition: Condition, if_true: Value, if_false: Value) -> Value:
+    """Return `if_true` at the sites where a condition such as x > 0 holds, `if_false` elsewhere."""
     if not isinstance(condition, Condition):
         raise ModelError("where(condition, a, b) takes a comparison of real values, such as x > 0")
-    one, other = Value.of(one), Value.of(other)
+    if_true, if_false = Value.of(if_true), Value.of(if_false)
     if condition.negated:
-        one, other = other, one
+        if_true, if_false = if_false, if_true
     re, im = (
-        select(condition.difference, *pair) for pair in ((one.re, other.re), (one.im, other.im))
+        select(condition.difference, *pair)
+        for pair in ((if_true.re, if_false.re), (if_true.im, if_false.im))
     )
     return Value(re, im)
 
@@ -318,7 +321,7 @@ def max(*values: Value) -> Value:
     """Return the largest of real values at each site; of plain numbers, what Python does."""
     if not any(isinstance(value, Value) for value in values):
         return builtins.max(*values)
-    return reduce(lambda one, other: where(Value.of(one) > other, one, other), values)
+    return reduce(lambda first, second: where(Value.of(first) > second, first, second), values)
 
 
 def abs(w: Value) -> Value:

@@ -14,8 +14,8 @@ from typing import NamedTuple
 from latticode.equations.graph import (
     CONSTANT,
     MOTION,
-    ONE,
     TWO,
+    UNIT,
     Node,
     derivative,
     leaves_in,
@@ -132,7 +132,7 @@ def with_carried(
         kind, row = KINDS[expression.operation]
         argument = expression.operands[-1]
         if not has_rate(argument, rates):
-            return mul(operands[0], node("div", ONE, operands[1])) if kind == "inverse" else None
+            return mul(operands[0], node("div", UNIT, operands[1])) if kind == "inverse" else None
         first = sum(ROWS[name] for name, _ in groups)
         carried_group = groups.setdefault((kind, argument), Carried(kind, argument, first))
         leaf = carried(carried_group.first + row)

@@ -110,8 +110,8 @@ def _value_at(problem: Problem, when: Node, column: int) -> Callable[[np.ndarray
                     row = factor * state[part, component][seen]
                     return row[reach + by : reach + by + problem.sites]
 
-        (found,) = evaluate([when], of_leaf)
-        return float(np.broadcast_to(found, (problem.sites,))[column])
+        (values,) = evaluate([when], of_leaf)
+        return float(np.broadcast_to(values, (problem.sites,))[column])
 
     return value
 

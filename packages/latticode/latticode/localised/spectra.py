@@ -27,9 +27,9 @@ class Spectrum(NamedTuple):
 def count_directions(problem: Problem) -> int:
     """Return how many independent perturbations a problem has: real numbers that may change."""
     model = problem.model
-    parts = 1 if model.form == "dt" else 2
+    rows = 1 if model.form == "dt" else 2
     fixed = len(model.without_imaginary_parts) if model.form == "i_dt" else 0
-    return (parts * len(model.fields) - fixed) * problem.sites
+    return (rows * len(model.fields) - fixed) * problem.sites
 
 
 def measure_spectrum(problem: Problem, count: int) -> Spectrum:
