@@ -44,8 +44,8 @@ def test_a_survey_has_a_row_for_each_run(tmp_path):
     head, *rows = rows_of(tmp_path / "survey.csv")
     assert sorted(head) == ["final u [1]", "member [1]", "omega [1]"]
     places = [head.index(name) for name in ("omega [1]", "member [1]", "final u [1]")]
-    found = {tuple(float(row[i]) for i in places) for row in rows}
-    assert found == {(omega, n, n + 3 * (omega > 0)) for omega in (-1.0, 1.0) for n in range(3)}
+    computed = {tuple(float(row[i]) for i in places) for row in rows}
+    assert computed == {(omega, n, n + 3 * (omega > 0)) for omega in (-1.0, 1.0) for n in range(3)}
 
 
 def test_what_is_no_table_is_refused(tmp_path):

@@ -43,23 +43,23 @@ def flipped(content, bit):
 
 
 def test_a_flipped_bit_is_rejected_or_changes_nothing(dataset):
-    content, whole, rejected = dataset.read_bytes(), read(dataset), 0
+    content, intact, rejected = dataset.read_bytes(), read(dataset), 0
     for bit in random.Random(0).sample(range(8 * len(content)), FLIPS):
         dataset.write_bytes(flipped(content, bit))
         try:
-            found = read(dataset)
+            computed = read(dataset)
         except DatasetError as error:
             assert f"{dataset} is damaged" in str(error) and "delete it" in str(error)
             rejected += 1
         else:
-            assert found.identical(whole), f"bit {bit} changed the content"
+            assert computed.identical(intact), f"bit {bit} changed the content"
     assert rejected > 0.9 * FLIPS
 
 
 def test_a_reader_without_our_library_is_told_of_a_flipped_number(dataset):
     """The checksums of HDF5: a bit is flipped in the middle of the largest variable."""
     variables = xr.load_dataset(dataset, engine="netcdf4").variables.values()
-    numbers = (one for one in variables if one.dtype.kind == "f")
+    numbers = (first for first in variables if first.dtype.kind == "f")
     largest = max(numbers, key=lambda variable: variable.nbytes)
     content = dataset.read_bytes()
     place = content.index(np.ascontiguousarray(largest.values).tobytes()[:64])
@@ -78,8 +78,8 @@ def test_the_same_content_gives_the_same_bytes(dataset, tmp_path):
 
 def test_a_dataset_cut_anywhere_is_rejected(dataset):
     content = dataset.read_bytes()
-    for kept in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
-        dataset.write_bytes(content[:kept])
+    for length in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
+        dataset.write_bytes(content[:length])
         with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and run"):
             read(dataset)
 
@@ -88,9 +88,9 @@ def test_a_dataset_cut_anywhere_is_rejected(dataset):
     ("path", "words"), [("", "is a folder: name"), ("/", "^/ is a folder: name"), (3, "not a int")]
 )
 def test_what_is_no_file_at_all_is_not_to_be_deleted(path, words):
-    with pytest.raises(DatasetError, match=words) as told:
+    with pytest.raises(DatasetError, match=words) as message:
         read(path)
-    assert "delete" not in str(told.value)
+    assert "delete" not in str(message.value)
 
 
 def test_whatever_a_library_makes_of_a_damaged_file_names_it(tmp_path):

@@ -84,9 +84,9 @@ def test_rounding_keeps_significant_digits(value, expected):
 
 def test_rounded_values_keep_their_shape_and_say_their_digits():
     values = np.array([[1.23456, 2.0], [np.nan, 1e-300 / 3.0]])
-    found = variable(values, ("x", "y"), "values", digits=3)
-    assert found["attrs"]["significant_digits"] == 3
-    np.testing.assert_array_equal(found["data"], [[1.23, 2.0], [np.nan, 3.33e-301]])
+    computed = variable(values, ("x", "y"), "values", digits=3)
+    assert computed["attrs"]["significant_digits"] == 3
+    np.testing.assert_array_equal(computed["data"], [[1.23, 2.0], [np.nan, 3.33e-301]])
     assert "significant_digits" not in variable(values, ("x", "y"), "values")["attrs"]
 
 
@@ -102,7 +102,7 @@ def change(place, value) -> np.ndarray:
     return values
 
 
-OTHER = {
+CHANGED = {
     "last bit": (PLACES, change((0, 0), np.nextafter(1.0, 2.0))),
     "sign of zero": (PLACES, change((0, 1), 0.0)),
     "sign of infinity": (PLACES, change((0, 2), -np.inf)),
@@ -114,9 +114,9 @@ OTHER = {
 }
 
 
-@pytest.mark.parametrize("name", OTHER)
+@pytest.mark.parametrize("name", CHANGED)
 def test_every_change_of_values_shows(name):
-    assert digest_values(*OTHER[name]) != digest_values(PLACES, VALUES)
+    assert digest_values(*CHANGED[name]) != digest_values(PLACES, VALUES)
 
 
 def test_letters_moved_between_words_show():

@@ -27,10 +27,10 @@ def test_arguments_become_numbers_and_text(given, says):
 
 def test_several_problems_state_what_they_share_once_and_the_rest_by_name():
     problems = {name: dimers(boundary=ends) for name, ends in (("a", "free"), ("b", "periodic"))}
-    found = stated({"problems": problems}, (), ["checks/a", "checks/b"], make)
-    assert found["half_width"] == 8 and "boundary" not in found
-    assert found["problems"] == '{"a": {"boundary": "free"}, "b": {"boundary": "periodic"}}'
-    assert found["computed_from"] == "checks/a, checks/b"
+    computed = stated({"problems": problems}, (), ["checks/a", "checks/b"], make)
+    assert computed["half_width"] == 8 and "boundary" not in computed
+    assert computed["problems"] == '{"a": {"boundary": "free"}, "b": {"boundary": "periodic"}}'
+    assert computed["computed_from"] == "checks/a, checks/b"
     assert "problems" not in stated({"problems": problems}, ("boundary",), [], make)
 
 

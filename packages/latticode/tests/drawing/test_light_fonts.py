@@ -40,5 +40,5 @@ def test_a_pdf_holds_as_truetype_the_letters_of_any_name(tmp_path):
     content = (tmp_path / "f.pdf").read_bytes()
     fonts = [TTFont(BytesIO(zlib.decompress(font))) for font in STREAM.findall(content)]
     letters = {name for font in fonts for name in font.getGlyphOrder()}
-    wanted = {"f", "i", "Psi", "lslash", "uni0436", "eacute", "Omega", "germandbls"}
-    assert wanted <= letters and b"/Type3" not in content
+    expected = {"f", "i", "Psi", "lslash", "uni0436", "eacute", "Omega", "germandbls"}
+    assert expected <= letters and b"/Type3" not in content

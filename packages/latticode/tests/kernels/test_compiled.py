@@ -11,7 +11,7 @@ from another_numba import another_numba
 from latticode.kernels.sources import ROOTS
 
 LONG = "\n".join(f"        x += inner(x, {i}.0) / (1.0 + x * x)" for i in range(30))
-MADE = f"""
+SOURCE = f"""
 from latticode.kernels.compiled import kernel, uncached
 
 def build(inner):
@@ -58,8 +58,8 @@ for names in sys.argv[1:]:
 def test_a_run_without_compilation_is_refused_by_name():
     disabled = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
     command = [sys.executable, "-c", "from latticode.integrators import taylor"]
-    said = subprocess.run(command, env=disabled, capture_output=True, text=True).stderr
-    assert "RuntimeError: NUMBA_DISABLE_JIT is set" in said
+    message = subprocess.run(command, env=disabled, capture_output=True, text=True).stderr
+    assert "RuntimeError: NUMBA_DISABLE_JIT is set" in message
 
 
 @pytest.fixture(params=["ours", "numba alone"])
@@ -81,9 +81,9 @@ def python(request, tmp_path):
 
 def test_kernels_that_two_processes_kept_stay_apart_in_a_third(python, tmp_path):
     """Each process numbers its functions alike, so `long` had the same name in both."""
-    (tmp_path / "made.py").write_text(MADE)
-    said = python("-c", FORKS, "of_sums", "of_products", "of_sums of_products")
-    first, second, third = map(json.loads, said.splitlines())
+    (tmp_path / "made.py").write_text(SOURCE)
+    message = python("-c", FORKS, "of_sums", "of_products", "of_sums of_products")
+    first, second, third = map(json.loads, message.splitlines())
     assert first != second and third == first + second
 
 
@@ -91,8 +91,8 @@ def test_an_edit_of_a_function_in_another_file_is_seen(python, tmp_path):
     inner, outer = (tmp_path / "latticode/kernels" / name for name in ("inner.py", "outer.py"))
     kernel = "from .compiled import kernel\n@kernel\ndef {}(x):\n    return {}\n"
     outer.write_text("from .inner import double\n" + kernel.format("twice", "double(double(x))"))
-    found = []
+    computed = []
     for factor in (2, 300):  # of another length, see test_kernel_cache
         inner.write_text(kernel.format("double", f"{factor} * x"))
-        found.append(python("-c", "from latticode.kernels import outer; print(outer.twice(1))"))
-    assert found == ["4\n", "90000\n"]
+        computed.append(python("-c", "from latticode.kernels import outer; print(outer.twice(1))"))
+    assert computed == ["4\n", "90000\n"]

@@ -33,15 +33,15 @@ def test_a_part_has_no_machine_code_and_is_compiled_once_for_all_callers():
         return x + 1.0
 
     @uncached
-    def one(x):
+    def first(x):
         return part(x)
 
     @uncached
-    def other(x):
+    def second(x):
         return part(x) + part(2.0 * x)
 
     with event.install_recorder("numba:compile") as compiled:
-        assert (one(1.0), other(1.0)) == (2.0, 5.0)
+        assert (first(1.0), second(1.0)) == (2.0, 5.0)
     names = [record.data["dispatcher"].__name__ for _, record in compiled.buffer if record.is_start]
     assert sorted(names) == ["one", "other", "part"]
     assert not part.overloads  # Python has not called it
@@ -74,16 +74,16 @@ def test_a_kernel_that_asks_for_memory_is_refused():
 
 def test_parts_that_another_process_kept_make_the_same_kernel(tmp_path):
     def compile_anew():
-        made = make_kernel(largest_magnitude.py_func, tmp_path)
+        built = make_kernel(largest_magnitude.py_func, tmp_path)
 
         @uncached
         def caller(values):
-            return made(values)
+            return built(values)
 
-        return made.subroutine, caller(np.array([1.0, -3.0, 2.0]))
+        return built.subroutine, caller(np.array([1.0, -3.0, 2.0]))
 
     first, second = compile_anew(), compile_anew()
     assert first[1] == second[1] == 3.0
-    hits = [sum(part.stats.cache_hits.values()) for part, _ in (first, second)]
+    hits = [sum(component.stats.cache_hits.values()) for component, _ in (first, second)]
     assert hits == [0, 1]
     assert [path.suffix for path in tmp_path.rglob("*.*")] == [".part"]

@@ -14,14 +14,14 @@ from latticode.kernels import sources
 from latticode.kernels.cache import UNUSED, VARIABLE, KernelFiles, kept_in
 from latticode.kernels.inside_numba import make_kernel
 
-MADE = "def double(x):\n    return 2 * x\n"
+SOURCE = "def double(x):\n    return 2 * x\n"
 
 
 @pytest.fixture
 def module(tmp_path):
     path = tmp_path / "project" / "made.py"
     path.parent.mkdir()
-    path.write_text(MADE)
+    path.write_text(SOURCE)
     return path
 
 
@@ -35,9 +35,9 @@ def compile_anew(path, kept):
     for remembered in (sources.digest_of, sources.digest_of_modules, sources._imports_of):
         remembered.cache_clear()
     spec = spec_from_file_location("made", path)
-    made = sys.modules["made"] = module_from_spec(spec)  # kept code names its module
-    spec.loader.exec_module(made)
-    return make_kernel(made.double, kept)
+    built = sys.modules["made"] = module_from_spec(spec)  # kept code names its module
+    spec.loader.exec_module(built)
+    return make_kernel(built.double, kept)
 
 
 def found(compiled) -> int:
@@ -66,12 +66,12 @@ def test_named_tuples_of_one_name_share_no_code(module, kept, monkeypatch, field
     """They may differ in the order of their fields, or only in the module of their class."""
     module.write_text("def double(x):\n    return x[0].mass - x[0].charge, x[0]\n")
     for name, order in ("first", ("mass", "charge")), ("second", fields):
-        monkeypatch.setitem(sys.modules, name, made := ModuleType(name))
-        exec(CHAIN.format(*order), made.__dict__)
+        monkeypatch.setitem(sys.modules, name, built := ModuleType(name))
+        exec(CHAIN.format(*order), built.__dict__)
         compiled = compile_anew(module, kept)
-        chain = made.Chain(mass=3.0, charge=1.0)
+        chain = built.Chain(mass=3.0, charge=1.0)
         difference, same = compiled((chain,))
-        assert difference == 2.0 and type(same) is made.Chain and found(compiled) == 0
+        assert difference == 2.0 and type(same) is built.Chain and found(compiled) == 0
 
 
 def test_a_copied_project_with_new_time_stamps_finds_its_kernels(module, kept):
@@ -88,16 +88,16 @@ def test_an_edited_module_or_another_setting_of_the_compiler_finds_none(module, 
         changed.setenv("NUMBA_OPT", "1")
         assert found(compile_anew(module, kept)) == 0 and compile_anew(module, kept)(3) == 6
     # of another length, since Python compares the size of a module and the second of its last edit
-    module.write_text(MADE.replace("2 * x", "21 * x"))
+    module.write_text(SOURCE.replace("2 * x", "21 * x"))
     edited = compile_anew(module, kept)
     assert edited(3) == 63 and found(edited) == 0
 
 
-OTHER = pickle.dumps(("of another numba",))
+FOREIGN = pickle.dumps(("of another numba",))
 DAMAGE = {
-    "cut": lambda file, whole: whole[:-9],
-    "changed": lambda file, whole: whole[:-1] + b"?",
-    "of another numba": lambda file, whole: KernelFiles._seal(file, OTHER) + OTHER,
+    "cut": lambda file, content: content[:-9],
+    "changed": lambda file, content: content[:-1] + b"?",
+    "of another numba": lambda file, content: KernelFiles._seal(file, FOREIGN) + FOREIGN,
 }
 
 
@@ -108,8 +108,8 @@ def test_a_damaged_file_is_compiled_and_written_again(module, kept, damage):
     file.write_bytes(DAMAGE[damage](file, file.read_bytes()))
     compiled = compile_anew(module, kept)
     assert compiled(3) == 6 and found(compiled) == 0
-    again = compile_anew(module, kept)  # the lengths differ: numba numbers what it compiles
-    assert again(3) == 6 and found(again) == 1
+    recomputed = compile_anew(module, kept)  # the lengths differ: numba numbers what it compiles
+    assert recomputed(3) == 6 and found(recomputed) == 1
 
 
 def test_a_file_that_others_can_write_is_not_loaded(module, kept):
@@ -133,12 +133,12 @@ def test_a_folder_that_others_can_write_is_not_used(monkeypatch, kept):
 def test_what_nobody_used_for_long_is_removed_when_a_module_is_compiled_anew(module, kept):
     compile_anew(module, kept)(3)
     (old,) = kept.iterdir()
-    module.write_text(MADE + "# edited\n")
+    module.write_text(SOURCE + "# edited\n")
     compile_anew(module, kept)(3)
     assert old.exists()  # a run of another branch may need it tomorrow
     long_ago = time.time() - 2 * UNUSED
     os.utime(old, (long_ago, long_ago))
-    module.write_text(MADE + "# edited twice\n")
+    module.write_text(SOURCE + "# edited twice\n")
     compile_anew(module, kept)(3)
     assert not old.exists() and len(list(kept.iterdir())) == 2
 
@@ -158,7 +158,7 @@ def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
 
 def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
     large = "import numpy as np\nTABLE = np.ones(200_000)\n"  # numba compiles in where it lies
-    module.write_text(large + MADE.replace("2 * x", "2 * x * TABLE[x]"))
+    module.write_text(large + SOURCE.replace("2 * x", "2 * x * TABLE[x]"))
     assert compile_anew(module, kept)(3) == 6.0
     assert not list(kept.rglob("*.kernel"))
 
@@ -170,6 +170,6 @@ def test_folders_are_private_whatever_the_umask(tmp_path, mask):
         kernel_cache._write(root / "module" / "name.kernel", b"code")
     finally:
         os.umask(before)
-    made = [root.parent, root, root / "module"]
-    assert [path.stat().st_mode & 0o777 for path in made] == [0o700] * 3
+    built = [root.parent, root, root / "module"]
+    assert [path.stat().st_mode & 0o777 for path in built] == [0o700] * 3
     assert kernel_cache._trusted(root) == root

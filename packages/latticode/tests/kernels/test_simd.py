@@ -26,9 +26,9 @@ from latticode.kernels.simd import (
     vector_views,
 )
 
-ONE = np.array([1.0, -2.0, 3.5, 0.1, 7.7, 1e-3, -0.6, 2.2])
-OTHER = np.array([0.3, 5.0, -7.0, 0.2, 1.9, -4.4, 8.8, 0.7])
-BOTH = np.concatenate([ONE, OTHER])
+FIRST = np.array([1.0, -2.0, 3.5, 0.1, 7.7, 1e-3, -0.6, 2.2])
+SECOND = np.array([0.3, 5.0, -7.0, 0.2, 1.9, -4.4, 8.8, 0.7])
+BOTH = np.concatenate([FIRST, SECOND])
 LARGE = [0.0, -0.0, 1e-320, -1.0, 1e300, -np.inf, np.nan, -np.nan]
 numbers = st.lists(st.floats(allow_nan=False), min_size=LANES, max_size=LANES).map(np.array)
 
@@ -68,15 +68,15 @@ def test_load_and_store_take_a_vector_from_and_to_any_place_and_fill_repeats_one
 
 @uncached
 def operate(out, number, a, b):
-    one, other = load(a, 0), load(b, 0)
+    first, second = load(a, 0), load(b, 0)
     results = (
-        one + other,
-        one - other,
-        one * other,
-        number + one,
-        number - one,
-        number * one,
-        -one,
+        first + second,
+        first - second,
+        first * second,
+        number + first,
+        number - first,
+        number * first,
+        -first,
     )
     for i in range(7):
         store(out, i * LANES, results[i])
@@ -86,14 +86,14 @@ def operate(out, number, a, b):
 def test_operators_of_vectors_and_of_a_number_to_the_left_have_the_bits_of_numpy(one, other):
     with np.errstate(all="ignore"):
         results = one + other, one - other, one * other, 0.7 + one, 0.7 - one, 0.7 * one, -one
-        found, expected = rows_of(operate, 7, 0.7, one, other), np.array(results)
-    np.testing.assert_array_equal(found, expected)
-    np.testing.assert_array_equal(np.signbit(found[6]), np.signbit(expected[6]))  # of zero too
+        computed, expected = rows_of(operate, 7, 0.7, one, other), np.array(results)
+    np.testing.assert_array_equal(computed, expected)
+    np.testing.assert_array_equal(np.signbit(computed[6]), np.signbit(expected[6]))  # of zero too
 
 
 def test_eight_numbers_are_one_register_to_llvm():
     """No fewer: the code would be right, and slow."""
-    rows_of(operate, 7, 0.7, ONE, OTHER)
+    rows_of(operate, 7, 0.7, FIRST, SECOND)
     (code,) = operate.inspect_llvm().values()
     assert "fadd <8 x double>" in code
 
@@ -132,8 +132,8 @@ def keep_some(out, a, count):
 
 @pytest.mark.parametrize("count", range(LANES + 1))
 def test_keep_lanes_replaces_what_follows_the_count(count):
-    expected = np.where(np.arange(LANES) < count, ONE, 9.0)
-    np.testing.assert_array_equal(rows_of(keep_some, 1, ONE, count)[0], expected)
+    expected = np.where(np.arange(LANES) < count, FIRST, 9.0)
+    np.testing.assert_array_equal(rows_of(keep_some, 1, FIRST, count)[0], expected)
 
 
 # --- Magnitudes ---
@@ -154,11 +154,11 @@ def larger_of_numbers(a, b):
 
 
 def test_the_larger_magnitude_is_found_in_each_lane_and_nan_wins():
-    for one, other in itertools.product(LARGE, LARGE):
-        a, b = np.array([one, 1.0, other, 1.0] * 2), np.array([other, 2.0, one, -2.0] * 2)
-        expected = [larger_of_numbers(one, other), 2.0] * 4
-        found = rows_of(larger_of_vectors, 1, a, b)[0]
-        np.testing.assert_array_equal(found, expected, err_msg=f"{one} and {other}")
+    for first, second in itertools.product(LARGE, LARGE):
+        a, b = np.array([first, 1.0, second, 1.0] * 2), np.array([second, 2.0, first, -2.0] * 2)
+        expected = [larger_of_numbers(first, second), 2.0] * 4
+        computed = rows_of(larger_of_vectors, 1, a, b)[0]
+        np.testing.assert_array_equal(computed, expected, err_msg=f"{first} and {second}")
 
 
 @pytest.mark.parametrize("largest", [-1e-320, 2.0, -np.inf, np.nan, -np.nan])
@@ -222,8 +222,8 @@ write_sum_compiled = uncached(write_sum)
 
 
 @uncached
-def write_sum_by_views(one, other, j):
-    views = vector_views((one, other))
+def write_sum_by_views(first, second, j):
+    views = vector_views((first, second))
     write_sum_compiled(views[0], j)
     write_sum_compiled(views[1], j)
 

@@ -29,13 +29,13 @@ def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
 )
 def test_a_record_follows_every_kind_of_import(tmp_path, monkeypatch, statement):
     monkeypatch.setitem(sources.ROOTS, "mine", tmp_path)
-    here, room = tmp_path / "mine/studies/draw.py", tmp_path / "mine/drawing"
+    folder, room = tmp_path / "mine/studies/draw.py", tmp_path / "mine/drawing"
     room.mkdir(parents=True)
-    here.parent.mkdir()
+    folder.parent.mkdir()
     for path in (room / "__init__.py", room / "style.py", room / "other.py"):
         path.touch()
-    here.write_text(statement)
-    assert sources.modules_of(here) == [room / "__init__.py", room / "style.py", here]
+    folder.write_text(statement)
+    assert sources.modules_of(folder) == [room / "__init__.py", room / "style.py", folder]
 
 
 def imports_in(tree) -> list[str]:
@@ -51,8 +51,8 @@ def test_a_record_has_the_imports_that_python_finds():
         trees = sources._tree_of(text), ast.parse(text)
         assert imports_in(trees[0]) == imports_in(trees[1]), module
         sizes.append([sum(1 for _ in sources._statements(tree)) for tree in trees])
-    read, whole = map(sum, zip(*sizes, strict=True))
-    assert len(sizes) > 70 and read < 0.2 * whole
+    read, full = map(sum, zip(*sizes, strict=True))
+    assert len(sizes) > 70 and read < 0.2 * full
 
 
 LAYOUT = {tokenize.NL, tokenize.COMMENT, tokenize.INDENT, tokenize.DEDENT, tokenize.NEWLINE}
@@ -60,13 +60,13 @@ LAYOUT = {tokenize.NL, tokenize.COMMENT, tokenize.INDENT, tokenize.DEDENT, token
 
 def tokens_of(text: str) -> list[str]:
     """Return what Python makes of a module, without comments, layout and statements of strings."""
-    found = list(tokenize.generate_tokens(io.StringIO(text).readline))
-    found = [one for one in found if one.type not in LAYOUT - {tokenize.NEWLINE}]
-    ends = [True, *(one.type == tokenize.NEWLINE for one in found), True]
-    alone = [ends[i] and ends[i + 2] for i in range(len(found))]
-    pairs = zip(found, alone, strict=True)
-    kept = [one for one, only in pairs if not (only and one.type == tokenize.STRING)]
-    return [one.string for one in kept if one.type != tokenize.NEWLINE]
+    computed = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    computed = [first for first in computed if first.type not in LAYOUT - {tokenize.NEWLINE}]
+    ends = [True, *(first.type == tokenize.NEWLINE for first in computed), True]
+    alone = [ends[i] and ends[i + 2] for i in range(len(computed))]
+    pairs = zip(computed, alone, strict=True)
+    retained = [first for first, only in pairs if not (only and first.type == tokenize.STRING)]
+    return [first.string for first in retained if first.type != tokenize.NEWLINE]
 
 
 def test_what_is_left_out_of_the_hash_of_code_is_no_code():
@@ -101,19 +101,19 @@ def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monke
     (page / "__init__.py").write_text("from mine import other\n")
 
     def digest():
-        for one in (sources.digest_of_code, sources._digest_of_bare, sources.digest_of,
+        for first in (sources.digest_of_code, sources._digest_of_bare, sources.digest_of,
                     sources._versions, sources._imports_of, sources._data_files):  # fmt: skip
-            one.cache_clear()
+            first.cache_clear()
         return sources.digest_of_code(page / "__init__.py")
 
-    found = [digest()]
+    computed = [digest()]
     (tmp_path / "mine/other.py").write_text("X = 2\n")
-    found.append(digest())
+    computed.append(digest())
     (page / "page.j2").write_text("other words")
-    found.append(digest())
+    computed.append(digest())
     monkeypatch.setattr(sources, "version", lambda name: "0")
-    found.append(digest())
-    assert len(set(found)) == 4
+    computed.append(digest())
+    assert len(set(computed)) == 4
 
 
 def test_an_import_for_type_checkers_is_none(tmp_path, monkeypatch):
@@ -124,5 +124,5 @@ def test_an_import_for_type_checkers_is_none(tmp_path, monkeypatch):
         (tmp_path / f"small/{name}.py").write_text("")
     text = "if TYPE_CHECKING:  # names\n    from small import named\n\nfrom small import used\n"
     (tmp_path / "small/made.py").write_text(text)
-    found = {path.name for path in sources.modules_of(tmp_path / "small/made.py")}
-    assert found == {"made.py", "used.py", "__init__.py"}
+    computed = {path.name for path in sources.modules_of(tmp_path / "small/made.py")}
+    assert computed == {"made.py", "used.py", "__init__.py"}

@@ -69,8 +69,8 @@ def turned(factor, start, most, grid):
 def test_the_loader_gives_the_bits_of_this_machine(tmp_path):
     """Of numbers and arrays that a kernel takes, of what it writes and of what it returns."""
     start, grid = np.array([1.0, 1.9, 1e-300]), np.array([0.1, 0.2, 0.3, 0.0, 0.0, 0.0])
-    given = (1.7, start, np.inf, grid)
-    code = base64.b64encode(webassembly(turned, *given)).decode()
+    case = (1.7, start, np.inf, grid)
+    code = base64.b64encode(webassembly(turned, *case)).decode()
     script = f"""{loader()}
     loadKernel(Buffer.from("{code}", "base64")).then(({{ clear, array, call }}) => {{
       array(7);
@@ -83,6 +83,6 @@ def test_the_loader_gives_the_bits_of_this_machine(tmp_path):
     }});"""
     (tmp_path / "run.js").write_text(script)
     ran = subprocess.run(["node", tmp_path / "run.js"], capture_output=True, text=True, check=True)
-    returned = turned(*given)
+    returned = turned(*case)
     assert json.loads(ran.stdout) == [0, returned, *grid]
     assert grid[3] == 1.7 * 0.1 + np.nextafter(1.0, 2.0)

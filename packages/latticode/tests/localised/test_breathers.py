@@ -47,28 +47,28 @@ def problem(model, data, half_width=10, boundary="dirichlet", site=0):
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
 @pytest.mark.parametrize("model", [COUPLED, FAR], ids=["coupled", "far"])
 def test_even_and_odd_perturbations_have_together_the_matrix_of_the_whole_chain(model, boundary):
-    given, rng = problem(model, 1.0, half_width=5, boundary=boundary), np.random.default_rng(1)
+    case, rng = problem(model, 1.0, half_width=5, boundary=boundary), np.random.default_rng(1)
     fields, size = len(model.fields), 4 * len(model.fields) * 5
     half = rng.normal(size=(2 * fields, 6))
-    whole = np.concatenate([half[:, :0:-1], half], axis=1).ravel()
-    rates, matrix = linearise(given, whole)
-    kept, even = linearise(given, half.ravel(), parity=EVEN)
-    odd = linearise(given, half.ravel(), parity=ODD)[1]
-    np.testing.assert_allclose(kept, rates.reshape(-1, 11)[:, 5:].ravel(), rtol=0, atol=1e-13)
-    found = np.concatenate([np.linalg.eigvals(even), np.linalg.eigvals(odd)])
+    full = np.concatenate([half[:, :0:-1], half], axis=1).ravel()
+    rates, matrix = linearise(case, full)
+    retained, even = linearise(case, half.ravel(), parity=EVEN)
+    odd = linearise(case, half.ravel(), parity=ODD)[1]
+    np.testing.assert_allclose(retained, rates.reshape(-1, 11)[:, 5:].ravel(), rtol=0, atol=1e-13)
+    computed = np.concatenate([np.linalg.eigvals(even), np.linalg.eigvals(odd)])
     expected = np.linalg.eigvals(matrix)
     assert odd.shape == (size // 2, size // 2)
-    assert max(np.abs(expected - one).min() for one in found) < 1e-7
-    assert found.sum() == pytest.approx(np.trace(matrix), abs=1e-9)
+    assert max(np.abs(expected - first).min() for first in computed) < 1e-7
+    assert computed.sum() == pytest.approx(np.trace(matrix), abs=1e-9)
 
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic", "antiperiodic"])
 def test_the_matrix_is_that_of_differences_of_the_rates(boundary):
-    given, rng = problem(FAR, 1.0, half_width=4, boundary=boundary), np.random.default_rng(2)
+    case, rng = problem(FAR, 1.0, half_width=4, boundary=boundary), np.random.default_rng(2)
     x, change, h = rng.normal(size=18), rng.normal(size=18), 1e-6
     for coupling in (1.0, 0.4):
-        ahead, behind = (linearise(given, x + s * change, coupling)[0] for s in (h, -h))
-        moved = linearise(given, x, coupling)[1] @ change
+        ahead, behind = (linearise(case, x + s * change, coupling)[0] for s in (h, -h))
+        moved = linearise(case, x, coupling)[1] @ change
         np.testing.assert_allclose(moved, (ahead - behind) / (2 * h), rtol=1e-6, atol=1e-7)
 
 
@@ -79,20 +79,20 @@ def test_a_localised_state_is_the_exact_one_of_ablowitz_and_ladik():
     """u_n = sinh(b) / cosh(b n) turns at the frequency 2 cosh(b), and is neutrally stable."""
     model = Model(fields="u", parameters={}, i_dt=lambda p, u: (u.right + u.left) * (1 + abs2(u)))
     exact = np.sinh(1.0) / np.cosh(np.arange(-15, 16))
-    given = problem(model, np.sqrt(np.sum(exact**2)), half_width=15)
-    state = find_state(given)
-    np.testing.assert_allclose(np.hypot(*state.components(given)[0]), exact, rtol=0, atol=1e-5)
+    case = problem(model, np.sqrt(np.sum(exact**2)), half_width=15)
+    state = find_state(case)
+    np.testing.assert_allclose(np.hypot(*state.components(case)[0]), exact, rtol=0, atol=1e-5)
     assert state.frequency == pytest.approx(2.0 * np.cosh(1.0), rel=1e-5)
-    assert np.abs(exponents(given, state).real).max() < 1e-5
+    assert np.abs(exponents(case, state).real).max() < 1e-5
 
 
 def test_a_state_beside_the_middle_is_found_on_the_whole_chain():
-    middle, beside = (problem(CUBIC, 1.5, half_width=20, site=site) for site in (0, 1))
-    half, whole = find_state(middle), find_state(beside)
-    assert half.even and not whole.even
-    moduli = [np.hypot(*state.components(middle)[0]) for state in (half, whole)]
+    middle, neighbour = (problem(CUBIC, 1.5, half_width=20, site=site) for site in (0, 1))
+    half, full = find_state(middle), find_state(neighbour)
+    assert half.even and not full.even
+    moduli = [np.hypot(*state.components(middle)[0]) for state in (half, full)]
     np.testing.assert_allclose(moduli[1][1:], moduli[0][:-1], rtol=0, atol=1e-8)
-    assert whole.frequency == pytest.approx(half.frequency, rel=1e-9)
+    assert full.frequency == pytest.approx(half.frequency, rel=1e-9)
 
 
 def test_with_another_sign_of_the_cubic_term_there_is_no_such_state():
@@ -107,30 +107,32 @@ def test_a_pair_of_the_coupled_chain_continues_its_closed_form(sign):
     """A = B with A^2 = -2 Omega, and A = -B with A^2 = 4 gamma - 2 Omega, where epsilon = 0."""
     size = np.sqrt(16.0 if sign > 0 else 20.0)
     alone = find_state(problem(COUPLED, (size, sign * size)).changed(epsilon=0.0))
-    given = problem(COUPLED, (size, sign * size))
-    np.testing.assert_allclose(alone.components(given)[:, 0, 10], (size, sign * size), rtol=1e-12)
-    state = find_state(given)
-    parts = state.components(given)
-    np.testing.assert_array_equal(parts[:, 1], 0.0)
-    np.testing.assert_allclose(parts[1], sign * parts[0], rtol=0, atol=1e-12)
-    fields = parts[:, 0] + 1j * parts[:, 1]
-    later = simulate(given.changed(initial=fields)).final
+    case = problem(COUPLED, (size, sign * size))
+    np.testing.assert_allclose(alone.components(case)[:, 0, 10], (size, sign * size), rtol=1e-12)
+    state = find_state(case)
+    components = state.components(case)
+    np.testing.assert_array_equal(components[:, 1], 0.0)
+    np.testing.assert_allclose(components[1], sign * components[0], rtol=0, atol=1e-12)
+    fields = components[:, 0] + 1j * components[:, 1]
+    later = simulate(case.changed(initial=fields)).final
     np.testing.assert_allclose(later, fields, rtol=0, atol=1e-9)
-    longer = given.changed(half_width=20)
-    again = newton(longer, widened(longer, state), None)
-    np.testing.assert_allclose(again.components(longer)[:, :, 10:31], parts, rtol=0, atol=1e-8)
+    longer = case.changed(half_width=20)
+    recomputed = newton(longer, widened(longer, state), None)
+    np.testing.assert_allclose(
+        recomputed.components(longer)[:, :, 10:31], components, rtol=0, atol=1e-8
+    )
 
 
 @pytest.mark.parametrize("turned", [1.0, np.exp(0.3j)])
 def test_exponents_are_those_of_the_whole_matrix(turned):
     """A = B turned by a phase has the same, by one matrix in place of squares of its roots."""
-    given = problem(COUPLED, (4.0, 4.0))
-    state = find_state(given)
-    whole = turned * (state.components(given)[:, 0] + 1j * state.components(given)[:, 1])
-    expected = np.linalg.eigvals(linearise(given, flat(whole))[1])
-    found = exponents(given, LocalisedState(flat(whole, even=True), even=True))
-    assert len(found) == len(expected)
-    assert max(np.abs(expected - one).min() for one in found) < 1e-5
+    case = problem(COUPLED, (4.0, 4.0))
+    state = find_state(case)
+    full = turned * (state.components(case)[:, 0] + 1j * state.components(case)[:, 1])
+    expected = np.linalg.eigvals(linearise(case, flat(full))[1])
+    computed = exponents(case, LocalisedState(flat(full, even=True), even=True))
+    assert len(computed) == len(expected)
+    assert max(np.abs(expected - first).min() for first in computed) < 1e-5
 
 
 def test_multipliers_are_those_of_integrations_over_a_period():
@@ -139,21 +141,21 @@ def test_multipliers_are_those_of_integrations_over_a_period():
         i_dt=lambda p, u, v: (0.3 * lap(u) + v + 0.4j * u + abs2(u) * u,
                               0.3 * lap(v) + u - 0.4j * v + abs2(v) * v),
     )  # fmt: skip
-    given = problem(gain, [1.5, 1.5], half_width=1)
-    state = find_state(given)
-    found = exponents(given, state)
-    assert found.real.max() > 0.1
-    parts, period = state.components(given), 2.0 * np.pi / abs(state.frequency)
-    long = given.changed(end_time=period, output_step=period)
+    case = problem(gain, [1.5, 1.5], half_width=1)
+    state = find_state(case)
+    computed = exponents(case, state)
+    assert computed.real.max() > 0.1
+    components, period = state.components(case), 2.0 * np.pi / abs(state.frequency)
+    long = case.changed(end_time=period, output_step=period)
     changes = 1e-5 * np.concatenate([np.eye(6), 1j * np.eye(6)]).reshape(12, 2, 3)
-    phi = parts[:, 0] + 1j * parts[:, 1]
-    pairs = [[simulate(long.changed(initial=phi + s * one)).final for s in (1, -1)]
-             for one in changes]  # fmt: skip
-    apart = [(one - other).ravel() / 2e-5 for one, other in pairs]
-    measured = np.linalg.eigvals([np.concatenate([one.real, one.imag]) for one in apart])
-    expected = np.exp(period * found)
-    for one in expected[np.abs(expected - 1.0) > 1e-2]:  # the phase has a double one
-        assert np.abs(measured - one).min() < 1e-4 * max(1.0, abs(one))
+    phi = components[:, 0] + 1j * components[:, 1]
+    pairs = [[simulate(long.changed(initial=phi + s * first)).final for s in (1, -1)]
+             for first in changes]  # fmt: skip
+    difference = [(first - second).ravel() / 2e-5 for first, second in pairs]
+    measured = np.linalg.eigvals([np.concatenate([first.real, first.imag]) for first in difference])
+    expected = np.exp(period * computed)
+    for first in expected[np.abs(expected - 1.0) > 1e-2]:  # the phase has a double one
+        assert np.abs(measured - first).min() < 1e-4 * max(1.0, abs(first))
 
 
 @pytest.mark.parametrize(

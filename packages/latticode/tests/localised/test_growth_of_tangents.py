@@ -54,27 +54,27 @@ def state_of(problem, final):
 @each_model
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
 def test_a_vector_grows_like_the_distance_of_two_solutions(model, boundary):
-    given, h = chain(model, boundary=boundary), 1e-6
-    vector = random_tangent(given.sites, np.random.default_rng(2), fields=len(model.fields))
+    case, h = chain(model, boundary=boundary), 1e-6
+    vector = random_tangent(case.sites, np.random.default_rng(2), fields=len(model.fields))
     vector /= np.linalg.norm(vector)
     ends = [
-        state_of(given, simulate(given.changed(initial=given.initial + s * vector)).final)
+        state_of(case, simulate(case.changed(initial=case.initial + s * vector)).final)
         for s in (h, -h)
     ]
-    found = grow(given, vector[None], 1.3, step=0.1, tolerance=1e-11)
+    computed = grow(case, vector[None], 1.3, step=0.1, tolerance=1e-11)
     distance = np.linalg.norm(ends[0] - ends[1]) / (2 * h)
-    assert found.log_growth[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
-    assert found.size[-1] == pytest.approx(np.linalg.norm(ends[0] + ends[1]) / 2, rel=1e-8)
+    assert computed.log_growth[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
+    assert computed.size[-1] == pytest.approx(np.linalg.norm(ends[0] + ends[1]) / 2, rel=1e-8)
 
 
 @pytest.mark.parametrize("model", [COUPLED, FAR], ids=["coupled", "far"])
 def test_half_of_an_even_chain_gives_the_growth_of_the_whole(model):
-    given = chain(model, half_width=9, even=True)
+    case = chain(model, half_width=9, even=True)
     rng = np.random.default_rng(3)
     vectors = [random_tangent(19, rng, even=True, fields=len(model.fields)) for _ in range(3)]
-    whole, half = (grow(given, np.array(vectors), 1.0, even=even) for even in (False, True))
-    np.testing.assert_allclose(half.log_growth, whole.log_growth, rtol=0, atol=1e-7)
-    np.testing.assert_allclose(half.size, whole.size, rtol=1e-9)
+    full, half = (grow(case, np.array(vectors), 1.0, even=even) for even in (False, True))
+    np.testing.assert_allclose(half.log_growth, full.log_growth, rtol=0, atol=1e-7)
+    np.testing.assert_allclose(half.size, full.size, rtol=1e-9)
 
 
 @pytest.mark.parametrize("gain", [0.4, -0.4])
@@ -83,16 +83,16 @@ def test_all_vectors_of_linear_equations_grow_at_the_exact_rate(gain):
     model = Model(fields="u", parameters={"g": gain}, i_dt=lambda p, u: lap(u) + 1j * p.g * u)
     rng = np.random.default_rng(4)
     vectors = np.array([random_tangent(5, rng, fields=1) for _ in range(4)])
-    found = grow(chain(model, half_width=2), vectors, 3.0, tolerance=1e-11)
-    np.testing.assert_allclose(found.log_growth, np.tile(gain * found.tau, (4, 1)), atol=1e-8)
+    computed = grow(chain(model, half_width=2), vectors, 3.0, tolerance=1e-11)
+    np.testing.assert_allclose(computed.log_growth, np.tile(gain * computed.tau, (4, 1)), atol=1e-8)
 
 
 def test_orthonormalising_measures_what_a_qr_decomposition_does():
-    given = chain(COUPLED, half_width=2)
+    case = chain(COUPLED, half_width=2)
     rng = np.random.default_rng(5)
     states = np.array([pack(random_tangent(5, rng), WHOLE) for _ in range(4)])
     bundle, lengths = np.concatenate(states), np.empty(3)
-    orthonormalise(make_system(given, WHOLE), bundle, lengths)
+    orthonormalise(make_system(case, WHOLE), bundle, lengths)
     vectors = states[1:, :, 1:-1].reshape(3, -1).T
     expected = np.abs(np.diag(np.linalg.qr(vectors)[1]))
     np.testing.assert_allclose(lengths, expected, rtol=1e-12)

@@ -39,8 +39,8 @@ def test_one_site_alone_is_what_scipy_makes_of_it(lorenz):
 
 
 def test_a_survey_and_a_file_take_one_site_alone(lorenz, tmp_path):
-    found = survey(lorenz, {"half_width": [0, 1], "r": [0.5, 28]}, keep=["final_l2"])
-    np.testing.assert_array_equal(found["final_l2"][0], found["final_l2"][1])
+    computed = survey(lorenz, {"half_width": [0, 1], "r": [0.5, 28]}, keep=["final_l2"])
+    np.testing.assert_array_equal(computed["final_l2"][0], computed["final_l2"][1])
     (tmp_path / "lorenz.py").write_text(LORENZ, encoding="utf-8")
     text = "cases: {one: {model: lorenz.py, half_width: 0, initial: {0: [1, 1, 20]}}}"
     (tmp_path / "mine.yaml").write_text(text, encoding="utf-8")
@@ -64,11 +64,11 @@ def test_one_site_is_refused_where_a_neighbour_is_seen(functions):
 
 def test_sites_that_rest_at_an_unstable_point_are_pointed_out(lorenz, capsys):
     """The origin grows at (-11 + sqrt(1201)) / 2 = 11.83, the larger root of its 2 x 2 matrix."""
-    found = check(lorenz.changed(half_width=1))
-    sentence = found.attrs[UNSTABLE_REST]
+    computed = check(lorenz.changed(half_width=1))
+    sentence = computed.attrs[UNSTABLE_REST]
     assert sentence.startswith("sites -1, 1 rest at an unstable point") and "11.83" in sentence
     assert "half_width: 0" in sentence and sentence in capsys.readouterr().out
-    assert float(found["exponent"]) == pytest.approx((-11 + 1201**0.5) / 2, abs=1e-3)
+    assert float(computed["exponent"]) == pytest.approx((-11 + 1201**0.5) / 2, abs=1e-3)
 
 
 def phi4(coupling, **keys):
@@ -82,8 +82,10 @@ def phi4(coupling, **keys):
 
 
 def test_a_resting_site_in_a_chain_is_at_its_own_place():
-    found = check(phi4(0.0, initial={0: [1.1], 1: [1.0], 2: [0.3], -1: [0.2], -2: [-1.0], 3: [1]}))
-    sentence = found.attrs[UNSTABLE_REST]
+    computed = check(
+        phi4(0.0, initial={0: [1.1], 1: [1.0], 2: [0.3], -1: [0.2], -2: [-1.0], 3: [1]})
+    )
+    sentence = computed.attrs[UNSTABLE_REST]
     assert sentence.startswith("site -3 rests at an unstable point, where a perturbation grows at")
     assert "the rate 1;" in sentence
 
@@ -101,6 +103,6 @@ def test_sites_that_move_or_rest_at_a_stable_point_are_not_pointed_out(case):
 
 
 def test_one_site_of_lorenz_has_its_published_exponent(lorenz):
-    found = check(lorenz.changed(end_time=1000))
-    assert UNSTABLE_REST not in found.attrs
-    assert abs(float(found["exponent"]) - 0.9056) < 4 * float(found["exponent_error"]) < 0.06
+    computed = check(lorenz.changed(end_time=1000))
+    assert UNSTABLE_REST not in computed.attrs
+    assert abs(float(computed["exponent"]) - 0.9056) < 4 * float(computed["exponent_error"]) < 0.06

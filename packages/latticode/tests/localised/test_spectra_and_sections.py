@@ -17,18 +17,18 @@ def test_the_exponents_of_a_linear_chain_are_the_eigenvalues_of_its_matrix():
     model = Model(fields="x", parameters={"W": matrix}, dt=lambda p, x: couple(p.W, x))
     case = Case(model=model, sites=6, initial=np.zeros(6) + 1e-3, end_time=100)
     exact = np.sort(np.linalg.eigvalsh(matrix))[::-1]
-    found = lyapunov(case, count=6)
-    np.testing.assert_allclose(found["exponent"], exact, atol=1e-6)
-    assert found["exponent_error"].max() < 1e-3
+    computed = lyapunov(case, count=6)
+    np.testing.assert_allclose(computed["exponent"], exact, atol=1e-6)
+    assert computed["exponent_error"].max() < 1e-3
 
 
 def test_all_exponents_of_lorenz_96_add_up_to_the_divergence():
     model = Model(fields="x", parameters={"force": 8.0}, dt=lorenz_96)
     start = 8.0 + np.random.default_rng(2).normal(size=12)
     case = Case(model=model, sites=12, boundary="periodic", initial=start, end_time=40)
-    found = lyapunov(case, count=12)
-    assert float(found["exponent"].sum()) == pytest.approx(-12.0, abs=1e-6)
-    assert float(found["exponent"][0]) > 5 * float(found["exponent_error"][0]) > 0.0
+    computed = lyapunov(case, count=12)
+    assert float(computed["exponent"].sum()) == pytest.approx(-12.0, abs=1e-6)
+    assert float(computed["exponent"][0]) > 5 * float(computed["exponent_error"][0]) > 0.0
 
 
 def test_imaginary_parts_that_nothing_reads_are_no_directions():
@@ -48,11 +48,11 @@ def test_a_harmonic_oscillator_crosses_zero_each_half_turn(solver, direction, fi
     model = Model(fields="x", parameters={}, d2_dt2=lambda p, x: -x)
     chosen = {"name": "auto", "error": 1e-9} if solver == "auto" else solver
     case = Case(model=model, sites=1, initial={0: [1]}, end_time=50, solver=chosen)
-    found = section(case, lambda p, x: x, direction)
-    expected = np.pi * (first + step * np.arange(found.sizes["crossing"]))
-    assert np.abs(found["crossing_tau"] - expected).max() < 1e-12
+    computed = section(case, lambda p, x: x, direction)
+    expected = np.pi * (first + step * np.arange(computed.sizes["crossing"]))
+    assert np.abs(computed["crossing_tau"] - expected).max() < 1e-12
     assert expected[-1] + step * np.pi > 50
-    assert np.abs(found["crossing_state"].sel(part="value")).max() < 1e-12
+    assert np.abs(computed["crossing_state"].sel(part="value")).max() < 1e-12
 
 
 def test_a_section_by_velocities_neighbours_and_time_is_that_of_events_of_scipy():
@@ -75,16 +75,16 @@ def test_a_section_by_velocities_neighbours_and_time_is_that_of_events_of_scipy(
     state = np.concatenate([start, 0 * start])
     exact = solve_ivp(slope, (0, 30), state, events=event, **controls).t_events[0]
     case = Case(model=model, sites=4, boundary="periodic", initial=start, end_time=30)
-    found = section(case, lambda p, x, v: v + 0.5 * x.right - p.level * cos(p.t), "down", site=2)
-    assert found.sizes["crossing"] == exact.size > 5
-    assert np.abs(found["crossing_tau"] - exact).max() < 1e-9
+    computed = section(case, lambda p, x, v: v + 0.5 * x.right - p.level * cos(p.t), "down", site=2)
+    assert computed.sizes["crossing"] == exact.size > 5
+    assert np.abs(computed["crossing_tau"] - exact).max() < 1e-9
 
 
 def test_a_complex_field_and_a_model_without_series_have_sections_too():
     turning = Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u)
     case = Case(model=turning, half_width=1, initial={1: [2.0]}, end_time=3)
-    found = section(case, lambda p, u: u.real, "down", site=1)
-    np.testing.assert_allclose(found["crossing_tau"], np.pi / 8 * np.array([1, 5]), atol=1e-12)
+    computed = section(case, lambda p, u: u.real, "down", site=1)
+    np.testing.assert_allclose(computed["crossing_tau"], np.pi / 8 * np.array([1, 5]), atol=1e-12)
     bouncing = Model(fields="x", parameters={}, d2_dt2=lambda p, x: -abs(x) / x)
     fall = Case(model=bouncing, sites=1, initial={0: [0.5]}, end_time=0.75, output_step=0.125)
     times = section(fall, lambda p, x: x - 0.375, "down")["crossing_tau"]
@@ -94,9 +94,12 @@ def test_a_complex_field_and_a_model_without_series_have_sections_too():
 def test_more_outputs_than_are_held_at_once_have_the_same_crossings():
     model = Model(fields="x", parameters={}, d2_dt2=lambda p, x: -x)
     case = Case(model=model, sites=1, initial={0: [1]}, end_time=40, output_step=0.02)
-    found = section(case, lambda p, x: x)
-    expected = np.pi * (1.5 + 2 * np.arange(found.sizes["crossing"]))
-    assert found.sizes["crossing"] == 6 and np.abs(found["crossing_tau"] - expected).max() < 1e-12
+    computed = section(case, lambda p, x: x)
+    expected = np.pi * (1.5 + 2 * np.arange(computed.sizes["crossing"]))
+    assert (
+        computed.sizes["crossing"] == 6
+        and np.abs(computed["crossing_tau"] - expected).max() < 1e-12
+    )
 
 
 def test_what_is_no_section_or_spectrum_is_refused():

@@ -28,28 +28,28 @@ def test_limits_of_a_mean_are_student_s(stats):
 
 
 def test_limits_of_a_difference_are_welch_s(stats):
-    one, other = RNG.normal(1.0, 1.0, 6), RNG.normal(0.0, 5.0, 20)
-    known = stats.ttest_ind(one, other, equal_var=False).confidence_interval(0.95)
-    found = confidence.difference_limits(one, other)
-    np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-4)
+    first, second = RNG.normal(1.0, 1.0, 6), RNG.normal(0.0, 5.0, 20)
+    known = stats.ttest_ind(first, second, equal_var=False).confidence_interval(0.95)
+    computed = confidence.difference_limits(first, second)
+    np.testing.assert_allclose(computed[1:], [known.low, known.high], rtol=1e-4)
     assert confidence.difference_limits([2.0, 2.0], [1.0, 1.0]) == (1.0, 1.0, 1.0)
 
 
 @pytest.mark.parametrize(("count", "members"), [(0, 10), (3, 10), (10, 10)])
 def test_limits_of_a_share_are_exact(stats, count, members):
     known = stats.binomtest(count, members).proportion_ci(0.95, "exact")
-    found = confidence.share_limits(count, members)
-    assert found.value == count / members
-    np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-5)
+    computed = confidence.share_limits(count, members)
+    assert computed.value == count / members
+    np.testing.assert_allclose(computed[1:], [known.low, known.high], rtol=1e-5)
     known = stats.binomtest(count, members).proportion_ci(0.8, "exact")
     assert confidence.share_limits(count, members, 0.8)[1:] == pytest.approx(tuple(known), rel=1e-5)
 
 
 def test_limits_of_a_rate_are_those_of_chi_squared(stats):
     """Two of four lives end, after 1 and 2; with two of 3 and more that makes 9 lived in all."""
-    found = confidence.event_rate([1.0, np.inf, 2.0, np.inf], 0.0, 3.0)
+    computed = confidence.event_rate([1.0, np.inf, 2.0, np.inf], 0.0, 3.0)
     low, high = stats.chi2.ppf(0.025, 4) / 18.0, stats.chi2.ppf(0.975, 6) / 18.0
-    assert tuple(found) == pytest.approx((2.0 / 9.0, low, high), rel=1e-5)
+    assert tuple(computed) == pytest.approx((2.0 / 9.0, low, high), rel=1e-5)
     none = confidence.event_rate([np.inf] * 64, 10.0, 50.0)
     assert tuple(none) == pytest.approx((0.0, 0.0, -np.log(0.025) / 2560.0), rel=1e-5)
     assert np.isnan(confidence.event_rate([3.0, 4.0], 10.0, 50.0)).all()
@@ -78,22 +78,22 @@ def test_a_median_that_was_not_lived_to_see_is_infinite(lives, found):
 def test_the_limits_of_a_ratio_are_just_what_student_s_t_allows():
     """At either limit r the mean of above - r below is t = 2.365 of its standard errors off."""
     means, errors = (10.0, 20.0), (1.0, 2.0)
-    found = confidence.ratio_limits(means, errors, 8)
-    for ratio in found[1:]:
+    computed = confidence.ratio_limits(means, errors, 8)
+    for ratio in computed[1:]:
         error = np.hypot(errors[1], ratio * errors[0])
         assert abs(means[1] - ratio * means[0]) / error == pytest.approx(2.36462, rel=1e-5)
-    assert found.value == 2.0 and found.low < 2.0 < found.high
+    assert computed.value == 2.0 and computed.low < 2.0 < computed.high
     assert np.isinf(confidence.ratio_limits((2.36462, 1.0), (1.0, 1.0), 8).high)
     assert confidence.ratio_limits((2.0, 3.0), (0.0, 0.0), 6) == (1.5, 1.5, 1.5)
     small = confidence.ratio_limits((0.1, 0.2), (0.01, 0.02), 8)  # of another unit
-    assert tuple(small) == pytest.approx(tuple(found))
+    assert tuple(small) == pytest.approx(tuple(computed))
 
 
 def test_limits_of_an_order_have_the_width_of_all_orders():
     """All orders of 3 + 2 + 2 values are known, and the share of pairs in each of them."""
     orders = set(permutations((0, 0, 0, 1, 1, 2, 2)))
-    groups = [[np.flatnonzero(np.array(order) == one) for one in range(3)] for order in orders]
-    shares = np.array([confidence.order_limits(one)[0] for one in groups])
+    groups = [[np.flatnonzero(np.array(order) == first) for first in range(3)] for order in orders]
+    shares = np.array([confidence.order_limits(first)[0] for first in groups])
     assert shares.min() == 0.0 and shares.max() == 1.0
     half = confidence.order_limits(groups[0], 0.95).half
     assert half == pytest.approx(1.959964 * shares.std(), rel=1e-5)
@@ -101,8 +101,10 @@ def test_limits_of_an_order_have_the_width_of_all_orders():
 
 def test_limits_of_an_order_enclose_a_half_if_the_group_does_not_matter():
     drawn = RNG.random((2000, 4, 8))
-    found = np.array([confidence.order_limits(groups) for groups in drawn])
-    assert np.mean((found[:, 1] <= 0.5) & (found[:, 2] >= 0.5)) == pytest.approx(0.95, abs=0.02)
+    computed = np.array([confidence.order_limits(groups) for groups in drawn])
+    assert np.mean((computed[:, 1] <= 0.5) & (computed[:, 2] >= 0.5)) == pytest.approx(
+        0.95, abs=0.02
+    )
 
 
 def test_an_order_of_infinite_and_of_equal_values():

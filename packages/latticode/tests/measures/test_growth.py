@@ -70,9 +70,9 @@ def test_the_sum_of_errors_takes_a_time_that_grows_with_the_run_and_no_faster():
     rng = np.random.default_rng(1)
     tau, growth = np.linspace(0, 500, 2001), np.cumsum(rng.normal(0.02, 0.1, 2001))
     size = 1 + rng.random(2001)
-    made = np.log(size[1:] * np.diff(tau)) - growth[1:]
-    sums = np.log([np.exp(made[: i + 1] - made[: i + 1].max()).sum() for i in range(2000)])
-    sums += np.maximum.accumulate(made) + growth[1:] - np.log(size[1:])
+    built = np.log(size[1:] * np.diff(tau)) - growth[1:]
+    sums = np.log([np.exp(built[: i + 1] - built[: i + 1].max()).sum() for i in range(2000)])
+    sums += np.maximum.accumulate(built) + growth[1:] - np.log(size[1:])
     np.testing.assert_allclose(amplification(tau, growth, size)[1:], sums, rtol=0, atol=1e-13)
     began = perf_counter()
     amplification(np.linspace(0, 8000, 32001), np.zeros(32001), np.ones(32001))

@@ -34,23 +34,23 @@ def test_limits_hold_the_true_slope_in_as_many_draws_as_they_say(members):
 
 
 def test_the_relative_growth_of_a_line():
-    found = fit_line(TAU, np.array([TAU, TAU]), 100.0)
-    assert found.relative.value == pytest.approx(300.0 / 250.0)
-    assert found.offset == pytest.approx(0.0, abs=1e-9)
-    still = fit_line(TAU, 5.0 + 0.01 * remembering(4), 100.0).relative
-    assert still.low < 0.0 < still.high < 0.01
+    computed = fit_line(TAU, np.array([TAU, TAU]), 100.0)
+    assert computed.relative.value == pytest.approx(300.0 / 250.0)
+    assert computed.offset == pytest.approx(0.0, abs=1e-9)
+    unchanged = fit_line(TAU, 5.0 + 0.01 * remembering(4), 100.0).relative
+    assert unchanged.low < 0.0 < unchanged.high < 0.01
 
 
 def test_limits_of_a_single_curve_are_those_of_ten_stretches_of_its_residuals():
     x = TAU[TAU >= START]
     y = 3.0 * TAU + 7.0 + 40.0 * remembering(1)[0]
-    found = fit_line(TAU, y[None], START).slope
+    computed = fit_line(TAU, y[None], START).slope
     slope, offset = np.polyfit(x, y[TAU >= START], 1)
     off = x - x.mean()
-    parts = np.array_split(off * (y[TAU >= START] - slope * x - offset), 10)
-    variance = sum(part.sum() ** 2 for part in parts) * 10 / 8
+    components = np.array_split(off * (y[TAU >= START] - slope * x - offset), 10)
+    variance = sum(component.sum() ** 2 for component in components) * 10 / 8
     half = 2.306 * np.sqrt(variance) / np.sum(off**2)  # Student's t of eight degrees of freedom
-    assert tuple(found) == pytest.approx((slope, slope - half, slope + half), rel=1e-5)
+    assert tuple(computed) == pytest.approx((slope, slope - half, slope + half), rel=1e-5)
 
 
 def test_a_line_starts_at_its_first_time_and_another_confidence_has_other_limits():
@@ -84,9 +84,9 @@ def test_the_exponent_of_a_curve_that_is_no_law_is_that_of_least_squares(squares
         columns = np.stack([(tau / 400.0) ** (2.0 * q), np.ones_like(tau)], axis=1)
         return np.linalg.lstsq(columns, squares)[1][0]
 
-    found = exponent_with_offset(tau, squares)
-    assert left(found) < min(left(found - 1e-4), left(found + 1e-4))
-    assert all(left(found) < left(q) for q in np.arange(-0.975, 3.0, 0.05) if q)
+    computed = exponent_with_offset(tau, squares)
+    assert left(computed) < min(left(computed - 1e-4), left(computed + 1e-4))
+    assert all(left(computed) < left(q) for q in np.arange(-0.975, 3.0, 0.05) if q)
 
 
 def test_a_curve_that_stays_zero_has_some_exponent_and_no_quotient_of_zeros():

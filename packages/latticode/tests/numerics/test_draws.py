@@ -12,9 +12,9 @@ def test_exponential_numbers_have_mean_and_deviation_one():
 
 
 def test_normal_draws_are_those_of_numpy_but_for_the_last_bits_of_the_tail():
-    found = normal(np.random.default_rng(3), 20_000)
+    computed = normal(np.random.default_rng(3), 20_000)
     drawn = np.random.default_rng(3).normal(size=20_000)
     tail = abs(drawn) > 3.65
-    assert 0 < tail.sum() < 20 and np.array_equal(found[~tail], drawn[~tail])
-    assert (found[tail] != drawn[tail]).any() and abs(found - drawn).max() < 1e-12
-    assert (np.ldexp(found[tail], 40) % 1.0 == 0.0).all()
+    assert 0 < tail.sum() < 20 and np.array_equal(computed[~tail], drawn[~tail])
+    assert (computed[tail] != drawn[tail]).any() and abs(computed - drawn).max() < 1e-12
+    assert (np.ldexp(computed[tail], 40) % 1.0 == 0.0).all()

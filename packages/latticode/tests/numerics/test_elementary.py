@@ -15,17 +15,17 @@ SAMPLES = 1500
 wide = np.random.default_rng(5).uniform(-700.0, 700.0, SAMPLES)
 near = np.random.default_rng(6).uniform(-3.0, 3.0, SAMPLES)
 tiny = np.ldexp(near, -np.random.default_rng(7).integers(0, 60, SAMPLES))
-whole = np.concatenate([wide, near, tiny])
+all_arguments = np.concatenate([wide, near, tiny])
 positive = np.concatenate([np.ldexp(1.0 + np.abs(tiny), wide.astype(int)), 1.0 + 0.3 * tiny])
 angles = np.concatenate([2000.0 * wide, 4.0 * near, tiny, np.arange(1, 400) * (np.pi / 4)])
 exponents = np.resize([0.25, -0.1, 1 / 3, 3.0, -2.5], positive.size)
 
 
 EXACT = {
-    "exp": (whole, arb.exp, 1.0),
-    "expm1": (whole, arb.expm1, 1.5),
-    "sinh": (whole, arb.sinh, 2.0),
-    "cosh": (whole, arb.cosh, 1.5),
+    "exp": (all_arguments, arb.exp, 1.0),
+    "expm1": (all_arguments, arb.expm1, 1.5),
+    "sinh": (all_arguments, arb.sinh, 2.0),
+    "cosh": (all_arguments, arb.cosh, 1.5),
     "log": (positive, arb.log, 1.0),
     "sin": (angles, arb.sin, 1.0),
     "cos": (angles, arb.cos, 1.0),
@@ -33,11 +33,11 @@ EXACT = {
 """Of each function: its arguments, the exact values, and the error in ulp that it states."""
 
 
-def ulps(found, exact):
+def ulps(computed, exact):
     """Return the largest error in units in the last place of the exact values."""
     return max(
-        float(abs(arb(float(one)) - other)) / ulp(float(other))
-        for one, other in zip(found, exact, strict=True)
+        float(abs(arb(float(first)) - second)) / ulp(float(second))
+        for first, second in zip(computed, exact, strict=True)
     )
 
 
@@ -58,7 +58,7 @@ def test_functions_err_by_less_than_they_state(name):
 def test_powers_err_by_less_than_they_state():
     x, y = positive[::7], exponents[::7]
     exact = [arb(float(a)) ** arb(float(b)) for a, b in zip(x, y, strict=True)]
-    normal = np.array([1e-300 < float(one) < 1e300 for one in exact])
+    normal = np.array([1e-300 < float(first) < 1e300 for first in exact])
     assert ulps(e.power(x[normal], y[normal]), np.array(exact)[normal]) < 1.0
 
 
@@ -69,8 +69,8 @@ def test_fifth_roots_err_by_less_than_one_ulp(root):
     for x in map(
         float, np.concatenate([positive[::4], np.linspace(0.9, 33.0, 500), [5e-324, 1.7e308]])
     ):
-        found = root(x)
-        below, above = (Fraction(nextafter(found, end)) ** 5 for end in (0.0, np.inf))
+        computed = root(x)
+        below, above = (Fraction(nextafter(computed, end)) ** 5 for end in (0.0, np.inf))
         assert below < x < above
     assert [root(x) for x in (0.0, 1.0, 32.0, np.inf)] == [0.0, 1.0, 2.0, np.inf]
     assert np.isnan(root(np.nan))
@@ -78,8 +78,8 @@ def test_fifth_roots_err_by_less_than_one_ulp(root):
 
 def test_a_geometric_series_has_the_doubles_next_to_the_exact_ones():
     assert e.geometric(1e-5, 1e5, 11).tolist() == [float(f"1e{n}") for n in range(-5, 6)]
-    found = e.geometric(1.0, 400.0, 90)
-    assert ulps(found, [arb(400) ** (arb(i) / 89) for i in range(90)]) <= 0.5
+    computed = e.geometric(1.0, 400.0, 90)
+    assert ulps(computed, [arb(400) ** (arb(i) / 89) for i in range(90)]) <= 0.5
 
 
 def test_limits_are_values_and_no_warnings():
@@ -108,11 +108,11 @@ def test_complex_numbers():
 
 def values():
     """Return what each function gives on many arguments."""
-    found = {name: getattr(e, name)(arguments) for name, (arguments, _, _) in EXACT.items()}
-    found["power"] = e.power(positive, exponents)
-    found["fifth_root"] = np.array([e.fifth_root(float(x)) for x in positive])
-    found["product"] = e.product(e.turn(near), e.turn(wide)).view(float)
-    return found
+    computed = {name: getattr(e, name)(arguments) for name, (arguments, _, _) in EXACT.items()}
+    computed["power"] = e.power(positive, exponents)
+    computed["fifth_root"] = np.array([e.fifth_root(float(x)) for x in positive])
+    computed["product"] = e.product(e.turn(near), e.turn(wide)).view(float)
+    return computed
 
 
 HASHES = {
@@ -131,8 +131,10 @@ HASHES = {
 
 
 def test_bits_are_those_of_every_machine():
-    found = {name: hashlib.sha256(one.tobytes()).hexdigest()[:16] for name, one in values().items()}
-    assert found == HASHES
+    computed = {
+        name: hashlib.sha256(first.tobytes()).hexdigest()[:16] for name, first in values().items()
+    }
+    assert computed == HASHES
 
 
 def test_a_number_gives_the_bits_of_an_array_and_a_kernel_those_of_python():
