@@ -17,7 +17,17 @@ VAGUE = frozenset(WORDS.split())
 PERCENT = 1.0
 """In five codebases of this field these words are 0.0 to 0.3 % of the names."""
 
-ROOMS = ("scripts/pendula/studies",)
+LIBRARY = "packages/latticode/latticode"
+ROOMS = (
+    "scripts",
+    "packages/snakemake-executor-plugin-forked/snakemake_executor_plugin_forked",
+    f"{LIBRARY}/datasets",
+    f"{LIBRARY}/drawing",
+    f"{LIBRARY}/kernels",
+    f"{LIBRARY}/localised",
+    f"{LIBRARY}/measures",
+    f"{LIBRARY}/numerics",
+)
 """Folders and modules that are held to it."""
 
 EXCEPTIONS: dict[tuple[str, str], str] = {}
