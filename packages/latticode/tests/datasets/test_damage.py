@@ -80,7 +80,7 @@ def test_a_dataset_cut_anywhere_is_rejected(dataset):
     content = dataset.read_bytes()
     for length in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
         dataset.write_bytes(content[:length])
-        with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and run"):
+        with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and call simulate and save"):
             read(dataset)
 
 
@@ -112,5 +112,5 @@ def test_a_changed_byte_of_json_is_told_wherever_it_is(tmp_path):
     ]
     for wrong in (*changed, content[:-3], content + b" ", b"", b'{"rows": []}'):
         path.write_bytes(wrong)
-        with pytest.raises(DatasetError, match=r"claims\.json is damaged .*run .* to make"):
+        with pytest.raises(DatasetError, match=r"claims\.json is damaged .* call .* to make"):
             load_json(path)
