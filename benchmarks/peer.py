@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from latticode.kernels.compiled import kernel
-from latticode.simulation.lattice import WHOLE, Reduction, find_reduction, unfold, unpack
+from latticode.simulation.lattice import FULL_CHAIN, Reduction, find_reduction, unfold, unpack
 from pendula.models.amplitudes import rates
 from pendula.models.pendula import at_time
 from pendula.models.pendula import rates as pendula_rates
@@ -32,7 +32,7 @@ def needs(module: str, package: str) -> Callable[[], str | None]:
     return lambda: None if find_spec(module) else missing
 
 
-def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarray, float]:
+def begin(problem: Problem, reduction: Reduction = FULL_CHAIN) -> tuple[Any, np.ndarray, float]:
     """Return system, initial state with ghosts and end time, as the library's kernels take them.
 
     Raises ValueError at what peers do not cover; some integrate half of a chain.
@@ -46,7 +46,7 @@ def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarr
     return equations.system(reduction), equations.start(reduction), end
 
 
-def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = WHOLE) -> np.ndarray:
+def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = FULL_CHAIN) -> np.ndarray:
     """Return the amplitudes (2, N) of a state, or angles and velocities (part, component, site)."""
     y = state.reshape(4, -1)
     if problem.model.name == AMPLITUDES:

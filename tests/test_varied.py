@@ -5,7 +5,7 @@ import pytest
 from latticode.datasets.netcdf import read, save
 from latticode.measures.confidence import ConfidenceInterval
 from pendula.varied import (
-    Printed,
+    NamedNumber,
     as_dataset,
     names_of,
     numbers_in,
@@ -53,7 +53,7 @@ def test_limits_enclose_the_variations_and_the_larger_side_is_the_error():
     """A share of 2 % (0 % to 7 %) that another seed makes 9 % has the limits 0 % and 9 %."""
     shares = {1: ConfidenceInterval(0.02, 0.0, 0.07), 2: ConfidenceInterval(0.09, 0.03, 0.2)}
     number = vary(lambda seed: shares[seed], {"seed": [1, 2]})
-    data = as_dataset({"share": Printed((), number, "share of runs")}, {})
+    data = as_dataset({"share": NamedNumber((), number, "share of runs")}, {})
     assert (data["share_low"], data["share_high"]) == (0.0, 0.09)
     assert data["share_statistical_error"] == pytest.approx(0.05)
     assert data["share_error"] == pytest.approx(0.07)
@@ -74,8 +74,8 @@ def test_a_dataset_keeps_each_number_with_its_variations(tmp_path):
     both = vary(measure, CHOICES)
     entry = vary(lambda seed: (float(seed), 0.5), {"seed": [1, 2]})
     numbers = {
-        "speed": Printed(("omega",), both, "speed of the front"),
-        "share": Printed((), entry, "share of runs"),
+        "speed": NamedNumber(("omega",), both, "speed of the front"),
+        "share": NamedNumber((), entry, "share of runs"),
     }
     save(tmp_path / "study.nc", as_dataset(numbers, {"omega": [0.0, 2.0]}))
     data = read(tmp_path / "study.nc")

@@ -33,9 +33,9 @@ def rates_of(constants: Constants, peak: float, mu: float | None = None) -> dict
     over the top turn at a rate of the size of their velocity.
     """
     if mu is not None:
-        own = {"epsilon": 8.0 * abs(constants.epsilon), "gamma": 8.0 * abs(constants.gamma)}
+        couplings = {"epsilon": 8.0 * abs(constants.epsilon), "gamma": 8.0 * abs(constants.gamma)}
         swing = {"omega": abs(float(constants.omega)), "mu": clock_of(mu)}
-        return own | swing | {"initial": 2.0 * mu * peak * clock_of(mu)}
+        return couplings | swing | {"initial": 2.0 * mu * peak * clock_of(mu)}
     return {
         "epsilon": 4.0 * abs(constants.epsilon),
         "omega": abs(float(constants.omega)),

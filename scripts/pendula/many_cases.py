@@ -22,12 +22,14 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
     each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
     variables = {
         "case": Variable(("case",), list(problems)),
-        "omega": Variable(("case",), [float(one["omega"]) for one in each], attributes=REGULAR),
-        "initial": Variable(("case",), [one["initial"] for one in each]),
+        "omega": Variable(
+            ("case",), [float(description["omega"]) for description in each], attributes=REGULAR
+        ),
+        "initial": Variable(("case",), [description["initial"] for description in each]),
     }
     shared = shared_by(each, *variables)
     for name in [name for name in ("epsilon", "gamma") if name not in shared]:
         variables[name] = Variable(
-            ("case",), [float(one[name]) for one in each], attributes=REGULAR
+            ("case",), [float(description[name]) for description in each], attributes=REGULAR
         )
     return variables, shared

@@ -62,21 +62,21 @@ class Problem(problem.Problem):
         """Return the problem that a mapping of plain values describes (see `plain`)."""
         if isinstance(values.get("model"), Mapping | Model):
             return super().of(values)
-        rest = dict(values)
-        model = _model_of(rest.pop("model", AMPLITUDES))
-        parameters = {key: rest.pop(key) for key in model.parameters if key in rest}
-        if "mu" in rest:
+        plain_values = dict(values)
+        model = _model_of(plain_values.pop("model", AMPLITUDES))
+        parameters = {key: plain_values.pop(key) for key in model.parameters if key in plain_values}
+        if "mu" in plain_values:
             raise ValueError("mu requires model: pendula")
-        return super().of({**rest, "model": model, "parameters": parameters})
+        return super().of({**plain_values, "model": model, "parameters": parameters})
 
     def plain(self) -> dict[str, Any]:
         """Return the problem as plain values; (4) names no model, since nearly all are of (4)."""
-        found = super().plain()
+        values = super().plain()
         if self.model.name in MODELS:
-            found |= {"model": self.model.name} | found.pop("parameters")
+            values |= {"model": self.model.name} | values.pop("parameters")
             if self.model.name == AMPLITUDES:
-                del found["model"]
-        return found
+                del values["model"]
+        return values
 
     def changed(self, **changes) -> Self:
         """Return the problem with other values; `constants` changes all three."""

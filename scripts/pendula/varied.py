@@ -18,11 +18,11 @@ from latticode.measures.confidence import ConfidenceInterval
 
 Estimate = tuple[Any, Any] | ConfidenceInterval
 """A number with its statistical error or its limits, or arrays of one shape; NaN: not measured."""
-VARIATION, PARTS = "variation", ("", "_error", "_statistical_error", "_varied")
+VARIATION, ENDINGS = "variation", ("", "_error", "_statistical_error", "_varied")
 """The dimension of variations, and how the names of a number's variables end."""
 
 
-class Varied(NamedTuple):
+class VariedNumber(NamedTuple):
     """A number, or an array of numbers, with its values under variations of its choices."""
 
     value: np.ndarray
@@ -36,9 +36,9 @@ class Varied(NamedTuple):
     @property
     def widened(self) -> tuple[np.ndarray, np.ndarray]:
         """The limits, moved outward to enclose all variations."""
-        again = list(self.variations.values())
-        low = np.fmin.reduce([self.limits.low, *again], axis=0)
-        return low, np.fmax.reduce([self.limits.high, *again], axis=0)
+        varied_values = list(self.variations.values())
+        low = np.fmin.reduce([self.limits.low, *varied_values], axis=0)
+        return low, np.fmax.reduce([self.limits.high, *varied_values], axis=0)
 
     @property
     def error(self) -> np.ndarray:
@@ -67,7 +67,7 @@ def _written(value: Any) -> str:
     return f"{value:g}" if isinstance(value, int | float) else str(value)
 
 
-def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> Varied:
+def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> VariedNumber:
     """Return what `measure(**settings)` returns for all of `settings_of(choices)`.
 
     Raises ValueError if no choice has a second value: nothing would be varied.
@@ -77,41 +77,47 @@ def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> V
 
 def vary_several(
     measure: Callable[..., Mapping[str, Estimate]], choices: Mapping[str, Sequence]
-) -> dict[str, Varied]:
+) -> dict[str, VariedNumber]:
     """Return the same of the numbers that one measurement makes, by their names."""
     (_, printed), *changed = settings_of(choices).items()
     if not changed:
         raise ValueError(f"no choice has a second value to vary: {', '.join(choices) or 'none'}")
     first = measure(**printed)
-    again = {label: measure(**settings) for label, settings in changed}
+    varied_estimates = {label: measure(**settings) for label, settings in changed}
     return {
-        name: _varied(estimate, printed, {label: again[label][name][0] for label in again})
+        name: _varied(
+            estimate,
+            printed,
+            {label: varied_estimates[label][name][0] for label in varied_estimates},
+        )
         for name, estimate in first.items()
     }
 
 
-def _varied(estimate: Estimate, choices: dict[str, Any], again: Mapping[str, Any]) -> Varied:
+def _varied(
+    estimate: Estimate, choices: dict[str, Any], varied_values: Mapping[str, Any]
+) -> VariedNumber:
     limits = estimate if isinstance(estimate, ConfidenceInterval) else None
-    parts = [np.asarray(part, float) for part in estimate]
+    arrays = [np.asarray(array, float) for array in estimate]
     if limits:
-        value, low, high = parts
+        value, low, high = arrays
         with np.errstate(invalid="ignore"):  # see `Varied.error`
             error = np.fmax(value - low, high - value)
     else:
-        value, error = parts
-    changed = {label: np.asarray(one, float) for label, one in again.items()}
-    return Varied(value, np.broadcast_to(error, value.shape), choices, changed, limits)
+        value, error = arrays
+    changed = {label: np.asarray(value, float) for label, value in varied_values.items()}
+    return VariedNumber(value, np.broadcast_to(error, value.shape), choices, changed, limits)
 
 
-class Printed(NamedTuple):
+class NamedNumber(NamedTuple):
     """A number as a dataset keeps it."""
 
     dimensions: tuple[str, ...]
-    number: Varied
+    number: VariedNumber
     long_name: str
 
 
-def as_dataset(numbers: Mapping[str, Printed], coordinates: Mapping[str, Any]) -> xr.Dataset:
+def as_dataset(numbers: Mapping[str, NamedNumber], coordinates: Mapping[str, Any]) -> xr.Dataset:
     """Return a dataset of numbers by name, with the coordinates of their dimensions.
 
     The attribute `choices` of a number says what was chosen for it. Where a number was measured
@@ -120,37 +126,39 @@ def as_dataset(numbers: Mapping[str, Printed], coordinates: Mapping[str, Any]) -
     labels = list(
         dict.fromkeys(label for one in numbers.values() for label in one.number.variations)
     )
-    about = {"long_name": "choice that was changed, and its changed value"}
-    label = xr.Variable(VARIATION, np.array(labels, object), about)
+    attributes = {"long_name": "choice that was changed, and its changed value"}
+    label = xr.Variable(VARIATION, np.array(labels, object), attributes)
     data = xr.Dataset(coords={**coordinates, VARIATION: label})
     for name, printed in numbers.items():
-        data = data.assign(dict(zip(names_of(name), _parts(printed, labels), strict=True)))
+        data = data.assign(dict(zip(names_of(name), _variables_of(printed, labels), strict=True)))
         data = data.assign(_limits(name, printed))
     return data
 
 
-def _parts(printed: Printed, labels: Sequence[str]) -> list[xr.Variable]:
+def _variables_of(printed: NamedNumber, labels: Sequence[str]) -> list[xr.Variable]:
     """Return a number, its error, its statistical error, and the number under its variations."""
     (dims, number, meaning), missing = printed, np.full(printed.number.value.shape, np.nan)
-    again = [number.variations.get(label, missing) for label in labels]
+    varied_values = [number.variations.get(label, missing) for label in labels]
     chosen = ", ".join(f"{key} = {_written(one)}" for key, one in number.choices.items())
     error = f"error of the {meaning}: the larger of the statistical one and the largest change"
     return [
         xr.Variable(dims, number.value, {"long_name": meaning, "choices": chosen}),
         xr.Variable(dims, number.error, _named(error)),
         xr.Variable(dims, number.statistical_error, _named(f"statistical error of the {meaning}")),
-        xr.Variable((*dims, VARIATION), np.stack(again, axis=-1), _named(f"{meaning}, varied")),
+        xr.Variable(
+            (*dims, VARIATION), np.stack(varied_values, axis=-1), _named(f"{meaning}, varied")
+        ),
     ]
 
 
-def _limits(name: str, printed: Printed) -> dict[str, xr.Variable]:
+def _limits(name: str, printed: NamedNumber) -> dict[str, xr.Variable]:
     """Return the limits of a number that has them, by name."""
     dims, number, meaning = printed
     if number.limits is None:
         return {}
-    about = f"limit of the {meaning}, moved to enclose its variations"
+    meaning_of_limit = f"limit of the {meaning}, moved to enclose its variations"
     return {
-        f"{name}_{end}": xr.Variable(dims, limit, _named(f"{words} {about}"))
+        f"{name}_{end}": xr.Variable(dims, limit, _named(f"{words} {meaning_of_limit}"))
         for (end, words), limit in zip(
             (("low", "lower"), ("high", "upper")), number.widened, strict=True
         )
@@ -163,12 +171,12 @@ def _named(long_name: str) -> dict[str, str]:
 
 def names_of(number: str) -> list[str]:
     """Return the names of the variables that a dataset has of a number, and of its variations."""
-    return [f"{number}{end}" for end in PARTS]
+    return [f"{number}{end}" for end in ENDINGS]
 
 
 def numbers_in(data: xr.Dataset) -> list[str]:
     """Return the names of the numbers of a dataset that have variations."""
-    end = PARTS[-1]
+    end = ENDINGS[-1]
     return [str(name).removesuffix(end) for name in data.data_vars if str(name).endswith(end)]
 
 
@@ -179,8 +187,8 @@ def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
     """
     if number not in numbers_in(data):
         return {}
-    again = data[names_of(number)[-1]].dropna(VARIATION)
-    return {str(one[VARIATION].item()): float(one) for one in again}
+    varied_values = data[names_of(number)[-1]].dropna(VARIATION)
+    return {str(one[VARIATION].item()): float(one) for one in varied_values}
 
 
 def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -188,6 +196,6 @@ def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     for name in numbers_in(data):
         dims = data[name].dims
         for place in np.ndindex(data[name].shape):
-            here = data.isel(dict(zip(dims, place, strict=True)))
-            if np.isfinite(here[name]) and variations_of(here, name):
-                yield name, here
+            single = data.isel(dict(zip(dims, place, strict=True)))
+            if np.isfinite(single[name]) and variations_of(single, name):
+                yield name, single

@@ -3,7 +3,7 @@
 import keep
 from accepted import dataset
 from latticode.datasets.netcdf import read, save
-from pendula.varied import Printed, as_dataset, numbers_in, vary
+from pendula.varied import NamedNumber, as_dataset, numbers_in, vary
 
 MADE_UP = vary(lambda seed: ([0.5 * seed], [0.1]), {"seed": [1, 2]})
 ATTRIBUTES = {"title": "of a test", "members": 8, "end_time": 50.0, "settled": 10.0}
@@ -11,7 +11,7 @@ ATTRIBUTES = {"title": "of a test", "members": 8, "end_time": 50.0, "settled": 1
 
 def varied(name, dimension):
     """Return a made-up study with one number and its variation."""
-    numbers = {name: Printed((dimension,), MADE_UP, name)}
+    numbers = {name: NamedNumber((dimension,), MADE_UP, name)}
     place = (dimension, [1.0], {"long_name": dimension})
     return as_dataset(numbers, {dimension: place}).assign_attrs(ATTRIBUTES, seed=1)
 

@@ -11,7 +11,7 @@ import plain
 import pytest
 from dimers import METHODS, chain
 from hypothesis import given, settings
-from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, pack, unpack
+from latticode.simulation.lattice import FULL_CHAIN, Reduction, choose_ends, pack, unpack
 from latticode.simulation.simulate import simulate
 from oracle import (
     BOUNDARIES,
@@ -23,7 +23,7 @@ from oracle import (
     random_chain,
     slope,
 )
-from pendula.models.amplitudes import Chain, energy, rates
+from pendula.models.amplitudes import AmplitudeChain, energy, rates
 from problems import PAPER, make_problem
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -33,7 +33,7 @@ each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)
 some = settings(max_examples=20)
 
 
-def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=WHOLE, **changes):
+def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=FULL_CHAIN, **changes):
     return simulate(
         make_problem(z, numbers, boundary, name, snapshot_every=1, **changes), reduction
     )
@@ -51,16 +51,16 @@ def test_runs_have_the_bits_of_the_same_model_in_the_library(name, boundary):
     for half_width, end in ((4, 1.0), (550, 0.05)):
         z, times = random_chain(half_width), {"end_time": end, "output_step": end}
         one = run(name, z, CONSTANTS, boundary, **times)
-        other = simulate(chain(z, CONSTANTS, boundary, name, **times), WHOLE)
+        other = simulate(chain(z, CONSTANTS, boundary, name, **times), FULL_CHAIN)
         assert_same_bits(one, other, "final", "linf", "l2", "outcome")
 
 
 @each_boundary
 def test_rates_and_energy_are_equations_4_and_8(boundary):
     cases = itertools.product([1, 2, 4, 7, 8], REDUCTIONS)
-    for half_width, reduction in [(0, WHOLE), *cases]:
+    for half_width, reduction in [(0, FULL_CHAIN), *cases]:
         z = random_chain(half_width, **reduction._asdict())
-        given = Chain(*CONSTANTS, *choose_ends(boundary, reduction))
+        given = AmplitudeChain(*CONSTANTS, *choose_ends(boundary, reduction))
         y = pack(z, reduction)
         dy = np.zeros_like(y)
         rates(given, y, dy)

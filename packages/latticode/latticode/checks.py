@@ -54,10 +54,10 @@ def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> d
     `known` are the methods that take the equations. Data smaller than 1 need a smaller absolute
     tolerance, as far as its square does not vanish.
     """
-    other = other_family(name, known)
-    rtol = METHODS[other].tightest
+    judge = other_family(name, known)
+    rtol = METHODS[judge].tightest
     atol = max(rtol * (peak if 0 < peak < 1 else 1.0), SMALLEST_ERROR)
-    return {"name": other, "rtol": rtol, "atol": atol}
+    return {"name": judge, "rtol": rtol, "atol": atol}
 
 
 def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
@@ -68,8 +68,8 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """
     peak, known = float(modulus(problem.initial).max()), set(problem.equations.methods)
     solver = choose_solver(str(run.attrs["solver"]), peak, known)
-    apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
-    again, agreement, refusal = run[list(NORMS)] * np.nan, None, {}
+    norm_difference = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
+    second_norms, agreement, refusal = run[list(NORMS)] * np.nan, None, {}
     try:
         try:
             second = simulate(problem.changed(solver=solver))
@@ -79,13 +79,13 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
         first = simulate(problem.changed(solver=solver_of(run.attrs)))
         first = first._replace(final=_final_of(run, first.final))
         agreement = compare(first, second)
-        plain = problem.changed(snapshot_every=0, snapshots_at=())
-        again = as_xarray(*trajectory_contents("second run", plain, second))
-        apart = difference(run, again).reindex(tau=run["tau"])
+        without_snapshots = problem.changed(snapshot_every=0, snapshots_at=())
+        second_norms = as_xarray(*trajectory_contents("second run", without_snapshots, second))
+        norm_difference = difference(run, second_norms).reindex(tau=run["tau"])
     except IntegrationError as error:
         refusal = {"second_refusal": str(error)}
-    said = {f"second_{key}": value for key, value in solver.items()}
-    return _compared(run, again, apart, agreement).assign_attrs(said | refusal)
+    controls = {f"second_{key}": value for key, value in solver.items()}
+    return _compared(run, second_norms, norm_difference, agreement).assign_attrs(controls | refusal)
 
 
 def solver_of(attributes: Mapping) -> dict:
@@ -100,27 +100,32 @@ def _final_of(run: xr.Dataset, final: np.ndarray) -> np.ndarray:
     """Return the fields at the end that a run holds, or else those of the same run made again."""
     if "final" not in run:
         return final
-    parts = run["final"].transpose("part", "component", "site").values
-    return parts if final.ndim == 3 else complex_of(*parts)
+    real_and_imaginary = run["final"].transpose("part", "component", "site").values
+    return real_and_imaginary if final.ndim == 3 else complex_of(*real_and_imaginary)
 
 
 def _compared(
-    run: xr.Dataset, again: xr.Dataset, apart: xr.DataArray, agreement: Agreement | None
+    run: xr.Dataset,
+    second_norms: xr.Dataset,
+    norm_difference: xr.DataArray,
+    agreement: Agreement | None,
 ) -> xr.Dataset:
     """Return the norms of the second run, and what the runs are apart in norms and in fields."""
-    data = at_times(again, run["tau"]).drop_attrs(deep=False)
+    data = at_times(second_norms, run["tau"]).drop_attrs(deep=False)
     data = data.rename({norm: f"second_{norm}" for norm in NORMS})
     for norm in NORMS:
         long_name = f"{run[norm].attrs['long_name']}, by another method"
         data[f"second_{norm}"].attrs = {"long_name": long_name, "units": run[norm].attrs["units"]}
-    data["difference"] = apart.assign_attrs(
+    data["difference"] = norm_difference.assign_attrs(
         long_name="largest difference of the norms of two runs, of full scale", units="1"
     )
-    largest, diverged = apart.max(), divergence_time(apart)
+    largest, diverged = norm_difference.max(), divergence_time(norm_difference)
     if agreement is not None:
-        about = "largest difference of the fields of two runs at a site, of full scale"
+        long_name_of_fields = (
+            "largest difference of the fields of two runs at a site, of full scale"
+        )
         times = variable(agreement.kept_tau, ("kept_tau",), "time at which fields are compared")
-        fields = variable(agreement.fields, ("kept_tau",), about)
+        fields = variable(agreement.fields, ("kept_tau",), long_name_of_fields)
         data = data.merge(
             xr.Dataset.from_dict(table(TITLE, {}, kept_tau=times, field_difference=fields)),
             combine_attrs="override",
@@ -197,14 +202,17 @@ def check_breather(problem: Problem) -> xr.Dataset:
             state = find_state(problem)
     except NoStateError as error:
         return xr.Dataset(attrs={"breather_refusal": str(error)})
-    parts = state.components(problem)
-    moduli = np.sqrt(np.sum(parts**2, axis=1))
+    fields = state.components(problem)
+    moduli = np.sqrt(np.sum(fields**2, axis=1))
     sizes = moduli.max(axis=0)
     away = np.abs(np.arange(sizes.size) - sizes.argmax())
     end = sizes[away >= away.max() - 1].max() / sizes.max()
-    waves, found = exponents(problem, state._replace(x=0.0 * state.x)), exponents(problem, state)
+    waves, state_exponents = (
+        exponents(problem, state._replace(x=0.0 * state.x)),
+        exponents(problem, state),
+    )
     period = 2.0 * np.pi / abs(state.frequency) if state.frequency else 1.0
-    growth, multipliers = found.real.max(), np.exp(period * found)
+    growth, multipliers = state_exponents.real.max(), np.exp(period * state_exponents)
     frequencies = "its distance from the frequencies of linear waves"
     edge = "its largest value far from the centre, over that at the centre"
     modes, sites = ("part", "mode"), np.array(problem.site_numbers)
@@ -213,18 +221,26 @@ def check_breather(problem: Problem) -> xr.Dataset:
         "_gap": (np.abs(waves).min(), (), frequencies),
         "_end": (end, (), edge),
         "_growth": (growth, (), "largest rate of growth of its perturbations, per unit of tau"),
-        "_exponents": (_parts(found), modes, "exponents of its perturbations, per unit of tau"),
-        "_multipliers": (_parts(multipliers), modes, "Floquet multipliers of its perturbations"),
+        "_exponents": (
+            _real_and_imaginary(state_exponents),
+            modes,
+            "exponents of its perturbations, per unit of tau",
+        ),
+        "_multipliers": (
+            _real_and_imaginary(multipliers),
+            modes,
+            "Floquet multipliers of its perturbations",
+        ),
         "": (moduli, ("component", "site"), "moduli of a localised state"),
     }
     described = {f"breather{name}": variable(*given, digits=6) for name, given in numbers.items()}
     axes = {"part": ["re", "im"], "component": list(problem.model.fields), "site": sites}
-    found = xr.Dataset.from_dict(table(TITLE, axes, **described))
-    found["component"].attrs["long_name"] = problem.equations.names.component
-    return found
+    state_exponents = xr.Dataset.from_dict(table(TITLE, axes, **described))
+    state_exponents["component"].attrs["long_name"] = problem.equations.names.component
+    return state_exponents
 
 
-def _parts(values: np.ndarray) -> np.ndarray:
+def _real_and_imaginary(values: np.ndarray) -> np.ndarray:
     return np.stack([values.real, values.imag])
 
 
@@ -239,9 +255,9 @@ def check_conserved(run: xr.Dataset) -> xr.Dataset:
     drift = np.abs(values - values[:, :1]).max(axis=1)
     sizes = np.abs(values).max(axis=1)
     drift /= np.where(sizes > 0, sizes, 1.0)
-    about = "largest change of a conserved quantity, relative to its largest size"
+    long_name = "largest change of a conserved quantity, relative to its largest size"
     names = {"conserved_quantity": run["conserved_quantity"].values}
-    described = variable(drift, ("conserved_quantity",), about)
+    described = variable(drift, ("conserved_quantity",), long_name)
     return xr.Dataset.from_dict(table(TITLE, names, conserved_drift=described))
 
 
@@ -256,9 +272,9 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
-    again, growth = run_again(problem, run), measure_sensitivity(problem)
-    others = check_conserved(run), check_rest(problem, run), check_breather(problem)
-    return merged(run, again, growth, *others)
+    second_run, growth = run_again(problem, run), measure_sensitivity(problem)
+    other_checks = check_conserved(run), check_rest(problem, run), check_breather(problem)
+    return merged(run, second_run, growth, *other_checks)
 
 
 def merged(run: xr.Dataset, *checks: xr.Dataset) -> xr.Dataset:

@@ -7,7 +7,7 @@ from latticode.equations.initial_values import on_sites
 from latticode.generation.chain import at_every_site, close
 from latticode.generation.modules import load_rule
 from latticode.kernels.compiled import kernel
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import Trajectory, simulate
 from oracle import CASES
@@ -91,7 +91,7 @@ def chain(z, numbers=PAPER, boundary="dirichlet", solver="dop853", **changes) ->
     return Problem(model=DIMERS, boundary=boundary, initial=z, **values).changed(**changes)
 
 
-def integrate(z, solver, end=1.0, outputs=1, reduction=WHOLE, **changes) -> Trajectory:
+def integrate(z, solver, end=1.0, outputs=1, reduction=FULL_CHAIN, **changes) -> Trajectory:
     """Integrate data (2, N) to `end` with so many outputs after the first; see `chain`."""
     times = {"end_time": float(end), "output_step": float(end) / outputs}
     return simulate(chain(z, solver=solver, **times, **changes), reduction)

@@ -59,7 +59,7 @@ def turned(compiled: CompiledMethod, rate: float) -> CompiledMethod:
         outcome = compiled.run(system, y, times, controls, work, record, stop)
         y[0::2], y[1::2] = rotated(y[0::2], y[1::2], rate * times[-1])
         if record.every:
-            kept = record.kept
+            kept = record.snapshots
             kept[0], kept[1] = rotated(kept[0], kept[1], rate * times[:: record.every])
         return outcome
 

@@ -17,7 +17,7 @@ from latticode.kernels.webassembly import WebAssemblyError, webassembly
 from latticode.simulation.lattice import aligned
 from latticode.simulation.observables import blank_record, observe_fields
 
-from pendula.models.amplitudes import Chain, energy_with_scratch, rates
+from pendula.models.amplitudes import AmplitudeChain, energy_with_scratch, rates
 
 ANY_PROCESSOR = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
 """Variables that have numba compile for the features that all processors of a family share."""
@@ -42,7 +42,7 @@ def run_keeping_states(chain, y, times, controls, work, record, stop):
 def compile_to_webassembly() -> bytes:
     """Return the WebAssembly of the solver on half a chain; its sizes are arguments of it."""
     y = np.zeros((4, 4))
-    chain = Chain(1.0, 1.0, 0.0, MIRROR, DIRICHLET)
+    chain = AmplitudeChain(1.0, 1.0, 0.0, MIRROR, DIRICHLET)
     record = blank_record(2, 2, 2, 1, quantities=1, parts=2)
     controls, stop = (0.0,) * len(ODE45.controls), np.zeros(1, np.bool_)
     work = aligned((ODE45.work_arrays(y.shape[1] - 2, in_tiles=False), *y.shape))

@@ -19,7 +19,7 @@ from latticode.simulation.observables import observe_moduli
 from .equations import AMPLITUDE_MODEL, CONSERVING_MODEL
 
 
-class Chain(NamedTuple):
+class AmplitudeChain(NamedTuple):
     """Parameters of the equations (coupling, drive, detuning) and the kinds of the two ends."""
 
     epsilon: float
@@ -37,7 +37,7 @@ def system_of_tile(chain, at_left_end, at_right_end):
     """
     left = chain.left if at_left_end else DIRICHLET
     right = chain.right if at_right_end else DIRICHLET
-    return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
+    return AmplitudeChain(chain.epsilon, chain.gamma, chain.omega, left, right)
 
 
 # --- What is generated from the traced model -----------------------------------------------------

@@ -87,10 +87,10 @@ def widened_bound(energy: float, start: float, constants: Constants) -> float:
     top, barrier = widened_barrier(constants)
     if not (start < top and -energy < barrier):
         return np.inf
-    part, low, high = -float(energy) / (1.5 * barrier), 0.0, 1.0
+    depth, low, high = -float(energy) / (1.5 * barrier), 0.0, 1.0
     for _ in range(60):
         middle = 0.5 * (low + high)  # of P / top
-        if middle - middle * middle * middle / 3.0 < part:
+        if middle - middle * middle * middle / 3.0 < depth:
             low = middle
         else:
             high = middle
@@ -120,9 +120,9 @@ def find_bounds(
 
 def proven_region(energy: float, start: float, constants: Constants, boundary: str) -> str:
     """Return which theorem bounds P independently of N, in the words of the ledger."""
-    found = find_bounds(energy, start, 1, constants, boundary)
+    bounds = find_bounds(energy, start, 1, constants, boundary)
     regions = {"theorem_1": "theorem 1", "theorem_2": "theorem 2", "widened": "theorem 2 widened"}
-    return next((words for name, words in regions.items() if np.isfinite(found[name])), "none")
+    return next((words for name, words in regions.items() if np.isfinite(bounds[name])), "none")
 
 
 def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:

@@ -12,21 +12,23 @@ from latticode.datasets.registry import NAMES
 from latticode.numerics.elementary import complex_of, modulus
 from latticode.simulation.equations import CompiledMethod, Equations, ResultNames
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unfold, unpack
-from latticode.simulation.observables import Record, blank_record
+from latticode.simulation.observables import ObservableRecord, blank_record
 
 from pendula import names  # noqa: F401, whose words stand below
 from pendula.feasibility import clock_of, rates_of
 
-from .amplitudes import Chain
+from .amplitudes import AmplitudeChain
 from .equations import AMPLITUDES, PENDULA, Constants
 from .pendula import Pendula, angles_of, make_pendula, swings_of, times_of
 from .solvers import SOLVERS
 
 
-def make_chain(constants: Constants, boundary: str, cut: Reduction) -> Chain:
+def make_chain(constants: Constants, boundary: str, cut: Reduction) -> AmplitudeChain:
     """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
     ends = choose_ends(boundary, cut)
-    return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
+    return AmplitudeChain(
+        float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends
+    )
 
 
 class PaperEquations(Equations):
@@ -74,23 +76,23 @@ class AmplitudeEquations(PaperEquations):
         """Return bounds of the rates at which amplitudes of this size turn or grow, by key."""
         return rates_of(self.constants, peak)
 
-    def system(self, cut: Reduction) -> Chain:
+    def system(self, cut: Reduction) -> AmplitudeChain:
         """Return the parameters of the kernels."""
         return make_chain(self.constants, self.problem.boundary, cut)
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool
-    ) -> Record:
+    ) -> ObservableRecord:
         """Return empty arrays for moduli, norms and energy at so many times."""
         return blank_record(components, sites, times, every, quantities=int(conserved))
 
-    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return energy, moduli or states, and final amplitudes of the whole chain."""
         conserved = dict(zip(("energy",), record.conserved, strict=False))
         results = {"conserved": conserved, "final": unpack(y, cut)}
-        if record.kept.ndim == 3:
-            return {**results, "modulus": unfold(record.kept, cut)}
-        state = np.array([unfold(part, cut) for part in record.kept])
+        if record.snapshots.ndim == 3:
+            return {**results, "modulus": unfold(record.snapshots, cut)}
+        state = np.array([unfold(part, cut) for part in record.snapshots])
         return {**results, "modulus": modulus(complex_of(*state)), "state": state}
 
 
@@ -157,9 +159,9 @@ class PendulumEquations(PaperEquations):
         """Return tau at a time t."""
         return 0.5 * self.mu * self.mu * time
 
-    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return swings, angles and velocities of the whole chain."""
-        snapshots = np.array([unfold(part, cut) for part in record.kept])
+        snapshots = np.array([unfold(part, cut) for part in record.snapshots])
         return {
             # a snapshot finds all pendula at one phase of their swing, so angles alone would show
             # the phase

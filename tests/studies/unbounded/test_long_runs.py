@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from latticode.simulation.active_sites import integrate_intervals
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.simulate import simulate
 from oracle import random_chain
 from pendula.studies.unbounded.active_sites import run_long
@@ -24,7 +24,7 @@ LOPSIDED = {-2: (1.0, 0.1), 0: (0.0, 0.5j)}
 def test_the_norms_of_a_regular_case_are_those_of_a_long_chain(changes):
     settings = {"half_width": None, "end_time": 40.0, "output_step": 0.5, "solver": TIGHT}
     endless = problem_of("fig3_small", **settings | changes)
-    full_chain = simulate(endless.changed(half_width=150), WHOLE)
+    full_chain = simulate(endless.changed(half_width=150), FULL_CHAIN)
     series = run_long(endless, REST_THRESHOLD)
     np.testing.assert_allclose(series["tau"], full_chain.tau, rtol=1e-14)
     np.testing.assert_allclose(series["l2"], np.hypot(*full_chain.l2), rtol=1e-12)

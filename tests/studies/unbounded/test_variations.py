@@ -20,7 +20,7 @@ from pendula.studies.unbounded.variations import (
     numbers_of_states,
     predict_distances,
 )
-from pendula.varied import Printed, as_dataset, numbers_in, single_numbers, vary
+from pendula.varied import NamedNumber, as_dataset, numbers_in, single_numbers, vary
 from problems import problem_of
 
 TAU = np.arange(2.0, 402.0, 2.0)
@@ -119,7 +119,7 @@ def test_figures_of_long_runs_show_the_first_level_and_edge():
 def test_noise_leaves_the_second_front_a_distance_behind_the_first():
     kappa = vary(lambda tolerance: ([0.5], [0.01]), {"tolerance": [1e-8, 1e-10]})
     along, omega = ("omega",), {"omega": ("omega", [0.0])}
-    growth = as_dataset({"growth_behind_front": Printed(along, kappa, "growth")}, omega)
+    growth = as_dataset({"growth_behind_front": NamedNumber(along, kappa, "growth")}, omega)
     noise = xr.Dataset(coords={"noise": np.array(["1e-08", ROUNDING], object), "omega": [0.0]})
     distance = predict_distances(noise, growth).number
     assert distance.value.ravel() == pytest.approx([8 * np.log(10.0) * 2.0, 53 * np.log(2.0) * 2.0])
@@ -130,14 +130,14 @@ def test_what_two_noises_have_in_common_cancels_in_the_difference_of_their_dista
     """Both distances have the constant 7, which one choice doubles, and their errors add up."""
     along, omega = ("omega",), {"omega": ("omega", [0.0])}
     kappa = vary(lambda tolerance: ([0.5], [0.0]), {"tolerance": [1e-8, 1e-10]})
-    growth = as_dataset({"growth_behind_front": Printed(along, kappa, "growth")}, omega)
+    growth = as_dataset({"growth_behind_front": NamedNumber(along, kappa, "growth")}, omega)
     labels = np.array(["1e-16", "1e-08", ROUNDING], object)
     logs = np.log(10.0) * np.array([[16.0], [8.0], [16.0]])
 
     def measure(level):
         return 2.0 * logs + 7.0 * level, np.array([[3.0], [4.0], [0.0]])
 
-    distance = Printed(("noise", "omega"), vary(measure, {"level": [1.0, 2.0]}), "distance")
+    distance = NamedNumber(("noise", "omega"), vary(measure, {"level": [1.0, 2.0]}), "distance")
     noise = as_dataset({"distance": distance}, {"noise": ("noise", labels), **omega})
     numbers = {name: number.number for name, number in differences(noise, growth).items()}
     for number in numbers.values():

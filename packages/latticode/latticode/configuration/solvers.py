@@ -47,7 +47,7 @@ class Auto(Model):
 
 
 def _field(control: Control) -> tuple[Any, Any]:
-    kind = Integer if control.whole else Positive
+    kind = Integer if control.is_integer else Positive
     bounds = Field(ge=control.at_least, le=control.at_most, lt=control.below)
     return Annotated[kind, bounds], control.default
 

@@ -114,9 +114,11 @@ def step_error(h, fifth, third):
 
 
 @kernel
-def worse(one, other):
+def worse(first_error, second_error):
     """Return the larger of two errors, or the one that is NaN: max() would drop it."""
-    return other if other > one or other != other else one
+    return (
+        second_error if second_error > first_error or second_error != second_error else first_error
+    )
 
 
 # --- The interpolant of order seven between the steps -------------------------------------------

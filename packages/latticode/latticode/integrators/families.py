@@ -109,21 +109,23 @@ class Agreement(NamedTuple):
         return float(min(first_above(tau, values, level) for tau, values in series))
 
 
-def compare(run, again) -> Agreement:
+def compare(run, second_run) -> Agreement:
     """Return how far two trajectories of one problem are apart, with snapshots at the same times.
 
     Complex fields differ in modulus and phase. Real ones are compared in their values and in their
     rates; a rate counts relative to the largest value where no rate is larger. Where snapshots hold
     moduli alone, these are compared, and phases only at the end time.
     """
-    norms = norm_difference(run.linf, run.l2, again.linf, again.l2)
-    sizes = np.maximum(run.linf.max(axis=1), again.linf.max(axis=1))  # (component,)
-    pairs = zip(_fields_of(run), _fields_of(again), strict=True)
-    kept, at_end = (field_difference(one, other, sizes) for one, other in pairs)
+    norms = norm_difference(run.linf, run.l2, second_run.linf, second_run.l2)
+    sizes = np.maximum(run.linf.max(axis=1), second_run.linf.max(axis=1))  # (component,)
+    pairs = zip(_fields_of(run), _fields_of(second_run), strict=True)
+    at_snapshots, at_end = (field_difference(one, other, sizes) for one, other in pairs)
     kept_tau = run.snapshot_tau
     if kept_tau.size and kept_tau[-1] == run.tau[-1]:
-        return Agreement(run.tau, norms, kept_tau, np.append(kept[:-1], max(kept[-1], at_end[0])))
-    fields = np.append(kept, at_end)
+        return Agreement(
+            run.tau, norms, kept_tau, np.append(at_snapshots[:-1], max(at_snapshots[-1], at_end[0]))
+        )
+    fields = np.append(at_snapshots, at_end)
     return Agreement(run.tau, norms, np.append(kept_tau, run.tau[-1]), fields)
 
 
@@ -131,5 +133,5 @@ def _fields_of(run) -> list[np.ndarray]:
     """Return the fields at the snapshots and at the end, each (curve, site, time)."""
     real, at_end = run.final.ndim == 3, run.final[..., None]
     state = run.state if real or run.state is None else complex_of(*run.state)
-    kept = run.modulus if state is None else state
-    return [one.reshape(-1, *one.shape[-2:]) for one in (kept, at_end)]
+    at_snapshots = run.modulus if state is None else state
+    return [one.reshape(-1, *one.shape[-2:]) for one in (at_snapshots, at_end)]

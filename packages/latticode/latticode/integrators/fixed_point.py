@@ -29,14 +29,14 @@ SMALLEST_FRACTION = 2.0**-20
 
 
 @kernel
-def update(base, part, slope, rest, new):
+def update(base, fraction, slope, rest, new):
     """Set new = base + part slope; return the largest change of a part, NaN where there is one.
 
     `slope` is overwritten by the changes.
     """
     for row in range(base.shape[0]):
         for j in range(1, base.shape[1] - 1):
-            value = zero_below(rest, base[row, j] + part * slope[row, j])
+            value = zero_below(rest, base[row, j] + fraction * slope[row, j])
             slope[row, j] = abs(value - new[row, j])
             new[row, j] = value
     return largest_in_rows(slope, base.shape[0])
@@ -147,10 +147,10 @@ def build(begin, slope, observe):
         last = 0.0  # length of the step before; 0 if there was none, or if it was halved
         for i in range(times.size):
             span = times[i] - times[max(i - 1, 0)]
-            parts = int(np.ceil(span / step * (1.0 - 1e-12)))
+            step_count = int(np.ceil(span / step * (1.0 - 1e-12)))
             enough = tolerance * size(y)
-            for part in range(parts):
-                h = span / parts
+            for step_number in range(step_count):
+                h = span / step_count
                 extrapolate(y, past, next_past - 1, new)
                 follows = abs(h - last) <= SAME * h
                 good, count = iterate(system, y, new, h, rest, follows, scratch, enough, int(most))
@@ -167,7 +167,7 @@ def build(begin, slope, observe):
                 if stop[0] or not good:
                     fault = NO_CONTRACTION if is_finite(y) else NOT_FINITE
                     status = INTERRUPTED if stop[0] else fault
-                    at = times[i - 1] + part * span / parts
+                    at = times[i - 1] + step_number * span / step_count
                     return Outcome(status, at, steps, rejected, evaluations)
                 steps += 1
             observe(system, y, i, record)

@@ -40,11 +40,14 @@ NODES = np.cumsum(KICKS) - 0.5 * KICKS
 
 
 @kernel
-def add_rows(y, first, slope, other, h, rest):
-    """Add h times every second row of `slope`, from `other` on, to those of `y` from `first` on."""
+def add_rows(y, first, slope, first_slope, h, rest):
+    """Add h times every second row of `slope`, from `first_slope` on, to those of `y`.
+
+    These begin at `first`.
+    """
     for row in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
-            value = y[row + first, j] + h * slope[row + other, j]
+            value = y[row + first, j] + h * slope[row + first_slope, j]
             y[row + first, j] = zero_below(rest, value)
 
 
@@ -61,20 +64,20 @@ def build(rates, observe, at_time=at_any_time):
         for i in range(times.size):
             start = times[max(i - 1, 0)]
             span = times[i] - start
-            parts = int(np.ceil(span / step * (1.0 - 1e-12)))
-            h = span / max(parts, 1)
-            for part in range(parts):
-                t = start + part * h
+            step_count = int(np.ceil(span / step * (1.0 - 1e-12)))
+            h = span / max(step_count, 1)
+            for step_number in range(step_count):
+                t = start + step_number * h
                 if stop[0]:
                     return Outcome(INTERRUPTED, t, steps, 0, KICKS.size * steps)
                 for stage in range(KICKS.size):
                     # the last drift of a step and the first of the next are one
-                    joined = 2.0 if stage == 0 and part > 0 else 1.0
+                    joined = 2.0 if stage == 0 and step_number > 0 else 1.0
                     add_rows(y, 0, y, 1, joined * DRIFTS[stage] * h, rest)
                     rates(at_time(system, t + NODES[stage] * h), y, slope)
                     add_rows(y, 1, slope, 1, KICKS[stage] * h, rest)
                 steps += 1
-            if parts > 0:
+            if step_count > 0:
                 add_rows(y, 0, y, 1, DRIFTS[0] * h, rest)
             observe(system, y, np.int64(i), record)
         return Outcome(DONE, times[-1], steps, 0, KICKS.size * steps)

@@ -31,7 +31,7 @@ class Control(NamedTuple):
     at_least: float | None = None
     at_most: float | None = None
     below: float | None = None
-    whole: bool = False
+    is_integer: bool = False
 
 
 class Demand(NamedTuple):

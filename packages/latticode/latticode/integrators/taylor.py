@@ -66,7 +66,7 @@ WORK = work_arrays(0)
 """Work arrays of the size of a state."""
 
 
-class Series(NamedTuple):
+class PowerSeries(NamedTuple):
     """Power series of a state of (row, column), whose rows are Re and Im of each component."""
 
     memory: np.ndarray  # flat: component, block, order, part, lane; then the ghosts
@@ -80,7 +80,7 @@ def lay_out(work, y):
     """Return a series of states like `y` in the memory of `work`."""
     sites = y.shape[1] - 2
     blocks = (sites + LANES - 1) // LANES
-    return Series(work.reshape(-1), y.shape[0] // 2, blocks, sites - (blocks - 1) * LANES)
+    return PowerSeries(work.reshape(-1), y.shape[0] // 2, blocks, sites - (blocks - 1) * LANES)
 
 
 @inlined_by_llvm
@@ -140,8 +140,8 @@ def advance(series, h, rest):
     """
     m = series.memory
     for block in range(series.components * series.blocks):
-        for part in range(X, Y + 1, Y - X):
-            i = block * BLOCK_SIZE + part
+        for offset in range(X, Y + 1, Y - X):
+            i = block * BLOCK_SIZE + offset
             store(m, i, zero_below(rest, sum_at(m, i, h)))
 
 
@@ -176,13 +176,13 @@ def largest_modulus(series, k):
     good for a step and never zero by underflow. Padding does not matter: it repeats what sites hold
     (see `close` of the system's rule).
     """
-    m, square, part = series.memory, fill(0.0), fill(0.0)
+    m, square, magnitude = series.memory, fill(0.0), fill(0.0)
     for block in range(series.components * series.blocks):
         u = block * BLOCK_SIZE + k * ORDER_STRIDE
         x, y = load(m, u + X), load(m, u + Y)
         square = larger_magnitude(square, x * x + y * y)
-        part = larger_magnitude(part, larger_magnitude(x, y))
-    largest_square, largest_part = largest_lane(square), largest_lane(part)
+        magnitude = larger_magnitude(magnitude, larger_magnitude(x, y))
+    largest_square, largest_part = largest_lane(square), largest_lane(magnitude)
     return largest_part if largest_square < SQUARES else sqrt(largest_square)
 
 

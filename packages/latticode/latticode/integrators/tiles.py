@@ -47,12 +47,12 @@ def copy_columns(source, at, target, to, count):
 
 
 @kernel
-def take(whole, left, part):
+def take(state, left, tile):
     """Copy the sites that a tile holds, from `left` on, out of the whole state."""
-    copy_columns(whole, 1 + left, part, 1, part.shape[1] - 2)
+    copy_columns(state, 1 + left, tile, 1, tile.shape[1] - 2)
 
 
 @kernel
-def give(part, left, first, stop, whole):
+def give(tile, left, first, stop, state):
     """Copy the sites first..stop - 1, which the tile owns, into the whole state."""
-    copy_columns(part, 1 + first - left, whole, 1 + first, stop - first)
+    copy_columns(tile, 1 + first - left, state, 1 + first, stop - first)

@@ -18,7 +18,7 @@ STRIP = 4 * LANES
 """Numbers that are summed at once."""
 
 
-class Table(NamedTuple):
+class WeightTable(NamedTuple):
     """Rows of weights that are not zero, and of the stages whose slopes they multiply, from 0."""
 
     weights: np.ndarray  # (row, term)
@@ -26,17 +26,17 @@ class Table(NamedTuple):
     terms: np.ndarray  # (row,), how many terms a row has
 
 
-def table(rows: Mapping[int, Mapping[int, float]], count: int) -> Table:
+def table(rows: Mapping[int, Mapping[int, float]], count: int) -> WeightTable:
     """Return `count` rows, given as weights by stage, which are counted from 1 as in formulae."""
     longest = max(map(len, rows.values()))
-    made = Table(
+    weight_table = WeightTable(
         np.zeros((count, longest)), np.zeros((count, longest), np.int64), np.zeros(count, np.int64)
     )
     for row, weights in rows.items():
-        made.terms[row] = len(weights)
-        made.weights[row, : len(weights)] = list(weights.values())
-        made.stages[row, : len(weights)] = [stage - 1 for stage in weights]
-    return made
+        weight_table.terms[row] = len(weights)
+        weight_table.weights[row, : len(weights)] = list(weights.values())
+        weight_table.stages[row, : len(weights)] = [stage - 1 for stage in weights]
+    return weight_table
 
 
 @inlined_by_llvm

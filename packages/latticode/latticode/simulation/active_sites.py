@@ -20,7 +20,7 @@ from latticode.integrators import DONE, FAULTS
 from .equations import CompiledMethod, IntegrationError
 from .interrupts import interruptible
 from .lattice import Reduction, pack
-from .observables import Record
+from .observables import ObservableRecord
 from .problem import Problem
 from .traced import TracedEquations
 
@@ -35,7 +35,7 @@ class Interval(NamedTuple):
     """What a run has at the end of an interval."""
 
     times: np.ndarray  # (time,), the outputs, both ends included
-    record: Record  # its snapshots hold the state at every output
+    record: ObservableRecord  # its snapshots hold the state at every output
     state: np.ndarray  # (row, 1 + site + 1) with ghosts; changes in place are integrated on
     right_half: np.ndarray  # (row, site), the sites 0..W of the state
 
@@ -93,7 +93,7 @@ class _Runs:
         self.columns = 0
         self.prepared: tuple[CompiledMethod, Any, np.ndarray]
 
-    def advance(self, state: np.ndarray, times: np.ndarray) -> Record:
+    def advance(self, state: np.ndarray, times: np.ndarray) -> ObservableRecord:
         """Integrate `state` in place over `times` and return what was observed."""
         if state.shape[1] != self.columns:
             self._prepare(state)

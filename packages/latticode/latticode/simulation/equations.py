@@ -15,7 +15,7 @@ from latticode.generation.chain import can_be_tiled
 from latticode.integrators.method import Method
 
 from .lattice import Reduction, aligned, find_reduction, pack
-from .observables import Record, blank_record
+from .observables import ObservableRecord, blank_record
 
 
 class IntegrationError(RuntimeError):
@@ -140,10 +140,10 @@ class Equations:
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool
-    ) -> Record:
+    ) -> ObservableRecord:
         """Return empty arrays for what is observed at so many times."""
         return blank_record(components, sites, times, every, parts=2)
 
-    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return what a `Trajectory` holds of the whole chain, from record and final state."""
         raise NotImplementedError

@@ -22,7 +22,7 @@ class Reduction(NamedTuple):
     synchronised: bool
 
 
-WHOLE = Reduction(even=False, synchronised=False)
+FULL_CHAIN = Reduction(even=False, synchronised=False)
 """Both components on the whole chain, whatever the symmetries."""
 
 
@@ -45,12 +45,12 @@ def choose_ends(boundary: str, reduction: Reduction) -> tuple[int, int]:
 
 def pack(amplitudes: np.ndarray, reduction: Reduction) -> np.ndarray:
     """Return amplitudes (component, N) as a real state with ghost columns, reduced."""
-    kept = amplitudes[:1] if reduction.synchronised else amplitudes
+    fields = amplitudes[:1] if reduction.synchronised else amplitudes
     if reduction.even:
-        kept = kept[:, kept.shape[1] // 2 :]
-    y = np.zeros((2 * len(kept), kept.shape[1] + 2))
-    y[0::2, 1:-1] = kept.real
-    y[1::2, 1:-1] = kept.imag
+        fields = fields[:, fields.shape[1] // 2 :]
+    y = np.zeros((2 * len(fields), fields.shape[1] + 2))
+    y[0::2, 1:-1] = fields.real
+    y[1::2, 1:-1] = fields.imag
     return y
 
 

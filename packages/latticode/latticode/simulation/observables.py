@@ -10,12 +10,13 @@ from latticode.kernels.compiled import inlined_by_llvm, uncached
 from latticode.kernels.simd import largest_magnitude
 
 
-class Record(NamedTuple):
+class ObservableRecord(NamedTuple):
     """The arrays that a run fills while it integrates; `every` = 0 keeps no snapshots."""
 
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    kept: np.ndarray  # moduli (component, site, snapshot), or states with (part, ...) before that
+    # moduli (component, site, snapshot), or states (part, component, site, snapshot)
+    snapshots: np.ndarray
     every: int
     scratch: np.ndarray  # (component, column), two rows at least
     conserved: np.ndarray  # (quantity, time), empty if no run asks for it
@@ -23,18 +24,18 @@ class Record(NamedTuple):
 
 def blank_record(
     components: int, sites: int, times: int, every: int, quantities: int = 0, parts: int = 0
-) -> Record:
+) -> ObservableRecord:
     """Return empty arrays for a run of `times` outputs, with snapshots at each `every`-th of them.
 
     Snapshots are moduli, or states of so many `parts`. Conserved `quantities` may take half of the
     time of an output; a run whose norms alone are wanted asks for none.
     """
-    snapshots = (times - 1) // every + 1 if every else 0
-    kept = (components, sites, snapshots)
-    return Record(
+    count = (times - 1) // every + 1 if every else 0
+    moduli_shape = (components, sites, count)
+    return ObservableRecord(
         np.empty((components, times)),
         np.empty((components, times)),
-        np.empty((parts, *kept) if parts else kept),
+        np.empty((parts, *moduli_shape) if parts else moduli_shape),
         every,
         np.empty((max(2, components), sites + 2)),
         np.empty((quantities, times)),
@@ -95,25 +96,25 @@ def observer(square, keep_site):
         if record.every > 0 and i % record.every == 0:
             for k in range(y.shape[0] // 2):
                 for j in range(1, y.shape[1] - 1):
-                    keep_site(y, k, j, i // record.every, record.kept)
+                    keep_site(y, k, j, i // record.every, record.snapshots)
 
     return observe
 
 
 @inlined_by_llvm
-def keep_modulus(y, k, j, snapshot, kept):
-    """Keep the modulus, or both parts where `kept` has room for them."""
-    if kept.ndim == 4:  # numba compiles one of the two
-        for part in range(2):
-            kept[part, k, j - 1, snapshot] = y[2 * k + part, j]
+def keep_modulus(y, k, j, snapshot, snapshots):
+    """Keep the modulus, or both parts where `snapshots` has room for them."""
+    if snapshots.ndim == 4:  # numba compiles one of the two
+        for row in range(2):
+            snapshots[row, k, j - 1, snapshot] = y[2 * k + row, j]
     else:
-        kept[k, j - 1, snapshot] = sqrt(modulus2(y, 2 * k, j))
+        snapshots[k, j - 1, snapshot] = sqrt(modulus2(y, 2 * k, j))
 
 
 @inlined_by_llvm
-def keep_parts(y, k, j, snapshot, kept):
-    for part in range(2):
-        kept[part, k, j - 1, snapshot] = y[2 * k + part, j]
+def keep_parts(y, k, j, snapshot, snapshots):
+    for row in range(2):
+        snapshots[row, k, j - 1, snapshot] = y[2 * k + row, j]
 
 
 @inlined_by_llvm

@@ -139,8 +139,8 @@ def integrate(
     y, times, system = equations.start(cut), equations.times, equations.system(cut)
     size = y.shape[0] // 2, y.shape[1] - 2, len(times)
     record = equations.record(*size, problem.snapshot_every, conserved)
-    if problem.keep == "state" and record.kept.ndim == 3:
-        record = record._replace(kept=np.empty((2, *record.kept.shape)))
+    if problem.keep == "state" and record.snapshots.ndim == 3:
+        record = record._replace(snapshots=np.empty((2, *record.snapshots.shape)))
     follow(record.linf[0], name)
     controls = compiled.controls_of(problem.solver, equations.atol_scale)
     work = compiled.work_for(system, y)

@@ -24,7 +24,7 @@ from latticode.numerics.elementary import complex_of, modulus
 from .equations import CompiledMethod, Equations, ResultNames
 from .feasibility import rates_of
 from .lattice import Reduction, choose_ends, find_reduction, unfold
-from .observables import Record, blank_record
+from .observables import ObservableRecord, blank_record
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
@@ -249,16 +249,16 @@ class TracedEquations(Equations):
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool
-    ) -> Record:
+    ) -> ObservableRecord:
         """Return empty arrays for what is observed at so many times."""
         quantities = len(self.problem.model.conserved) if conserved else 0
         return blank_record(components, sites, times, every, quantities, parts=2)
 
-    def collect(self, record: Record, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
+    def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return what a `Trajectory` holds of the whole chain, from record and final state."""
         model, count = self.problem.model, len(self.names.parts)
         parts = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
-        state = np.array([unfold(part, cut) for part in record.kept[:count]])
+        state = np.array([unfold(part, cut) for part in record.snapshots[:count]])
         real = model.real
         return {
             "modulus": np.abs(state[0]) if real else modulus(complex_of(*state)),

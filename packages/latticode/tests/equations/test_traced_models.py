@@ -5,7 +5,7 @@ from functools import reduce
 import numpy as np
 import pytest
 from latticode.equations.model import Model, abs2, conj, lap, shift
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
 from scipy.integrate import solve_ivp
@@ -110,7 +110,7 @@ def test_half_of_an_even_chain_has_the_bits_of_the_whole(boundary):
     assert model.even and not Model(fields="u", parameters={}, i_dt=lambda p, u: u.right).even
     half = np.random.default_rng(3).normal(size=(1, 10, 2)) @ (0.5, 0.5j)
     given = problem(model, np.concatenate([half[:, :0:-1], half], axis=1), boundary)
-    runs = [simulate(given, kept) for kept in (None, WHOLE)]
+    runs = [simulate(given, kept) for kept in (None, FULL_CHAIN)]
     assert runs[0].final[0, 0] == runs[0].final[0, -1]
     for name in ("final", "l2", "linf", "state"):
         np.testing.assert_array_equal(*(getattr(run, name) for run in runs))

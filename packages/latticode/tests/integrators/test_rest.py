@@ -13,7 +13,7 @@ from latticode import Case, Model, abs2, cos, lap, sin
 from latticode.integrators.rest import rest_level, set_to_rest
 from latticode.integrators.taylor import lay_out, write_state
 from latticode.kernels.compiled import uncached
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.simulate import simulate
 from latticode.simulation.traced import kernels_of, make_system
 
@@ -128,7 +128,7 @@ def test_neither_rates_nor_series_of_a_state_that_falls_to_1e_130_underflow(name
     model = Model(fields="u", parameters={}, i_dt=EQUATIONS[name])
     case = Case(model=model, half_width=60, initial={0: [1.0]}, end_time=1)
     problem = case.kind.of(case.problem())
-    kernels, system = kernels_of(model, frozenset()), make_system(problem, WHOLE)
+    kernels, system = kernels_of(model, frozenset()), make_system(problem, FULL_CHAIN)
     y = np.zeros((2, problem.sites + 2))
     y[:, 1:61] = 10.0 ** np.linspace(-129, 0, 60) * np.array([[1.0], [-0.7]])
     assert not underflows(kernels.rates, system, y, np.zeros_like(y))

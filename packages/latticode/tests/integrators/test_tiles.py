@@ -51,7 +51,7 @@ def run(method, z, boundary, even, times=TIMES, every=20):
     work = np.zeros((dop853.WORK, *y.shape))
     outcome = method(pairs, y, times, (1e-9, 1e-9), work, record, np.zeros(1, np.bool_))
     assert outcome.status == DONE
-    return (y[:, 1:-1], record.l2, record.linf, record.kept), outcome
+    return (y[:, 1:-1], record.l2, record.linf, record.snapshots), outcome
 
 
 def compared(*given):

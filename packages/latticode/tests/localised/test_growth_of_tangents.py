@@ -5,7 +5,7 @@ import pytest
 from latticode.equations.model import Model, abs2, conj, lap, shift, sin
 from latticode.localised.bundles import orthonormalise
 from latticode.localised.tangents import grow, random_tangent
-from latticode.simulation.lattice import WHOLE, pack
+from latticode.simulation.lattice import FULL_CHAIN, pack
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import IntegrationError, simulate
 from latticode.simulation.traced import make_system
@@ -90,9 +90,9 @@ def test_all_vectors_of_linear_equations_grow_at_the_exact_rate(gain):
 def test_orthonormalising_measures_what_a_qr_decomposition_does():
     case = chain(COUPLED, half_width=2)
     rng = np.random.default_rng(5)
-    states = np.array([pack(random_tangent(5, rng), WHOLE) for _ in range(4)])
+    states = np.array([pack(random_tangent(5, rng), FULL_CHAIN) for _ in range(4)])
     bundle, lengths = np.concatenate(states), np.empty(3)
-    orthonormalise(make_system(case, WHOLE), bundle, lengths)
+    orthonormalise(make_system(case, FULL_CHAIN), bundle, lengths)
     vectors = states[1:, :, 1:-1].reshape(3, -1).T
     expected = np.abs(np.diag(np.linalg.qr(vectors)[1]))
     np.testing.assert_allclose(lengths, expected, rtol=1e-12)

@@ -5,7 +5,7 @@ import pytest
 from dimers import DIMERS, model
 from latticode.datasets.trajectories import trajectory_contents
 from latticode.equations.model import Model, abs2, cos, lap, shift
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
 
@@ -56,7 +56,7 @@ def test_sums_are_those_of_numpy_at_every_output(boundary, sites):
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
 def test_half_of_an_even_chain_gives_the_bits_of_the_whole(boundary):
     initial = random(2, 21, even=True)
-    whole, half = (run(DIMERS, initial, boundary, cut)[1] for cut in (WHOLE, None))
+    whole, half = (run(DIMERS, initial, boundary, cut)[1] for cut in (FULL_CHAIN, None))
     assert half.conserved["H"].tobytes() == whole.conserved["H"].tobytes()
     np.testing.assert_allclose(half.conserved["H"], half.conserved["H"][0], rtol=1e-10)
 

@@ -5,7 +5,7 @@ import pytest
 from dimers import DIMERS, dimers
 from latticode import Model, abs2, lap
 from latticode.equations.ends import ENDS, kind_of
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.problem import Problem
 from latticode.simulation.simulate import simulate
 
@@ -73,7 +73,7 @@ def test_the_power_is_conserved_across_the_ends():
 
 def test_an_even_state_is_not_halved():
     problem = dimers(boundary="antiperiodic", half_width=4)
-    np.testing.assert_array_equal(simulate(problem).final, simulate(problem, WHOLE).final)
+    np.testing.assert_array_equal(simulate(problem).final, simulate(problem, FULL_CHAIN).final)
 
 
 def test_a_factor_that_nothing_was_taught_is_refused(monkeypatch):

@@ -18,7 +18,7 @@ from latticode.integrators import INTERRUPTED
 from latticode.localised import tangents
 from latticode.simulation import simulate as simulation
 from latticode.simulation.interrupts import interruptible
-from latticode.simulation.lattice import WHOLE, pack
+from latticode.simulation.lattice import FULL_CHAIN, pack
 from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import random_chain
 from waiting import HANGS, wait_for
@@ -66,10 +66,10 @@ class LongRun:
         equations = problem.equations
         self.compiled, self.outcomes = equations.compiled(name), []
         self.controls = SOLVERS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
-        self.state = pack(problem.amplitudes, WHOLE)
+        self.state = pack(problem.amplitudes, FULL_CHAIN)
         self.record = equations.record(2, problem.sites, self.times.size, 0, conserved=False)
         self.record.l2[:] = np.nan
-        self.system = equations.system(WHOLE)
+        self.system = equations.system(FULL_CHAIN)
         self.kernel = self.call  # one object, so that a second run finds the first
         self.thread = None
 

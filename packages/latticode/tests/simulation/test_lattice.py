@@ -7,7 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from latticode.kernels.compiled import kernel
-from latticode.simulation.lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unpack
+from latticode.simulation.lattice import (
+    FULL_CHAIN,
+    Reduction,
+    choose_ends,
+    find_reduction,
+    pack,
+    unpack,
+)
 from latticode.simulation.observables import blank_record, observe_moduli
 from oracle import chains, random_chain
 
@@ -58,11 +65,11 @@ def observe(ends, y, i, record):
     observe_moduli(ends, y, i, record)
 
 
-def observed(z, reduction=WHOLE, times=1, i=0, every=1):
+def observed(z, reduction=FULL_CHAIN, times=1, i=0, every=1):
     """Return the record of an output; all other outputs of the record are -1."""
     y = pack(z, reduction)
     record = blank_record(y.shape[0] // 2, y.shape[1] - 2, times, every)
-    for values in (record.linf, record.l2, record.kept):
+    for values in (record.linf, record.l2, record.snapshots):
         values.fill(-1.0)
     observe(Ends(*choose_ends("dirichlet", reduction)), y, i, record)
     return record
@@ -77,14 +84,14 @@ def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
     np.testing.assert_allclose(record.linf[:, 0], np.abs(kept).max(axis=1), rtol=1e-14)
     np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(kept, axis=1), rtol=1e-14)
     sites = slice(half_width if reduction.even else 0, None)
-    np.testing.assert_allclose(record.kept[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
+    np.testing.assert_allclose(record.snapshots[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
 
 
 def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only():
     z = random_chain(2)
     record = observed(z, times=7, i=4, every=2)
-    written = [np.count_nonzero(one != -1.0) for one in (record.linf, record.l2, record.kept)]
+    written = [np.count_nonzero(one != -1.0) for one in (record.linf, record.l2, record.snapshots)]
     assert written == [2, 2, 10]
-    np.testing.assert_allclose(record.kept[:, :, 2], np.abs(z), rtol=1e-14)
-    assert np.all(observed(z, times=7, i=3, every=2).kept == -1.0)
-    assert observed(z, every=0).kept.shape == (2, 5, 0)
+    np.testing.assert_allclose(record.snapshots[:, :, 2], np.abs(z), rtol=1e-14)
+    assert np.all(observed(z, times=7, i=3, every=2).snapshots == -1.0)
+    assert observed(z, every=0).snapshots.shape == (2, 5, 0)

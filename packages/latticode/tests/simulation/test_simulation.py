@@ -5,7 +5,7 @@ import pytest
 from dimers import PAPER, SOLVERS, chain
 from hypothesis import given, settings
 from latticode.equations.initial_values import on_sites
-from latticode.simulation.lattice import WHOLE, Reduction
+from latticode.simulation.lattice import FULL_CHAIN, Reduction
 from latticode.simulation.simulate import IntegrationError, simulate
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain
 
@@ -21,7 +21,7 @@ each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)
 some = settings(max_examples=20)
 
 
-def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=WHOLE, **times):
+def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=FULL_CHAIN, **times):
     """Integrate z with the named solver and keep every output's moduli."""
     return simulate(chain(z, numbers, boundary, name, snapshot_every=1, **times), reduction)
 
@@ -41,7 +41,7 @@ def assert_same_bits(name, one, other):
 @some
 def test_half_of_an_even_chain_has_the_bits_of_the_whole(z, numbers, boundary):
     for name in SOLVERS:
-        half, whole = (run(name, z, numbers, boundary, kept) for kept in (EVEN, WHOLE))
+        half, whole = (run(name, z, numbers, boundary, kept) for kept in (EVEN, FULL_CHAIN))
         assert_same_bits(name, half, whole)
         assert half.outcome == whole.outcome
 

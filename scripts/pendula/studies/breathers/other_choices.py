@@ -8,7 +8,7 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.measures.confidence import ConfidenceInterval, share_limits
 
 from pendula.problem import Constants, Problem
-from pendula.varied import Printed, as_dataset, vary, vary_several
+from pendula.varied import NamedNumber, as_dataset, vary, vary_several
 
 from .fates import FATES, map_fates
 from .periodic import find_breather, power, quarter_later
@@ -51,7 +51,7 @@ def vary_areas(
 
     area = vary(measure, choices_of(chosen, variations))
     kinds = ("kind", np.array(FATES, object), {"long_name": "fate of initial conditions"})
-    printed = {"area": Printed(("kind",), area, "part of the map")}
+    printed = {"area": NamedNumber(("kind",), area, "part of the map")}
     data = as_dataset(printed, {"kind": kinds})
     return data.assign_attrs(title="Parts of the map of fates, with other choices")
 
@@ -79,7 +79,7 @@ def vary_shares(
         {"long_name": "size of a random change of the data, relative"},
     )
     data = as_dataset(
-        {"share": Printed(("size",), share, "share of runs that spread")}, {"size": by_size}
+        {"share": NamedNumber(("size",), share, "share of runs that spread")}, {"size": by_size}
     )
     return data.assign_attrs(
         title="Shares of runs that spread, with other choices", members=members
@@ -117,7 +117,7 @@ def vary_least_power(
         "least_power": "least P of the breathers in which A swings more than B, within a period",
         "least_frequency": "frequency of the breather with the least P",
     }
-    printed = {name: Printed((), number, words[name]) for name, number in numbers.items()}
+    printed = {name: NamedNumber((), number, words[name]) for name, number in numbers.items()}
     return as_dataset(printed, {}).assign_attrs(
         title="The least P of breathers, with other choices"
     )

@@ -12,7 +12,7 @@ from latticode.integrators.dop853 import combine
 from latticode.kernels.compiled import copy, kernel
 from latticode.simulation.lattice import aligned
 
-from pendula.models.amplitudes import Chain, rates, write_tangent_rates
+from pendula.models.amplitudes import AmplitudeChain, rates, write_tangent_rates
 from pendula.problem import Constants
 
 STEPS, FINE_STEPS = 16, 40
@@ -70,7 +70,7 @@ def integrate_bundle(
     its ends; `evens` and `odds` are (vector, 4, M + 1), the latter zero at site 0. The result has
     the state first, then the even vectors, then the odd ones.
     """
-    chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
+    chain = AmplitudeChain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
     states = np.concatenate([state[None], evens, odds])
     bundle = aligned((ROWS * len(states), states.shape[2] + 2))
     bundle[:] = 0.0

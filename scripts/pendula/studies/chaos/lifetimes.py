@@ -21,7 +21,7 @@ from replication.variables import CHAOTIC
 
 from pendula.many_cases import describe_cases
 from pendula.problem import Problem
-from pendula.varied import Printed, as_dataset, vary_several
+from pendula.varied import NamedNumber, as_dataset, vary_several
 
 from .clocks import NUMBERS, TIMES, limits_of
 
@@ -155,7 +155,7 @@ def vary_lifetimes(
     choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
     over, attributes = ("start_amplitude",), {"long_name": "initial amplitude A_0"}
     printed = {
-        name: Printed(over, number, f"{'median' if name in TIMES else 'mean'} of the {name}")
+        name: NamedNumber(over, number, f"{'median' if name in TIMES else 'mean'} of the {name}")
         for name, number in vary_several(measure, choices).items()
     }
     data = as_dataset(printed, {"start_amplitude": (over, np.array(amplitudes, float), attributes)})

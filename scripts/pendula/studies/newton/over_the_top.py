@@ -32,7 +32,7 @@ from replication.variables import CHAOTIC, FEW_CHOICES, missing
 
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, Problem
-from pendula.varied import Printed, as_dataset, vary_several
+from pendula.varied import NamedNumber, as_dataset, vary_several
 
 TOP = np.pi
 OUTPUTS_PER_PERIOD = 8
@@ -181,7 +181,9 @@ def vary_over_the_top(
 
     choices = {name: [value, *variations.get(name, ())] for name, value in chosen.items()}
     numbers = vary_several(measure, choices | {"run_time": [end_time, 2.0 * end_time]})
-    printed = {name: Printed(("mu",), number, MEANINGS[name]) for name, number in numbers.items()}
+    printed = {
+        name: NamedNumber(("mu",), number, MEANINGS[name]) for name, number in numbers.items()
+    }
     data = as_dataset(printed, {"mu": ("mu", list(mus), {"long_name": "mu"})})
     attributes = {"members": members, "end_time": end_time, "settled": chosen["settled"]}
     return data.assign_attrs(title="Pendula over the top, with other choices", **attributes)

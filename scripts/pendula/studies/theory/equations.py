@@ -3,7 +3,7 @@
 import numpy as np
 from latticode.measures.norms import power_of
 from latticode.numerics.draws import complex_normal
-from latticode.simulation.lattice import WHOLE
+from latticode.simulation.lattice import FULL_CHAIN
 from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.amplitudes import energies
@@ -35,7 +35,7 @@ def run(
         output_step=end_time / outputs,
         solver=solver,
     )
-    return simulate(problem, WHOLE)
+    return simulate(problem, FULL_CHAIN)
 
 
 def controls_of(solver: dict) -> dict:
@@ -49,7 +49,7 @@ def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray):
     states = np.zeros((len(chains), 4, chains.shape[2] + 2))
     states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = chains.real, chains.imag
     totals, scratch = np.empty(len(states)), np.empty((2, states.shape[2]))
-    energies(make_chain(constants, boundary, WHOLE), states, scratch, totals)
+    energies(make_chain(constants, boundary, FULL_CHAIN), states, scratch, totals)
     return totals.reshape(amplitudes.shape[:-2])[()]
 
 

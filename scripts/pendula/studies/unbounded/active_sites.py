@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from latticode.simulation.active_sites import integrate_intervals
-from latticode.simulation.observables import Record
+from latticode.simulation.observables import ObservableRecord
 
 from pendula.problem import Problem
 
@@ -52,8 +52,8 @@ def _one_or_all(values: list) -> np.ndarray:
     return np.array(values if len(values) > 1 else values[0])
 
 
-def _norms(record: Record) -> tuple[np.ndarray, np.ndarray]:
+def _norms(record: ObservableRecord) -> tuple[np.ndarray, np.ndarray]:
     """Return l2 and l-infinity of the pair (A, B) at every output, each (time,)."""
-    s, d = np.swapaxes(record.kept, 0, 1)  # (Re or Im, site, time)
+    s, d = np.swapaxes(record.snapshots, 0, 1)  # (Re or Im, site, time)
     squares = np.maximum(*(site_powers(re_im) for re_im in halves(turned(np.concatenate([s, d])))))
     return np.sqrt((record.l2**2).sum(axis=0)), np.sqrt(squares.max(axis=0))

@@ -15,7 +15,7 @@ from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
-from pendula.varied import Estimate, Printed, as_dataset, vary_several
+from pendula.varied import Estimate, NamedNumber, as_dataset, vary_several
 
 from .bulk import LEVEL, SLICE_LENGTH, find_front, site_powers
 from .long_runs import members_of
@@ -79,7 +79,7 @@ def _numbers_by_noise(
 
     varied = vary_several(measure, {"tolerance": tolerances, **CHOICES})
     along = ("noise", "omega")
-    printed = {name: Printed(along, varied[name], MEANINGS[name]) for name in MEANINGS}
+    printed = {name: NamedNumber(along, varied[name], MEANINGS[name]) for name in MEANINGS}
     labels = np.array([f"{noise:g}" for noise in noises] + [ROUNDING], object)
     coordinates = {
         "noise": ("noise", labels, {"long_name": "noise added to A + B, a part of |A - B|"}),

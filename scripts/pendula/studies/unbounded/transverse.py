@@ -25,7 +25,7 @@ from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.runs import ManyRuns
 
 from pendula.problem import Problem
-from pendula.varied import Estimate, Printed, as_dataset, vary_several
+from pendula.varied import Estimate, NamedNumber, as_dataset, vary_several
 
 from .bulk import SLICE_LENGTH
 from .front import linear_front
@@ -88,7 +88,7 @@ def as_numbers(problems, by_setting, tolerances, perturbations) -> xr.Dataset:
 
     choices = {"tolerance": tolerances, "perturbation": perturbations, **CHOICES}
     varied = vary_several(measure, choices)
-    printed = {name: Printed(("omega",), varied[name], MEANINGS[name]) for name in MEANINGS}
+    printed = {name: NamedNumber(("omega",), varied[name], MEANINGS[name]) for name in MEANINGS}
     omegas = ("omega", [problem.constants.omega for problem in problems], {"long_name": "detuning"})
     title = "Growth of a small A + B on the infinite chain with A = -B"
     return as_dataset(printed, {"omega": omegas}).assign_attrs(title=title)

@@ -13,7 +13,7 @@ from latticode.measures.confidence import ConfidenceInterval, mean_limits
 from latticode.measures.spreading import fit_exponent, lay_line
 from latticode.numerics.elementary import log
 
-from pendula.varied import Estimate, Printed, Varied, as_dataset, names_of, vary
+from pendula.varied import Estimate, NamedNumber, VariedNumber, as_dataset, names_of, vary
 
 from .bulk import BEHIND, BETWEEN, POWER, PREDICTED_SPEED
 from .measured import (
@@ -96,7 +96,7 @@ def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]
     }
 
 
-def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
+def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> NamedNumber:
     """Return ln(1 / noise) / kappa, the distance of the second front from the first, with noise.
 
     The noise of A and B in doubles is a rounding error.
@@ -112,12 +112,12 @@ def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> Printed:
     varied_kappa = {
         str(variation["variation"].item()): logs / variation.values for variation in variations.T
     }
-    number = Varied(logs / kappa, logs * error / (kappa * kappa), {}, varied_kappa)
+    number = VariedNumber(logs / kappa, logs * error / (kappa * kappa), {}, varied_kappa)
     words = "predicted distance of the second front with noise from the first, in sites"
-    return Printed(("noise", "omega"), number, words)
+    return NamedNumber(("noise", "omega"), number, words)
 
 
-def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, Printed]:
+def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, NamedNumber]:
     """Return the distance with the first size of noise minus that with the second.
 
     The prediction is ln(second / first) / kappa: the unknown constant of both distances cancels,
@@ -133,8 +133,8 @@ def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, Printed]
         str(variation["variation"].item()): variation.values
         for variation in changes.transpose("variation", ...)
     }
-    measured = Varied((first["distance"] - second["distance"]).values, both, {}, variations)
-    computed = Varied(
+    measured = VariedNumber((first["distance"] - second["distance"]).values, both, {}, variations)
+    computed = VariedNumber(
         predicted.value[0] - predicted.value[1],
         predicted.statistical_error[0] - predicted.statistical_error[1],
         {},
@@ -142,8 +142,8 @@ def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, Printed]
     )
     words = "difference of the distances with the first and the second size of noise, in sites"
     return {
-        "distance_difference": Printed(("omega",), measured, words),
-        "predicted_distance_difference": Printed(("omega",), computed, f"predicted {words}"),
+        "distance_difference": NamedNumber(("omega",), measured, words),
+        "predicted_distance_difference": NamedNumber(("omega",), computed, f"predicted {words}"),
     }
 
 
@@ -165,7 +165,7 @@ def _first(run: xr.Dataset) -> dict[str, float]:
 
 def varied(
     runs: Mapping[float, xr.Dataset], measure: Callable[..., Estimate], **choices: list
-) -> Varied:
+) -> VariedNumber:
     """Return the results of `measure(run, ...)` for all choices, fractions and tolerances of runs.
 
     A level or an edge selects the fronts and regions of the run.
@@ -186,7 +186,7 @@ def _with_half(limits: ConfidenceInterval) -> Estimate:
 # --- Numbers over Omega ---------------------------------------------------------------------------
 
 
-def numbers_of_fronts(runs: Mapping[float, xr.Dataset]) -> dict[str, Printed]:
+def numbers_of_fronts(runs: Mapping[float, xr.Dataset]) -> dict[str, NamedNumber]:
     """Return the speeds of both fronts, and of the places where |S|^2 has reached each level."""
     levels = [float(level) for level in next(iter(runs.values()))["level"].values]
     fitted = [SETTLED, 0.5 * SETTLED, 2.0 * SETTLED]
@@ -195,9 +195,9 @@ def numbers_of_fronts(runs: Mapping[float, xr.Dataset]) -> dict[str, Printed]:
     of_levels = varied_levels(runs, fitted)
     along = ("omega",)
     return {
-        "front_speed": Printed(along, first, f"speed of the first front, {SPEED}"),
-        "second_front_speed": Printed(along, second, f"speed of the second front, {SPEED}"),
-        "level_speed": Printed(
+        "front_speed": NamedNumber(along, first, f"speed of the first front, {SPEED}"),
+        "second_front_speed": NamedNumber(along, second, f"speed of the second front, {SPEED}"),
+        "level_speed": NamedNumber(
             ("level",),
             of_levels,
             f"speed at which sites with |S|^2 above a level spread, at the largest Omega, {SPEED}",
@@ -209,7 +209,7 @@ def _by_part(measure: Callable[..., Estimate]) -> Callable[..., Estimate]:
     return lambda run, left_out_part: measure(run, left_out_part)
 
 
-def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> Varied:
+def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> VariedNumber:
     """Return the speeds of the last sites above each level at the largest Omega, (level,)."""
 
     def measured(tolerance: float, part_of_run: float, left_out_part: float) -> Estimate:
@@ -224,7 +224,9 @@ def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> Vari
     return vary(measured, choices)
 
 
-def numbers_of_states(runs: Mapping[float, xr.Dataset], thermal: xr.Dataset) -> dict[str, Printed]:
+def numbers_of_states(
+    runs: Mapping[float, xr.Dataset], thermal: xr.Dataset
+) -> dict[str, NamedNumber]:
     """Return the powers behind both fronts, and their ratios to those of thermal states."""
     edges = [int(edge) for edge in next(iter(runs.values()))["edge"].values]
     numbers = {}
@@ -236,7 +238,9 @@ def numbers_of_states(runs: Mapping[float, xr.Dataset], thermal: xr.Dataset) -> 
             measure = _power_of(region, thermal, expected)
             number = varied(runs, measure, averaged_part=[LATE, 0.5 * LATE], **choices)
             over = " over that of the thermal state" if expected else ""
-            numbers[f"{quantity}_{name}"] = Printed(("omega",), number, f"{POWER} {region}{over}")
+            numbers[f"{quantity}_{name}"] = NamedNumber(
+                ("omega",), number, f"{POWER} {region}{over}"
+            )
     return numbers
 
 
@@ -254,7 +258,7 @@ def _power_of(region: str, thermal: xr.Dataset, state: str | None) -> Callable[.
 
 def numbers_of_growth(
     runs: Mapping[float, xr.Dataset], thermal: xr.Dataset, transverse: xr.Dataset
-) -> dict[str, Printed]:
+) -> dict[str, NamedNumber]:
     """Return exponents of tau in l2, and the slope of l2^2 over that of its law."""
     octaves = [OCTAVES, OCTAVES // 2, 2 * OCTAVES]
     with_offset = varied(runs, exponents, octaves=octaves)
@@ -275,14 +279,14 @@ def numbers_of_growth(
     maximum = varied(runs, growths_of_maximum)
     along = ("omega",)
     return {
-        "maximum_growth": Printed(
+        "maximum_growth": NamedNumber(
             along, maximum, "relative growth of the mean l-infinity norm of an octave within two"
         ),
-        "exponent": Printed(
+        "exponent": NamedNumber(
             along, with_offset, "exponent of tau in l2, with a free offset of l2^2"
         ),
-        "plain_exponent": Printed(along, exponents_without_law, "slope of log l2 over log tau"),
-        "slope_ratio": Printed(along, law, "slope of l2^2 over that of its law"),
+        "plain_exponent": NamedNumber(along, exponents_without_law, "slope of log l2 over log tau"),
+        "slope_ratio": NamedNumber(along, law, "slope of l2^2 over that of its law"),
     }
 
 
@@ -312,7 +316,7 @@ def growths_of_maximum(run: xr.Dataset) -> Estimate:
     return _with_half(mean_limits(growth.transpose("member", "variant").values))
 
 
-def exponent_of_case(runs: Mapping[float, xr.Dataset]) -> Printed:
+def exponent_of_case(runs: Mapping[float, xr.Dataset]) -> NamedNumber:
     """Return the exponent of tau in l2 of a case."""
 
     def measure(run: xr.Dataset, octaves: int) -> Estimate:
@@ -320,4 +324,4 @@ def exponent_of_case(runs: Mapping[float, xr.Dataset]) -> Printed:
         return value[0], error[0]
 
     number = varied(runs, measure, octaves=[OCTAVES, OCTAVES // 2, 2 * OCTAVES])
-    return Printed((), number, "exponent of tau in l2 of the large case at Omega = -4")
+    return NamedNumber((), number, "exponent of tau in l2 of the large case at Omega = -4")

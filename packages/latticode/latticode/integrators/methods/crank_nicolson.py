@@ -50,7 +50,7 @@ class CrankNicolson(Method):
     controls = {
         "step": Control(0.0025),
         "tolerance": Control(1e-13, at_least=1e-14, below=1.0),
-        "iterations": Control(50, at_least=2, at_most=1000, whole=True),
+        "iterations": Control(50, at_least=2, at_most=1000, is_integer=True),
     }
     cost = IteratedCost()
     step_divides_outputs = True
