@@ -20,9 +20,14 @@ PERCENT = 1.0
 LIBRARY = "packages/latticode/latticode"
 ROOMS = (
     "scripts",
+    "benchmarks",
+    "docs",
     "packages/snakemake-executor-plugin-forked/snakemake_executor_plugin_forked",
+    f"{LIBRARY}/configuration",
     f"{LIBRARY}/datasets",
     f"{LIBRARY}/drawing",
+    f"{LIBRARY}/equations",
+    f"{LIBRARY}/generation",
     f"{LIBRARY}/kernels",
     f"{LIBRARY}/localised",
     f"{LIBRARY}/measures",

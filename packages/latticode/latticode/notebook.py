@@ -492,12 +492,14 @@ def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr
     if not isinstance(count, Integral) or isinstance(count, bool) or not 1 <= count <= most:
         text = f"count: is {values.excerpt_of(count)}; give a whole number from 1 to {most}"
         raise list_faults([text], "the spectrum")
-    one = case.cost(case.problem(solver=cost.OF_TANGENTS))
-    takes = cost.Cost((1 + count) * one.seconds, (1 + count) * one.memory)
+    cost_of_run = case.cost(case.problem(solver=cost.OF_TANGENTS))
+    estimate = cost.Cost((1 + count) * cost_of_run.seconds, (1 + count) * cost_of_run.memory)
     limits = Limits(**_limits(hours, None)).model_dump()
-    if takes.excess(limits) > 1.0:
-        raise list_faults([_as_argument(f"count: {cost.refusal(takes, limits)}")], "the spectrum")
-    _announce(takes)
+    if estimate.excess(limits) > 1.0:
+        raise list_faults(
+            [_as_argument(f"count: {cost.refusal(estimate, limits)}")], "the spectrum"
+        )
+    _announce(estimate)
     with show_progress("lyapunov"):
         return spectrum_dataset(problem, measure_spectrum(problem, int(count)))
 

@@ -135,13 +135,13 @@ class Rule:
 def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
     """Return the functions that write the rates of a state, one row of it for each of `rates`."""
     wide, at = reach > 1, bool(names.at_sites)
-    given = names, reach, ("y",), len(rates) // 2
+    arguments = names, reach, ("y",), len(rates) // 2
     states = ("system.wide" if wide else "y") + ", system.at" * at
     states += ", system.couplings.products" * bool(names.couples)
-    rules, couple = _coupling("rates", stages_of(rates), states, 1, *given)
+    rules, couple = _coupling("rates", stages_of(rates), states, 1, *arguments)
     return (
         rules
-        + _rule_of_rows("rates", rates, *given)
+        + _rule_of_rows("rates", rates, *arguments)
         + RATES.format(
             rows=len(rates),
             prepare="widen(system, y, system.wide)" if wide else "close(system, y)",
@@ -162,9 +162,10 @@ def tangents_text(tangent: Model, names: Names) -> str:
     arguments = names, tangent.reach, ("y", "w"), rows // 2
     states = f"system.wide[:{rows}], system.wide[{rows}:]" if wide else "y, w"
     states += ", system.at" * at + ", system.couplings.products" * bool(names.couples)
-    known = {one for stage in stages_of(tangent.rates[:rows]) for one in stage}
+    known = {expression for stage in stages_of(tangent.rates[:rows]) for expression in stage}
     stages = [
-        [one for one in stage if one not in known] for stage in stages_of(tangent.rates[rows:])
+        [expression for expression in stage if expression not in known]
+        for stage in stages_of(tangent.rates[rows:])
     ]
     rules, couple = _coupling("tangent_rates", stages, states, 2, *arguments)
     return (
@@ -181,7 +182,7 @@ def tangents_text(tangent: Model, names: Names) -> str:
 
 
 def _coupling(
-    name: str, stages: list[list[Node]], states: str, indent: int, names: Names, *given
+    name: str, stages: list[list[Node]], states: str, indent: int, names: Names, *arguments
 ) -> tuple[str, str]:
     """Return the rules of what matrices multiply, and the statements that multiply by them.
 
@@ -190,15 +191,15 @@ def _coupling(
     rules, lines = [], []
     for stage, couples in enumerate(stages):
         rule = f"{name}_factors_{stage}"
-        rows = [names.couples[one] for one in couples]
-        factors = tuple(one.operands[1] for one in couples)
+        rows = [names.couples[expression] for expression in couples]
+        factors = tuple(expression.operands[1] for expression in couples)
         if not factors:
             continue
-        rules.append(_rule_of_rows(rule, factors, names, *given, rows=rows))
+        rules.append(_rule_of_rows(rule, factors, names, *arguments, rows=rows))
         rules.append(COUPLED.format(name=rule, rows=len(names.couples)))
         lines.append(f"write_{rule}(system, ({states},), system.couplings.factors)")
-        for row, one in zip(rows, couples, strict=True):
-            matrix = names.matrices[one.operands[0].operands[0]]
+        for row, expression in zip(rows, couples, strict=True):
+            matrix = names.matrices[expression.operands[0].operands[0]]
             arrays = f"system.couplings.factors[{row}], system.couplings.products[{row}]"
             lines.append(f"multiply_by_matrix(system.couplings, {matrix}, {arrays}, 1)")
     return "".join(rules), "".join(f"\n{'    ' * indent}{line}" for line in lines)

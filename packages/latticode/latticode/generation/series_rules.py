@@ -192,17 +192,29 @@ class SeriesWriter:
         needed = set(depth if roots is None else _in_order_up_to_products(roots))
         if even and self.stage == 0:
             self._start_carried(code)
-        for one in written:
-            code.alias(("value", one), self.load(one, "k"))
-        kept = [one for one in self.stored if one in needed and one not in written]
+        for expression in written:
+            code.alias(("value", expression), self.load(expression, "k"))
+        needed_now = [
+            expression
+            for expression in self.stored
+            if expression in needed and expression not in written
+        ]
         for now in range(1, max(depth.values(), default=0) + 2):
-            for one in kept:
-                if depth[one] == now - 1 and not (one.operation == "carried" or is_function(one)):
-                    code(self._store(one, self._value(code, one, even)))
-            self._write_functions(code, [one for one in kept if depth[one] == now], even)
-            products = [one for one in self.products if one in needed and depth[one] == now]
+            for expression in needed_now:
+                if depth[expression] == now - 1 and not (
+                    expression.operation == "carried" or is_function(expression)
+                ):
+                    code(self._store(expression, self._value(code, expression, even)))
+            self._write_functions(
+                code, [expression for expression in needed_now if depth[expression] == now], even
+            )
+            products = [
+                expression
+                for expression in self.products
+                if expression in needed and depth[expression] == now
+            ]
             self.sums.write(code, products, even)
-        written.update(one for one in kept if one.operation != "carried")
+        written.update(expression for expression in needed_now if expression.operation != "carried")
 
     def _depths(self) -> dict[Node, int]:
         """Return how many products or functions stand inside one another in each node: so many
@@ -390,8 +402,11 @@ class SeriesWriter:
         """Return the loops over blocks, and between them the products of matrices."""
         lines = [*begin, *passes[0]]
         for couples, statements in zip(self.stages, passes[1:], strict=True):
-            for one in couples:
-                row, matrix = self.couples[one], self.names.matrices[one.operands[0].operands[0]]
+            for expression in couples:
+                row, matrix = (
+                    self.couples[expression],
+                    self.names.matrices[expression.operands[0].operands[0]],
+                )
                 rows = ", ".join(
                     f"system.couplings.{name}_by_block[{row}]" for name in ("factors", "products")
                 )
@@ -422,14 +437,14 @@ class SeriesWriter:
 
 def _in_order_up_to_products(nodes: list[Node]) -> list[Node]:
     """Return nodes and all that they are made of, but for what stands in products of a matrix."""
-    found: dict[Node, None] = {}
+    ordered: dict[Node, None] = {}
 
-    def visit(one: Node) -> None:
-        if one not in found:
-            for operand in () if one.operation == "couple" else one.inputs:
+    def visit(expression: Node) -> None:
+        if expression not in ordered:
+            for operand in () if expression.operation == "couple" else expression.inputs:
                 visit(operand)
-            found[one] = None
+            ordered[expression] = None
 
-    for one in nodes:
-        visit(one)
-    return list(found)
+    for expression in nodes:
+        visit(expression)
+    return list(ordered)

@@ -89,11 +89,16 @@ def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
     Those of a stage are made of earlier ones alone.
     """
     depth: dict[Node, int] = {}
-    for one in in_order(nodes):
-        depth[one] = max((depth[a] for a in one.inputs), default=0) + (one.operation == "couple")
-    couples = [one for one in depth if one.operation == "couple"]
-    last = max((depth[one] for one in couples), default=0)
-    return [[one for one in couples if depth[one] == stage] for stage in range(1, last + 1)]
+    for expression in in_order(nodes):
+        depth[expression] = max((depth[a] for a in expression.inputs), default=0) + (
+            expression.operation == "couple"
+        )
+    couples = [expression for expression in depth if expression.operation == "couple"]
+    last = max((depth[expression] for expression in couples), default=0)
+    return [
+        [expression for expression in couples if depth[expression] == stage]
+        for stage in range(1, last + 1)
+    ]
 
 
 def depends_on_site(expression: Node, site_dependent: frozenset[str]) -> bool:
@@ -113,8 +118,8 @@ def is_clock(expression: Node, site_dependent: frozenset[str]) -> bool:
 def affine(angle: Node) -> tuple[Node, Node]:
     """Return frequency and phase of an angle that grows steadily with the time."""
     time = node("time")
-    frequency = derivative([angle], lambda one: number(one is time))[0]
-    phase = rebuilt([angle], lambda one, _: ZERO if one is time else None)[0]
+    frequency = derivative([angle], lambda expression: number(expression is time))[0]
+    phase = rebuilt([angle], lambda expression, _: ZERO if expression is time else None)[0]
     return frequency, phase
 
 

@@ -80,7 +80,9 @@ def test_a_dataset_cut_anywhere_is_rejected(dataset):
     content = dataset.read_bytes()
     for length in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
         dataset.write_bytes(content[:length])
-        with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and call simulate and save"):
+        with pytest.raises(
+            DatasetError, match=r"a\.nc is damaged .* delete it and call simulate and save"
+        ):
             read(dataset)
 
 
