@@ -17,21 +17,12 @@ VAGUE = frozenset(WORDS.split())
 PERCENT = 1.0
 """In five codebases of this field these words are 0.0 to 0.3 % of the names."""
 
-LIBRARY = "packages/latticode/latticode"
 ROOMS = (
     "scripts",
+    "packages/latticode/latticode",
+    "packages/snakemake-executor-plugin-forked/snakemake_executor_plugin_forked",
     "benchmarks",
     "docs",
-    "packages/snakemake-executor-plugin-forked/snakemake_executor_plugin_forked",
-    f"{LIBRARY}/configuration",
-    f"{LIBRARY}/datasets",
-    f"{LIBRARY}/drawing",
-    f"{LIBRARY}/equations",
-    f"{LIBRARY}/generation",
-    f"{LIBRARY}/kernels",
-    f"{LIBRARY}/localised",
-    f"{LIBRARY}/measures",
-    f"{LIBRARY}/numerics",
 )
 """Folders and modules that are held to it."""
 
