@@ -112,7 +112,7 @@ class Case(cases.PaperCaseSection):
 show_keys(Case, ("omega", "epsilon", "gamma", "initial"))
 
 
-def check(case: library_cases.Case, run: xr.Dataset | None = None) -> xr.Dataset:
+def check(case: library_cases.CaseSection, run: xr.Dataset | None = None) -> xr.Dataset:
     """Set a run beside the paper's lemmas and theorems, and measure how far it can be trusted.
 
     `run` is what `simulate` made of the case; if it is left out, the case is integrated here.

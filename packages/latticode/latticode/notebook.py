@@ -25,7 +25,7 @@ from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.initial import end_of_run
 from latticode.configuration.keys import CaseKeys, ChangedKeys, show_keys
 from latticode.configuration.messages import in_words
-from latticode.configuration.schema import Configuration, Limits, load
+from latticode.configuration.schema import Configuration, RunLimits, load
 from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
 from latticode.datasets.motions import section_dataset, spectrum_dataset
@@ -64,7 +64,7 @@ __all__ = [
 ]
 
 
-class Case(cases.Case):
+class Case(cases.CaseSection):
     """One initial-value problem of a model, checked when it is made.
 
     Keys and defaults are those of a case in YAML:
@@ -140,16 +140,16 @@ def _limits(hours: float | None, gigabytes: float | None) -> dict[str, float]:
     return {name: limit for name, limit in limits.items() if limit is not None}
 
 
-def _require_affordable(case: cases.Case, chosen_limits: Mapping[str, float]) -> None:
+def _require_affordable(case: cases.CaseSection, chosen_limits: Mapping[str, float]) -> None:
     """Raise ConfigurationError if a run takes more than it may.
 
     A run of minutes says what it will take.
     """
-    require(case, cases.Case, CASE)
+    require(case, cases.CaseSection, CASE)
     try:
-        limits = Limits(**chosen_limits)
+        limits = RunLimits(**chosen_limits)
     except ValidationError as error:
-        raise in_words(error, "the limit", Limits) from None
+        raise in_words(error, "the limit", RunLimits) from None
     # The second problem chooses the times of its snapshots, which needs a run that is not too long.
     for problem in (case.problem, case.shown_problem):
         excess = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
@@ -160,7 +160,7 @@ def _require_affordable(case: cases.Case, chosen_limits: Mapping[str, float]) ->
 
 def _as_argument(text: str) -> str:
     """Return what a message says of a limit with the argument that raises it."""
-    for name in Limits.model_fields:
+    for name in RunLimits.model_fields:
         if f"limits.{name} allows" in text:
             text = text.replace(f"limits.{name}", name)
             return text.replace("raise the limit", f"raise it by the argument {name}")
@@ -196,7 +196,7 @@ OF_A_RUN = ("case", "output_step", "snapshot_every", "solver")
 """How attributes start that say how a case was run, and not of which problem the run is."""
 
 
-def _require_run_of(case: cases.Case, run: xr.Dataset) -> None:
+def _require_run_of(case: cases.CaseSection, run: xr.Dataset) -> None:
     """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
     problem = case.kind.of(case.shown_problem())
     made_of = {"model": None} | describe_run("", problem, problem.solver)
@@ -226,7 +226,10 @@ SURVEY = "a survey, as `survey` returns it"
 
 
 def simulate(
-    case: cases.Case, name: str = "case", hours: float | None = None, gigabytes: float | None = None
+    case: cases.CaseSection,
+    name: str = "case",
+    hours: float | None = None,
+    gigabytes: float | None = None,
 ) -> xr.Dataset:
     """Integrate a case and return its trajectory.
 
@@ -289,7 +292,7 @@ def timed(data: xr.Dataset) -> xr.Dataset:
 
 
 def sweep(
-    case: cases.Case,
+    case: cases.CaseSection,
     half_widths: Iterable[int],
     windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
     name: str = "sweep",
@@ -317,7 +320,7 @@ def sweep(
     >>> peaks["l2"].sel(quantity="u", statistic="max", window="[1, 5]").shape
     (3,)
     """
-    require(case, cases.Case, CASE)
+    require(case, cases.CaseSection, CASE)
     asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
     limits = _limits(hours, gigabytes)
     settings = _load({"cases": {name: case}, "sweeps": {name: asked}}, limits)
@@ -329,7 +332,7 @@ def sweep(
 
 
 def survey(
-    case: cases.Case,
+    case: cases.CaseSection,
     axes: Mapping[str, Iterable] | None = None,
     members: Mapping | None = None,
     keep: Iterable[str | Callable] = ("max_l2",),
@@ -372,7 +375,7 @@ def survey(
     >>> found["final_l2"].dims, found["final_l2"].round(6).values.ravel().tolist()
     (('c', 'component'), [1.5, 1.5, 1.5])
     """
-    require(case, cases.Case, CASE)
+    require(case, cases.CaseSection, CASE)
     if not isinstance(cores, Integral) or isinstance(cores, bool) or cores < 1:
         text = f"cores: is {values.excerpt_of(cores)}; give a whole number of 1 or more"
         raise list_faults([text], "the survey")
@@ -441,7 +444,10 @@ def _listed(argument: Any) -> Any:
 
 
 def check(
-    case: cases.Case, run: xr.Dataset | None = None, checks: Callable = check_run, *variables: str
+    case: cases.CaseSection,
+    run: xr.Dataset | None = None,
+    checks: Callable = check_run,
+    *variables: str,
 ) -> xr.Dataset:
     """Measure how far a run of a case can be trusted, and whether its motion is chaotic.
 
@@ -455,7 +461,7 @@ def check(
     >>> float(found["largest_difference"]) < 1e-11, int(found["chaotic"])
     (True, 0)
     """
-    require(case, cases.Case, CASE)
+    require(case, cases.CaseSection, CASE)
     run = simulate(case) if run is None else run
     require(run, xr.Dataset, RUN, "linf", "l2", "tau", *variables)
     _require_run_of(case, run)
@@ -466,7 +472,7 @@ def check(
     return measured
 
 
-def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr.Dataset:
+def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None) -> xr.Dataset:
     """Measure the `count` largest Lyapunov exponents of the motion of a case, with their errors.
 
     Tangent vectors are carried along with the solution by dop853 and made orthonormal again and
@@ -486,7 +492,7 @@ def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr
     >>> round(float(found["exponent"].sum()), 4)  # -10 - 1 - 8 / 3
     -13.6667
     """
-    require(case, cases.Case, CASE)
+    require(case, cases.CaseSection, CASE)
     problem = case.kind.of(case.problem())
     most = count_directions(problem)
     if not isinstance(count, Integral) or isinstance(count, bool) or not 1 <= count <= most:
@@ -494,7 +500,7 @@ def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr
         raise list_faults([text], "the spectrum")
     cost_of_run = case.cost(case.problem(solver=cost.OF_TANGENTS))
     estimate = cost.Cost((1 + count) * cost_of_run.seconds, (1 + count) * cost_of_run.memory)
-    limits = Limits(**_limits(hours, None)).model_dump()
+    limits = RunLimits(**_limits(hours, None)).model_dump()
     if estimate.excess(limits) > 1.0:
         raise list_faults(
             [_as_argument(f"count: {cost.refusal(estimate, limits)}")], "the spectrum"
@@ -505,7 +511,7 @@ def lyapunov(case: cases.Case, count: int = 1, hours: float | None = None) -> xr
 
 
 def section(
-    case: cases.Case, when: Callable, direction: str = "up", site: int | None = None
+    case: cases.CaseSection, when: Callable, direction: str = "up", site: int | None = None
 ) -> xr.Dataset:
     """Find the times and states at which a function of the fields crosses zero in a run.
 
@@ -528,7 +534,7 @@ def section(
     >>> abs(float(found["crossing_tau"][0]) - 1.5 * 3.141592653589793) < 1e-12
     True
     """
-    require(case, cases.Case, CASE)
+    require(case, cases.CaseSection, CASE)
     site = 0 if site is None else site
     faults = []
     if direction not in DIRECTIONS:

@@ -36,7 +36,7 @@ from . import cost
 CONSTANTS = ("omega", "epsilon", "gamma", "mu")
 
 
-class PaperCaseSection(cases.Case):
+class PaperCaseSection(cases.CaseSection):
     """One initial-value problem of the paper's equations, and the solver that integrates it.
 
     The equations are (4) of the amplitudes, or with `model: pendula` Newton's equations (1), which
@@ -150,7 +150,7 @@ def takes_model(value: Any) -> bool:
     return named or isinstance(value, Mapping | Model)
 
 
-def of_its_kind(raw: dict) -> type[cases.Case]:
+def of_its_kind(raw: dict) -> type[cases.CaseSection]:
     """Return the kind of a case by its keys, a case of the paper's equations or of a model.
 
     Raises the faults of constants of the paper beside a model.
@@ -160,10 +160,10 @@ def of_its_kind(raw: dict) -> type[cases.Case]:
     text = "belongs to the paper's equations; give the model's own below parameters"
     if constants := [(key, text) for key in CONSTANTS if key in raw]:
         raise faults(constants)
-    return cases.Case
+    return cases.CaseSection
 
 
-def _validated(value: Any, handler: Callable) -> cases.Case:
+def _validated(value: Any, handler: Callable) -> cases.CaseSection:
     kind = of_its_kind(value) if isinstance(value, dict) else PaperCaseSection
     if kind is PaperCaseSection:
         return handler(value)

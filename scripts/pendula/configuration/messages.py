@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from latticode.configuration import messages
-from latticode.configuration.cases import Case
+from latticode.configuration.cases import CaseSection
 from latticode.configuration.cost import steps_of
 from latticode.configuration.files import list_faults
 from latticode.configuration.schema import Sweep
@@ -68,7 +68,7 @@ def require(
         raise list_faults(lines, "the configuration")
 
 
-def _faults_of_figures(name: str, case: Case) -> Iterator[str]:
+def _faults_of_figures(name: str, case: CaseSection) -> Iterator[str]:
     """Yield why a case cannot replace one of the paper's, to which all studies belong."""
     way_out = "give a case of another name"
     if case.model != AMPLITUDES:

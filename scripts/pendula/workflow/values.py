@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from latticode.configuration.values import Model, Steps
+from latticode.configuration.values import Section, Steps
 
 
-def values_of(section: Model, *names: str) -> dict[str, Any]:
+def values_of(section: Section, *names: str) -> dict[str, Any]:
     """Return the settings of these names as plain values, or all but those of a longer study."""
     values_by_name = section.model_dump()
     chosen = names or [name for name in values_by_name if name != "long"]
@@ -17,12 +17,12 @@ def values_of(section: Model, *names: str) -> dict[str, Any]:
     }
 
 
-def section_of_size(section: Model, wildcards: Any) -> Model:
+def section_of_size(section: Section, wildcards: Any) -> Section:
     """Return what a section says of the longer study, if the wildcard `size` asks for it."""
     return section.long if wildcards.size else getattr(section, "short", section)
 
 
-def by_size(section: Model, *names: str) -> dict[str, Callable]:
+def by_size(section: Section, *names: str) -> dict[str, Callable]:
     """Return a function of the wildcards for each setting, since a longer study has others."""
 
     def of_size(name: str) -> Callable:

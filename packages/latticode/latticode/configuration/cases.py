@@ -41,10 +41,10 @@ from .values import (
     Count,
     Distinct,
     Integer,
-    Model,
     Natural,
     Number,
     Positive,
+    Section,
     excerpt_of,
     fault,
     faults,
@@ -146,7 +146,7 @@ def _as_written(model: Traced, info: SerializationInfo) -> Any:
     return model.plain if info.mode == "json" else model
 
 
-class Case(Model):
+class CaseSection(Section):
     """One initial-value problem of a traced model, and the solver that integrates it.
 
     Data and parameters are named as the model names them.
@@ -370,7 +370,7 @@ class Case(Model):
     def _varied(self, name: str, value: Any) -> dict[str, Any]:
         return {"parameters": {**self.parameters, name: value}}
 
-    def at(self, values: Mapping[str, Any]) -> "Case":
+    def at(self, values: Mapping[str, Any]) -> "CaseSection":
         """Return the case at a point of the axes of a survey, checked."""
         changes: dict[str, Any] = {"snapshot_step": None, "times": None}
         initial = {site: list(data) for site, data in self.data.items()}
@@ -389,7 +389,7 @@ class Case(Model):
     # --- What fits
 
     @model_validator(mode="after")
-    def _consistent(self) -> "Case":
+    def _consistent(self) -> "CaseSection":
         all_faults = [
             *self._faults_of_initial(),
             *self._faults_of_model(),
@@ -493,7 +493,7 @@ class Case(Model):
             text = f"{step:g} does not divide the output step of {self.output_step:g}"
             yield "solver.step", f"{text}; {near}"
 
-    def obstacles(self, solver: Model | None = None, span: float = 0.0) -> list[tuple[str, str]]:
+    def obstacles(self, solver: Section | None = None, span: float = 0.0) -> list[tuple[str, str]]:
         """Return the key that keeps a run from reaching its end with its digits, and why.
 
         `solver` and `span` take the place of the case's own solver and end time.

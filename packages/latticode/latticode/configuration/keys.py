@@ -1,4 +1,4 @@
-"""The keys of a case as type checkers and `help` show them; `cases.Case` says what each may be."""
+"""The keys of a case for type checkers and `help`; `cases.CaseSection` says what each may be."""
 
 from collections.abc import Callable, Mapping, Sequence
 from inspect import Parameter, Signature
@@ -10,7 +10,7 @@ import xarray as xr
 
 from latticode.equations.model import Model
 
-from .values import Model as Keys
+from .values import Section as Keys
 
 Numbers = float | Sequence[float] | np.ndarray | Callable[[np.ndarray], Any]
 """A number, a number for each site, or a function of the sites."""

@@ -16,25 +16,25 @@ from latticode.equations.model_file import chain_sites
 from latticode.integrators.families import remark_on
 
 from . import cost
-from .cases import Case, is_multiple
+from .cases import CaseSection, is_multiple
 from .cost import Cost
 from .messages import in_words
 from .solvers import DEFAULT, Solver, Solvers, with_controls
-from .surveys import Survey
-from .values import Distinct, Model, Name, Natural, Positive, Window, excerpt_of, faults
+from .surveys import SurveySection
+from .values import Distinct, Name, Natural, Positive, Section, Window, excerpt_of, faults
 
 Faults = Iterator[tuple[str, str]]
 """Pairs: the dotted path of a key, from the mapping that is checked, and what is wrong with it."""
 
 
-class Drawn(Model):
+class ShownWindows(Section):
     """The windows whose maximum and whose mean a figure shows."""
 
     max: Window
     mean: Window
 
 
-class Sweep(Model):
+class Sweep(Section):
     """A case repeated over half-widths, with its norms reduced over windows of time."""
 
     case: str
@@ -44,7 +44,7 @@ class Sweep(Model):
         (10, 50),
         (10, 70),
     ]
-    draw: Drawn | None = None
+    draw: ShownWindows | None = None
     solver: Solver | None = None
 
     @model_validator(mode="after")
@@ -65,26 +65,26 @@ class Sweep(Model):
         return self
 
     @property
-    def drawn(self) -> Drawn:
+    def drawn(self) -> ShownWindows:
         """The windows that a figure shows: the first one, if the configuration names none."""
-        return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
+        return self.draw or ShownWindows(max=self.windows[0], mean=self.windows[0])
 
 
-class Limits(Model):
+class RunLimits(Section):
     """What a run may take; a longer or larger one is refused before it starts."""
 
     hours: Positive = 1.0
     gigabytes: Positive = 8.0
 
 
-class Configuration(Model):
+class Configuration(Section):
     """Cases, sweeps and the solvers' controls. A program adds sections, and cases of its own."""
 
-    cases: Annotated[dict[Name, SerializeAsAny[Case]], Field(min_length=1)]
+    cases: Annotated[dict[Name, SerializeAsAny[CaseSection]], Field(min_length=1)]
     sweeps: dict[Name, Sweep] = {}
-    surveys: dict[Name, Survey] = {}
+    surveys: dict[Name, SurveySection] = {}
     solvers: Solvers = Solvers()
-    limits: Limits = Limits()
+    limits: RunLimits = RunLimits()
     FORMER_KEYS: ClassVar[Mapping[str, str]] = {}
     """Present names of renamed keys by their dotted paths, for messages to users of old files."""
 

@@ -18,14 +18,14 @@ from pydantic import (
 from latticode.integrators.method import Control, Method
 from latticode.integrators.methods import METHODS
 
-from .values import Integer, Model, Positive
+from .values import Integer, Positive, Section
 
 FLAG = "by_default"
 DEFAULT = {"name": "taylor", FLAG: True}
 """The solver of a case that names none."""
 
 
-class DefaultMethod(Model):
+class DefaultMethod(Section):
     """The controls of the default method, with a flag where nobody named a solver.
 
     The flag lets `dop853` take over where there is no power series.
@@ -39,7 +39,7 @@ class DefaultMethod(Model):
         )
 
 
-class Auto(Model):
+class Auto(Section):
     """Two families of methods, which must agree to an error of the fields, of full scale."""
 
     name: Literal["auto"] = "auto"
@@ -52,14 +52,14 @@ def _field(control: Control) -> tuple[Any, Any]:
     return Annotated[kind, bounds], control.default
 
 
-def model_of_controls(method: Method) -> type[Model]:
+def model_of_controls(method: Method) -> type[Section]:
     """Return the model of a mapping with the name of a method and its controls."""
     kind, is_default = type(method), method.name == DEFAULT["name"]
     fields = {"name": (Literal[method.name], method.name)}
     fields |= {key: _field(control) for key, control in method.controls.items()}
     if is_default:
         fields[FLAG] = (bool, Field(False, repr=False))
-    base = DefaultMethod if is_default else Model
+    base = DefaultMethod if is_default else Section
     return create_model(kind.__name__, __base__=base, __doc__=kind.__doc__, **fields)
 
 
@@ -68,7 +68,7 @@ CONTROLS = {name: model_of_controls(method) for name, method in METHODS.items()}
 Taylor, Dop853 = CONTROLS["taylor"], CONTROLS["dop853"]
 Solvers = create_model(
     "Solvers",
-    __base__=Model,
+    __base__=Section,
     __doc__="The controls of each solver where a case names it without giving its own.",
     **{name: (controls, controls()) for name, controls in CONTROLS.items()},
 )

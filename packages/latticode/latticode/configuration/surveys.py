@@ -10,17 +10,17 @@ from pydantic import BeforeValidator, Field, ValidationError, model_validator
 from latticode.equations.ensembles import PERTURBATIONS
 from latticode.simulation import survey
 
-from .cases import Case
+from .cases import CaseSection
 from .messages import lines_of
 from .values import (
     Complex,
     Count,
     Distinct,
     Integer,
-    Model,
     Name,
     Number,
     Positive,
+    Section,
     Window,
     excerpt_of,
     fault,
@@ -34,7 +34,7 @@ MOST_CHECKED = 1000
 """Of an axis with more values only the ends are checked before the runs."""
 
 
-class Grid(Model):
+class GridSection(Section):
     """Equally spaced values of an axis, both ends included."""
 
     first: Number
@@ -50,7 +50,7 @@ class Grid(Model):
 def _as_axis(value: Any) -> Any:
     """Return the values of an axis; refuse arrays among them."""
     if isinstance(value, dict):
-        return Grid.model_validate(value).values
+        return GridSection.model_validate(value).values
     if isinstance(value, list) and any(isinstance(item, list | np.ndarray) for item in value):
         raise fault(
             "has a list of numbers where a run takes one; for values by site let the axis be a"
@@ -73,7 +73,7 @@ Axis = Annotated[Column, Distinct]
 KeptName = Annotated[str, _one_of(survey.NAMES)]
 
 
-class Members(Model):
+class MembersSection(Section):
     """Copies of each run, whose initial data differ by a random relative change."""
 
     count: Count
@@ -82,20 +82,20 @@ class Members(Model):
     kind: Annotated[str, _one_of(PERTURBATIONS)] = "even"
 
 
-class Survey(Model):
+class SurveySection(Section):
     """Many runs of a case, and how many parts they are made in."""
 
     case: Name
     axes: dict[str, Axis] = {}
     together: dict[str, Column] = {}
     """What varies along one more axis, the last: all at once, from one value to the next."""
-    members: Members | None = None
+    members: MembersSection | None = None
     keep: Annotated[list[KeptName], Field(min_length=1), Distinct] = ["max_l2"]
     window: Window | None = None
     chunks: Count | None = None
 
     @model_validator(mode="after")
-    def _consistent(self) -> "Survey":
+    def _consistent(self) -> "SurveySection":
         if len({len(values) for values in self.together.values()}) > 1:
             counts = ", ".join(f"{len(values)} of {name}" for name, values in self.together.items())
             raise faults([("together", f"has {counts}; give as many values of each")])
@@ -134,7 +134,7 @@ class Survey(Model):
         """The half-widths of its axes, none where all chains have that of the case."""
         return sorted(set(self._columns().get("half_width", [])))
 
-    def faults_of(self, case: Case) -> list[tuple[str, str]]:
+    def faults_of(self, case: CaseSection) -> list[tuple[str, str]]:
         """Return what keeps the survey from being made of a case, and under which key."""
         all_faults = []
         for key, names in (("axes", self.axes), ("together", self.together)):
@@ -166,7 +166,7 @@ class Survey(Model):
             all_faults.append(("window", text))
         return all_faults
 
-    def _faults_of_members(self, case: Case) -> list[tuple[str, str]]:
+    def _faults_of_members(self, case: CaseSection) -> list[tuple[str, str]]:
         """Return why no solver can follow data as large as those of a member may be."""
         factor = 1.0 + FARTHEST * self.members.size
         larger = {site: [factor * z for z in data] for site, data in case.data.items()}

@@ -151,19 +151,19 @@ Names = Annotated[list[Name], Field(min_length=1), Distinct]
 Window = tuple[Number, Number]
 
 
-class Model(BaseModel):
+class Section(BaseModel):
     """A mapping of the configuration: unknown keys are faults."""
 
     # `defer_build`: most models are parts of one, and are validated with it alone
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
 
 
-def model(**keys: Any) -> type[Model]:
+def section_of(**keys: Any) -> type[Section]:
     """Return the model of a mapping that has all of these keys, each of its type."""
-    return create_model("Mapping", __base__=Model, **{key: (of, ...) for key, of in keys.items()})
+    return create_model("Mapping", __base__=Section, **{key: (of, ...) for key, of in keys.items()})
 
 
-class Steps(Model):
+class Steps(Section):
     """Equally spaced values, both ends included."""
 
     first: Number

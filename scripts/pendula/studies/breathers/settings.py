@@ -8,16 +8,16 @@ from latticode.configuration.values import (
     Count,
     Counts,
     Integer,
-    Model,
     Name,
     Natural,
     Number,
     Numbers,
     Positive,
     Positives,
+    Section,
     Tolerance,
     Window,
-    model,
+    section_of,
 )
 from pydantic import Field
 
@@ -27,19 +27,19 @@ from pendula.configuration.schema import Faults, PaperConfiguration
 OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
 """Choices of runs that the long studies change."""
 
-Steady = model(omegas=Numbers, half_width=Annotated[Integer, Field(ge=4)])
+Steady = section_of(omegas=Numbers, half_width=Annotated[Integer, Field(ge=4)])
 
 # Solitons A = B of the scalar equation, on two chains: rates that differ belong to the ends.
-Solitons = model(
+Solitons = section_of(
     omega=Number, frequencies=Numbers, half_widths=Annotated[Counts, Field(min_length=2)]
 )
 
-Periodic = model(
+Periodic = section_of(
     omegas=Numbers,
     frequencies=Positives,
     half_width=Annotated[Integer, Field(ge=2)],
     solitons=Solitons,
-    long=model(
+    long=section_of(
         omega=Number,
         frequencies=Window,
         frequency_step=Positive,
@@ -48,18 +48,18 @@ Periodic = model(
 )
 
 # Share of runs that spread, by the size of a random perturbation of the data.
-Sensitivity = model(
+Sensitivity = section_of(
     case=Name,
     end_time=Positive,
     sizes=Positives,
     members=Count,
-    long=model(members=Count, variations=dict[Literal[*OF_RUNS, "seed"], Positives]),
+    long=section_of(members=Count, variations=dict[Literal[*OF_RUNS, "seed"], Positives]),
     tolerance=Tolerance,
     seed=Natural,
 )
 
 
-class Fates(Model):
+class Fates(Section):
     """The map of the fates of initial conditions on one pair."""
 
     omegas: Numbers
@@ -67,7 +67,7 @@ class Fates(Model):
     end_time: Positive
     largest: Positive
     points: Annotated[Integer, Field(ge=3)]
-    long: model(
+    long: section_of(
         points=Annotated[Integer, Field(ge=3)],
         variations=dict[Literal[*OF_RUNS, "stride"], Positives],
     )
@@ -79,7 +79,7 @@ class Fates(Model):
         return [float(f"{amplitude:.12g}") for amplitude in self.largest * middles]
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `breathers` of the configuration."""
 
     epsilon: Positive

@@ -6,11 +6,11 @@ from latticode.configuration.files import ConfigurationError
 from latticode.configuration.values import (
     Count,
     Integer,
-    Model,
     Name,
     Number,
     Positive,
-    model,
+    Section,
+    section_of,
 )
 from pydantic import Field
 
@@ -19,14 +19,14 @@ from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import AMPLITUDES
 
 # Precision of a curve of integers, and how often its error bound changes frames.
-Frames = model(
+Frames = section_of(
     bits=Annotated[Integer, Field(ge=32, le=4096)],
     order=Annotated[Integer, Field(ge=8, le=400)],
     outputs_per_frame=Count,
 )
 
 
-class ProofSection(Model):
+class ProofSection(Section):
     """A steady breather by its family, its Omega and its coupling."""
 
     family: str
@@ -34,7 +34,7 @@ class ProofSection(Model):
     epsilon: Positive
 
 
-class Breathers(Model):
+class Breathers(Section):
     """Steady breathers whose existence is proved."""
 
     gamma: Positive
@@ -55,14 +55,14 @@ class Breathers(Model):
                 yield f"proofs.{i}.omega", fault
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `certified` of the configuration."""
 
     frames: dict[Name, Frames]  # by case
     default_frames: Frames  # of cases that `frames` does not list
     breathers: Breathers
 
-    def frames_of(self, case: str) -> Model:
+    def frames_of(self, case: str) -> Section:
         """Return how the curve of a case is made."""
         return self.frames.get(case, self.default_frames)
 

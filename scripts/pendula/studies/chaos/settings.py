@@ -8,14 +8,14 @@ from latticode.configuration.values import (
     Counts,
     Distinct,
     Integer,
-    Model,
     Name,
     Names,
     Natural,
     Positive,
+    Section,
     Tolerance,
     Window,
-    model,
+    section_of,
 )
 from pydantic import Field
 
@@ -24,7 +24,7 @@ from pendula.configuration.runs import Runs
 from pendula.configuration.schema import PAPER_CASES, Faults, PaperConfiguration
 
 
-class Spectrum(Model):
+class Spectrum(Section):
     """All Lyapunov exponents, on a short chain; `duration_factor` times the latest end time.
 
     The chain is also integrated without a drive, for `undriven_duration_factor`.
@@ -45,7 +45,7 @@ VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", 
 """Choices of a study that its long runs change."""
 
 # The largest exponents of every case, on a span of time.
-Lyapunov = model(
+Lyapunov = section_of(
     span=Window,
     members=Annotated[Integer, Field(ge=2)],
     spectrum=Spectrum,
@@ -53,9 +53,9 @@ Lyapunov = model(
 )
 
 # Sweeps of ensembles: on chains of each half-width, `members` runs from slightly perturbed data.
-Ensembles = model(
+Ensembles = section_of(
     sweeps=Annotated[
-        dict[Name, model(half_widths=Counts, members=Annotated[Integer, Field(ge=2)])],
+        dict[Name, section_of(half_widths=Counts, members=Annotated[Integer, Field(ge=2)])],
         Field(min_length=1),
     ],
     output_step=Positive,
@@ -63,7 +63,7 @@ Ensembles = model(
 )
 
 # A chaotic sweep by the second solver with two steps, and by the first solver.
-SecondSolver = model(
+SecondSolver = section_of(
     sweep=Name,
     half_widths=Counts,
     members=Annotated[Integer, Field(ge=2)],
@@ -72,7 +72,7 @@ SecondSolver = model(
 )
 
 # Ensembles of every case, each member reduced to numbers over windows of time.
-Members = model(
+Members = section_of(
     windows=Annotated[list[Window], Field(min_length=2, max_length=2), Distinct],
     output_step=Positive,
     members=Annotated[Integer, Field(ge=3)],
@@ -89,7 +89,7 @@ def steps_beside(step: float, output_step: float) -> list[float]:
     return sorted({step, output_step / 2})
 
 
-class Lifetimes(Model):
+class Lifetimes(Section):
     """The transition measured by two times, against the initial amplitude of the central pair."""
 
     case: Name
@@ -104,10 +104,10 @@ class Lifetimes(Model):
     end_time: Positive
     output_step: Positive
     seed: Natural
-    long: model(members=Count, variations=dict[VARIED, list[Positive | Window]])
+    long: section_of(members=Count, variations=dict[VARIED, list[Positive | Window]])
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `chaos` of the configuration."""
 
     lyapunov: Lyapunov

@@ -5,7 +5,7 @@ NaN and infinite numbers are allowed, because solvers must reject them.
 
 from typing import Annotated, Any, Literal
 
-from latticode.configuration.values import AnyNumber, Integer, Model, faults
+from latticode.configuration.values import AnyNumber, Integer, Section, faults
 from pydantic import Field, create_model, model_validator
 
 ARGUMENTS = {
@@ -27,7 +27,7 @@ FARTHEST_POWER, SHORT_CHAIN = 500, 30
 """(2^power)^2 overflows beyond the first; the second is the half-width of the short chain."""
 
 
-class AnySolver(Model):
+class AnySolver(Section):
     """A solver and its controls, which may be invalid on purpose."""
 
     name: Literal[tuple(CONTROLS)]
@@ -47,14 +47,14 @@ NUMBERS = ("omega", "gamma", "size", "tau", "amplitude")
 INTEGERS = ("power", "sites", "half_width")
 Arguments = create_model(
     "Arguments",
-    __base__=Model,
+    __base__=Section,
     __doc__="All arguments of the functions of `errors`; each function uses some of them.",
     **dict.fromkeys(NUMBERS, (AnyNumber | None, None)),
     **dict.fromkeys(INTEGERS, (Integer | None, None)),
 )
 
 
-class HardCase(Model):
+class HardCase(Section):
     """A case that each of `solvers` must solve with an error up to `expected`, or must reject.
 
     A number is the largest allowed error, a text a part of the message of the rejection.
@@ -85,7 +85,9 @@ class HardCase(Model):
         return self
 
 
-def _wrong_keys(section: Model, needed: tuple, optional: tuple, user: str) -> list[tuple[str, str]]:
+def _wrong_keys(
+    section: Section, needed: tuple, optional: tuple, user: str
+) -> list[tuple[str, str]]:
     """Return (key, message) for each key that `section` lacks, or that `user` does not use."""
     present, errors = section.model_dump(exclude_none=True), []
     errors += [(key, f"is missing: {user} needs it") for key in needed if key not in present]
@@ -103,7 +105,7 @@ def _reject(errors: list[tuple[str, str]]) -> None:
         raise faults(errors)
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `hard_cases` of the configuration."""
 
     cases: Annotated[list[HardCase], Field(min_length=1)]

@@ -6,14 +6,14 @@ from typing import Annotated, Literal
 from latticode.configuration.cases import is_multiple
 from latticode.configuration.values import (
     Count,
-    Model,
     Name,
     Natural,
     Numbers,
     Positive,
     Positives,
+    Section,
     Tolerance,
-    model,
+    section_of,
 )
 from pydantic import Field
 
@@ -24,7 +24,7 @@ from pendula.problem import Constants
 from .mathieu import squared_frequency, waves_on_strings_grow
 
 
-class Threshold(Model):
+class Threshold(Section):
     """Lemma 1 for the pendula."""
 
     epsilon: Positive
@@ -41,7 +41,7 @@ class Threshold(Model):
             yield "omegas", f"{where} near the second resonance of the drive: {way_out}"
 
 
-class PendulaRuns(Model):
+class PendulaRuns(Section):
     """Keys of topics that integrate pendula: mu and a tolerance."""
 
     mus: Positives
@@ -115,7 +115,7 @@ class OverTheTop(PendulaRuns):
     seed: Natural
     settled: Positive
     end_time: Annotated[Positive, Field(ge=1)]
-    long: model(
+    long: section_of(
         mus=Positives,
         members=Count,
         end_time=Positive,
@@ -138,7 +138,7 @@ class OverTheTop(PendulaRuns):
                 return
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `newton` of the configuration."""
 
     threshold: Threshold

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from latticode.configuration.values import Integer, Model, Name, Positives
+from latticode.configuration.values import Integer, Name, Positives, Section
 from pydantic import Field
 
 from pendula.configuration.schema import PAPER_SWEEPS, Faults, PaperConfiguration
@@ -10,7 +10,7 @@ from pendula.configuration.schema import PAPER_SWEEPS, Faults, PaperConfiguratio
 Bits = Annotated[Integer, Field(ge=64, le=4096)]
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `reference` of the configuration."""
 
     snapshots: Positives

@@ -12,7 +12,6 @@ from latticode.configuration.values import (
     Count,
     Counts,
     Integer,
-    Model,
     Name,
     Names,
     Natural,
@@ -20,8 +19,9 @@ from latticode.configuration.values import (
     Numbers,
     Positive,
     Positives,
+    Section,
     Tolerance,
-    model,
+    section_of,
 )
 from pydantic import Field
 
@@ -44,15 +44,15 @@ STARTS = "starts"
 """Name of the ensemble over initial conditions of the central pair."""
 
 
-class Size(Model):
+class Size(Section):
     """Solver, threshold of rest, end times and members of a study."""
 
     solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
     rest_threshold: Positive  # of the largest amplitude
-    runs: dict[Name, model(end_time=Positive, members=Count)]
+    runs: dict[Name, section_of(end_time=Positive, members=Count)]
 
 
-class Transverse(Model):
+class Transverse(Section):
     """Runs that measure the growth of a small A + B; the first of several values is printed."""
 
     end_time: Positive
@@ -69,7 +69,7 @@ class Transverse(Model):
         ]
 
 
-class Noise(Model):
+class Noise(Section):
     """Runs with noise added to A + B; the first tolerance is printed."""
 
     omegas: Numbers
@@ -97,15 +97,17 @@ class LongSize(Size):
         return self.model_copy(update={"solver": self.solver.model_copy(update=changes)})
 
 
-class Settings(Model):
+class Settings(Section):
     """Section `unbounded` of the configuration."""
 
     output_step: Positive
     perturbation: Positive
     seed: Natural
     cases: Names
-    omegas: model(case=Name, values=Numbers)
-    starts: model(case=Name, values=Annotated[list[tuple[Number, Number]], Field(min_length=1)])
+    omegas: section_of(case=Name, values=Numbers)
+    starts: section_of(
+        case=Name, values=Annotated[list[tuple[Number, Number]], Field(min_length=1)]
+    )
     nodes: Annotated[Integer, Field(ge=8, le=100)]
     short: Size
     long: LongSize
