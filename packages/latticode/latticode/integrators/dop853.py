@@ -219,20 +219,20 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
 
     @uncached
-    def take_stages(system, first, last, t, y, h, rest, k, w):
+    def take_stages(system, first, last, t, y, h, threshold, k, w):
         """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`.
 
-        In the solution, numbers below `rest` become zero before its slope is taken.
+        In the solution, numbers below `threshold` become zero before its slope is taken.
         """
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(16, -1), w.reshape(-1)
         for stage in range(first, last + 1):
             combine(stage, y_flat, h, k_flat, w_flat)
             if stage == 13:
-                set_to_rest(w, rest)
+                set_to_rest(w, threshold)
             rates(at_time(system, t + NODES[stage] * h), w, k[stage - 1])
 
     @uncached
-    def step(system, count, work, t, y, slope, h, rest, tolerances, due, w, new_slope, c):
+    def step(system, count, work, t, y, slope, h, threshold, tolerances, due, w, new_slope, c):
         """Write state and slope after a step, in `count` tiles, into `w` and `new_slope`.
 
         Return the error of the step; `work` holds TILE_WORK arrays of the size of a tile. Where an
@@ -247,20 +247,20 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         fifth = third = error = 0.0
         for tile in range(count):
             left, first, stop = tile_place(tile, count, sites)
-            here = system_of_tile(system, left == 0, left + held == sites)
+            tile_system = system_of_tile(system, left == 0, left + held == sites)
             take(slope, left, k[0])
             if not alone:
                 take(y, left, start)
-            take_stages(here, 2, 13, t, start, h, rest, k, end)
-            own = (1 + first - left, 1 + stop - left)
-            near = error_estimates(start, end, k, scratch, spare, tolerances, own)
+            take_stages(tile_system, 2, 13, t, start, h, threshold, k, end)
+            own_columns = (1 + first - left, 1 + stop - left)
+            near = error_estimates(start, end, k, scratch, spare, tolerances, own_columns)
             fifth, third = worse(fifth, near[0]), worse(third, near[1])
             error = step_error(h, fifth, third)
             give(k[12], left, first, stop, new_slope)
             if not alone:
                 give(end, left, first, stop, w)
             if due and (error <= 1.0 or not alone):
-                take_stages(here, 14, 16, t, start, h, rest, k, scratch)
+                take_stages(tile_system, 14, 16, t, start, h, threshold, k, scratch)
                 prepare_interpolant(start, end, h, k, curve)
                 for m in range(0 if alone else c.shape[0]):
                     give(curve[m], left, first, stop, c[m])
@@ -274,8 +274,8 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         count = count_tiles(y.shape[1] - 2) if can_be_tiled(system) else 1
         columns = tile_length(y.shape[1] - 2, count) + 2
         tiles = work[WHOLE_WORK:].reshape(-1)[: TILE_WORK * y.shape[0] * columns]
-        part = tiles.reshape((TILE_WORK, y.shape[0], columns))
-        rest = rest_level(y, OF_STAGES)
+        tile_work = tiles.reshape((TILE_WORK, y.shape[0], columns))
+        threshold = rest_level(y, OF_STAGES)
         rates(at_time(system, t), y, slope)
         h = initial_step(system, t, y, slope, c, controls, end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
@@ -300,7 +300,19 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
                 h = t_new - t
             due = times[i] <= t_new
             error = step(
-                system, count, part, t, state, slope, h, rest, controls, due, w, new_slope, c
+                system,
+                count,
+                tile_work,
+                t,
+                state,
+                slope,
+                h,
+                threshold,
+                controls,
+                due,
+                w,
+                new_slope,
+                c,
             )
             evaluations += 12
             overflowed = error == np.inf

@@ -29,14 +29,14 @@ SMALLEST_FRACTION = 2.0**-20
 
 
 @kernel
-def update(base, fraction, slope, rest, new):
+def update(base, fraction, slope, threshold, new):
     """Set new = base + part slope; return the largest change of a part, NaN where there is one.
 
     `slope` is overwritten by the changes.
     """
     for row in range(base.shape[0]):
         for j in range(1, base.shape[1] - 1):
-            value = zero_below(rest, base[row, j] + fraction * slope[row, j])
+            value = zero_below(threshold, base[row, j] + fraction * slope[row, j])
             slope[row, j] = abs(value - new[row, j])
             new[row, j] = value
     return largest_in_rows(slope, base.shape[0])
@@ -100,13 +100,13 @@ def build(begin, slope, observe):
     """
 
     @uncached
-    def iterate(system, old, new, h, rest, follows, scratch, enough, most):
+    def iterate(system, old, new, h, threshold, follows, scratch, enough, most):
         """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
-        base, part, evaluations = begin(system, old, h, follows, scratch[0])
+        base, factor, evaluations = begin(system, old, h, follows, scratch[0])
         last = np.inf
         for count in range(1, most + 1):
             slope(system, old, new, scratch[1], scratch[2])
-            change = update(base, part, scratch[2], rest, new)
+            change = update(base, factor, scratch[2], threshold, new)
             if change <= enough:
                 return True, evaluations + count
             # the first change is that of the guess, which may be anything
@@ -116,7 +116,7 @@ def build(begin, slope, observe):
         return False, evaluations + most
 
     @uncached
-    def halve(system, old, new, h, rest, scratch, enough, most, stop):
+    def halve(system, old, new, h, threshold, scratch, enough, most, stop):
         """Cover `h` in equal parts, halved until the iteration contracts.
 
         Return whether that worked, the number of halvings, and the evaluations. A step may be cut
@@ -126,8 +126,10 @@ def build(begin, slope, observe):
         halvings, evaluations = 1, 0
         while covered < 1.0 and not stop[0]:
             copy(old, new)
-            part = fraction * h
-            good, count = iterate(system, old, new, part, rest, False, scratch, enough, most)
+            short_step = fraction * h
+            good, count = iterate(
+                system, old, new, short_step, threshold, False, scratch, enough, most
+            )
             evaluations += count
             if good:
                 copy(new, old)
@@ -142,7 +144,7 @@ def build(begin, slope, observe):
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
         step, tolerance, most = controls
-        new, scratch, past, rest = work[0], work[1:4], work[4:], rest_level(y, OF_STAGES)
+        new, scratch, past, threshold = work[0], work[1:4], work[4:], rest_level(y, OF_STAGES)
         next_past = steps = rejected = evaluations = 0
         last = 0.0  # length of the step before; 0 if there was none, or if it was halved
         for i in range(times.size):
@@ -153,14 +155,16 @@ def build(begin, slope, observe):
                 h = span / step_count
                 extrapolate(y, past, next_past - 1, new)
                 follows = abs(h - last) <= SAME * h
-                good, count = iterate(system, y, new, h, rest, follows, scratch, enough, int(most))
+                good, count = iterate(
+                    system, y, new, h, threshold, follows, scratch, enough, int(most)
+                )
                 evaluations += count
                 if good:
                     accept(y, new, past[next_past])
                     next_past, last = (next_past + 1) % PAST, h
                 else:
                     good, halvings, count = halve(
-                        system, y, new, h, rest, scratch, enough, int(most), stop
+                        system, y, new, h, threshold, scratch, enough, int(most), stop
                     )
                     rejected, last = rejected + halvings, 0.0
                     evaluations += count

@@ -40,7 +40,7 @@ NODES = np.cumsum(KICKS) - 0.5 * KICKS
 
 
 @kernel
-def add_rows(y, first, slope, first_slope, h, rest):
+def add_rows(y, first, slope, first_slope, h, threshold):
     """Add h times every second row of `slope`, from `first_slope` on, to those of `y`.
 
     These begin at `first`.
@@ -48,7 +48,7 @@ def add_rows(y, first, slope, first_slope, h, rest):
     for row in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             value = y[row + first, j] + h * slope[row + first_slope, j]
-            y[row + first, j] = zero_below(rest, value)
+            y[row + first, j] = zero_below(threshold, value)
 
 
 def build(rates, observe, at_time=at_any_time):
@@ -60,7 +60,7 @@ def build(rates, observe, at_time=at_any_time):
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
         (step,) = controls
-        slope, steps, rest = work[0], 0, rest_level(y, OF_STAGES)
+        slope, steps, threshold = work[0], 0, rest_level(y, OF_STAGES)
         for i in range(times.size):
             start = times[max(i - 1, 0)]
             span = times[i] - start
@@ -73,12 +73,12 @@ def build(rates, observe, at_time=at_any_time):
                 for stage in range(KICKS.size):
                     # the last drift of a step and the first of the next are one
                     joined = 2.0 if stage == 0 and step_number > 0 else 1.0
-                    add_rows(y, 0, y, 1, joined * DRIFTS[stage] * h, rest)
+                    add_rows(y, 0, y, 1, joined * DRIFTS[stage] * h, threshold)
                     rates(at_time(system, t + NODES[stage] * h), y, slope)
-                    add_rows(y, 1, slope, 1, KICKS[stage] * h, rest)
+                    add_rows(y, 1, slope, 1, KICKS[stage] * h, threshold)
                 steps += 1
             if step_count > 0:
-                add_rows(y, 0, y, 1, DRIFTS[0] * h, rest)
+                add_rows(y, 0, y, 1, DRIFTS[0] * h, threshold)
             observe(system, y, np.int64(i), record)
         return Outcome(DONE, times[-1], steps, 0, KICKS.size * steps)
 

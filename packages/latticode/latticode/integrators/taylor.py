@@ -133,16 +133,16 @@ def sum_at(m, i, h):
 
 
 @inlined_by_llvm
-def advance(series, h, rest):
+def advance(series, h, threshold):
     """Replace order 0 by the sum of the series at the time `h`, the state after the step.
 
-    Numbers below `rest` become zero.
+    Numbers below `threshold` become zero.
     """
     m = series.memory
     for block in range(series.components * series.blocks):
         for offset in range(X, Y + 1, Y - X):
             i = block * BLOCK_SIZE + offset
-            store(m, i, zero_below(rest, sum_at(m, i, h)))
+            store(m, i, zero_below(threshold, sum_at(m, i, h)))
 
 
 @kernel
@@ -204,8 +204,8 @@ def fifteenth_root(x):
     first = sixteenth_root(x)
     second = sixteenth_root(first)
     third = sixteenth_root(second)
-    rest = (16.0 * third + 14.0) / (14.0 * third + 16.0)
-    return (first * second) * (third * rest)
+    remainder = (16.0 * third + 14.0) / (14.0 * third + 16.0)
+    return (first * second) * (third * remainder)
 
 
 @kernel
@@ -249,7 +249,7 @@ def build(continue_series, observe, at_time=at_any_time):
         rtol, atol = controls
         t, end = times[0], times[-1]
         series = lay_out(work, y)
-        shortest, rest = SMALLEST_PART * (end - t), rest_level(y, OF_SERIES)
+        shortest, threshold = SMALLEST_PART * (end - t), rest_level(y, OF_SERIES)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
         i += 1
@@ -273,7 +273,7 @@ def build(continue_series, observe, at_time=at_any_time):
                 evaluate(series, times[i] - t, y)
                 observe(system, y, i, record)
                 i += 1
-            advance(series, h, rest)
+            advance(series, h, threshold)
             t = t_new
         return Outcome(DONE, t, steps, 0, ORDER * steps)
 

@@ -75,10 +75,10 @@ def norms_by(square):
         for k in range(last + 1):
             for j in range(1, y.shape[1] - 1):
                 squares[k, j] = square(y, 2 * k, j)
-        for one in range(0, last + 1, 2):
-            other = min(one + 1, last)  # the same one twice where there is no other
-            sum_of_one, sum_of_other = sums_over_chain(chain, squares[one], squares[other])
-            record.l2[one, i], record.l2[other, i] = sqrt(sum_of_one), sqrt(sum_of_other)
+        for row in range(0, last + 1, 2):
+            next_row = min(row + 1, last)  # the same one twice where there is no other
+            sum_of_one, sum_of_other = sums_over_chain(chain, squares[row], squares[next_row])
+            record.l2[row, i], record.l2[next_row, i] = sqrt(sum_of_one), sqrt(sum_of_other)
         for k in range(last + 1):
             record.linf[k, i] = sqrt(largest_magnitude(squares[k, 1:-1]))
 

@@ -36,7 +36,7 @@ def runs_of_sweep(
     and those that follow are not run. Where parameters depend on the site, nobody knows.
     """
     problem = problem.changed(snapshot_every=0, snapshots_at=())
-    alike = not (problem.site_dependent or problem.model.matrices)
+    uniform = not (problem.site_dependent or problem.model.matrices)
     enough, inside, printed = np.inf, None, False
 
     def make(one: Problem) -> dict[str, np.ndarray]:
@@ -47,10 +47,10 @@ def runs_of_sweep(
         if (remark := remark_on(trajectory.solver)) and not printed:
             print(f"half-width {one.half_width}: {remark}", flush=True)
             printed = True
-        found = windowed(trajectory, windows)
-        if alike and _is_inside(trajectory):
-            enough, inside = one.half_width, found
-        return found
+        statistics = windowed(trajectory, windows)
+        if uniform and _is_inside(trajectory):
+            enough, inside = one.half_width, statistics
+        return statistics
 
     return ManyRuns([problem.changed(half_width=width) for width in half_widths], make, dict)
 

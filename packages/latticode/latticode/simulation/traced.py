@@ -96,12 +96,12 @@ def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
     """Return what the kernels of a model take for its parameters, at time 0."""
     model = problem.model
     sites = problem.half_width + 1 if reduction.even else problem.sites
-    parts = inputs_of_rates(model.rates, problem.site_dependent)
-    constants, at_sites = _values(problem, parts)
+    inputs = inputs_of_rates(model.rates, problem.site_dependent)
+    constants, at_sites = _values(problem, inputs)
     wide = np.zeros((2 * len(model.fields), sites + 2 * model.reach))
-    clocks = (0.0,) * 2 * len(parts.clocks)
+    clocks = (0.0,) * 2 * len(inputs.clocks)
     ends = choose_ends(problem.boundary, reduction)
-    couplings = _couplings(problem, parts, sites)
+    couplings = _couplings(problem, inputs, sites)
     return System(constants, clocks, at_sites, wide, _sums(problem), couplings, *ends)
 
 
@@ -141,14 +141,14 @@ def _sums(problem: InitialValueProblem) -> DensityWorkspace:
         return DensityWorkspace((), *np.zeros((3, 1, 3)))
     margin = reach if ends_of(problem.boundary).sees is None else 0
     sites = problem.sites + 2 * margin
-    parts = inputs_of(model.conserved.values(), problem.site_dependent)
-    constants, at_sites = _values(problem, parts, margin)
+    inputs = inputs_of(model.conserved.values(), problem.site_dependent)
+    constants, at_sites = _values(problem, inputs, margin)
     wide = np.zeros((2 * len(model.fields), sites + 2 * reach))
     return DensityWorkspace(constants, at_sites, wide, np.zeros((len(model.conserved), sites + 2)))
 
 
 def _values(
-    problem: InitialValueProblem, parts: ModelInputs, margin: int = 0
+    problem: InitialValueProblem, inputs: ModelInputs, margin: int = 0
 ) -> tuple[tuple[float, ...], np.ndarray]:
     """Return constants, and what depends on the site, with so many sites more beyond each end."""
     values = problem.parameter_values
@@ -160,10 +160,10 @@ def _values(
         value = values[name]
         return value if np.ndim(value) == 0 else moved(value, by, problem.boundary)
 
-    constants = tuple(map(float, evaluate(parts.constants, leaf, elementary)))
+    constants = tuple(map(float, evaluate(inputs.constants, leaf, elementary)))
     count = problem.sites + 2 * margin
-    at_sites = np.zeros((max(1, len(parts.at_sites)), count + 2 + 2 * LANES))
-    for row, value in enumerate(evaluate(parts.at_sites, leaf, elementary)):
+    at_sites = np.zeros((max(1, len(inputs.at_sites)), count + 2 + 2 * LANES))
+    for row, value in enumerate(evaluate(inputs.at_sites, leaf, elementary)):
         at_sites[row, 1 : 1 + count] = np.pad(value, margin, "edge")
     return constants, at_sites
 
@@ -257,12 +257,12 @@ class TracedEquations(Equations):
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return what a `Trajectory` holds of the whole chain, from record and final state."""
         model, count = self.problem.model, len(self.names.parts)
-        parts = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
+        final_rows = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
         state = np.array([unfold(part, cut) for part in record.snapshots[:count]])
         real = model.real
         return {
             "modulus": np.abs(state[0]) if real else modulus(complex_of(*state)),
-            "final": parts if real else complex_of(*parts),
+            "final": final_rows if real else complex_of(*final_rows),
             "state": state,
             "conserved": dict(zip(model.conserved, record.conserved, strict=False)),
         }
