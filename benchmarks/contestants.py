@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 from latticode.simulation.simulate import simulate
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from . import peer_in_cpp, peers_in_python
 from .peer import Peer, Solve
@@ -41,7 +41,7 @@ class Contestant(NamedTuple):
 
     title: str
     accuracies: np.ndarray
-    prepare: Callable[[Problem], Solve]
+    prepare: Callable[[PaperProblem], Solve]
 
 
 class Point(NamedTuple):
@@ -65,7 +65,7 @@ def controls(name: str, accuracy: float) -> dict:
     return {"name": name, "rtol": accuracy, "atol": atol}
 
 
-def _prepare_own(problem: Problem, name: str) -> Solve:
+def _prepare_own(problem: PaperProblem, name: str) -> Solve:
     def solve(accuracy: float) -> tuple[np.ndarray, float]:
         controlled = problem.changed(solver=controls(name, float(accuracy)))
         run, seconds = timed(lambda: simulate(controlled))
@@ -101,7 +101,7 @@ def error_of(final: np.ndarray, exact: np.ndarray) -> float:
 
 
 def measure_points(
-    contestant: Contestant, problem: Problem, exact: np.ndarray, goal: float = 0.0
+    contestant: Contestant, problem: PaperProblem, exact: np.ndarray, goal: float = 0.0
 ) -> list[Point]:
     """Return one point for each accuracy, from the loosest to the tightest.
 
@@ -137,7 +137,7 @@ def cheapest(points: list[Point], target: float) -> Point | None:
 
 
 def compare(
-    problem: Problem, target: float, peer: Measured, ours: dict[str, Measured]
+    problem: PaperProblem, target: float, peer: Measured, ours: dict[str, Measured]
 ) -> np.ndarray | None:
     """Let the peer and our best solver take turns, each at an error below the target.
 
@@ -158,7 +158,7 @@ def compare(
 
 
 def compete(
-    problem: Problem,
+    problem: PaperProblem,
     exact: np.ndarray,
     target: float,
     ours: Mapping[str, Contestant],

@@ -3,7 +3,7 @@
 import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.simulation.simulate import simulate
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 
 from .contestants import controls
 from .timing import repeat, timed
@@ -29,12 +29,12 @@ def measure() -> dict[str, Variable]:
     }
 
 
-def noisy_chain(sites: int, name: str) -> Problem:
+def noisy_chain(sites: int, name: str) -> PaperProblem:
     """Return a chain with even amplitudes of order one: every site moves from the start."""
     rng = np.random.default_rng(0)
     half = rng.normal(size=(2, sites // 2 + 1)) + 1j * rng.normal(size=(2, sites // 2 + 1))
     end = min(50.0, max(1.0, WORK / sites))
-    return Problem(
+    return PaperProblem(
         parameters=vars(CONSTANTS),
         half_width=sites // 2,
         boundary="dirichlet",

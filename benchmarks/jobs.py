@@ -6,7 +6,7 @@ from functools import partial
 import xarray as xr
 from latticode.datasets.trajectories import Contents
 from latticode.kernels.sources import describe_machine
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from replication.words import number
 
 from benchmarks import cost, pendula
@@ -19,7 +19,7 @@ say = partial(print, flush=True)
 
 
 def measure_work_precision(
-    references: Mapping[str, xr.Dataset], problems: Mapping[str, Problem]
+    references: Mapping[str, xr.Dataset], problems: Mapping[str, PaperProblem]
 ) -> Contents:
     """Time every solver and every installed peer on `problems`, beside the errors they make."""
     cases, exact = {}, {}
@@ -32,7 +32,7 @@ def measure_work_precision(
     return variables, {"title": "Speed against error", "absent": absent, **describe_machine()}
 
 
-def measure_pendula(problems: Mapping[str, Problem]) -> Contents:
+def measure_pendula(problems: Mapping[str, PaperProblem]) -> Contents:
     """Time the solvers and peers that take Newton's equations on the pendula of `problems`."""
     peers, absent = find_peers(OF_PENDULA)
     variables = pendula.measure(problems, peers, say)

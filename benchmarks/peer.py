@@ -10,7 +10,7 @@ from latticode.simulation.lattice import FULL_CHAIN, Reduction, find_reduction, 
 from pendula.models.amplitudes import rates
 from pendula.models.pendula import at_time
 from pendula.models.pendula import rates as pendula_rates
-from pendula.problem import AMPLITUDES, PENDULA, Problem
+from pendula.problem import AMPLITUDES, PENDULA, PaperProblem
 
 HALF = Reduction(even=True, synchronised=False)
 
@@ -23,7 +23,7 @@ class Peer(NamedTuple):
 
     title: str
     why_absent: Callable[[], str | None]
-    prepare: Callable[[Problem], Solve]
+    prepare: Callable[[PaperProblem], Solve]
 
 
 def needs(module: str, package: str) -> Callable[[], str | None]:
@@ -32,7 +32,9 @@ def needs(module: str, package: str) -> Callable[[], str | None]:
     return lambda: None if find_spec(module) else missing
 
 
-def begin(problem: Problem, reduction: Reduction = FULL_CHAIN) -> tuple[Any, np.ndarray, float]:
+def begin(
+    problem: PaperProblem, reduction: Reduction = FULL_CHAIN
+) -> tuple[Any, np.ndarray, float]:
     """Return system, initial state with ghosts and end time, as the library's kernels take them.
 
     Raises ValueError at what peers do not cover; some integrate half of a chain.
@@ -46,7 +48,9 @@ def begin(problem: Problem, reduction: Reduction = FULL_CHAIN) -> tuple[Any, np.
     return equations.system(reduction), equations.start(reduction), end
 
 
-def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = FULL_CHAIN) -> np.ndarray:
+def final_of(
+    problem: PaperProblem, state: np.ndarray, reduction: Reduction = FULL_CHAIN
+) -> np.ndarray:
     """Return the amplitudes (2, N) of a state, or angles and velocities (part, component, site)."""
     y = state.reshape(4, -1)
     if problem.model.name == AMPLITUDES:

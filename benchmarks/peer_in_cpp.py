@@ -12,7 +12,7 @@ import tempfile
 from functools import cache, partial
 from pathlib import Path
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .peer import HALF, Peer, Solve, begin, final_of, with_ghosts
 from .timing import timed
@@ -62,7 +62,9 @@ def compiled(contract: str, lanes: int, rest: bool):
     return function
 
 
-def prepare_taylor(problem: Problem, contract: str, lanes: int = 4, rest: bool = False) -> Solve:
+def prepare_taylor(
+    problem: PaperProblem, contract: str, lanes: int = 4, rest: bool = False
+) -> Solve:
     """Return the solver of half the chain, compiled into a temporary folder."""
     _, start, end = begin(problem, HALF)
     function, numbers = compiled(contract, lanes, rest), tuple(problem.constants)

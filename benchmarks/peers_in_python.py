@@ -14,7 +14,7 @@ import numba
 import numpy as np
 from numba import types
 from pendula.models.pendula import frequency
-from pendula.problem import AMPLITUDES, PENDULA, Problem
+from pendula.problem import AMPLITUDES, PENDULA, PaperProblem
 from scipy.integrate import solve_ivp
 
 from .peer import FLAT_RATES, HALF, Peer, Solve, begin, final_of, flat_rates, needs, with_ghosts
@@ -36,7 +36,7 @@ def plain_rates(tau, u, epsilon, gamma, omega):
     return -1j * np.concatenate([da, db])
 
 
-def factors_of(problem: Problem) -> dict[str, float]:
+def factors_of(problem: PaperProblem) -> dict[str, float]:
     """Return C, 2 gamma mu^2 and 2 omega of equations (1)."""
     constants, square = problem.constants, problem.mu * problem.mu
     return {
@@ -46,7 +46,7 @@ def factors_of(problem: Problem) -> dict[str, float]:
     }
 
 
-def prepare_scipy(problem: Problem, method: str, compiled: bool) -> Solve:
+def prepare_scipy(problem: PaperProblem, method: str, compiled: bool) -> Solve:
     """Return a method of `solve_ivp`; RK45 gets the paper's ratio of its two tolerances.
 
     Its right-hand side is in NumPy, or it is the library's kernel on a state with ghosts.
@@ -88,7 +88,7 @@ def neighbours(u, j: int):
     return sum([*after, u[j - 1] if j > 0 else u[1]])
 
 
-def equations(problem: Problem, n: int) -> list:
+def equations(problem: PaperProblem, n: int) -> list:
     """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B of the n sites of half a chain.
 
     Both rates of a site share |A|^2 and |B|^2.
@@ -114,7 +114,7 @@ def equations(problem: Problem, n: int) -> list:
     return list(zip(rows.ravel(), rates, strict=True))
 
 
-def equations_of_pendula(problem: Problem, n: int) -> list:
+def equations_of_pendula(problem: PaperProblem, n: int) -> list:
     """Return the same of the rows x, x', y, y', with the drive as a function of t."""
     import heyoka
 
@@ -134,7 +134,7 @@ def equations_of_pendula(problem: Problem, n: int) -> list:
     return pairs
 
 
-def prepare_heyoka(problem: Problem) -> Solve:
+def prepare_heyoka(problem: PaperProblem) -> Solve:
     """Return heyoka's integrator of half the chain, compiled for each tolerance before it is timed.
 
     It runs in compact mode, because the default one compiles for minutes.
@@ -168,7 +168,7 @@ HEYOKA = Peer("heyoka, half chain", needs("heyoka", "heyoka"), prepare_heyoka)
 # SUNDIALS and numbalsoda
 
 
-def prepare_cvode(problem: Problem) -> Solve:
+def prepare_cvode(problem: PaperProblem) -> Solve:
     """Return CVODE's Adams method with GMRES in its implicit steps, on the compiled kernel.
 
     GMRES needs no Jacobian, least of all a dense one.
@@ -198,7 +198,7 @@ def prepare_cvode(problem: Problem) -> Solve:
     return solve
 
 
-def prepare_numbalsoda(problem: Problem) -> Solve:
+def prepare_numbalsoda(problem: PaperProblem) -> Solve:
     """Return DOP853 on the library's real state of half the chain."""
     chain, start, end = begin(problem, HALF)
     from numbalsoda import dop853

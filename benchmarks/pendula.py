@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.simulation.simulate import simulate
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .contestants import SOLVERS, Contestant, compete, error_of
 from .problems import until
@@ -22,12 +22,12 @@ OURS = {name: SOLVERS[name] for name in ("taylor", "dop853", "ode45", "kahan_li"
 FIELDS = POINT_FIELDS | {"error": ("error of an angle or a velocity, the largest", "rad")}
 
 
-def as_pendula(problem: Problem) -> Problem:
+def as_pendula(problem: PaperProblem) -> PaperProblem:
     """Return the pendula of a case of the amplitudes, up to the end of the comparison."""
     return until(problem, END_TIME, model="pendula", mu=MU)
 
 
-def exact_state(problem: Problem) -> np.ndarray:
+def exact_state(problem: PaperProblem) -> np.ndarray:
     """Return angles and velocities at the end, on which two methods agree.
 
     Raises RuntimeError where they do not.
@@ -43,7 +43,7 @@ def exact_state(problem: Problem) -> np.ndarray:
 
 
 def measure(
-    problems: Mapping[str, Problem],
+    problems: Mapping[str, PaperProblem],
     peers: Mapping[str, Contestant],
     say: Callable[[str], None],
 ) -> dict[str, Variable]:

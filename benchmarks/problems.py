@@ -8,7 +8,7 @@ importing kernels.
 from typing import NamedTuple
 
 import numpy as np
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 
 class Regime(NamedTuple):
@@ -27,7 +27,7 @@ REGIMES = {
 REGIME_OF = {case: name for name, regime in REGIMES.items() for case in regime.cases}
 
 
-def until(problem: Problem, end_time: float, **changes) -> Problem:
+def until(problem: PaperProblem, end_time: float, **changes) -> PaperProblem:
     """Return the problem up to another time, with no outputs between its start and its end."""
     return problem.changed(end_time=end_time, output_step=end_time, snapshot_every=0, **changes)
 

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 from latticode.datasets.netcdf import Variable
 from pendula.many_cases import describe_cases
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .contestants import OURS, Contestant, Point, cheapest, compete
 from .problems import REGIME_OF, REGIMES
@@ -24,7 +24,7 @@ PAIR_FIELDS = {
 
 
 def measure(
-    problems: Mapping[str, Problem],
+    problems: Mapping[str, PaperProblem],
     references: Mapping[str, np.ndarray],
     peers: Mapping[str, Contestant],
     say: Callable[[str], None],

@@ -6,7 +6,7 @@ An SVG that moves by itself needs no script, stays sharp, and is a tenth of a vi
 import numpy as np
 from latticode.simulation.simulate import simulate
 from pendula.notebook import Case
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 SHOWN_SITES = range(-10, 11)
 END_TIME = 14.0
@@ -32,7 +32,7 @@ def swing_angles() -> np.ndarray:
     By (3) it is 2 mu Re(A exp(i phase)); a swing is shown in one second.
     """
     case = Case(omega=0.0, initial={0: [1.0, 0.1]}, solver="taylor")
-    problem = Problem.of(case.shown_problem()).changed(snapshot_every=0)
+    problem = PaperProblem.of(case.shown_problem()).changed(snapshot_every=0)
     centre = problem.half_width
     frames = np.arange(1, round(END_TIME * FRAMES_PER_SECOND) + 1) / FRAMES_PER_SECOND
     states = [simulate(problem.changed(end_time=t, output_step=t)).final for t in frames]

@@ -16,7 +16,7 @@ import numpy as np
 from latticode.simulation.lattice import Reduction
 from latticode.simulation.simulate import Trajectory, simulate
 from pendula.models.solvers import SOLVERS
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 TIGHT = {"taylor": 1e-14, "dop853": 1e-12, "ode45": 1e-9}
 ITERATED = {"step": 0.0025, "tolerance": 1e-13, "iterations": 50}
@@ -53,7 +53,7 @@ def run(name: str, even: bool) -> str:
         "solver": {"name": solver, **CONTROLS[name]},
         **({"model": model, "mu": 0.1} if model == "pendula" else {}),
     }  # fmt: skip
-    return digest(simulate(Problem.of(plain), Reduction(even=even, synchronised=False)))
+    return digest(simulate(PaperProblem.of(plain), Reduction(even=even, synchronised=False)))
 
 
 def hits(model: str, solver: str) -> int:

@@ -2,7 +2,7 @@
 
 import numpy as np
 from latticode.simulation.simulate import simulate
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 TIGHT = {
     "taylor": {"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
@@ -11,7 +11,7 @@ TIGHT = {
 }
 
 
-def pendula(**changes) -> Problem:
+def pendula(**changes) -> PaperProblem:
     """Return a problem of five pairs; `changes` are plain values."""
     settings = {
         "epsilon": 1.0,
@@ -26,10 +26,10 @@ def pendula(**changes) -> Problem:
         "mu": 0.1,
         "solver": TIGHT["taylor"],
     }
-    return Problem.of(settings | changes)
+    return PaperProblem.of(settings | changes)
 
 
-def final(problem: Problem, solver="taylor", **changes):
+def final(problem: PaperProblem, solver="taylor", **changes):
     """Return angles and velocities (part, component, site) at the end.
 
     The solver is one of TIGHT, or where it is None that of the problem.
@@ -38,7 +38,7 @@ def final(problem: Problem, solver="taylor", **changes):
     return simulate(problem.changed(**changes)).final
 
 
-def coupling(problem: Problem, angles):
+def coupling(problem: PaperProblem, angles):
     """Return C (x_{n+1} - 2 x_n + x_{n-1}) of angles (2, N)."""
     pad = {"dirichlet": "constant", "free": "edge", "periodic": "wrap"}[problem.boundary]
     wide = np.pad(angles, ((0, 0), (1, 1)), mode=pad)
@@ -46,7 +46,7 @@ def coupling(problem: Problem, angles):
     return problem.constants.epsilon * square * (wide[:, 2:] - 2 * angles + wide[:, :-2])
 
 
-def slope(problem: Problem):
+def slope(problem: PaperProblem):
     """Return f(t, state) of y' = f for a state (2, 2, N) of angles and velocities, laid flat."""
     numbers, square = problem.constants, problem.mu * problem.mu
     omega = np.sqrt(1 + square * numbers.omega)
@@ -59,14 +59,14 @@ def slope(problem: Problem):
     return f
 
 
-def start(problem: Problem):
+def start(problem: PaperProblem):
     """Return the angles and velocities (2, 2, N) at t = 0."""
     omega = np.sqrt(1 + problem.mu**2 * problem.constants.omega)
     z = 2 * problem.mu * problem.amplitudes
     return np.array([z.real, -omega * z.imag])
 
 
-def undriven_energy(problem: Problem, angles, velocities) -> float:
+def undriven_energy(problem: PaperProblem, angles, velocities) -> float:
     """Return the energy that (1) conserves where x = y or gamma = 0; both states are (2, N)."""
     of_single_pendula = 0.5 * velocities**2 + 2.0 * np.sin(0.5 * angles) ** 2
     return float((of_single_pendula - 0.5 * angles * coupling(problem, angles)).sum())

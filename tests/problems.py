@@ -2,7 +2,7 @@
 
 from latticode.datasets.netcdf import read, write
 from oracle import CASES, SOLVERS
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 from pendula.studies.paper.runs import run_case
 
 UNIT = {"epsilon": 1.0, "gamma": 1.0}
@@ -10,7 +10,7 @@ PAPER = (1.0, 1.0, -4.0)
 """epsilon, gamma and Omega of Fig 3."""
 
 
-def problem_of(case: str = "fig4_small", **changes) -> Problem:
+def problem_of(case: str = "fig4_small", **changes) -> PaperProblem:
     """Return a case of the paper; `changes` are plain values, such as half_width or initial."""
     omega, pair = CASES[case]
     settings = UNIT | {
@@ -22,7 +22,7 @@ def problem_of(case: str = "fig4_small", **changes) -> Problem:
         "output_step": 0.025,
         "solver": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
     }
-    return Problem.of(settings | changes)
+    return PaperProblem.of(settings | changes)
 
 
 def constants_of(values=PAPER) -> Constants:
@@ -31,7 +31,7 @@ def constants_of(values=PAPER) -> Constants:
     return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
 
 
-def problem_from(amplitudes, values, boundary="dirichlet", **changes) -> Problem:
+def problem_from(amplitudes, values, boundary="dirichlet", **changes) -> PaperProblem:
     """Return the problem of data (2, 2M + 1) on the whole chain under (epsilon, gamma, Omega)."""
     base = problem_of(half_width=amplitudes.shape[1] // 2, boundary=boundary, **changes)
     return base.changed(constants=constants_of(values), initial=amplitudes)
@@ -46,10 +46,10 @@ def make_problem(initial, numbers=PAPER, boundary="dirichlet", solver="dop853", 
         "output_step": 0.25,
         "solver": SOLVERS[solver] if isinstance(solver, str) else solver,
     }
-    return Problem(boundary=boundary, initial=initial, **values).changed(**changes)
+    return PaperProblem(boundary=boundary, initial=initial, **values).changed(**changes)
 
 
 def as_the_workflow_writes(case, name, path):
     """Return the dataset of a pendula.Case as a job of the workflow writes it to `path`."""
-    write(path, *run_case(name, Problem.of(case.shown_problem())))
+    write(path, *run_case(name, PaperProblem.of(case.shown_problem())))
     return read(path)

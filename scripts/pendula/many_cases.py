@@ -8,12 +8,12 @@ from latticode.datasets.trajectories import Contents
 from replication.variables import REGULAR
 
 from pendula import names  # noqa: F401, so that datasets have the paper's words
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 COMPONENTS = Variable(("component",), ["A", "B"])
 
 
-def describe_cases(problems: Mapping[str, Problem]) -> Contents:
+def describe_cases(problems: Mapping[str, PaperProblem]) -> Contents:
     """Return names, detunings and initial data of several cases as variables, and attributes.
 
     The attributes hold each value that is the same in all cases, so that a dataset of many cases

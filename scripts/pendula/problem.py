@@ -29,7 +29,7 @@ BOUNDARIES = ("dirichlet", "free", "periodic")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Problem(problem.Problem):
+class PaperProblem(problem.Problem):
     """A problem of the paper's equations, or of a model of a user's own.
 
     `model` may be the name of the equations. Data and times are those of (4) for either: pendula
@@ -113,6 +113,6 @@ def _model_of(name: str) -> Model:
     return MODEL_NAMED[name]
 
 
-def by_name(problems: Mapping[str, Mapping]) -> dict[str, Problem]:
+def by_name(problems: Mapping[str, Mapping]) -> dict[str, PaperProblem]:
     """Return the problems that mappings of plain values describe, under their names."""
-    return {name: Problem.of(values) for name, values in problems.items()}
+    return {name: PaperProblem.of(values) for name, values in problems.items()}

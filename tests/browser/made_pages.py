@@ -11,7 +11,7 @@ from oracle import CASES
 from pendula.article.live_figures import gather_live_parts
 from pendula.article.write import ARTICLE
 from pendula.live.write import write_live
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from pendula.studies.paper.runs import run_case
 from replication.figure_diff import hashes
 
@@ -20,7 +20,7 @@ LARGEST_LIVE_PAGE = 400_000
 """Bytes."""
 
 
-def problem_of(case: str, **changes) -> Problem:
+def problem_of(case: str, **changes) -> PaperProblem:
     """Return a problem as the live page solves it."""
     solver = {"name": "ode45", "rtol": 1e-7, "atol": 1e-9}
     return problems.problem_of(case, **{"end_time": 50.0, "solver": solver, **changes})

@@ -12,7 +12,7 @@ from latticode.integrators.methods import METHODS
 from latticode.simulation.simulate import simulate
 from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs
 from pendula.configuration.messages import STUDIES, load
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from benchmarks.contestants import controls
 
@@ -66,7 +66,7 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
             steps, evaluations = steps_of(values["solver"], values, demand(values))
             explicit = METHODS[solver].tightest is not None
             work = steps if explicit else evaluations
-            run = simulate(Problem.of(values)).outcome
+            run = simulate(PaperProblem.of(values)).outcome
             done = run.steps + run.rejected if explicit else run.evaluations
             assert 1 / FACTOR < work / done < FACTOR
             ratios.append(seconds / estimate(values).seconds)

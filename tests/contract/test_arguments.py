@@ -9,10 +9,10 @@ import xarray as xr
 from helpers import ROOT
 from latticode.datasets.netcdf import Variable, write
 from pendula.contract.arguments import RuleError, check_names, function_of, load_arguments
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from problems import problem_of
 
-KINDS = {xr.Dataset: xr.load_dataset, Problem: Problem.of}
+KINDS = {xr.Dataset: xr.load_dataset, PaperProblem: PaperProblem.of}
 PLAIN = problem_of("fig2_small").plain()
 
 
@@ -58,7 +58,9 @@ def test_paths_become_datasets_by_annotation_alone(paths):
     assert arguments.settings == {"path": paths[0]}
 
 
-def integrate(problem: Problem, others: list[Problem], by_case: dict[str, Problem], seed: int):
+def integrate(
+    problem: PaperProblem, others: list[PaperProblem], by_case: dict[str, PaperProblem], seed: int
+):
     """Take problems in all ways."""
 
 
@@ -66,7 +68,7 @@ def test_plain_values_become_problems_by_annotation_alone():
     params = {"problem": PLAIN, "others": [PLAIN], "by_case": {"a": PLAIN}, "seed": 7}
     values = loaded(integrate, params=params).values
     problems = values["problem"], values["others"][0], values["by_case"]["a"]
-    assert all(isinstance(problem, Problem) for problem in problems) and values["seed"] == 7
+    assert all(isinstance(problem, PaperProblem) for problem in problems) and values["seed"] == 7
 
 
 def draw(long: xr.Dataset | None, files: list[str], output: str):

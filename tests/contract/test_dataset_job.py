@@ -9,7 +9,7 @@ import xarray as xr
 from helpers import ROOT
 from latticode.datasets.netcdf import Variable, read, write
 from latticode.simulation.runs import ManyRuns
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from problems import problem_of
 
 
@@ -70,7 +70,7 @@ def test_each_dataset_of_a_job_has_its_settings_and_names_its_sources(dataset, t
         assert attributes["computed_by"].endswith("copy_twice")
 
 
-def squares(problem: Problem, count: int) -> ManyRuns:
+def squares(problem: PaperProblem, count: int) -> ManyRuns:
     problems = [problem.changed(end_time=float(number + 1)) for number in range(count)]
 
     def conclude(retained):

@@ -7,7 +7,7 @@ import pytest
 from latticode.equations.model import Model
 from latticode.localised.breathers import LocalisedState, exponents, find_state
 from latticode.simulation.simulate import simulate
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from problems import constants_of
 
 FOLDER = Path(__file__).parents[2] / "docs/models"
@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parents[2] / "docs/models"
 
 def problem(name, initial, boundary="dirichlet", half_width=10, end_time=5.0, **parameters):
     """Return the problem of an example from data {site: (field, ...)}."""
-    return Problem.of({
+    return PaperProblem.of({
         "model": Model.read(FOLDER / f"{name}.py"),
         "parameters": parameters, "half_width": half_width, "boundary": boundary,
         "initial": initial, "end_time": end_time, "output_step": 0.5, "snapshot_every": 1,

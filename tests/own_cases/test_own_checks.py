@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pendula import Case, check, simulate
 from pendula.own_cases import answers, checks
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 REGULAR = Case(omega=8, half_width=8, end_time=10)
 
@@ -71,4 +71,4 @@ def test_chains_that_hardly_move_are_no_error(initial):
 
 
 def problem_and_run(case):
-    return Problem.of(case.shown_problem()), simulate(case)
+    return PaperProblem.of(case.shown_problem()), simulate(case)

@@ -29,7 +29,7 @@ from pydantic import (
 
 from pendula.feasibility import find_fault, rate
 from pendula.models.equations import AMPLITUDES, METHODS_OF, PENDULA, Constants
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from . import cost
 
@@ -43,7 +43,7 @@ class PaperCaseSection(cases.CaseSection):
     need `mu` and start from the angles and velocities that (3) makes of the amplitudes.
     """
 
-    kind: ClassVar[type[Problem]] = Problem
+    kind: ClassVar[type[PaperProblem]] = PaperProblem
     omega: Number
     epsilon: Number = 1.0
     gamma: Number = 1.0

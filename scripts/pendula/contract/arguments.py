@@ -6,7 +6,7 @@ argument, and the annotation in the function's signature decides what the functi
 | annotation | the rule gives | the function gets |
 | --- | --- | --- |
 | `Dataset` | the path of a dataset | the dataset |
-| `Problem` | plain values of a problem | the problem |
+| `Problem`, `PaperProblem` | plain values of a problem | the problem |
 | a list, sequence or collection of these | a list | a list |
 | a mapping to these | paths, or values by name | a dictionary, of datasets by their stems |
 | anything else | a path or plain values | the same |

@@ -4,9 +4,9 @@ from latticode.datasets.netcdf import read
 from latticode.simulation import problem
 from xarray import Dataset
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
-KINDS = {Dataset: read, Problem: Problem.of, problem.Problem: Problem.of}
+KINDS = {Dataset: read, PaperProblem: PaperProblem.of, problem.Problem: PaperProblem.of}
 """By type: a dataset is read from its path, and a problem is made of plain values.
 
 Rules give problems of the paper's equations or of a user's model, so that the paper's class makes

@@ -29,7 +29,7 @@ from latticode.localised.breathers import (
     widened,
 )
 
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 
 from .pairs import Family, pair
 
@@ -39,7 +39,7 @@ SHORT = 8
 
 def localised(
     family: Family, constants: Constants, half_width: int
-) -> tuple[Problem, LocalisedState]:
+) -> tuple[PaperProblem, LocalisedState]:
     """Return a family's even state, and the chain on which it is one.
 
     Raises NoStateError where the pair has no such state, or the family does not reach this epsilon.
@@ -48,7 +48,7 @@ def localised(
     if ends is None:
         raise NoStateError(f"no pair has a state {family.name} at Omega = {constants.omega:g}")
     data = np.array(ends).reshape(2, 1) * (1j if family.imaginary else 1.0)
-    problem = Problem(
+    problem = PaperProblem(
         parameters=vars(constants), half_width=min(SHORT, half_width), boundary="dirichlet",
         initial=data, end_time=1.0, output_step=1.0, solver={},
     )  # fmt: skip

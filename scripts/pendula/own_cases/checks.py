@@ -18,7 +18,7 @@ from latticode.simulation.simulate import IntegrationError, simulate
 from pendula.models.bounds import growth_margin
 from pendula.models.linear_chain import finite_rate, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
-from pendula.problem import AMPLITUDES, PENDULA, Problem
+from pendula.problem import AMPLITUDES, PENDULA, PaperProblem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 
 TITLE = "A case beside the paper's statements"
@@ -39,7 +39,7 @@ def compare_with_bounds(run: xr.Dataset) -> dict:
     }
 
 
-def measure_rest(problem: Problem) -> dict:
+def measure_rest(problem: PaperProblem) -> dict:
     """Return the threshold and growth rates of a chain at rest, infinite and of this length."""
     epsilon, gamma, omega = problem.constants
     rate, unit = infinite_rate(omega, gamma, epsilon), "per unit of tau"
@@ -51,7 +51,7 @@ def measure_rest(problem: Problem) -> dict:
     }
 
 
-def compare_with_statements(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+def compare_with_statements(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
     """Return what the paper states about a case, beside its trajectory."""
     return xr.Dataset.from_dict(
         table(TITLE, {}, **compare_with_bounds(run), **measure_rest(problem))
@@ -69,7 +69,7 @@ def find_time_over_the_top(run: xr.Dataset) -> float:
     return float(run["tau"][beyond.argmax()]) if beyond.any() else np.inf
 
 
-def compare_with_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+def compare_with_expansion(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
     """Return the largest angle, and how far the angles at the end are from those of (3)."""
     angles = run["final"].sel(part="angle").values
     solver = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
@@ -92,7 +92,7 @@ def compare_with_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 # --- All checks -----------------------------------------------------------------------------------
 
 
-def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+def check_run(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
     """Return all checks of a case as one dataset, with the attributes of the case.
 
     `run` is the trajectory that `simulate` made of `problem`.

@@ -2,7 +2,7 @@
 
 import numpy as np
 from latticode.simulation.simulate import simulate
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 from pendula.studies.breathers.periodic import Breather, find_breather
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
@@ -23,7 +23,7 @@ def unfolded(data: np.ndarray) -> np.ndarray:
 def run_from(constants: Constants, initial: np.ndarray, end_time: float, output_step: float):
     """Run data (component, site -M..M) on their own chain by the Taylor method."""
     return simulate(
-        Problem(
+        PaperProblem(
             parameters=vars(constants),
             half_width=initial.shape[1] // 2,
             boundary="dirichlet",

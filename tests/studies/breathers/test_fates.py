@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from latticode.datasets.netcdf import as_xarray
 from latticode.simulation.simulate import simulate
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 from pendula.studies.breathers import fates, figures, sensitivity
 from pendula.studies.breathers.fates import DISPERSES, MOVES, SPREADS, STAYS, map_fates
 
 
 def pair_problem(omega, a, b, end_time=30.0, **changes):
-    return Problem(
+    return PaperProblem(
         parameters={"epsilon": 1.0, "gamma": 1.0, "omega": omega},
         half_width=30,
         boundary="dirichlet",

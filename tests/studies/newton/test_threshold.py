@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from latticode.simulation.simulate import simulate
 from pendula.configuration.paper import paper
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 from pendula.studies.newton import mathieu, threshold
 from scipy.integrate import solve_ivp
 from scipy.special import mathieu_a, mathieu_b
@@ -72,7 +72,7 @@ def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, gr
     gamma = factor * 0.5 * square * float(mathieu.first_tongue((curvature - omega) / square))
     wave = {n - 2: 1e-12 * np.sin(angle * (n + 1)) for n in range(sites)}
     run = simulate(
-        Problem.of(
+        PaperProblem.of(
             {
                 "epsilon": 1.0,
                 "gamma": gamma,

@@ -33,7 +33,7 @@ from latticode.simulation.simulate import integrate
 from latticode.simulation.survey import Survey, Surveyed
 from replication.variables import FEW_CHOICES, chaotic_along
 
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 
 FATES = ("disperses", "stays", "moves", "spreads")
 DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))
@@ -94,7 +94,7 @@ def place_of(power: np.ndarray, majority: float = MAJORITY) -> int | None:
     return strongest if held[strongest] > majority else None
 
 
-def fate_of(problem: Problem, final: np.ndarray, majority: float = MAJORITY) -> int:
+def fate_of(problem: PaperProblem, final: np.ndarray, majority: float = MAJORITY) -> int:
     """Return the fate, an index of FATES, of the final state (component, site) of a run."""
     power = power_by_distance(final)
     place = place_of(power, majority)
@@ -105,7 +105,7 @@ def fate_of(problem: Problem, final: np.ndarray, majority: float = MAJORITY) -> 
     return SPREADS if power.sum() > most else DISPERSES
 
 
-def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
+def keep_fate(problem: PaperProblem, majority: float = MAJORITY) -> dict[str, int]:
     """Run a problem and return the fate of its initial data, the only stored result."""
     reduction = find_reduction(problem.amplitudes)
     _, y, _ = integrate(problem.equations, reduction)
@@ -116,7 +116,7 @@ def keep_fate(problem: Problem, majority: float = MAJORITY) -> dict[str, int]:
 
 
 def map_fates(
-    problems: Mapping[float, Problem],
+    problems: Mapping[float, PaperProblem],
     amplitudes: Sequence[float],
     majority: float = MAJORITY,
 ) -> ManyRuns:
@@ -138,7 +138,7 @@ def map_fates(
 
 
 def _map_contents(
-    problems: Mapping[float, Problem], amplitudes: Sequence[float], fates: np.ndarray
+    problems: Mapping[float, PaperProblem], amplitudes: Sequence[float], fates: np.ndarray
 ) -> Contents:
     """Return the dataset of the map, from the fates (omega, run) of one half of it."""
     rows, columns = np.tril_indices(len(amplitudes))

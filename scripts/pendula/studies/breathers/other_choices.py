@@ -7,7 +7,7 @@ import xarray as xr
 from latticode.datasets.netcdf import as_xarray
 from latticode.measures.confidence import ConfidenceInterval, share_limits
 
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 from pendula.varied import NamedNumber, as_dataset, vary, vary_several
 
 from .fates import FATES, map_fates
@@ -15,7 +15,9 @@ from .periodic import find_breather, power, quarter_later
 from .sensitivity import measure_sensitivity
 
 
-def with_choices(problem: Problem, tolerance: float, end_time: float, half_width: int) -> Problem:
+def with_choices(
+    problem: PaperProblem, tolerance: float, end_time: float, half_width: int
+) -> PaperProblem:
     """Return a problem with another tolerance, end time and length, and one output."""
     solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
     changed = problem.changed(solver=solver, end_time=end_time, output_step=end_time)
@@ -28,7 +30,7 @@ def choices_of(chosen: Mapping[str, float], variations: Mapping[str, Sequence]) 
 
 
 def vary_areas(
-    problem: Problem,
+    problem: PaperProblem,
     amplitudes: Sequence[float],
     chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
@@ -58,7 +60,7 @@ def vary_areas(
 
 def vary_shares(
     name: str,
-    problem: Problem,
+    problem: PaperProblem,
     sizes: Sequence[float],
     members: int,
     chosen: Mapping[str, float],

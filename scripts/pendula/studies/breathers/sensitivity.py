@@ -17,14 +17,14 @@ from latticode.measures.confidence import ConfidenceInterval, share_limits
 from latticode.simulation.runs import ManyRuns
 from replication.variables import CHAOTIC
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .fates import MAJORITY, SPREADS, keep_fate
 
 
 def measure_sensitivity(
     name: str,
-    problem: Problem,
+    problem: PaperProblem,
     sizes: Sequence[float],
     members: int,
     seed: int,

@@ -5,13 +5,13 @@ from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
 
 from pendula.many_cases import COMPONENTS
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from . import frames
 
 
 def certify_curve(
-    name: str, problem: Problem, bits: int, order: int, outputs_per_frame: int
+    name: str, problem: PaperProblem, bits: int, order: int, outputs_per_frame: int
 ) -> Contents:
     """Return the dataset of a curve: its norms, and a proven bound of their errors."""
     proof = {"bits": bits, "order": order, "outputs_per_frame": outputs_per_frame}

@@ -30,7 +30,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import fmpz_poly
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 UP = 1.0 + 1e-9
 """Times this, a sum or product of positive numbers with fewer than a million roundings is an upper
@@ -76,7 +76,7 @@ def decimal(x: float) -> Fraction:
     return Fraction(repr(float(x)))
 
 
-def make_half_chain(problem: Problem, bits: int) -> FixedPointChain:
+def make_half_chain(problem: PaperProblem, bits: int) -> FixedPointChain:
     """Return half of the chain of a problem. Raises NotEvenError if its data are not even."""
     amplitudes = problem.amplitudes
     if problem.boundary != "dirichlet" or (amplitudes != amplitudes[:, ::-1]).any():
@@ -89,7 +89,9 @@ def make_half_chain(problem: Problem, bits: int) -> FixedPointChain:
     return FixedPointChain(epsilon, gamma, omega, problem.half_width + 1, interval, bits)
 
 
-def round_initial_data(problem: Problem, chain: FixedPointChain) -> tuple[list[list[int]], float]:
+def round_initial_data(
+    problem: PaperProblem, chain: FixedPointChain
+) -> tuple[list[list[int]], float]:
     """Return the initial data as integers and a bound of their l2 error.
 
     The integers are those of Re and of Im, each for all sites of A, then of B.

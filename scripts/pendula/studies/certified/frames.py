@@ -72,7 +72,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .fixed_point import (
     UP,
@@ -315,7 +315,7 @@ def multiply_transposed(left: np.ndarray, right: np.ndarray) -> np.ndarray:
 # --- The curve at its outputs ---------------------------------------------------------------------
 
 
-def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> CertifiedCurve:
+def certify(problem: PaperProblem, bits: int, order: int, outputs_per_frame: int) -> CertifiedCurve:
     """Return the curve at the outputs of a problem, with a proven bound of its error.
 
     The coefficients are in units of 2^-bits, and the polynomials of the given order. Raises

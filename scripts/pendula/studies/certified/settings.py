@@ -71,7 +71,9 @@ class Settings(Section):
 
         Raises ConfigurationError for a case whose curve no proof takes.
         """
-        from pendula.problem import Problem  # here and below: only a certified curve needs kernels
+        from pendula.problem import (
+            PaperProblem,  # here and below: only a certified curve needs kernels
+        )
 
         from .fixed_point import NotEvenError, make_half_chain
 
@@ -81,7 +83,7 @@ class Settings(Section):
             raise ConfigurationError(f"cases.{case}.model: {text}")
         problem = {**values, "solver": {"name": "polynomials"}}
         try:
-            make_half_chain(Problem.of(problem), 1)
+            make_half_chain(PaperProblem.of(problem), 1)
         except NotEvenError as error:
             raise ConfigurationError(f"cases.{case}: {error}") from None
         return problem

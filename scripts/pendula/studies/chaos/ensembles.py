@@ -18,7 +18,7 @@ from latticode.simulation.sweep import QUANTITIES, STATISTICS, windowed
 from replication.variables import CHAOTIC, FEW_CHOICES, SCATTERED, missing
 
 from pendula.many_cases import describe_cases
-from pendula.problem import Problem, by_name
+from pendula.problem import PaperProblem, by_name
 
 NORMS = ("l2", "linf")
 READINGS = {"text": "max", "caption": "mean"}
@@ -31,8 +31,8 @@ MOMENTS = {
 
 
 def draw_swept(
-    problem: Problem, half_widths: Sequence[int], size: float, members: int, seed: int
-) -> list[Problem]:
+    problem: PaperProblem, half_widths: Sequence[int], size: float, members: int, seed: int
+) -> list[PaperProblem]:
     """Return the members of a sweep, all of one half-width and then of the next.
 
     Each half-width has its own draws. The same data would give the same motion on all chains that
@@ -42,7 +42,9 @@ def draw_swept(
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
 
 
-def read_norms(problem: Problem, windows: Sequence[tuple[float, float]]) -> dict[str, np.ndarray]:
+def read_norms(
+    problem: PaperProblem, windows: Sequence[tuple[float, float]]
+) -> dict[str, np.ndarray]:
     """Return both READINGS of the pair's norms in a run, (reading,), each over its window."""
     norms, pair = windowed(simulate(problem, conserved=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]
@@ -71,7 +73,9 @@ def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> M
 
 
 def _ensembles_dataset(
-    norms: Mapping[str, np.ndarray], problem_of: Mapping[str, Problem], swept: Mapping[str, Mapping]
+    norms: Mapping[str, np.ndarray],
+    problem_of: Mapping[str, PaperProblem],
+    swept: Mapping[str, Mapping],
 ) -> xr.Dataset:
     """Return the dataset of the moments of the norms of all runs, sweep by sweep."""
     done, moments_by_sweep = 0, []
@@ -106,7 +110,7 @@ def measure_second_solver(
     """
     sizes = [first_members, *(members for _ in second)]
     drawn = [
-        draw_swept(Problem.of(problem), half_widths, size, count, seed + number)
+        draw_swept(PaperProblem.of(problem), half_widths, size, count, seed + number)
         for number, (problem, count) in enumerate(zip([first, *second], sizes, strict=True))
     ]
     attributes = {"perturbation": size, "seed": seed, "window": name_window(windows[0])}
@@ -114,7 +118,7 @@ def measure_second_solver(
     def conclude(norms: Mapping[str, np.ndarray]) -> xr.Dataset:
         values = np.split(norms["l2"][:, 0], np.cumsum([len(ensemble) for ensemble in drawn])[:-1])
         data = _second_solver_dataset(values, half_widths, second)
-        _, shared = describe_cases({"sweep": Problem.of(first)})
+        _, shared = describe_cases({"sweep": PaperProblem.of(first)})
         title = "A chaotic sweep by the paper's second solver, from almost equal data"
         return data.assign_attrs({**shared, **attributes, "title": title, **CHAOTIC})
 

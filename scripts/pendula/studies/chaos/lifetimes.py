@@ -20,7 +20,7 @@ from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC
 
 from pendula.many_cases import describe_cases
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from pendula.varied import NamedNumber, as_dataset, vary_several
 
 from .clocks import NUMBERS, TIMES, limits_of
@@ -31,7 +31,7 @@ life. Each interval starts from the state at the end of the one before."""
 
 
 def follow(
-    problem: Problem, window: Sequence[float], level: float, multiple: float = 1.0
+    problem: PaperProblem, window: Sequence[float], level: float, multiple: float = 1.0
 ) -> dict[str, float]:
     """Run a problem until its centre first holds at most `multiple` of P / N, or to the end.
 
@@ -60,7 +60,9 @@ def in_window(run: Trajectory, window: Sequence[float], level: float) -> dict[st
     }
 
 
-def measure_later_life(problem: Problem, run: Trajectory, start: float, multiple: float) -> float:
+def measure_later_life(
+    problem: PaperProblem, run: Trajectory, start: float, multiple: float
+) -> float:
     """Return when the centre first holds its share of P after `start`, the end of `run`.
 
     It is infinite if that does not happen before the end time of the problem.
@@ -88,7 +90,7 @@ def centre_is_average(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
 
 
 def measure_lifetimes(
-    problem: Problem,
+    problem: PaperProblem,
     amplitudes: list[float],
     ratio: float,
     size: float,
@@ -120,7 +122,7 @@ def measure_lifetimes(
 
 
 def _lifetimes_of(
-    problem: Problem, amplitudes: list[float], members: int, numbers: Mapping[str, np.ndarray]
+    problem: PaperProblem, amplitudes: list[float], members: int, numbers: Mapping[str, np.ndarray]
 ) -> Contents:
     """Return the dataset of NUMBERS, each given as (run,)."""
     over = ("start_amplitude",)
@@ -137,7 +139,7 @@ def _lifetimes_of(
 
 
 def vary_lifetimes(
-    problem: Problem,
+    problem: PaperProblem,
     amplitudes: list[float],
     ratio: float,
     members: int,

@@ -17,14 +17,14 @@ from latticode.measures.growth import INTERVALS, is_chaotic, mean_rate, mean_rat
 from replication.variables import REGULAR, SCATTERED
 
 from pendula.many_cases import describe_cases
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 STEP = 1.0
 """Interval between two stored values of the growth, in tau."""
 
 
 def follow_members(
-    problem: Problem, end_time: float, members: int, size: float, seed: int
+    problem: PaperProblem, end_time: float, members: int, size: float, seed: int
 ) -> list[TangentGrowth]:
     """Return the growth of a random tangent vector along each of `members` perturbed runs."""
     tolerance, growths = problem.solver["rtol"], []
@@ -35,7 +35,11 @@ def follow_members(
 
 
 def largest_exponents(
-    problems: dict[str, Problem], span: tuple[float, float], members: int, size: float, seed: int
+    problems: dict[str, PaperProblem],
+    span: tuple[float, float],
+    members: int,
+    size: float,
+    seed: int,
 ) -> Contents:
     """Return the dataset of the mean growth rates on `span` along members of each case.
 
@@ -66,7 +70,9 @@ def largest_exponents(
     return variables, {"title": "Lyapunov exponents of the cases", **shared, **attributes}
 
 
-def measure_spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+def measure_spectrum(
+    problem: PaperProblem, end_time: float, seed: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Return all exponents of a chain in order, and half of the confidence interval of each.
 
     Rates are means over the last three quarters of time, their errors follow from PARTS of it. The
@@ -83,12 +89,12 @@ def measure_spectrum(problem: Problem, end_time: float, seed: int) -> tuple[np.n
 
 
 def measure_lyapunov(
-    problems: dict[str, Problem],
+    problems: dict[str, PaperProblem],
     span: tuple[float, float],
     members: int,
     size: float,
     seed: int,
-    short_problems: dict[str, Problem],
+    short_problems: dict[str, PaperProblem],
     undriven_end: float,
 ) -> Contents:
     """Return the largest exponents of `problems`, and all exponents of `short_problems`.

@@ -21,7 +21,7 @@ from latticode.simulation.sweep import QUANTITIES, pair_l2, pair_linf
 from replication.variables import REGULAR, SCATTERED, missing
 
 from pendula.many_cases import COMPONENTS, describe_cases
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 PAIR = QUANTITIES.index("pair")
 QUANTILES = (0.1, 0.5, 0.9)
@@ -41,7 +41,7 @@ ATTRIBUTES = {"norm_correlation": SCATTERED, "rms": missing("the chain has no su
 Window = tuple[float, float]
 
 
-def reduce_run(problem: Problem, windows: list[Window], reach: int) -> dict[str, np.ndarray]:
+def reduce_run(problem: PaperProblem, windows: list[Window], reach: int) -> dict[str, np.ndarray]:
     """Run a problem that stores all moduli; return norms (quantity, time) and REDUCED.
 
     Moduli are padded with NaN to the sites -reach..reach.
@@ -67,7 +67,7 @@ def relative_width(late: np.ndarray) -> float:
 
 
 def measure_members(
-    problems: dict[str, Problem],
+    problems: dict[str, PaperProblem],
     windows: list[Window],
     size: float,
     members: int,
@@ -94,7 +94,10 @@ def measure_members(
 
 
 def _members_contents(
-    problems: dict[str, Problem], windows: list[Window], reach: int, numbers: dict[str, np.ndarray]
+    problems: dict[str, PaperProblem],
+    windows: list[Window],
+    reach: int,
+    numbers: dict[str, np.ndarray],
 ) -> Contents:
     """Return the dataset of the results of `reduce_run`, each (case, member, ...)."""
     tau = next(iter(problems.values())).times

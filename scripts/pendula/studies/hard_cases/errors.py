@@ -12,7 +12,7 @@ from latticode.numerics.draws import complex_normal
 from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.linear_chain import flow
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 REFERENCE_SOLVERS = {
     "taylor": {"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
@@ -45,7 +45,7 @@ def integrate(
     omega: float = -4.0,
 ) -> Trajectory:
     """Return the trajectory from `data` (2, N) to `tau`, Dirichlet ends, constants of Fig 3."""
-    problem = Problem(
+    problem = PaperProblem(
         parameters={"epsilon": epsilon, "gamma": gamma, "omega": omega},
         half_width=data.shape[1] // 2,
         boundary="dirichlet",

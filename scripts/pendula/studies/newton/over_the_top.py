@@ -31,7 +31,7 @@ from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC, FEW_CHOICES, missing
 
 from pendula.models.pendula import frequency
-from pendula.problem import PENDULA, Problem
+from pendula.problem import PENDULA, PaperProblem
 from pendula.varied import NamedNumber, as_dataset, vary_several
 
 TOP = np.pi
@@ -39,7 +39,7 @@ OUTPUTS_PER_PERIOD = 8
 """Outputs in each period of the swings."""
 
 
-def measure_passage(problem: Problem) -> dict[str, float]:
+def measure_passage(problem: PaperProblem) -> dict[str, float]:
     """Return the time of the first passage over the top, infinite if there is none, and P per site.
 
     P is the mean over the late half of the run.
@@ -55,19 +55,19 @@ def measure_passage(problem: Problem) -> dict[str, float]:
     }
 
 
-def measure_amplitude_power(problem: Problem) -> dict[str, float]:
+def measure_amplitude_power(problem: PaperProblem) -> dict[str, float]:
     """Return P per site by the amplitude equations, the mean over the late half of the run."""
     return {"site_power": late_mean_square(simulate(problem, conserved=False), problem)}
 
 
-def late_mean_square(run: Trajectory, problem: Problem) -> float:
+def late_mean_square(run: Trajectory, problem: PaperProblem) -> float:
     """Return the mean square per site, both components added, over the late half of a run."""
     squares = (run.l2 * run.l2).sum(axis=0)[run.tau >= 0.5 * problem.end_time]
     return float(squares.mean()) / problem.sites
 
 
 def measure_over_the_top(
-    problem: Problem,
+    problem: PaperProblem,
     mus: Sequence[float],
     size: float,
     members: int,
@@ -93,7 +93,7 @@ def measure_over_the_top(
 
 
 def _passage_contents(
-    amplitude_problems: list[Problem],
+    amplitude_problems: list[PaperProblem],
     mus: Sequence[float],
     settled: float,
     retained: Mapping[str, np.ndarray],
@@ -160,7 +160,7 @@ MEANINGS = {
 
 
 def vary_over_the_top(
-    problem: Problem,
+    problem: PaperProblem,
     mus: Sequence[float],
     members: int,
     end_time: float,

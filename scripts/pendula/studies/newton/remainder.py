@@ -17,13 +17,13 @@ from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import FEW_CHOICES, REGULAR, SCATTERED
 
 from pendula.models.pendula import leading_angles
-from pendula.problem import PENDULA, Problem
+from pendula.problem import PENDULA, PaperProblem
 
 SLOW_TIMES = {"mu^2 t / 2": 1, "mu^2 t": 2}
 """By slow time: outputs of the amplitudes for each output of the pendula. The second is wrong."""
 
 
-def integrate_amplitudes(problem: Problem) -> np.ndarray:
+def integrate_amplitudes(problem: PaperProblem) -> np.ndarray:
     """Return the solution of (4) at the outputs of a problem, complex (time, component, site).
 
     A run stores only moduli, so each output interval is a run from the state before.
@@ -37,7 +37,7 @@ def integrate_amplitudes(problem: Problem) -> np.ndarray:
     return np.array(amplitudes)
 
 
-def largest_error(pendula: Trajectory, problem: Problem, amplitudes: np.ndarray) -> float:
+def largest_error(pendula: Trajectory, problem: PaperProblem, amplitudes: np.ndarray) -> float:
     """Return the largest error of the angles 2 mu Re(A e^{i omega t}) at the outputs of A."""
     angles = np.moveaxis(pendula.state[0], -1, 0)
     omega, mu = problem.constants.omega, problem.mu
@@ -47,7 +47,7 @@ def largest_error(pendula: Trajectory, problem: Problem, amplitudes: np.ndarray)
     )
 
 
-def measure_errors(problem: Problem, mus: Sequence[float]) -> np.ndarray:
+def measure_errors(problem: PaperProblem, mus: Sequence[float]) -> np.ndarray:
     """Return the errors (slow time, mu) of a case up to its end time.
 
     The slow time mu^2 t reaches the end of the amplitudes at half of t, so it has half the outputs.
@@ -62,7 +62,7 @@ def measure_errors(problem: Problem, mus: Sequence[float]) -> np.ndarray:
     return np.array(errors).T
 
 
-def measure_remainder(problems: Mapping[str, Problem], mus: Sequence[float]) -> Contents:
+def measure_remainder(problems: Mapping[str, PaperProblem], mus: Sequence[float]) -> Contents:
     """Return the dataset of the errors (case, slow time, mu), in rad."""
     variables = {
         "slow_time": Variable(("slow_time",), list(SLOW_TIMES), "slow time of the amplitudes"),

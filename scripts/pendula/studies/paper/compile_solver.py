@@ -9,7 +9,7 @@ from latticode.kernels.sources import digest_of_code
 from latticode.simulation.simulate import simulate
 
 from pendula.models import solvers
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
 """A value for every control. Compiled code depends on none of them, so that another tolerance needs
@@ -19,7 +19,7 @@ no compilation, and reruns only jobs that use it."""
 def compile_solver(kernels: str, solver: str) -> None:
     """Run the solver over a short time, then record from which sources it was compiled."""
     controls = {name: CONTROLS[name] for name in NAMED[solver].controls}
-    problem = Problem(
+    problem = PaperProblem(
         parameters={"epsilon": 1.0, "gamma": 1.0, "omega": 0.0},
         half_width=1,
         boundary="dirichlet",

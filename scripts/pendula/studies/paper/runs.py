@@ -9,10 +9,10 @@ from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import remark_on_start, simulate
 from latticode.simulation.sweep import runs_of_sweep
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 
-def run_case(name: str, problem: Problem) -> Contents:
+def run_case(name: str, problem: PaperProblem) -> Contents:
     """Return the dataset of the observables of a case."""
     result = simulate(problem)
     if remark := remark_on(result.solver):
@@ -27,7 +27,7 @@ def run_case(name: str, problem: Problem) -> Contents:
 
 def run_sweep(
     name: str,
-    problem: Problem,
+    problem: PaperProblem,
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
 ) -> ManyRuns:

@@ -26,7 +26,7 @@ from latticode.simulation.simulate import simulate
 from replication.ledger.cutoff import Cutoff
 from replication.variables import ALL_TIMES, FEW_CHOICES, PROVEN, REGULAR, SCATTERED, mark, missing
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 FIRST, SECOND, HALVED = "ode45", "crank_nicolson", "crank_nicolson_halved"
 TRIED = FIRST, SECOND, "taylor"
@@ -101,7 +101,7 @@ def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict
     }
     trajectories = {}
     for label, solver in {**solvers, **variants}.items():
-        problem = Problem.of({**case, "solver": solver, "snapshot_every": 0})
+        problem = PaperProblem.of({**case, "solver": solver, "snapshot_every": 0})
         trajectories[label] = as_xarray(*trajectory_contents(name, problem, simulate(problem)))
     return trajectories
 

@@ -20,7 +20,7 @@ from latticode.simulation.simulate import IntegrationError
 
 from pendula.many_cases import COMPONENTS
 from pendula.models.amplitudes import field
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 HEYOKA = "heyoka==7.13.2"
 LARGEST_DISCREPANCY = 1e-12
@@ -98,7 +98,7 @@ class MultiprecisionRun(NamedTuple):
     controls: dict[str, float]
 
 
-def make_initial_state(problem: Problem, bits: int) -> np.ndarray:
+def make_initial_state(problem: PaperProblem, bits: int) -> np.ndarray:
     """Return the initial state (row, site) of the half chain 0..M in multiprecision.
 
     Raises ValueError if the initial data are not even, or the boundary is not Dirichlet.
@@ -125,7 +125,7 @@ def decimal_as_real(x: float, bits: int):
     return load_heyoka().real(repr(float(x)), bits)
 
 
-def integrate(problem: Problem, snapshots: list[float], bits: int) -> MultiprecisionRun:
+def integrate(problem: PaperProblem, snapshots: list[float], bits: int) -> MultiprecisionRun:
     """Return a run of a case by heyoka with `bits` bits and the tolerance 2^-bits.
 
     The solver of the problem is not used. Norms are stored at the doubles `problem.times`, and
@@ -174,7 +174,7 @@ def measure_discrepancy(
 
 
 def make_reference(
-    name: str, problem: Problem, snapshots: list[float], bits: tuple[int, int]
+    name: str, problem: PaperProblem, snapshots: list[float], bits: tuple[int, int]
 ) -> Contents:
     """Return the dataset of a reference; `bits` are those of the stored and of the second run.
 

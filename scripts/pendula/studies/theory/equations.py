@@ -8,7 +8,7 @@ from latticode.simulation.simulate import Trajectory, simulate
 
 from pendula.models.amplitudes import energies
 from pendula.models.integrations import make_chain
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, PaperProblem
 
 ENDS, PAIR = "dirichlet", (1.0, 0.1)
 """The ends of the paper's chains, and (A_0, B_0) of its small cases."""
@@ -26,7 +26,7 @@ def run(
 
     It has the initial state and `outputs` more, in equal steps up to `end_time`.
     """
-    problem = Problem(
+    problem = PaperProblem(
         parameters=vars(constants),
         half_width=amplitudes.shape[1] // 2,
         boundary=boundary,

@@ -9,14 +9,14 @@ import numpy as np
 from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.observables import ObservableRecord
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .bulk import EDGE, LEVEL, SLICE_LENGTH, find_front, region_means, site_powers
 from .sums import halves, in_sums, turned
 
 
 def run_long(
-    problem: Problem,
+    problem: PaperProblem,
     rest_threshold: float,
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),

@@ -12,7 +12,7 @@ from latticode.numerics.draws import normal
 from latticode.simulation.runs import ManyRuns, reshape_runs
 from replication.variables import CHAOTIC, REGULAR, missing
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 from .active_sites import run_long
 from .bulk import EDGE, KINDS, LEVEL, PREDICTED_SPEED, REGIONS
@@ -22,7 +22,7 @@ SCANS = ("omegas", "starts")
 """Ensembles over detunings or initial conditions, which belong to no case of the paper."""
 
 
-def member(problem: Problem, perturbation: float, seed: int, number: int) -> Problem:
+def member(problem: PaperProblem, perturbation: float, seed: int, number: int) -> PaperProblem:
     """Return the problem of an ensemble's member; number 0 has the unperturbed initial data.
 
     Members differ by `perturbation` times normal draws, relative to the data: chaos makes this of
@@ -36,14 +36,14 @@ def member(problem: Problem, perturbation: float, seed: int, number: int) -> Pro
 
 
 def members_of(
-    problems: list[Problem], members: int, perturbation: float, seed: int
-) -> list[Problem]:
+    problems: list[PaperProblem], members: int, perturbation: float, seed: int
+) -> list[PaperProblem]:
     """Return all members of each problem."""
     return [member(problem, perturbation, seed, n) for problem in problems for n in range(members)]
 
 
 def attributes(
-    title: str, name: str, problems: list[Problem], rest_threshold: float, **ensemble
+    title: str, name: str, problems: list[PaperProblem], rest_threshold: float, **ensemble
 ) -> dict:
     """Return the attributes that all `problems` share; varied parameters are left out."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
@@ -55,7 +55,7 @@ def attributes(
 
 def spread_case(
     name: str,
-    problems: list[Problem],
+    problems: list[PaperProblem],
     rest_threshold: float,
     members: int,
     perturbation: float,
@@ -77,7 +77,7 @@ def spread_case(
 
 
 def run_variables(
-    problems: list[Problem],
+    problems: list[PaperProblem],
     series: Mapping[str, np.ndarray],
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),

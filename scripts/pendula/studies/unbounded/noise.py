@@ -14,7 +14,7 @@ from latticode.numerics.draws import normal
 from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.runs import ManyRuns
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from pendula.varied import Estimate, NamedNumber, as_dataset, vary_several
 
 from .bulk import LEVEL, SLICE_LENGTH, find_front, site_powers
@@ -35,7 +35,7 @@ MEANINGS = {
 
 
 def follow_noise(
-    problems: list[Problem],
+    problems: list[PaperProblem],
     rest_threshold: float,
     noises: list[float],
     members: int,
@@ -65,7 +65,7 @@ def follow_noise(
 
 
 def _numbers_by_noise(
-    problems: list[Problem], noises: list[float], tolerances: list[float], numbers: np.ndarray
+    problems: list[PaperProblem], noises: list[float], tolerances: list[float], numbers: np.ndarray
 ) -> xr.Dataset:
     """Return the dataset of the numbers (tolerance, problem, member, noise, number, ...)."""
 
@@ -99,7 +99,7 @@ def _numbers_by_noise(
 
 
 def follow_front(
-    problem: Problem, noises: list, rest_threshold: float, seed: int
+    problem: PaperProblem, noises: list, rest_threshold: float, seed: int
 ) -> dict[str, np.ndarray]:
     """Return the numbers of MEANINGS for each noise under all CHOICES, (noise, number, ...)."""
     return {
@@ -108,7 +108,7 @@ def follow_front(
 
 
 def _numbers_of(
-    problem: Problem, noise: float | str, rest_threshold: float, seed: int
+    problem: PaperProblem, noise: float | str, rest_threshold: float, seed: int
 ) -> np.ndarray:
     tau, fronts, seconds = places_of(problem, noise, rest_threshold, seed)
     numbers = np.empty((len(MEANINGS), len(SHORTER), len(LATE), len(LEVELS)))
@@ -122,7 +122,7 @@ def _numbers_of(
 
 
 def places_of(
-    problem: Problem, noise: float | str, rest_threshold: float, seed: int
+    problem: PaperProblem, noise: float | str, rest_threshold: float, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return times, places of the first front, and places of the second one, (time, level).
 

@@ -10,7 +10,7 @@ from dataclasses import asdict
 import numpy as np
 from latticode.equations.model import Model, Value, abs2, conj, lap
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 
 ROOT = np.sqrt(0.5)
 
@@ -44,7 +44,7 @@ def turned(values: np.ndarray) -> np.ndarray:
     return ROOT * np.concatenate([first + second, first - second])
 
 
-def in_sums(problem: Problem) -> Problem:
+def in_sums(problem: PaperProblem) -> PaperProblem:
     """Return a problem of (4) in the unknowns S and D."""
     parameters = asdict(problem.constants)
     return problem.changed(model=EQUATIONS, parameters=parameters, initial=turned(problem.initial))

@@ -24,7 +24,7 @@ from latticode.numerics.elementary import log
 from latticode.simulation.active_sites import integrate_intervals
 from latticode.simulation.runs import ManyRuns
 
-from pendula.problem import Problem
+from pendula.problem import PaperProblem
 from pendula.varied import Estimate, NamedNumber, as_dataset, vary_several
 
 from .bulk import SLICE_LENGTH
@@ -46,7 +46,7 @@ second value of each is a variation."""
 
 
 def solve_transverse(
-    problems: list[Problem],
+    problems: list[PaperProblem],
     rest_threshold: float,
     members: int,
     perturbations: list[float],
@@ -102,7 +102,7 @@ MEANINGS = {
 }
 
 
-def exponents_of(problem: Problem, rest_threshold: float) -> dict[str, np.ndarray]:
+def exponents_of(problem: PaperProblem, rest_threshold: float) -> dict[str, np.ndarray]:
     """Return the exponent of |S| at each velocity under all CHOICES, flat, from a small S.
 
     It is NaN where |S| falls below LEAST.
@@ -156,7 +156,7 @@ def _slopes_within(tau: np.ndarray, logs: np.ndarray, end: float, late: float) -
 
 
 def numbers_of(
-    problems: list[Problem], exponents: np.ndarray, least: np.ndarray
+    problems: list[PaperProblem], exponents: np.ndarray, least: np.ndarray
 ) -> dict[str, Estimate]:
     """Return the numbers of MEANINGS with their errors, from exponents (omega, member, velocity).
 
