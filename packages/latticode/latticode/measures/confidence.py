@@ -1,25 +1,26 @@
-"""Confidence limits: of a mean of few members, of a share, of a median, of a rate, of an order.
+"""Confidence intervals of means, ratios, shares, medians, rates of events, and orderings.
 
 Quantiles of the distributions are rounded to six digits, because the last bits of the special
 functions behind them differ between machines.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy import special
 
 from ..numerics.elementary import exp
 
 CONFIDENCE = 0.95
-"""Limits enclose the true value in so many of all repetitions, as is the custom."""
+"""Share of repetitions in which an interval contains the true value (the usual choice)."""
 
 
 class ConfidenceInterval(NamedTuple):
-    """An estimate and its confidence limits, numbers or arrays of one shape."""
+    """An estimate with the ends of its confidence interval: numbers, or arrays of one shape."""
 
     value: np.ndarray | float
     low: np.ndarray | float
@@ -27,19 +28,20 @@ class ConfidenceInterval(NamedTuple):
 
     @property
     def half(self) -> np.ndarray | float:
-        """Half the distance of the limits."""
+        """Half the width of the interval."""
         return 0.5 * (self.high - self.low)
 
 
 def student(freedom: float, confidence: float = CONFIDENCE) -> float:
-    """Return the quantile of Student's t that bounds a mean from both sides."""
+    """Return the two-sided quantile of Student's t for this many degrees of freedom."""
     return _rounded(special.stdtrit(freedom, 0.5 * (1.0 + confidence)))
 
 
-def mean_limits(values, confidence: float = CONFIDENCE) -> ConfidenceInterval:
-    """Return the mean over the members of (member, ...) and its limits by Student's t, (...).
+def mean_limits(values: ArrayLike, confidence: float = CONFIDENCE) -> ConfidenceInterval:
+    """Return the mean of `values` (member, ...) over the members, with its interval by Student's t.
 
-    Members must be independent of each other. One member has no limits: they are infinite.
+    Estimate and ends have the shape (...). Members must be independent of each other. With one
+    member the interval is infinite.
     """
     values = np.asarray(values, dtype=float)
     members, mean = len(values), values.mean(axis=0)
@@ -49,8 +51,13 @@ def mean_limits(values, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     return ConfidenceInterval(mean, mean - off, mean + off)
 
 
-def difference_limits(first, second, confidence: float = CONFIDENCE) -> ConfidenceInterval:
-    """Return the mean of `first` minus that of `second`, both (member,), with Welch's limits."""
+def difference_limits(
+    first: ArrayLike, second: ArrayLike, confidence: float = CONFIDENCE
+) -> ConfidenceInterval:
+    """Return mean(first) - mean(second), both (member,), with Welch's confidence interval.
+
+    The two groups may have different variances and sizes; both need at least two members.
+    """
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     variances = [values.var(ddof=1) / len(values) for values in (first, second)]
     difference, error, off = first.mean() - second.mean(), sqrt(sum(variances)), 0.0
@@ -61,10 +68,11 @@ def difference_limits(first, second, confidence: float = CONFIDENCE) -> Confiden
 
 
 def chance_inside(most: int, draws: int, members: int) -> float:
-    """Return the chance that at most `most` of `draws` lie within the range of `members` others.
+    """Return the probability that at most `most` of `draws` lie in the range of `members` values.
 
-    All are independent draws of one continuous law, whatever it is: those outside are the first and
-    the last in an order of all of them.
+    All `draws` + `members` values are independent and have the same continuous distribution. The
+    result does not depend on it: it counts the orders of all values in which enough of the draws
+    come before the smallest or after the largest member. Rounded to three digits.
     """
     total = special.gammaln(np.array([draws + members + 1.0, members + 1.0, draws + 1.0]))
     outside = np.arange(draws - most, draws + 1.0)
@@ -76,29 +84,34 @@ def chance_inside(most: int, draws: int, members: int) -> float:
 
 
 def chance_of_counts(least: int, members: int, share: float) -> float:
-    """Return the chance that at least `least` of `members` are of a kind with this share."""
+    """Return the probability of at least `least` successes among `members` independent trials.
+
+    Each trial succeeds with probability `share`. Rounded to three digits.
+    """
     return float(f"{special.bdtrc(least - 1.0, members, share):.3g}")
 
 
 def chance_below(score: float, freedom: float) -> float:
-    """Return the chance that a draw of Student's t is below a score, to three digits."""
+    """Return the probability that Student's t is below `score`, to three digits."""
     return float(f"{special.stdtr(freedom, score):.3g}")
 
 
 def _freedom(variances, draws):
-    """Return Welch's degrees of freedom of a difference, from the squared errors of both means."""
+    """Return Welch's degrees of freedom of a difference, from the variances of the two means."""
     below = sum(
         variance * variance / (count - 1) for variance, count in zip(variances, draws, strict=True)
     )
     return sum(variances) * sum(variances) / below
 
 
-def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> ConfidenceInterval:
-    """Return the ratio of two means over `members` each, mean[1] / mean[0], and its limits.
+def ratio_limits(
+    mean: Sequence[float], error: Sequence[float], members: int, confidence: float = CONFIDENCE
+) -> ConfidenceInterval:
+    """Return the ratio of two means, mean[1] / mean[0], with Fieller's confidence interval.
 
-    `mean` and `error` hold two means and their standard errors. The limits are Fieller's (Q. J. R.
-    Stat. Soc. B 16 (1954) 175), with the smaller of the two numbers of degrees of freedom; they are
-    infinite where the lower mean cannot be told from zero.
+    `mean` and `error` hold the two means and their standard errors, each over `members` members.
+    The source is J. R. Stat. Soc. B 16 (1954) 175. Student's t has `members` - 1 degrees of
+    freedom. The interval is infinite if mean[0] does not differ significantly from zero.
     """
     (below, above), t = mean, student(members - 1, confidence)
     variances = [(t * relative_error) * (t * relative_error) for relative_error in error]
@@ -113,9 +126,9 @@ def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> C
 
 
 def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> ConfidenceInterval:
-    """Return the share of `members` that `count` are, with the exact limits of Clopper and Pearson.
+    """Return `count` / `members` with the exact confidence interval of Clopper and Pearson.
 
-    Their source is Biometrika 26 (1934) 404.
+    The source is Biometrika 26 (1934) 404.
     """
     tail = 0.5 * (1.0 - confidence)
     low = special.betaincinv(count, members - count + 1, tail) if count else 0.0
@@ -123,12 +136,13 @@ def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Co
     return ConfidenceInterval(count / members, _rounded(low), _rounded(high))
 
 
-def median_limits(values, confidence: float = CONFIDENCE) -> ConfidenceInterval:
-    """Return the median of (member,) and the order statistics that bound it, whatever the law.
+def median_limits(values: ArrayLike, confidence: float = CONFIDENCE) -> ConfidenceInterval:
+    """Return the median of `values` (member,) with order statistics as its confidence interval.
 
-    Values may be infinite: a life that has not ended when watching stops counts as longer than all
-    others. This is the median of Kaplan and Meier where all are watched equally long. A limit is
-    infinite where too few lives have ended.
+    The interval holds for any distribution. Values may be infinite: a lifetime that has not ended
+    by the end of the observation counts as longer than all others. If all members are observed
+    equally long, this is the Kaplan-Meier median. An end of the interval is infinite if too few
+    lifetimes have ended.
     """
     ordered = np.sort(np.asarray(values, dtype=float))
     members, tail = len(ordered), 0.5 * (1.0 - confidence)
@@ -140,12 +154,13 @@ def median_limits(values, confidence: float = CONFIDENCE) -> ConfidenceInterval:
 
 
 def event_rate(
-    times, start: float, end: float, confidence: float = CONFIDENCE
+    times: Iterable[float], start: float, end: float, confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return the events per unit of time among those members that had none by `start`.
+    """Return the rate of events per unit of time among the members without an event by `start`.
 
-    `times` is (member,), infinite where no event came by `end`. The limits are the exact ones of a
-    Poisson count, however small (F. Garwood, Biometrika 28 (1936) 437). NaN where none was left.
+    `times` (member,) are those of the events, infinite if a member has none by `end`. The interval
+    is the exact one of a Poisson count (F. Garwood, Biometrika 28 (1936) 437). The result is NaN if
+    every member has had its event by `start`.
     """
     left = np.asarray([time - start for time in times if time > start])
     if not left.size:
@@ -160,11 +175,12 @@ def event_rate(
 def order_limits(
     groups: Sequence[np.ndarray], confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return the share of pairs in which a value of an earlier group is larger, and its limits.
+    """Return the share of pairs whose value from the earlier group is larger, with its interval.
 
-    Pairs are of values of two `groups`; equal values count half, and values may be infinite. The
-    limits have the width of Jonckheere's test (Biometrika 41 (1954) 133): if all values are draws
-    of one law, they enclose 1/2 with this confidence, or a larger one where values are equal.
+    Pairs combine values of two different `groups`; equal values count half, and values may be
+    infinite. The width of the interval is that of Jonckheere's test (Biometrika 41 (1954) 133): if
+    all values have the same distribution, it contains 1/2 with this confidence, or with a higher
+    one if some values are equal.
     """
     larger = pairs = 0.0
     for earlier, later in combinations([np.asarray(group, float) for group in groups], 2):

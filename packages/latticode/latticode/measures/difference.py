@@ -1,42 +1,50 @@
-"""How far two runs differ, and from when on: one definition for every sentence about it.
+"""The difference of two runs and the time at which they diverge, defined once for all uses.
 
-The difference of two runs at a time is the largest, over the four curves (l2 and l-infinity of A
-and of B), of abs(difference) relative to the full scale of that curve: the largest value that it
-takes in either run over the time that both have.
+A run has four curves: the l2 and l-infinity norms of A and of B. The full scale of a curve is its
+largest value in either run over the common time span. The difference of two runs at a time is the
+largest, over the four curves, of abs(difference) / full scale.
 
-- It is strict: a small component that is wholly wrong does not hide behind a large one.
-- It does not depend on the scale of the data, nor on which curves share an axis of a figure.
-- It does not depend on which of the two runs is named first.
+- A small component that is entirely wrong counts as much as a large one.
+- Neither the amplitude of the data nor the axes of a figure matter.
+- Exchanging the two runs changes nothing.
 
-The divergence time is the first output time at which the difference exceeds a level, as a rule the
-visible fraction. Three things must not be taken for each other, in datasets and in words alike:
+The divergence time is the first output time at which the difference exceeds a level, by default the
+visible fraction. Datasets and texts distinguish three cases:
 
-- a time that comes is a number;
-- a time that never comes, as long as both runs are known, is infinite. Where one of them ends
-  first, nothing is said of the time after that: `known_until` tells when;
-- a time that is not known, since a run is absent or of another problem, is NaN.
+- a finite number if the runs diverge;
+- infinity if they do not diverge while both runs last. If one ends first, its end is the last time
+  for which this holds: see `known_until`;
+- NaN if it is unknown, because a run is missing or solves another problem.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from latticode.numerics.elementary import modulus
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 VISIBLE = 0.01
-"""ASSUME: the part of full scale from which on a reader sees another curve."""
+"""ASSUME: the fraction of full scale at which a reader sees two curves instead of one."""
 
 NORMS = ("linf", "l2")
 PARAMETERS = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "output_step")
 
 
 ABSENT = "infinite: at no tau that both have; NaN: not known"
-"""What a time stands for that is no number, for the long names of such times."""
+"""The meaning of times that are not finite, for the long names of variables."""
 
 
-def norm_difference(linf_a, l2_a, linf_b, l2_b) -> np.ndarray:
-    """Return the difference of the norms of two runs at each time, (time,), as parts of one.
+def norm_difference(
+    linf_a: ArrayLike, l2_a: ArrayLike, linf_b: ArrayLike, l2_b: ArrayLike
+) -> np.ndarray:
+    """Return the difference of the norms of two runs, (time,), as a fraction of full scale.
 
-    All arguments are (component, time), at the same times. A curve that is zero in both runs does
-    not differ.
+    All arguments are (component, time), at the same times. A curve that is zero in both runs has
+    the difference 0.
     """
     return np.max([_curve_difference(linf_a, linf_b), _curve_difference(l2_a, l2_b)], axis=(0, 1))
 
@@ -47,13 +55,13 @@ def _curve_difference(a, b) -> np.ndarray:
     return np.abs(a - b) / np.where(scale == 0.0, 1.0, scale)
 
 
-def field_difference(first, second, sizes) -> np.ndarray:
-    """Return the largest difference of fields at a site over full scale, (time,).
+def field_difference(first: ArrayLike, second: ArrayLike, sizes: ArrayLike) -> np.ndarray:
+    """Return the largest difference of the fields at any site over full scale, (time,).
 
-    `first` and `second` are (curve, site, time), complex or real, at the same times. The full scale
-    of a curve is its largest modulus in either, and at least that of its field in `sizes` (field,).
-    Curves are the values of all fields, then their rates if there are any. A field at rest in both
-    does not differ.
+    `first` and `second` are (curve, site, time), complex or real, at the same times. The curves are
+    the values of all fields, followed by their rates if the equations are of second order. The full
+    scale of a curve is its largest modulus in either run, but at least the entry of its field in
+    `sizes` (field,). A field at rest in both runs has the difference 0.
     """
     first, second = np.asarray(first), np.asarray(second)
     if not first.shape[-1]:
@@ -64,10 +72,10 @@ def field_difference(first, second, sizes) -> np.ndarray:
     return (separation / np.where(scale == 0.0, 1.0, scale)[:, None]).max(axis=0)
 
 
-def first_above(tau, values, level):
-    """Return the first of the times `tau` at which `values` (..., time) are above `level`.
+def first_above(tau: ArrayLike, values: ArrayLike, level: float) -> np.ndarray | float:
+    """Return the first of the times `tau` (time,) at which `values` (..., time) exceed `level`.
 
-    It is infinite where they never are, and NaN where no value is known.
+    The result (...) is infinite where they never do, and NaN where all values are NaN.
     """
     tau, values = np.asarray(tau, float), np.asarray(values, float)
     above = values > level
@@ -75,12 +83,12 @@ def first_above(tau, values, level):
     return np.where(np.isnan(values).all(axis=-1), np.nan, first)[()]
 
 
-def difference(first, second):
-    """Return the difference of two trajectories, datasets as they are stored, (tau).
+def difference(first: "xr.Dataset", second: "xr.Dataset") -> "xr.DataArray":
+    """Return the difference of two stored trajectories, (tau), over the times that both have.
 
-    It is taken over the times that both have, and named and described as a variable of a dataset.
+    The result has the name and the attributes of a variable of a dataset.
     """
-    import xarray as xr  # here, so that the kernels' callers do without it
+    import xarray as xr  # imported here: it is slow, and callers from kernels do not need it
 
     second = at_times(second, first["tau"]).dropna("tau")
     tau = second["tau"]
@@ -93,15 +101,18 @@ def difference(first, second):
     return xr.DataArray(norm_difference(*norms), {"tau": tau}, ("tau",), "difference", attributes)
 
 
-def at_times(trajectory, tau):
-    """Return the norms at these times, NaN where there are none; times may differ by rounding."""
+def at_times(trajectory: "xr.Dataset", tau: "xr.DataArray") -> "xr.Dataset":
+    """Return the norms of a trajectory at these times, NaN at times that it lacks.
+
+    Times count as equal if they differ by less than 1e-9.
+    """
     return trajectory[list(NORMS)].reindex(tau=tau, method="nearest", tolerance=1e-9)
 
 
-def divergence_time(difference, level: float = VISIBLE):
-    """Return the first tau at which a `difference` over "tau" is above `level`.
+def divergence_time(difference: "xr.DataArray", level: float = VISIBLE) -> "xr.DataArray":
+    """Return the first tau at which a `difference` (..., tau) exceeds `level`, shape (...).
 
-    It is infinite where the runs never differ so much, and NaN where no difference is known.
+    It is infinite if the runs never differ by so much, and NaN if no difference is known.
     """
     values = difference.transpose(..., "tau")
     times = difference.isel(tau=0, drop=True).copy(data=first_above(values["tau"], values, level))
@@ -110,19 +121,19 @@ def divergence_time(difference, level: float = VISIBLE):
     return times.rename("divergence_time")
 
 
-def known_until(difference):
-    """Return the last tau at which a `difference` is known, NaN where it is known at none."""
+def known_until(difference: "xr.DataArray") -> "xr.DataArray":
+    """Return the last tau at which a `difference` (..., tau) is known, NaN if it never is."""
     return difference["tau"].where(difference.notnull()).max("tau")
 
 
-def is_of_same_case(trajectory, reference) -> bool:
-    """Return whether both solve the same problem; their end times may differ."""
+def is_of_same_case(trajectory: "xr.Dataset", reference: "xr.Dataset") -> bool:
+    """Return whether two stored trajectories solve the same problem, end times apart."""
     return all(trajectory.attrs[key] == reference.attrs[key] for key in PARAMETERS)
 
 
 def state_error(computed: np.ndarray, exact: np.ndarray) -> float:
-    """Return the largest error of a component of a state over the largest component.
+    """Return the largest error at any site of a state, relative to its largest modulus.
 
-    It compares two states site by site, where `norm_difference` compares curves of norms.
+    Both states have the same shape. Unlike `norm_difference`, this compares site by site.
     """
     return float(modulus(computed - exact).max() / modulus(exact).max())

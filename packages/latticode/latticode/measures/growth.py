@@ -1,4 +1,4 @@
-"""Growth: rates of tangent vectors with their errors, and what is chaotic."""
+"""Growth rates of tangent vectors with their errors, a test for chaos, and error amplification."""
 
 from itertools import accumulate
 
@@ -9,27 +9,29 @@ from latticode.numerics.elementary import exp, log
 from .difference import VISIBLE, first_above
 
 MANY = float(log(100.0))
-"""The logarithm of a growth over the second half of a run that no power law reaches: tau^6 grows by
-a factor of 64."""
+"""Logarithm of a growth over the second half of a run that no power law reaches: tau^6 grows by a
+factor of 64."""
 ERRORS = 3.0
-"""A growth must exceed MANY by so many standard errors."""
+"""Number of standard errors by which a growth must exceed MANY."""
 INTERVALS = 8
 ROUNDING = 2.0**-53
 """Relative error of one rounded operation in double precision."""
 
 
 def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarray:
-    """Return the mean rate of growth from `start` to the end, of log_growth (..., time).
+    """Return the mean rate of `log_growth` (..., time) from `start` to the end, (...).
 
-    For a tangent vector it is a Lyapunov exponent, per unit of tau.
+    It is per unit of tau. For a tangent vector this estimates a Lyapunov exponent.
     """
     first = int(np.searchsorted(tau, start))
     span = tau[-1] - tau[first]
     return (log_growth[..., -1] - log_growth[..., first]) / span
 
 
-def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, intervals=INTERVALS):
-    """Return the standard error of that rate, from as many consecutive parts of the time."""
+def mean_rate_error(
+    tau: np.ndarray, log_growth: np.ndarray, start: float, intervals: int = INTERVALS
+) -> np.ndarray:
+    """Return the standard error of `mean_rate`, (...), from the rates in consecutive intervals."""
     edges = np.linspace(np.searchsorted(tau, start), len(tau) - 1, intervals + 1)
     edges = edges.round().astype(int)
     rates = np.diff(log_growth[..., edges], axis=-1) / np.diff(tau[edges])
@@ -37,17 +39,21 @@ def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, inter
 
 
 def is_chaotic(
-    tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray, many=MANY, errors=ERRORS
+    tau: np.ndarray,
+    log_growth: np.ndarray,
+    size: np.ndarray,
+    many: float = MANY,
+    errors: float = ERRORS,
 ) -> np.ndarray:
-    """Return whether a tangent vector grows exponentially along a solution, (...).
+    """Return whether tangent vectors grow exponentially along a solution, (...).
 
-    It does if its logarithm grows by more than `many` over the second half of the run, even after
-    so many standard `errors` are taken off. The growth counts relative to the l2 norm `size` (...,
-    time) of the solution, since in a chain that leaves its rest both grow alike. No power law in
-    time reaches MANY, so that the limit does not depend on any case.
+    The criterion: over the second half of the run, `log_growth` (..., time) minus log(`size`) grows
+    by more than `many`, even after subtracting `errors` standard errors. `size` (..., time) is the
+    l2 norm of the solution. The growth is relative to it, because in a chain that leaves an
+    equilibrium the solution and the tangent vector grow at the same rate.
     """
     middle = tau[-1] / 2
-    with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
+    with np.errstate(divide="ignore", invalid="ignore"):  # at rest the size is zero
         relative = log_growth - log(size)
         rate = mean_rate(tau, relative, middle)
         error = mean_rate_error(tau, relative, middle)
@@ -55,15 +61,17 @@ def is_chaotic(
 
 
 def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Return log of the relative error at each tau, per relative error made in a unit of tau.
+    """Return the logarithm of the factor by which a steady relative error has grown, (time,).
 
-    Errors are made all along, each in proportion to the `size` of the solution at its time s, and
-    grown by exp(log_growth(tau) - log_growth(s)). All arguments are (time,), as is the result.
+    Errors arise at a constant relative rate: at each time s in proportion to `size`(s), the l2 norm
+    of the solution. Until tau they grow by exp(log_growth(tau) - log_growth(s)). The result is the
+    logarithm of the relative error at tau for a rate of 1 per unit of tau. All arguments are
+    (time,).
     """
     log_weights = log(size[1:] * np.diff(tau)) - log_growth[1:]
     peak = np.maximum.accumulate(log_weights)
     before = np.concatenate([[-np.inf], peak[:-1]])
-    # the sum up to each tau in units of its largest term; a new peak makes the former sum smaller
+    # each sum is relative to its largest term, against overflow; a new peak rescales the sum before
     terms = zip(exp(before - peak).tolist(), exp(log_weights - peak).tolist(), strict=True)
     sums = accumulate(terms, lambda total, term: total * term[0] + term[1], initial=0.0)
     total = peak + log(np.array(list(sums)[1:])) + log_growth[1:] - log(size[1:])
@@ -71,5 +79,8 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
 
 
 def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
-    """Return the first tau at which `error` a unit of tau has grown to VISIBLE; inf if at none."""
+    """Return the first tau at which `error` per unit of tau has grown to VISIBLE, else infinity.
+
+    `log_amplification` (time,) is the result of `amplification`.
+    """
     return first_above(tau, log_amplification, log(VISIBLE / error))

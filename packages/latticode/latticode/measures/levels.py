@@ -1,17 +1,20 @@
-"""Measures of a curve against a parameter, and of an ensemble: levels, ranges, means."""
+"""Levelling off and range of a curve against a parameter; moments and quantiles of an ensemble."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
-# ASSUME: the paper gives no measure of "approaches a level"; half a percent is a line's width.
+# ASSUME: the paper does not define "approaches a level"; 0.5 % is the width of a printed line.
 LEVEL = 5e-3
 
 
 def levelling(
     half_widths: np.ndarray, values: np.ndarray, tolerance: float = LEVEL, least: int = 3
 ) -> float:
-    """Return the half-width from which all values equal the last one to `tolerance`.
+    """Return the smallest half-width from which on all values agree with the last to `tolerance`.
 
-    It is infinite if fewer than `least` values agree, since the last value agrees with itself.
+    The tolerance is relative. The result is infinite if fewer than `least` values agree, because
+    the last value always agrees with itself.
     """
     return _first_of_tail(half_widths, np.abs(values / values[-1] - 1.0) <= tolerance, least)
 
@@ -22,24 +25,24 @@ def _first_of_tail(half_widths: np.ndarray, near: np.ndarray, least: int) -> flo
 
 
 def relative_range(values: np.ndarray) -> float:
-    """Return the range of the values over their mean."""
+    """Return (max - min) / abs(mean) of the values."""
     return float((np.max(values) - np.min(values)) / abs(np.mean(values)))
 
 
 def correlation(first: np.ndarray, second: np.ndarray) -> float:
-    """Return the correlation of two series (time,); 0 where one does not change."""
+    """Return the correlation coefficient of two series (time,); 0 if one of them is constant."""
     first, second = first - first.mean(), second - second.mean()
     scale = np.sqrt((first * first).mean() * (second * second).mean())
     return float((first * second).mean() / scale) if scale > 0 else 0.0
 
 
-def bands(norms: np.ndarray, quantiles) -> np.ndarray:
-    """Return the quantiles over the members of (member, ...), shape (quantile, ...)."""
+def bands(norms: np.ndarray, quantiles: Sequence[float]) -> np.ndarray:
+    """Return the quantiles of `norms` (member, ...) over the members, shape (quantile, ...)."""
     return np.quantile(norms, quantiles, axis=0)
 
 
 def moments(values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the mean, standard deviation and standard error over the members of (member, ...)."""
+    """Return mean, standard deviation and standard error over the members of (member, ...)."""
     deviation = values.std(axis=0, ddof=1)
     return {
         "mean": values.mean(axis=0),

@@ -1,29 +1,35 @@
-"""Measures of one run, from its norms and its energy: P, largest amplitude, drift."""
+"""Power P, largest amplitude and energy drift of one run, from its norms and its energy."""
+
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from latticode.numerics.elementary import square_modulus
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 def power_of(amplitudes: np.ndarray) -> float:
-    """Return P = |A|^2 + |B|^2 in l2 of amplitudes (2, N)."""
+    """Return P, the sum over all sites of |A|^2 + |B|^2, of amplitudes (2, site)."""
     return float(np.sum(square_modulus(amplitudes)))
 
 
-def total_power(trajectory) -> np.ndarray:
-    """Return P = |A|^2 + |B|^2, the squared l2 norm of the pair, at all times."""
+def total_power(trajectory: "xr.Dataset") -> np.ndarray:
+    """Return the power P of a stored trajectory, the sum of its squared l2 norms, (time,)."""
     return (trajectory["l2"] ** 2).sum("component").values
 
 
-def largest(trajectory) -> np.ndarray:
-    """Return the l-infinity norm of the pair at all times."""
+def largest(trajectory: "xr.Dataset") -> np.ndarray:
+    """Return the larger of the l-infinity norms of A and B of a stored trajectory, (time,)."""
     return trajectory["linf"].max("component").values
 
 
-def drift(energy) -> np.ndarray:
-    """Return abs(H(tau) - H(0)) at each time of an energy (..., time): the error of conservation.
+def drift(energy: ArrayLike) -> np.ndarray:
+    """Return abs(H(tau) - H(0)) of an `energy` (..., time), its error of conservation, (..., time).
 
-    The paper does not say whether it means this or the part of H(0) that it is.
+    The paper does not specify whether its drift is this difference or relative to H(0).
     """
     energy = np.asarray(energy, dtype=float)
     return np.abs(energy - energy[..., :1])

@@ -1,8 +1,8 @@
-"""How l2^2 grows where a front spreads: l2^2 = a tau + b, and whether the exponent is one half.
+"""Growth of l2^2 behind a spreading front: fits of a tau + b and of a tau^(2 q) + b.
 
-A bulk of P a site behind fronts of speed v makes l2^2 = 2 v P tau + b: what the start cost stands
-in b. A power of tau laid through such a curve is off for as long as b counts, so b is fitted too.
-All sums are plain ones, so that the last bits hang on no library.
+Two fronts of speed v that leave a power P at each site behind them give l2^2 = 2 v P tau + b, where
+b comes from the transient at the start. A fit of a power of tau without b is biased while b is not
+negligible, so b is fitted too. All sums are written out: their last bits depend on no library.
 """
 
 from functools import lru_cache
@@ -15,49 +15,52 @@ from latticode.numerics.elementary import expm1, log
 from .confidence import CONFIDENCE, ConfidenceInterval, mean_limits, student
 
 BLOCKS = 10
-"""Stretches of time that count as independent in the error of a single curve."""
+"""Number of time intervals treated as independent for the error of a single curve."""
 
 STEPS, SETTLED = 20, 1e-10
-"""The most steps of Gauss and Newton to the exponent, and the change of it that ends them."""
+"""Maximum number of Gauss-Newton steps for the exponent, and the change at which they stop."""
 
 LEAST, MOST, GRID, NEARLY_ZERO = -1.0, 3.0, 0.05, 1e-4
-"""Exponents are searched between the first two, and first on a grid; those nearer to zero than the
-last count as this one."""
+"""Lowest and highest exponent, the spacing of the grid that is searched first, and the smallest
+exponent: the law at 0 is a limit, and this value replaces those closer to 0."""
 
 
 class Line(NamedTuple):
-    """y = slope x + offset."""
+    """The line y = slope x + offset."""
 
     slope: float
     offset: float
 
-    def at(self, x):
+    def at(self, x: np.ndarray) -> np.ndarray:
         """Return y at x."""
         return self.slope * x + self.offset
 
 
 def lay_line(x: np.ndarray, y: np.ndarray) -> Line:
-    """Return the line of least squares through the points."""
+    """Return the least-squares line through the points x, y (point,)."""
     off = x - x.mean()
     slope = (off * y).sum() / (off * off).sum()
     return Line(float(slope), float(y.mean() - slope * x.mean()))
 
 
 class LateGrowth(NamedTuple):
-    """A line through the late part of an ensemble's curves, with its confidence limits."""
+    """A line through the late part of an ensemble's curves, with confidence intervals."""
 
     slope: ConfidenceInterval
     offset: float
     relative: ConfidenceInterval
-    """What the line gains from its first to its last time, over the mean of the curves."""
+    """Rise of the line from its first to its last time, relative to the mean of the curves."""
 
 
-def fit_line(x: np.ndarray, values: np.ndarray, start: float, confidence=CONFIDENCE) -> LateGrowth:
-    """Return values = slope x + offset of curves (member, x), from x = `start` on.
+def fit_line(
+    x: np.ndarray, values: np.ndarray, start: float, confidence: float = CONFIDENCE
+) -> LateGrowth:
+    """Return the line values = slope x + offset through curves (member, x), from x = `start` on.
 
-    `x` is tau, or any clock: 2 (v tau - delay log tau) makes the slope the power P of a site. The
-    limits are those of the mean over the members, which are independent, however long each of
-    them remembers itself; a single curve is cut into BLOCKS stretches of time.
+    `x` is tau or a function of it: with 2 (v tau - delay log tau) the slope is the power P of a
+    site. The confidence interval is that of the mean over the members. These are independent, so
+    that it holds for curves with long correlation times too. A single curve is divided into BLOCKS
+    time intervals instead.
     """
     is_fitted = x >= start
     lines = [lay_line(x[is_fitted], series[is_fitted]) for series in values]
@@ -73,10 +76,10 @@ def fit_line(x: np.ndarray, values: np.ndarray, start: float, confidence=CONFIDE
 def _of_stretches(
     x: np.ndarray, y: np.ndarray, line: Line, confidence: float
 ) -> ConfidenceInterval:
-    """Return the slope of one curve with limits that hold for residuals with a memory.
+    """Return the slope of one curve, with an interval that holds for correlated residuals.
 
-    What a stretch of the residuals adds to the slope counts as one independent value; two degrees
-    of freedom went into the line (the clustered estimate of the variance of a regression).
+    The contribution of each block of residuals to the slope counts as one independent value (the
+    cluster-robust variance of a regression). The line itself takes two degrees of freedom.
     """
     off = x - x.mean()
     weighted = off * (y - line.at(x))
@@ -87,17 +90,19 @@ def _of_stretches(
 
 
 def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
-    """Return q of the law squares = a tau^(2 q) + b of least squares for curves (..., time).
+    """Return the least-squares exponents q of squares = a tau^(2 q) + b, (...).
 
-    The best of a grid from LEAST to MOST is refined by the method of Gauss and Newton. Near q = 0
-    the law is a logarithm, and below it tends to a limit.
+    `squares` are curves (..., time). The best value of a grid from LEAST to MOST is refined by the
+    Gauss-Newton method. At q = 0 the law is a log tau + b; for q < 0 it tends to the limit b.
     """
     x = log(tau / tau[-1])
     first = q = _best_of_grid(x.tobytes(), squares)
     for _ in range(STEPS):
         law, change = _law(x, q[..., None])
         slope_of_change = _slope(law, change)
-        alone = _centred(change) - slope_of_change * _centred(law)  # what no a and b can make
+        alone = _centred(change) - slope_of_change * _centred(
+            law
+        )  # the component that neither a nor b can fit
         share = (alone * squares).sum(axis=-1) / (alone * alone).sum(axis=-1)
         slope = _slope(law, squares - share[..., None] * change)[..., 0]
         step = np.divide(share, slope, out=np.zeros_like(share), where=slope != 0.0)
@@ -108,7 +113,7 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
 
 
 def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
-    """Return the q of the grid whose law leaves the least sum of squares of each curve."""
+    """Return the grid's exponent with the smallest sum of squared residuals of each curve."""
     exponents, laws = _laws_of_grid(x)
     explained = [
         (laws * square).sum(axis=-1) ** 2 for square in squares.reshape(-1, laws.shape[-1])
@@ -118,9 +123,10 @@ def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def _laws_of_grid(x: bytes) -> tuple[np.ndarray, np.ndarray]:
-    """Return the exponents of the grid, and their laws less their means, of sum of squares one.
+    """Return the exponents of the grid, and their laws centred and normalised, (exponent, time).
 
-    All curves with the same times share them; `x` is the bytes of log(tau / tau[-1]).
+    `x` holds log(tau / tau[-1]) as bytes, which the cache can hash: all curves with the same times
+    share one result.
     """
     exponents = np.linspace(LEAST, MOST, round((MOST - LEAST) / GRID) + 1)
     laws = _centred(_law(np.frombuffer(x), exponents[:, None])[0])
@@ -132,24 +138,24 @@ def _centred(values: np.ndarray) -> np.ndarray:
 
 
 def _slope(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the slopes of least squares of y over x, (..., 1)."""
+    """Return the least-squares slopes of y against x, (..., 1)."""
     off = _centred(x)
     return (off * y).sum(axis=-1, keepdims=True) / (off * off).sum(axis=-1, keepdims=True)
 
 
 def _law(x: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (exp(2 q x) - 1) / (2 q), which is x at q = 0, and its derivative by q."""
+    """Return (exp(2 q x) - 1) / (2 q), which tends to x at q = 0, and its derivative by q."""
     p = 2.0 * np.where(np.abs(q) > NEARLY_ZERO, q, NEARLY_ZERO)
     law = expm1(p * x) / p
     return law, 2.0 * (x * (1.0 + p * law) - law) / p
 
 
 def fit_exponent(
-    tau: np.ndarray, l2: np.ndarray, start: float, confidence=CONFIDENCE
+    tau: np.ndarray, l2: np.ndarray, start: float, confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return the exponent of tau in l2 (member, tau), l2^2 = a tau^(2 q) + b from `start` on.
+    """Return the exponent q of l2^2 = a tau^(2 q) + b from `start` on, for `l2` (member, tau).
 
-    The limits are those of the mean over the members; one member alone has infinite ones.
+    The confidence interval is that of the mean over the members; it is infinite for one member.
     """
     is_fitted = tau >= start
     return mean_limits(exponent_with_offset(tau[is_fitted], l2[:, is_fitted] ** 2), confidence)

@@ -1,5 +1,6 @@
-"""Functions, matrices and draws with the same bits on every machine.
+"""Elementary functions, matrix products and random numbers with the same bits on every machine.
 
-The functions of the C library, BLAS, LAPACK and NumPy's vector code round otherwise on another
-processor. What is here takes + - * / and square roots alone, in one order, which all round alike.
+The C library, BLAS, LAPACK and NumPy's vectorised functions round differently on different
+processors. The functions of this package use only + - * / and square roots, in a fixed order.
+IEEE 754 rounds these identically everywhere.
 """

@@ -5,26 +5,32 @@ import numpy as np
 from .elementary import complex_of, log
 
 
-def normal(rng: np.random.Generator, size) -> np.ndarray:
-    """Return standard normal draws of NumPy, those of its tail rounded to 40 binary places.
+def normal(rng: np.random.Generator, size: int | tuple[int, ...] | None) -> np.ndarray:
+    """Return standard normal numbers of shape `size`; beyond 3.65 rounded to 40 binary places.
 
-    NumPy takes the values of the tail from the C library's log1p. Its exp decides only
-    whether a few draws are kept, and a last bit turns such a decision as good as never.
+    NumPy computes the tail with the C library's log1p, whose last bit depends on the machine. The
+    C library's exp only decides whether NumPy rejects a few draws; a last bit of it hardly ever
+    changes such a decision.
     """
     drawn = rng.normal(size=size)
     return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)
 
 
-def complex_normal(rng: np.random.Generator, shape) -> np.ndarray:
-    """Return complex numbers whose real and imaginary parts are normal."""
+def complex_normal(rng: np.random.Generator, shape: int | tuple[int, ...]) -> np.ndarray:
+    """Return complex numbers whose real and imaginary parts are standard normal."""
     return complex_of(normal(rng, shape), normal(rng, shape))
 
 
-def uniform(rng: np.random.Generator, low: float, high: float, size=None):
-    """Return uniform numbers; the generator's own scaling may be fused on some processors."""
+def uniform(
+    rng: np.random.Generator, low: float, high: float, size: int | tuple[int, ...] | None = None
+) -> np.ndarray | float:
+    """Return uniform numbers in [low, high) of shape `size`; one number if it is None.
+
+    `rng.uniform` is not used: some processors fuse its multiplication and addition.
+    """
     return low + (high - low) * rng.random(size)
 
 
 def exponential(rng: np.random.Generator) -> float:
-    """Return an exponential number of mean one."""
+    """Return one exponentially distributed number of mean 1."""
     return float(-log(1.0 - rng.random()))

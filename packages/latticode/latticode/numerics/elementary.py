@@ -1,15 +1,15 @@
 """Elementary functions that have the same bits on every machine.
 
-C's and NumPy's exp, log, sin, cos and powers take fused operations where a processor has them, so
-that their last bits differ between processors and between versions. Here each is a short series
-after an exact reduction of its argument, by + - * / and square roots in one order, which IEEE 754
-rounds alike everywhere. NumPy takes each operation by itself, and numba without fastmath fuses
-none. Coefficients are those of Taylor's series.
+The C library and NumPy compute exp, log, sin, cos and powers with fused operations where the
+processor has them. Their last bits therefore differ between processors and versions. Each function
+below reduces its argument exactly and sums a short Taylor series, using + - * / and square roots in
+a fixed order. IEEE 754 rounds these identically everywhere, NumPy rounds after each operation, and
+numba without fastmath fuses none. The reductions follow fdlibm (Sun, 1993).
 
-Functions of `x` take real numbers of any precision and return doubles; NaN stays NaN. Each
-says for which arguments it holds; logarithms give their limits at 0 and infinity. Their errors are
-measured and the hashes of their bits held by tests/numerics/test_elementary.py. The reductions
-follow fdlibm (Sun, 1993).
+Functions of `x` take real numbers or arrays of any precision and return doubles of the same shape;
+NaN gives NaN. Each docstring gives the range of arguments and the error in units in the last place
+(ulp). Logarithms return their limits at 0 and infinity. tests/numerics/test_elementary.py measures
+the errors and checks a hash of the bits.
 """
 
 from decimal import Decimal, localcontext
@@ -17,10 +17,13 @@ from math import factorial
 
 import numpy as np
 
+Real = float | np.ndarray
+Complex = complex | np.ndarray
+
 LN2 = 0.6931471803691238, 1.9082149292705877e-10
-"""log(2) in two parts; a product of the first with an integer below 2^21 is exact."""
+"""log(2) as a sum of two numbers; the first times an integer below 2^21 is exact."""
 HALF_PI = 1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21
-"""pi/2 in three parts; products of the first two with integers below 2^20 are exact."""
+"""pi/2 as a sum of three numbers; the first two times an integer below 2^20 are exact."""
 SPLITTER = 2.0**27 + 1.0
 
 EXP = [1 / factorial(n) for n in range(2, 15)]
@@ -37,14 +40,14 @@ def _horner(coefficients, x):
 
 
 def _sum(a, b):
-    """Return a + b as a rounded sum and what rounding took away (Knuth)."""
+    """Return the rounded sum a + b and its rounding error (Knuth's two-sum)."""
     total = a + b
     second = total - a
     return total, (a - (total - second)) + (b - second)
 
 
 def _product(a, b):
-    """Return a * b as a rounded product and what rounding took away (Dekker, Veltkamp)."""
+    """Return the rounded product a * b and its rounding error (Dekker, Veltkamp)."""
     (a_high, a_low), (b_high, b_low) = _halves(a), _halves(b)
     total = a * b
     return total, ((a_high * b_high - total) + a_high * b_low + a_low * b_high) + a_low * b_low
@@ -60,8 +63,8 @@ def _halves(a):
 
 
 def _reduced_exp(x, low=0.0):
-    """Return t and the integer k of exp(x + low) = (1 + t) 2^k, where abs(t) < 0.42."""
-    x = np.asarray(x, dtype=float).clip(-750.0, 710.0)  # beyond, the result is 0 or infinity anyhow
+    """Return t and the integer k with exp(x + low) = (1 + t) 2^k and abs(t) < 0.42."""
+    x = np.asarray(x, dtype=float).clip(-750.0, 710.0)  # outside, the result is 0 or infinity
     k = np.nan_to_num(np.rint(x * (1.0 / LN2[0])))
     start, correction = x - k * LN2[0], k * LN2[1]
     r = start - correction
@@ -70,49 +73,49 @@ def _reduced_exp(x, low=0.0):
     return r + (curved + low), k.astype(np.int64)
 
 
-def exp(x):
+def exp(x: Real) -> Real:
     """Return e^x, with an error below 1 ulp."""
     t, k = _reduced_exp(x)
     with np.errstate(over="ignore", under="ignore"):
         return np.ldexp(1.0 + t, k)
 
 
-sqrt = np.sqrt  # IEEE 754 rounds it alike everywhere
+sqrt = np.sqrt  # IEEE 754 rounds it identically everywhere
 
 
-def expm1(x):
+def expm1(x: Real) -> Real:
     """Return e^x - 1, with an error below 1.5 ulp, for x < 709."""
     t, k = _reduced_exp(x)
     return (np.ldexp(1.0, k) - 1.0) + np.ldexp(t, k)
 
 
-def sinh(x):
+def sinh(x: Real) -> Real:
     """Return the hyperbolic sine, with an error below 2 ulp, for abs(x) < 709."""
     grown = expm1(np.abs(x))
     return np.copysign(0.5 * (grown + grown / (1.0 + grown)), x)
 
 
-def cosh(x):
+def cosh(x: Real) -> Real:
     """Return the hyperbolic cosine, with an error below 1.5 ulp, for abs(x) < 709."""
     grown = exp(np.abs(x))
     return 0.5 * (grown + 1.0 / grown)
 
 
 def _reduced_log(x):
-    """Return f and the integer k, as a float, of x = (1 + f) 2^k; 1 + f is within sqrt(2) of 1."""
+    """Return f and an integer k, as a float, with x = (1 + f) 2^k and 1/2 <= (1 + f)^2 < 2."""
     mantissa, k = np.frexp(x)
     small = mantissa < np.sqrt(0.5)
     return np.where(small, 2.0 * mantissa, mantissa) - 1.0, k - np.where(small, 1.0, 0.0)
 
 
 def _where_positive(x, value):
-    """Return `value` where x is positive and finite, and elsewhere the limit of a logarithm."""
+    """Return `value` where x is positive and finite; elsewhere -inf, inf or NaN, as log(x) is."""
     limit = np.where(x == 0.0, -np.inf, np.where(x == np.inf, np.inf, np.nan))
     return np.where((x > 0.0) & (x < np.inf), value, limit)[()]
 
 
-def log(x):
-    """Return the natural logarithm, with an error below 1 ulp; -inf at 0, NaN below."""
+def log(x: Real) -> Real:
+    """Return the natural logarithm, with an error below 1 ulp; -inf at 0, NaN for x < 0."""
     x = np.asarray(x, dtype=float)
     f, k = _reduced_log(np.where((x > 0.0) & (x < np.inf), x, 1.0))
     s = f / (2.0 + f)
@@ -122,7 +125,7 @@ def log(x):
 
 
 def _log_pair(x):
-    """Return log(x), x > 0 and finite, as a sum of two numbers that has some 60 bits."""
+    """Return log(x) for finite x > 0 as an unevaluated sum of two numbers, to about 60 bits."""
     f, k = _reduced_log(x)
     sum_high, sum_low = _sum(2.0, f)
     s = f / sum_high
@@ -133,8 +136,8 @@ def _log_pair(x):
     return _sum(high, low)
 
 
-def power(x, y):
-    """Return x^y for 0 < x < inf, with an error below 1 ulp where the result is a normal number."""
+def power(x: Real, y: Real) -> Real:
+    """Return x^y for 0 < x < inf, with an error below 1 ulp if the result is a normal number."""
     high, low = _log_pair(np.asarray(x, dtype=float))
     product_high, product_low = _product(np.asarray(y, dtype=float), high)
     t, k = _reduced_exp(product_high, product_low + y * low)
@@ -143,9 +146,9 @@ def power(x, y):
 
 
 def geometric(start: float, stop: float, count: int) -> np.ndarray:
-    """Return `count` >= 2 numbers in a geometric series from `start` to `stop`, both positive.
+    """Return `count` >= 2 numbers in geometric progression from `start` to `stop`, both positive.
 
-    Each is the double next to the exact one, by decimal arithmetic of 40 digits.
+    Each is the exact value rounded to a double: they are computed with 40 decimal digits.
     """
     with localcontext() as context:
         context.prec = 40
@@ -156,9 +159,9 @@ def geometric(start: float, stop: float, count: int) -> np.ndarray:
 
 
 def fifth_root(x: float) -> float:
-    """Return x^(1/5) of one number x > 0, with an error below 1 ulp; 0, inf and NaN stay.
+    """Return x^(1/5) of one number x >= 0, with an error below 1 ulp; 0, inf and NaN are unchanged.
 
-    Kernels compile it: it takes branches and so no arrays.
+    Kernels compile it. It branches on x and therefore takes no arrays.
     """
     if not 0.0 < x < np.inf:
         return x
@@ -168,30 +171,30 @@ def fifth_root(x: float) -> float:
     while x < 1.0:
         x, scale = x * 32.0, scale * 0.5
     root = 0.916 + x * (0.1145 + x * (0.0000868 * x - 0.00525))  # within 3 %
-    for _ in range(2):  # by Halley's method: an error of e becomes 2 e^3
+    for _ in range(2):  # Halley's method: a relative error e becomes 2 e^3
         fifth = root * root * root * root * root
         root *= (2.0 * fifth + 3.0 * x) / (3.0 * fifth + 2.0 * x)
-    root += 0.2 * (x / (root * root * root * root) - root)  # by Newton's, for the last bits
+    root += 0.2 * (x / (root * root * root * root) - root)  # Newton's method, for the last bits
     return root * scale
 
 
 # --- Sines and cosines --------------------------------------------------------------------------
 
 
-def sine_less_angle(x, low=0.0):
-    """Return sin(x + low) - x for abs(x) <= 1 and a tiny `low`; also for kernels."""
+def sine_less_angle(x: Real, low: Real = 0.0) -> Real:
+    """Return sin(x + low) - x for abs(x) <= 1 and `low` below an ulp of x; also for kernels."""
     z = x * x
     far = S9 + z * (S11 + z * (S13 + z * (S15 + S17 * z)))
     return x * z * (S3 + z * (S5 + z * (S7 + z * far))) + low * (1.0 - 0.5 * z)
 
 
-def sine_near_zero(x, low=0.0):
-    """Return sin(x + low) for abs(x) <= 1 and a tiny `low`."""
+def sine_near_zero(x: Real, low: Real = 0.0) -> Real:
+    """Return sin(x + low) for abs(x) <= 1 and `low` below an ulp of x."""
     return x + sine_less_angle(x, low)
 
 
-def cosine_near_zero(x, low=0.0):
-    """Return cos(x + low) for abs(x) <= 1 and a tiny `low`; also for kernels."""
+def cosine_near_zero(x: Real, low: Real = 0.0) -> Real:
+    """Return cos(x + low) for abs(x) <= 1 and `low` below an ulp of x; also for kernels."""
     z = x * x
     far = C10 + z * (C12 + z * (C14 + z * (C16 + C18 * z)))
     curved = z * z * (C4 + z * (C6 + z * (C8 + z * far)))
@@ -200,7 +203,7 @@ def cosine_near_zero(x, low=0.0):
     return rounded + (((1.0 - rounded) - half) + (curved - x * low))
 
 
-def sine_and_cosine(x):
+def sine_and_cosine(x: Real) -> tuple[Real, Real]:
     """Return sin(x) and cos(x), with errors below 1 ulp, for abs(x) < 1.6e6; else NaN."""
     x = np.asarray(x, dtype=float)
     x = np.where(np.abs(x) < 1.6e6, x, np.nan)
@@ -217,12 +220,12 @@ def sine_and_cosine(x):
     )
 
 
-def sin(x):
+def sin(x: Real) -> Real:
     """Return the sine, with an error below 1 ulp, for abs(x) < 1.6e6; else NaN."""
     return sine_and_cosine(x)[0]
 
 
-def cos(x):
+def cos(x: Real) -> Real:
     """Return the cosine, with an error below 1 ulp, for abs(x) < 1.6e6; else NaN."""
     return sine_and_cosine(x)[1]
 
@@ -230,32 +233,32 @@ def cos(x):
 # --- Complex numbers ----------------------------------------------------------------------------
 
 
-def complex_of(real, imaginary):
-    """Return real + i imaginary, without a product that could be fused."""
+def complex_of(real: Real, imaginary: Real) -> Complex:
+    """Return real + i imaginary, without a product with i, which some processors would fuse."""
     pair = np.empty(np.broadcast_shapes(np.shape(real), np.shape(imaginary)), complex)
     pair.real, pair.imag = real, imaginary
     return pair[()]
 
 
-def product(a, b):
-    """Return the product of complex numbers or arrays; a sum of two products each part."""
+def product(a: Complex, b: Complex) -> Complex:
+    """Return the product a b of complex numbers or arrays, in real arithmetic without fusing."""
     a, b = np.asarray(a), np.asarray(b)
     return complex_of(a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real)
 
 
-def square_modulus(z):
+def square_modulus(z: Complex) -> Real:
     """Return abs(z)^2."""
     z = np.asarray(z)
     return z.real * z.real + z.imag * z.imag
 
 
-def quotient(a, b):
-    """Return the quotient of complex numbers or arrays, by the product with conj(b)."""
+def quotient(a: Complex, b: Complex) -> Complex:
+    """Return the quotient a / b of complex numbers or arrays, as a conj(b) / abs(b)^2."""
     return product(a, np.conj(b)) / square_modulus(b)
 
 
-def square_root(z):
-    """Return the square root with a real part of at least zero; not accurate near z = 0."""
+def square_root(z: Complex) -> Complex:
+    """Return the square root of z with a nonnegative real part; inaccurate near z = 0."""
     z = np.asarray(z)
     size = modulus(z)
     small = np.sqrt(0.5 * (size + np.abs(z.real)))
@@ -265,8 +268,11 @@ def square_root(z):
     return complex_of(np.where(ahead, small, other_part), imaginary)
 
 
-def modulus(z):
-    """Return abs(z), with an error of 1 ulp; a power of two keeps squares within range."""
+def modulus(z: Complex) -> Real:
+    """Return abs(z), with an error of 1 ulp.
+
+    z is scaled by a power of two, because its squares could overflow or vanish.
+    """
     z = np.asarray(z)
     largest = np.maximum(np.abs(z.real), np.abs(z.imag))
     k = np.frexp(np.where(np.isfinite(largest), largest, 1.0))[1]
@@ -274,7 +280,7 @@ def modulus(z):
     return np.ldexp(np.sqrt(real * real + imaginary * imaginary), k)
 
 
-def turn(angle):
+def turn(angle: Real) -> Complex:
     """Return exp(i angle) for abs(angle) < 1.6e6; else NaN."""
     sine, cosine = sine_and_cosine(angle)
     return complex_of(cosine, sine)

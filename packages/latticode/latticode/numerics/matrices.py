@@ -1,12 +1,15 @@
 """Products of small matrices that have the same bits on every machine.
 
-BLAS chooses the order of its sums by the processor. Here every sum has one order. The matrices have
-tens of rows, so that speed is not missed.
+BLAS chooses the order of its sums by the processor. Here the order is fixed. The matrices have only
+tens of rows, for which the speed of BLAS does not matter.
 """
 
 import numpy as np
 
 
 def times(matrix: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Return `matrix` (..., m, n) times the vectors `x` (..., n), one real and one of any kind."""
+    """Return `matrix` (..., m, n) times the vectors `x` (..., n), shape (..., m).
+
+    At least one of them must be real: a product of complex numbers may be fused.
+    """
     return np.sum(matrix * x[..., None, :], axis=-1)
