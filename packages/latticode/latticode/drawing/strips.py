@@ -67,7 +67,8 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
     for axes, name in zip(named.flat, len(named) * list(NORMS), strict=True):
         axes.set_ylabel(f"{NORMS[name]} norm{style.name_units(case[f'{strips[0].prefix}{name}'])}")
     for axes, name in zip(grid[0], NORMS, strict=True):
-        names_shown = [f"{strip.prefix}{name}" for strip in strips]
+        prefixes = {prefix for s in strips for prefix in (s.prefix, s.under or s.prefix)}
+        names_shown = [f"{prefix}{name}" for prefix in prefixes]
         top = max(float(case[curves].max()) for curves in names_shown)
         axes.set_ylim(0, HEADROOM * top or 1.0)  # a chain at rest has no scale of its own
         axes.set_xlim(0, float(case[name].dropna("tau", how="all")["tau"].max()))

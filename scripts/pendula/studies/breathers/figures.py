@@ -21,7 +21,8 @@ at least 25 % of the range from black to white apart in grey."""
 KINDS = tuple(LOOKS)
 COLOURS = ListedColormap([*LOOKS.values()], name="fates")
 
-MARK = {"marker": "o", "markersize": 5, "color": "black", "markerfacecolor": "#d62728"}
+MARK = {"marker": "o", "markersize": 5, "color": "black", "markerfacecolor": "white"}
+"""White in a black rim, which is seen on every fate with any colour vision."""
 SAME_RUNS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "solver_rtol")
 """Attributes that two maps must share to be of the same runs."""
 OF_PAPER = ((1.0, 0.1), (5.0, 1.0))

@@ -7,6 +7,8 @@ from matplotlib.figure import Figure
 from replication.variables import CHAOTIC
 
 MARKS = "osD^vPX*"
+COLOURS, LIGHTEST = colormaps["inferno"], 0.67
+"""From dark to light, up to where a curve would be too pale on white paper."""
 WIDTH_STEP = 0.6
 """In points: each curve is this much wider than the next one, which may cover it."""
 LIMIT_SPACING = 0.025
@@ -31,7 +33,7 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
     figure = style.new_figure(style.WIDTH, 2.5)
     axes, count, tau = figure.subplots(), data.sizes["mu"], data["tau"].values
     for i, mu in enumerate(data["mu"].values):
-        at_mu, colour = data.isel(mu=i), colormaps["viridis"](0.95 * i / max(1, count - 1))
+        at_mu, colour = data.isel(mu=i), COLOURS(LIGHTEST * i / max(1, count - 1))
         width = 1.2 + WIDTH_STEP * (count - 1 - i)
         axes.step(tau, at_mu["passed"], where="post", lw=width, color=colour)
         last, low, high = (

@@ -23,8 +23,8 @@ MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
 NORMS_CAPTION = (
     "Norms of A (red) and of B (blue) against τ: ℓ∞ on the left and ℓ² on the right, small initial "
-    "amplitudes above and large ones below. A wide pale line below a curve is the multiprecision "
-    "reference, where both agree to the end."
+    "amplitudes above and large ones below. A wide pale line under a curve is the multiprecision "
+    "reference."
 )
 PARTS_CAPTION = (
     " A dashed line marks the time from which a run differs from its reference by "
@@ -108,8 +108,8 @@ def _share(banded: xr.Dataset) -> str:
 def draw_norms(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, small data above and large below, A red and B blue.
 
-    If a run diverges from its reference, a strip below it shows the ensemble, and a dashed line the
-    divergence time. Otherwise the reference is drawn under the run.
+    The reference is drawn under the run. If they diverge, a dashed line marks the time, and a strip
+    below shows the ensemble.
     """
     cases = [data.sel(initial_size=size) for size in data["initial_size"].values]
     figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
@@ -124,12 +124,10 @@ def draw_norms(data: xr.Dataset) -> Figure:
 
 def _strips(case: xr.Dataset) -> list[Strip]:
     run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
-    if case["true_l2"].notnull().any() and not strips.diverges(case):
-        return [Strip("", run, under="true_")]
-    strips_of_case = [Strip("", run)]
-    if "band_l2" in case:
+    strips_of_case = [Strip("", run, under="true_" if case["true_l2"].notnull().any() else "")]
+    if strips.diverges(case) and "band_l2" in case:
         strips_of_case.append(
-            Strip("band_", f"{int(case['members'])} perturbed runs: median, {_share(case)}")
+            Strip("band_", f"{int(case['members'])} perturbed runs: median and {_share(case)} band")
         )
     return strips_of_case
 

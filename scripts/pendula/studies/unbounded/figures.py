@@ -29,7 +29,7 @@ BAND_ALPHA = 0.3
 FIRST_TAU, POINTS = 10.0, 120
 BAND = ("lowest", "mean", "highest")
 GROWTH_CAPTION = (
-    "The infinite chain against τ. (a): the square of the ℓ² norm divided by τ. (b): the ℓ∞ norm. "
+    "The infinite chain against τ. (a): the square of the ℓ² norm. (b): the ℓ∞ norm. "
     "(c): the square of the ℓ² norm over the law, where its states were solved. "
     "The dashed law follows from the thermal states behind the two fronts and the speeds of these. "
     "Bands reach from the lowest to the highest run of an ensemble."
@@ -67,28 +67,28 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2^2 / tau with its law, l-infinity, and l2^2 over its law on a scale of its own."""
+    """Draw l2^2 with its law, l-infinity, and l2^2 over its law on a scale of its own."""
     figure = style.new_figure(style.WIDTH, 2.4)
-    rate, linf, ratio = figure.subplots(1, 3, sharex=True)
+    square, linf, ratio = figure.subplots(1, 3, sharex=True)
     for case in data["case"].values:
         case_data, look = data.sel(case=case), LOOKS[str(case)]
         tau = case_data["tau"]
-        _draw_band(rate, tau, case_data["l2"] ** 2 / tau, look, name_case(case_data))
-        rate.plot(tau, case_data["law"] / tau, **LAW)
+        _draw_band(square, tau, case_data["l2"] ** 2, look, name_case(case_data))
+        square.plot(tau, case_data["law"], **LAW)
         _draw_band(linf, tau, case_data["linf"], look)
         if case_data["law"].notnull().any():
             _draw_band(ratio, tau, case_data["l2"] ** 2 / case_data["law"], look)
     ratio.axhline(1.0, **LAW)
-    rate.set_yscale("log")
-    rate.set_xscale("log")
+    square.set_yscale("log")
+    square.set_xscale("log")
     linf.set_ylim(bottom=0)
-    rate.set_ylabel(r"squared $\ell^2$ norm / $\tau$")
+    square.set_ylabel(r"squared $\ell^2$ norm")
     ratio.set_ylabel(r"squared $\ell^2$ norm / law")
     linf.set_ylabel(rf"{panels.NORMS['linf']} norm")
-    for axes, letter in ((rate, "a"), (linf, "b"), (ratio, "c")):
+    for axes, letter in ((square, "a"), (linf, "b"), (ratio, "c")):
         axes.set_title(f"({letter})", loc="left")
         axes.set_xlabel(r"$\tau$")
-    handles, labels = rate.get_legend_handles_labels()
+    handles, labels = square.get_legend_handles_labels()
     bands = tuple(Patch(color=LOOKS[case]["color"], alpha=BAND_ALPHA, lw=0) for case in CHAOTIC)
     handles += [Line2D([], [], **LAW), bands]
     labels += ["law in the text", "range of the ensemble"]
