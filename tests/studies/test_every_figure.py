@@ -13,7 +13,7 @@ from accepted import BASELINE, changed, check_words, dataset, datasets, differin
 from accepted_figures import FIGURES
 from helpers import skip
 from latticode.datasets.netcdf import read, save
-from latticode.drawing import runs, style
+from latticode.drawing import runs, strips, style
 from latticode.drawing.description import describe
 from latticode.drawing.panels import BAR, OFFSET, SIZES
 from matplotlib.colors import to_rgb
@@ -219,13 +219,49 @@ def test_a_label_of_six_points_and_a_figure_wider_than_the_text_are_found():
 
 def test_the_fates_stay_apart_in_grey():
     """A quarter of the way from black to white lies between them, by the lightness of CIE 1976."""
-    shades = np.array([to_rgb(colour) for colour in LOOKS.values()])
-    linear = np.where(shades > 0.04045, ((shades + 0.055) / 1.055) ** 2.4, shades / 12.92)
-    light = np.sort(116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16)
+    light = np.sort(116 * np.cbrt([luminance(colour) for colour in LOOKS.values()]) - 16)
     assert np.diff(light).min() > 25
 
 
+def luminance(colour) -> float:
+    """Return the relative luminance of a colour, from 0 for black to 1 for white (WCAG 2)."""
+    shades = np.array(to_rgb(colour))
+    linear = np.where(shades > 0.04045, ((shades + 0.055) / 1.055) ** 2.4, shades / 12.92)
+    return float(linear @ [0.2126, 0.7152, 0.0722])
+
+
+def contrast(first, second) -> float:
+    """Return the contrast of two colours, from 1 to 21 (WCAG 2)."""
+    dark, light = sorted(map(luminance, (first, second)))
+    return (light + 0.05) / (dark + 0.05)
+
+
 # --- What single figures show -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("fate", LOOKS)
+def test_marks_on_the_map_of_fates_are_seen_on_every_fate(fate):
+    """By their lightness, which people with any colour vision see: the rim or what it encloses."""
+    mark = drawn("fates").axes[0].lines[0]
+    parts = mark.get_markerfacecolor(), mark.get_markeredgecolor()
+    assert max(contrast(LOOKS[fate], colour) for colour in parts) > 4.5
+
+
+def test_every_curve_of_pendula_over_the_top_is_seen_on_white():
+    (axes,) = drawn("pendula_over_the_top").axes
+    curves = [line for line in axes.lines if line.get_drawstyle() == "steps-post"]
+    assert min(contrast(line.get_color(), "white") for line in curves) > 3.0
+
+
+@pytest.mark.parametrize("name", ["fig2", "fig3", "fig4"])
+def test_the_reference_lies_under_each_run_to_its_end(name):
+    shown = dataset(f"figures/{name}")
+    widths = {strips.UNDER["lw"]}
+    under = [line for axes in drawn(name).axes for line in axes.lines if line.get_lw() in widths]
+    assert len(under) == 8  # two cases, two norms, and A and B
+    for size in shown["initial_size"].values:
+        true = shown["true_l2"].sel(initial_size=size, component="A").dropna("tau")
+        assert any(np.array_equal(line.get_ydata(), true) for line in under)
 
 
 def drawn(name: str) -> Figure:

@@ -74,6 +74,17 @@ def test_another_workflow_uses_this_one_as_a_module_to_the_same_bytes(full_run, 
     assert (tmp_path / "elsewhere/results/logs/figures/fig1.log").exists()
 
 
+def test_the_page_of_snakemake_has_each_figure_with_its_caption_and_each_dataset(finished):
+    page = finished / "page.html"
+    ended = snakemake(ROOT, finished, "--report", str(page), "fig2", "stability_chart")
+    assert ended.returncode == 0, ended.stderr
+    text = page.read_text()
+    assert "fig2: Norms of A (red) and of B (blue)" in text
+    assert "fig2_small: Norms and energy of fig2_small against time" in text
+    assert "chart: Growth rates on 21 sites" in text
+    assert "Drawn by" in text and "Computed by" in text
+
+
 def test_a_deleted_file_is_made_again_and_nothing_else(finished):
     (finished / "results/figures/fig5.pdf").unlink()
     assert planned(ROOT, finished, "figures") == {"norms_by_half_width": 1, "figures": 1}

@@ -29,7 +29,7 @@ rule job:
 rule dataset:
     "Base of a job that computes a dataset: the function returns what to write"
     output:
-        "<results>/<made>.nc",
+        dataset_outputs("<results>/<made>.nc"),
     log:
         "<logs>/<made>.log",
     pathvars:

@@ -25,7 +25,7 @@ from pendula.configuration.paper import concerning, constants_differ, difference
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.contract.arguments import name_of
 from pendula.workflow import files as file_names
-from pendula.workflow import options
+from pendula.workflow import options, report_labels
 from pendula.workflow.code import code_of_jobs, committed, function, script_digest
 from pendula.workflow.failures import Errors, causes_of_failures
 from pendula.workflow.files import (
@@ -160,7 +160,24 @@ def environment(name):
 def figure_outputs(stem):
     """Return the files of a figure as outputs; `snakemake --report` shows the picture."""
     picture, *others = figure_files(stem)
-    return [report(picture, category="Figures"), *others]
+    shown = report(
+        picture,
+        caption="../report/figure.rst",
+        category="Figures",
+        labels=report_labels.label_figure,
+    )
+    return [shown, *others]
+
+
+def dataset_outputs(*paths):
+    """Return the datasets of a rule as outputs; `snakemake --report` lists them by folder."""
+    look = {
+        "caption": "../report/dataset.rst",
+        "category": "Datasets",
+        "subcategory": report_labels.folder_of,
+    }
+    labels = [partial(report_labels.label_dataset, place=place) for place in range(len(paths))]
+    return [report(path, labels=label, **look) for path, label in zip(paths, labels)]
 
 
 def references(*names):

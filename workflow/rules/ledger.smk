@@ -7,17 +7,13 @@ DECIDING = {
 }
 
 
-def datasets_of_part(wildcards):
-    """Return the datasets that the claims of a part of the ledger need."""
-    _, digest = DECIDING[wildcards.part]
-    names = datasets_of_claims(CLAIM_MODULES[wildcards.part], digest)
-    return [f"<results>/{name}.nc" for name in names]
-
-
 use rule job as decide_claims with:
     "A part of the ledger: its claims with their verdicts"
     input:
-        datasets=datasets_of_part,
+        datasets=lambda wildcards: expand(
+            "<results>/{name}.nc",
+            name=datasets_of_claims(CLAIM_MODULES[wildcards.part], DECIDING[wildcards.part][1]),
+        ),
     output:
         part="<results>/claims/{part}.json",
     pathvars:

@@ -126,7 +126,7 @@ use rule dataset as measure_solvers with:
     input:
         kernels(*(name for name in COMPILED if name != "dop853")),
     output:
-        checks("solvers", "trust"),
+        dataset_outputs(*checks("solvers", "trust")),
     pathvars:
         made="checks/solvers",
     priority: 1  # with all that it needs, because the ledger waits for it

@@ -14,7 +14,7 @@ use rule dataset as check_theory with:
     input:
         kernels("taylor", "dop853"),
     output:
-        checks(*THEORY_CHECKS),
+        dataset_outputs(*checks(*THEORY_CHECKS)),
     pathvars:
         made="checks/theory",
     params:

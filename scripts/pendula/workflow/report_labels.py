@@ -1,0 +1,31 @@
+"""What `snakemake --report` writes beside each figure and dataset, from the files themselves.
+
+Each has one label: of two results, the page would show a second label as a switch, and go blank.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+
+def folder_of(wildcards: Any, output: Sequence[str]) -> str:
+    """Return the folder of a figure or dataset, under which the report lists it."""
+    return Path(output[0]).parent.name
+
+
+def label_figure(wildcards: Any, output: Sequence[str]) -> dict[str, str]:
+    """Return the name of a figure with its caption, which its dataset holds."""
+    (shown,) = (path for path in output if path.endswith(".nc"))
+    return {"figure": f"{Path(shown).stem}: {_attributes_of(shown)['caption']}"}
+
+
+def label_dataset(wildcards: Any, output: Sequence[str], place: int = 0) -> dict[str, str]:
+    """Return the name with the title of the dataset at a place among the outputs of a job."""
+    path = output[place]
+    return {"dataset": f"{Path(path).stem}: {_attributes_of(path)['title']}"}
+
+
+def _attributes_of(path: str) -> dict[str, str]:
+    from latticode.datasets.netcdf import read  # here: only a report needs xarray
+
+    return read(path).attrs
