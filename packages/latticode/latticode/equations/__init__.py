@@ -1,5 +1,6 @@
-"""What a person writes of a model, and the graph that it becomes.
+"""Models of lattices: equations written in Python, traced into a graph of operations.
 
-`model` traces a function of the fields with `symbols`, whose operations make a `graph`;
-`model_file` runs the file of a model, and `ends` has the boundary conditions.
+`model` calls the equations with `symbols`, whose operations build a `graph`. `model_file` runs the
+file of a model, `ends` defines the boundary conditions, `couplings` the matrices between sites, and
+`initial_values` the problem to be integrated.
 """

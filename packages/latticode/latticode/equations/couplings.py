@@ -1,8 +1,8 @@
-"""Matrices that couple the sites of a chain: what a person gives, and how it is passed on.
+"""Matrices that couple the sites of a chain, converted to plain values.
 
-A matrix is passed on as plain values, {"sites": N, "rows": [...], "columns": [...], "weights":
-[...]}, its entries but for zeros in the order of rows and then of columns. So sums over them have
-one order, and with it the same bits, whatever form the matrix was given in.
+A matrix becomes {"sites": N, "rows": [...], "columns": [...], "weights": [...]}: its nonzero
+entries, sorted by row and then by column. Sums over a row therefore have one order and the same
+bits for every input format.
 """
 
 from collections.abc import Mapping
@@ -13,14 +13,15 @@ import numpy as np
 from .model_file import call_on_sites, chain_sites
 
 Entries = Mapping[str, Any]
-"""A matrix as plain values."""
+"""A matrix as plain values, with the keys sites, rows, columns and weights."""
 
 
 def entries_of(matrix: Any, sites: range) -> Entries:
-    """Return the entries of an N x N matrix of the sites of a chain.
+    """Return the nonzero entries of an N x N matrix that couples the sites of a chain.
 
-    `matrix` is an array or nested lists, a matrix of scipy.sparse, a function of the array of sites
-    that returns either, or entries. Raises ValueError with what is wrong, to stand behind its name.
+    `matrix` is an array, nested lists, a matrix of scipy.sparse, a function of the array of sites
+    that returns any of these, or `Entries`. Raises ValueError for any other shape or type and for
+    values that are not finite; the message completes "parameter W ...".
     """
     if callable(matrix):
         matrix = call_on_sites(matrix, np.array(sites))
@@ -47,7 +48,7 @@ def _nonzero(matrix: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarra
     """Return the rows, columns and values of a matrix where it is not zero."""
     if hasattr(matrix, "tocoo"):
         _require_sites(matrix.shape, count)
-        sparse = matrix.tocsr().tocoo()  # which adds up entries that are given twice
+        sparse = matrix.tocsr().tocoo()  # tocsr() adds up duplicate entries
         rows, columns, weights = sparse.row, sparse.col, sparse.data
     else:
         try:
@@ -59,8 +60,8 @@ def _nonzero(matrix: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarra
         weights = matrix[rows, columns]
     if weights.dtype.kind not in "iufb":
         kind = "complex" if weights.dtype.kind == "c" else "no numbers"
-        hint = "; couple its real and its imaginary part by a matrix each" * (kind == "complex")
-        raise ValueError(f"is a matrix of {kind}, and couple takes real ones{hint}")
+        hint = "; give its real and imaginary parts as two matrices" * (kind == "complex")
+        raise ValueError(f"is a matrix of {kind}, but couple takes real numbers{hint}")
     return rows, columns, weights
 
 
@@ -71,7 +72,7 @@ def _require_sites(shape: tuple[int, ...], count: int) -> None:
 
 
 def at_middle(values: Any, half_width: int) -> Any:
-    """Return the values of a parameter on the sites -M..M in the middle of a longer chain."""
+    """Return the values of a parameter on the middle sites -M..M of a longer chain."""
     if isinstance(values, Mapping):
         return _middle_of(values, half_width)
     if np.ndim(values) == 0:
@@ -81,7 +82,7 @@ def at_middle(values: Any, half_width: int) -> Any:
 
 
 def _middle_of(entries: Entries, half_width: int) -> Entries:
-    """Return the entries on the sites -M..M in the middle of a longer chain."""
+    """Return the entries whose row and column lie on the middle sites -M..M of a longer chain."""
     margin, count = entries["sites"] // 2 - half_width, len(chain_sites(half_width))
     rows, columns = (np.array(entries[name], int) - margin for name in ("rows", "columns"))
     inside = (rows >= 0) & (rows < count) & (columns >= 0) & (columns < count)
@@ -94,7 +95,7 @@ def _middle_of(entries: Entries, half_width: int) -> Entries:
 
 
 def largest_row_sum(entries: Entries) -> float:
-    """Return the largest sum of the magnitudes in a row: the matrix enlarges nothing by more."""
+    """Return the largest row sum of magnitudes, the norm of the matrix induced by the max norm."""
     weights = np.abs(np.array(entries["weights"], float))
     sums = np.bincount(np.array(entries["rows"], int), weights, minlength=1)
     return float(sums.max())

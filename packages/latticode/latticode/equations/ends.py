@@ -1,7 +1,7 @@
-"""The ends of a chain, in one table: what lies beyond them, the modes between them, their names.
+"""Boundary conditions of a chain in one table: neighbours beyond the ends, modes and names.
 
-Whatever depends on the ends of a chain reads this table. So ends that are not in it are refused
-wherever they are named, and those that a reader has not been taught cannot pass for others.
+All code that depends on the ends of a chain reads this table and raises ValueError for ends that
+it does not know.
 """
 
 from collections.abc import Callable
@@ -13,14 +13,15 @@ from latticode.numerics import elementary
 
 
 class Ends(NamedTuple):
-    """One kind of ends.
+    """One boundary condition at both ends of a chain.
 
-    `sees` gives the sites, counted as Python does, whose values stand beyond the first site and
-    beyond the last, each times `factor`; nothing where sites at rest stand there. Farther beyond a
-    free end come the sites before the last one, as in a mirror between two sites.
+    `sees` holds the indices (first, last) of the sites whose values, times `factor`, replace the
+    missing neighbours of the first and of the last site; None means neighbours at rest. Beyond a
+    free end the chain continues as its mirror image, with the mirror half a site beyond the end.
 
-    Mode k of N sites has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian, and
-    mode(k, j, N) are its values on the sites j, orthonormal. `label` is in the titles of figures.
+    Mode k of N sites has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian;
+    mode(k, j, N) returns its values on the sites j, and the modes are orthonormal. `label` is
+    printed in the titles of figures.
     """
 
     sees: tuple[int, int] | None
@@ -31,7 +32,7 @@ class Ends(NamedTuple):
 
 
 def _sine(k, j, sites: int):
-    # angles are reduced to one turn in whole numbers, so that long chains lose no digits
+    # Angles are reduced to one turn in integers: on long chains this loses no digits.
     turns = (k + 1) * (j + 1) % (2 * (sites + 1)) / (2 * (sites + 1))
     return np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns)
 
@@ -43,14 +44,14 @@ def _cosine(k, j, sites: int):
 
 
 def _wave(k, j, sites: int):
-    # on a ring, cos + sin serves both waves of a pair
+    # cos + sin gives real modes: k and N - k are the two waves of one wavelength
     turns = k * j % sites / sites
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
     return np.sqrt(1 / sites) * (cosine + sine)
 
 
 def _half_wave(k, j, sites: int):
-    # with a half turn more along the ring
+    # half a turn more along the ring changes the sign once around it
     turns = (2 * k + 1) * j % (2 * sites) / (2 * sites)
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
     return np.sqrt(1 / sites) * (cosine + sine)
@@ -83,23 +84,26 @@ ENDS = {
         factor=-1.0,
     ),
 }
-"""The kinds of ends that a person can choose, by the name in the configuration."""
+"""The boundary conditions that a case can choose, by their names in the configuration."""
 
 
 def ends_of(boundary: str) -> Ends:
-    """Return the ends of that name; raises ValueError where there are none."""
+    """Return the boundary condition named `boundary`; raises ValueError for an unknown name."""
     if boundary not in ENDS:
         raise ValueError(f"there are no ends {boundary!r}; there are {', '.join(ENDS)}")
     return ENDS[boundary]
 
 
 DIRICHLET, FREE, PERIODIC, MIRROR, ANTIPERIODIC = range(5)
-"""What kernels have been taught: beyond an end is a site at rest, none, or the other end; in the
-middle of an even chain is its other half; of the last kind, the other end with its sign changed."""
+"""The boundary conditions that kernels implement. The neighbour beyond an end is at rest, absent,
+or the opposite end (of opposite sign if antiperiodic); MIRROR is site 0 of half an even chain."""
 
 
 def kind_of(boundary: str) -> int:
-    """Return the kind of the ends of that name; raises ValueError where it is none of the above."""
+    """Return the number under which kernels know the ends named `boundary`.
+
+    Raises ValueError for ends that no kernel implements.
+    """
     kinds = {
         (None, 1.0): DIRICHLET,
         ((0, -1), 1.0): FREE,
@@ -109,7 +113,7 @@ def kind_of(boundary: str) -> int:
     ends = ends_of(boundary)
     if (ends.sees, ends.factor) not in kinds:
         seen = f"the sites {ends.sees}" + ("" if ends.factor == 1.0 else f", times {ends.factor:g}")
-        raise ValueError(f"the ends {boundary!r} see {seen}, which no equations know yet")
+        raise ValueError(f"the ends {boundary!r} see {seen}, which no kernel implements")
     return kinds[ends.sees, ends.factor]
 
 
@@ -120,6 +124,6 @@ def neighbours(values: np.ndarray, boundary: str) -> tuple[np.ndarray, np.ndarra
     ends = ends_of(boundary)
     if ends.sees:
         left[..., 0], right[..., -1] = (values[..., place] for place in ends.sees)
-    if ends.factor < 0.0:  # numbers may be of any kind, exact ones too
+    if ends.factor < 0.0:  # a change of sign, unlike a product with -1.0, keeps exact numbers exact
         left[..., 0], right[..., -1] = -left[..., 0], -right[..., -1]
     return right, left

@@ -1,8 +1,8 @@
-"""Real expressions at each site of a lattice as a graph in which equal nodes are one.
+"""Real expressions at each site of a lattice as a graph that stores equal nodes only once.
 
-The functions that build a node keep the order of operations as it is written, and simplify only
-what changes no bit: signs and doublings move outwards through products and sums, constants are
-computed, and a sum with zero is no operation.
+The functions that build nodes keep the order of operations as written. They simplify only where no
+bit changes: signs and factors of 2 move outwards through products and sums, constants are folded,
+and zero terms are dropped.
 """
 
 from collections.abc import Callable, Iterable
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 CONSTANT, CLOCK, MOTION = range(3)
-"""What a node depends on: parameters alone, the time, or the fields."""
+"""Levels of a node: it depends on parameters only, also on time, or also on fields."""
 LEAVES = {
     "number": CONSTANT,
     "parameter": CONSTANT,
@@ -22,18 +22,18 @@ LEAVES = {
     "carried": MOTION,
     "matrix": MOTION,
 }
-"""The operations that have no operands, and what they depend on."""
+"""The operations without operands, with their levels."""
 
 
 class Node:
-    """A real number at each site: an operation, and nodes or what names a leaf.
+    """A real number at each site: an operation with its operands, or a leaf with its name.
 
-    Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, part,
-    shift), and ("clock", name): a function of the time that the system has by its name. The others
-    are add, sub, neg, mul, div, sin, cos, exp, log, sqrt, ("couple", ("matrix", name), a), which is
-    a matrix of the sites times a, and ("where", c, a, b), which is a where
-    c is above zero and b elsewhere. Power series have one leaf more, ("carried", i), and
-    halves of squares, see latticode.generation.series_graph.
+    Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, re_im,
+    shift), ("matrix", name), and ("clock", name), a function of time that the system stores under
+    this name. Operations are add, sub, neg, mul, div, sin, cos, exp, log, sqrt; ("couple", matrix,
+    a) is the matrix times a over all sites, and ("where", c, a, b) is a where c > 0 and b
+    elsewhere. Power series add the leaf ("carried", i) and halves of squares: see
+    latticode.generation.series_graph.
     """
 
     def __init__(self, operation: str, *operands):
@@ -41,7 +41,7 @@ class Node:
 
     @property
     def inputs(self) -> tuple["Node", ...]:
-        """The nodes that it is made of."""
+        """The operands that are nodes; none for a leaf."""
         return () if self.operation in LEAVES else self.operands
 
     @cached_property
@@ -52,7 +52,7 @@ class Node:
 
     @cached_property
     def reach(self) -> int:
-        """How many sites away its farthest leaf is."""
+        """The distance in sites from n to the farthest leaf."""
         leaf_reach = abs(self.operands[-1]) if self.operation in ("field", "parameter") else 0
         return max((entry.reach for entry in self.inputs), default=leaf_reach)
 
@@ -67,7 +67,7 @@ def number(x: float) -> Node:
 
 
 def leaf(component: int, re_im: int, by: int = 0) -> Node:
-    """Return the node of a row of a field, at the site n + `by`."""
+    """Return the node of the real (0) or imaginary (1) part of a field at the site n + `by`."""
     return node("field", component, re_im, by)
 
 
@@ -82,7 +82,7 @@ def is_number(a: Node) -> bool:
 
 
 def is_doubled(a: Node) -> bool:
-    """Return whether a node is twice another."""
+    """Return whether a node is a product with 2."""
     return a.operation == "mul" and a.operands[0] is TWO
 
 
@@ -126,7 +126,7 @@ def sub(a: Node, b: Node) -> Node:
 
 
 def mul(a: Node, b: Node) -> Node:
-    """Return a b; what depends on less comes first."""
+    """Return a b, the factor of the lower level first."""
     if a.level > b.level or (is_number(b) and not is_number(a)):
         a, b = b, a
     if a.operation == "neg":
@@ -151,7 +151,7 @@ def reciprocal(a: Node) -> Node:
 
 
 def div(a: Node, b: Node) -> Node:
-    """Return a / b; by a constant it is a product with its reciprocal."""
+    """Return a / b; if b is a constant, as the product of a with 1 / b."""
     if a is ZERO:
         return a
     return mul(reciprocal(b), a) if b.level == CONSTANT and a is not UNIT else node("div", a, b)
@@ -172,13 +172,13 @@ def where(condition: Node, a: Node, b: Node) -> Node:
 
 
 BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul, "couple": couple}
-"""What makes a node of its operands, where that may simplify it."""
+"""The functions that build, and may simplify, a node from its operands, by operation."""
 
 # --- Walks over a graph -------------------------------------------------------------------------
 
 
 def in_order(nodes: Iterable[Node]) -> list[Node]:
-    """Return the nodes and all that they are made of, each after its operands."""
+    """Return the nodes and all their operands at any depth, each node after its operands."""
     ordered: dict[Node, None] = {}
 
     def visit(entry: Node) -> None:
@@ -193,20 +193,20 @@ def in_order(nodes: Iterable[Node]) -> list[Node]:
 
 
 def leaves_in(nodes: Iterable[Node], operation: str) -> list[Node]:
-    """Return the leaves of a kind that expressions hold."""
+    """Return the leaves of one `operation`, such as "field", in the expressions."""
     return [entry for entry in in_order(nodes) if entry.operation == operation]
 
 
 def switches(nodes: Iterable[Node]) -> bool:
-    """Return whether expressions switch by a condition on the fields or the time."""
+    """Return whether expressions contain a `where` whose condition depends on fields or time."""
     return any(entry.operation == "where" and entry.level > CONSTANT for entry in in_order(nodes))
 
 
 def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | None]) -> list[Node]:
-    """Return the expressions with another node in the place of some.
+    """Return the expressions with some nodes replaced.
 
-    change(node, operands) is given each node and its new operands; where it returns None, the node
-    stays what it is, of these operands.
+    change(node, operands) is called for each node with its new operands. It returns the new node,
+    or None to keep the operation of the old one.
     """
     rebuilt_nodes: dict[Node, Node] = {}
     for entry in in_order(nodes):
@@ -242,11 +242,11 @@ ARITHMETIC = {
 
 
 def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) -> list:
-    """Return the values of nodes, whatever numbers value(leaf) gives for their leaves.
+    """Return the values of the nodes for leaves that have the values value(leaf).
 
-    These may be numbers of any kind that adds and multiplies: arrays, multiprecision reals,
-    integers where no leaf is a fraction. `functions` has sin, cos, exp, log and sqrt of them; what
-    is chosen by a condition is chosen by NumPy.
+    Values may be of any type with arithmetic: arrays, multiprecision numbers, or integers if no
+    constant is a fraction. `functions` provides sin, cos, exp, log and sqrt of this type; `where`
+    is NumPy's.
     """
     leaves, compute = _as_function(tuple(nodes))
     return compute([*map(value, leaves)], functions)
@@ -254,9 +254,10 @@ def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) 
 
 @lru_cache(64)
 def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
-    """Return the leaves of nodes, and the function of their values that returns the nodes'.
+    """Return the leaves of the nodes and the function from leaf values to node values.
 
-    It is written as source code: who evaluates a graph often would spend most time on the walk.
+    The function is compiled from source code, because walking the graph would take most of the
+    time of repeated evaluations.
     """
     order = in_order(nodes)
     names = {entry: f"v{i}" for i, entry in enumerate(order)}
@@ -275,18 +276,18 @@ def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
 
 
 def _times(matrix: Any, values: Any) -> Any:
-    """Return a matrix times values at its sites; of a number in its place, the product."""
+    """Return a matrix times the values at all sites; a scalar `matrix` just multiplies them."""
     if np.ndim(matrix) == 0:
         return matrix * values
     return matrix @ np.broadcast_to(values, matrix.shape[:1])
 
 
 def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[Node]:
-    """Return how expressions change to first order where each leaf changes by change(leaf)."""
+    """Return the first-order change of each expression when each leaf changes by change(leaf)."""
     derivatives: dict[Node, Node] = {}
 
     def of_sum(build: Callable, a: Node, b: Node) -> Node:
-        """A product b = c d at the end of a sum adds c d' to a', and then c' d."""
+        """Return the derivative of a + b or a - b; if b = c d, add c d' and then c' d to a'."""
         if b.operation != "mul" or b.operands[0] is b.operands[1]:
             return build(derivatives[a], derivatives[b])
         c, d = b.operands

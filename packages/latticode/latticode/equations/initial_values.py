@@ -1,8 +1,8 @@
-"""The values of one initial-value problem: model, parameters, chain, data, times and solver.
+"""An initial-value problem: model, parameters, chain, initial data, times and solver.
 
-The configuration makes a `Problem` of a case, the simulation integrates it, datasets describe it by
-their attributes: there is no second form of it. A workflow passes it on as a mapping of plain
-values: `Problem.plain` writes one, `Problem.of` reads it.
+The configuration turns a case into a `Problem`, the simulation integrates it, and datasets record
+it in their attributes. Jobs of a workflow receive it as a mapping of plain values, which
+`Problem.plain` returns and `Problem.of` reads.
 """
 
 import json
@@ -20,24 +20,25 @@ from .model import Model
 from .model_file import chain_sites
 
 STORED_OBSERVABLES = ("norms", "moduli", "state")
-"""What datasets may have of the snapshots: nothing, moduli in single precision, or beside them the
-whole state in double precision."""
+"""What datasets store of the snapshots: nothing, moduli in single precision, or these moduli and
+the full state in double precision."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class InitialValueProblem:
-    """The values of one initial-value problem.
+    """One initial-value problem.
 
-    `parameters` are those of the model, where they differ from its own values. `initial` is
-    complex, of shape (component, 2r + 1): the fields on the sites -r..r at the start; all sites
-    beyond are at rest. `half_width` is M, the chain has the sites -M..M; None stands for an
-    infinite chain. Where there is a `site_count` N, the chain has the sites 0..N-1 instead, and
-    `initial` has the shape (component, N). The run starts at `start_time`. `snapshot_every` keeps
-    each component at every site at each so many outputs; 0 keeps none. `snapshots_at` are numbers
-    of outputs: of those that are kept, these alone. `keep` is a name of KEPT: what datasets have of
-    the snapshots.
+    parameters: values that replace the defaults of the model.
+    initial: complex (component, 2r + 1), the fields on the sites -r..r at the start; sites beyond
+        are at rest. With `site_count`, (component, N).
+    half_width: M of a chain with the sites -M..M; None for an infinite chain.
+    site_count: N of a chain with the sites 0..N-1, in place of `half_width`.
+    start_time, end_time, output_step: times in the unit of the equations.
+    snapshot_every: number of outputs between two snapshots of all fields; 0 for none.
+    snapshots_at: indices of outputs; if not empty, only these are snapshots.
+    keep: one of STORED_OBSERVABLES.
 
-    Raises ValueError where data lie outside the chain, or there are no such ends.
+    Raises ValueError for initial data outside the chain and for unknown names.
     """
 
     model: Model
@@ -75,7 +76,7 @@ class InitialValueProblem:
         object.__setattr__(self, "solver", MappingProxyType(dict(self.solver)))
 
     def _fits(self, columns: int) -> bool:
-        """Return whether data may have so many columns."""
+        """Return whether initial data with this number of columns fit the chain."""
         return columns % 2 == 1 if self.site_count is None else columns == self.site_count
 
     @classmethod
@@ -87,9 +88,9 @@ class InitialValueProblem:
         return cls(**{**values, "initial": initial, "model": model})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond.
+        """Return the problem as plain values; `initial` is {site: (A, B)} of the moving sites.
 
-        The model is its graph, so that no job runs its code again.
+        The model is stored as its graph: jobs need not run the user's code.
         """
         counted = {} if self.site_count is None else {"site_count": self.site_count}
         return {
@@ -109,12 +110,13 @@ class InitialValueProblem:
         }
 
     def changed(self, **changes) -> Self:
-        """Return the problem with other values; parameters of its model are given by name.
+        """Return the problem with some values changed, model parameters by their names.
 
-        On a shorter chain, parameters have the values of the sites in its middle.
+        On a shorter chain, parameters keep their values on the middle sites.
         """
         values = {**self.parameters, **changes.pop("parameters", {})}
-        known = changes.get("model", self.model).parameters or values  # one from its graph has none
+        # a model restored from its graph has no parameters
+        known = changes.get("model", self.model).parameters or values
         values |= {name: changes.pop(name) for name in known if name in changes}
         values = {name: value for name, value in values.items() if name in known}
         half_width = changes.get("half_width")
@@ -124,9 +126,9 @@ class InitialValueProblem:
 
     @cached_property
     def parameter_values(self) -> dict[str, Any]:
-        """The value of each parameter: a number, an array (site,), or entries of a matrix.
+        """The value of each parameter: a number, an array (site,), or the entries of a matrix.
 
-        Raises ValueError with the name of a parameter that has none.
+        Raises ValueError, naming the parameter, if a value does not fit the chain.
         """
         values = {}
         for name, entry in {**self.model.parameters, **self.parameters}.items():
@@ -159,29 +161,29 @@ class InitialValueProblem:
 
     @property
     def data_by_site(self) -> dict[int, tuple[complex, ...]]:
-        """The fields {site: (A, B)} at the start, the sites at rest left out."""
+        """The fields {site: (A, B)} at the start, without the sites at rest."""
         return by_site(self.initial, self.first_site_of_data)
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """The fields on the whole chain at the start, complex of shape (component, N)."""
+        """The fields at the start on the full chain, complex (component, N)."""
         if self.site_count is not None:
             return self.initial
         return place(self.initial, self.half_width)
 
     @property
     def times(self) -> np.ndarray:
-        """The output times start_time, ..., end_time in equal steps; integers are exact."""
+        """The output times from start_time to end_time in equal steps; whole numbers are exact."""
         return output_times(self.end_time, self.output_step, self.start_time)
 
     @property
     def span(self) -> float:
-        """How long the run lasts."""
+        """The duration of the run, in the time unit of the equations."""
         return self.end_time - self.start_time
 
     @property
     def snapshot_outputs(self) -> np.ndarray:
-        """The numbers of the outputs that are snapshots."""
+        """The indices of the outputs that are snapshots."""
         last = round(self.span / self.output_step)
         if self.snapshots_at:
             return np.array([number for number in self.snapshots_at if number <= last])
@@ -189,9 +191,9 @@ class InitialValueProblem:
 
 
 def output_times(end_time: float, output_step: float, start_time: float = 0.0) -> np.ndarray:
-    """Return start_time, ..., end_time in equal steps; integers among them are exact.
+    """Return the times from start_time to end_time in equal steps; whole numbers are exact.
 
-    Where `start_time` is a whole number of steps, the times are those of a run from 0.
+    If `start_time` is a whole number of steps, the times equal those of a run that starts at 0.
     """
     count = round(end_time / output_step)
     first = round(start_time / output_step)
@@ -202,7 +204,7 @@ def output_times(end_time: float, output_step: float, start_time: float = 0.0) -
 
 
 def place(initial: np.ndarray, half_width: int) -> np.ndarray:
-    """Return amplitudes (., 2M + 1): `initial` (., 2r + 1) on the sites -r..r, zero elsewhere."""
+    """Return amplitudes (field, 2M + 1): `initial` (field, 2r + 1) on -r..r, zero elsewhere."""
     reach = initial.shape[1] // 2
     require_inside(reach, half_width)
     amplitudes = np.zeros((len(initial), 2 * half_width + 1), complex)
@@ -211,7 +213,7 @@ def place(initial: np.ndarray, half_width: int) -> np.ndarray:
 
 
 def require_inside(site: int, half_width: int) -> None:
-    """Raise ValueError if the chain has no such site."""
+    """Raise ValueError if `site` lies beyond the end M of the chain."""
     if site > half_width:
         raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
 
@@ -219,9 +221,9 @@ def require_inside(site: int, half_width: int) -> None:
 def on_sites(
     initial: Mapping[int, tuple[complex, ...]], fields: int = 2, site_count: int | None = None
 ) -> np.ndarray:
-    """Return data {site: (A, B)} as an array of (field, 2r + 1) amplitudes on the sites -r..r.
+    """Return data {site: (A, B)} as amplitudes (field, 2r + 1) on the sites -r..r.
 
-    Where there is a `site_count` N, they are (field, N) on the sites 0..N-1.
+    With a `site_count` N, the shape is (field, N) and the sites are 0..N-1.
     """
     sites = chain_sites(max(map(abs, initial), default=0), site_count)
     amplitudes = np.zeros((fields, len(sites)), complex)
@@ -233,10 +235,10 @@ def on_sites(
 def by_site(
     amplitudes: np.ndarray, first_site: int | None = None
 ) -> dict[int, tuple[complex, ...]]:
-    """Return amplitudes (field, 2r + 1) as {site: (A, B)}, the sites at rest left out.
+    """Return amplitudes (field, 2r + 1) as {site: (A, B)}, without the sites at rest.
 
-    Where all are at rest the central site stands for them. The first column is that of
-    `first_site`, or else of -r.
+    If all sites are at rest, the result holds the central one only. The first column belongs to
+    `first_site`, by default -r.
     """
     reach = amplitudes.shape[1] // 2
     first = -reach if first_site is None else first_site
@@ -246,19 +248,19 @@ def by_site(
 
 
 def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:
-    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
+    """Return initial data as JSON, in the form of the configuration: {"0": [1.0, 0.1]}."""
     return json.dumps({str(site): [_as_written(z) for z in pair] for site, pair in initial.items()})
 
 
 def is_even(text: str) -> bool:
-    """Return whether data, as datasets keep them, are the same on sites n and -n."""
+    """Return whether initial data, in the JSON of a dataset, are equal on the sites n and -n."""
     sites = read_initial(text)
     at_rest = (0.0, 0.0)
     return all(tuple(sites.get(-site, at_rest)) == tuple(pair) for site, pair in sites.items())
 
 
 def read_initial(text: str) -> dict[int, tuple[complex, complex]]:
-    """Return the initial data that `write_initial` has written."""
+    """Return the initial data {site: (A, B)} in the JSON of `write_initial`."""
     return {int(site): tuple(complex(z) for z in pair) for site, pair in json.loads(text).items()}
 
 
@@ -267,5 +269,5 @@ def _as_written(z: complex) -> float | str:
 
 
 def name_window(window: tuple[float, float]) -> str:
-    """Return a time window as the datasets name it: "[10, 50]"."""
+    """Return the name of a time window in datasets, such as "[10, 50]"."""
     return f"[{window[0]:g}, {window[1]:g}]"

@@ -1,16 +1,17 @@
-"""The equations of a lattice as one traced function, from which everything else is derived.
+"""A model: the equations of a lattice, traced once, from which all kernels are derived.
 
-A model is a file such as this one (see docs/own_models.md):
+A model is a Python file such as this one (see docs/own_models.md):
 
     fields = ("u",)
     parameters = {"epsilon": 1.0, "gamma": 0.1}
     def i_dt(p, u):
         return p.epsilon * lap(u) + abs2(u) * u - 1j * p.gamma * u
 
-`i_dt` returns i du_n/dt of each complex field. In its place, `dt` returns dx_n/dt of real fields,
-and `d2_dt2` their second derivatives; it may take velocities behind them: d2_dt2(p, x, v) or
-d2_dt2(p, x, y, vx, vy). `p` has the parameters, and the time `p.t`. The function is called once,
-with symbols in place of numbers, which record each operation in a graph (`symbols`, `graph`).
+`i_dt` returns i du_n/dt of each complex field. For real fields, write `dt`, which returns dx_n/dt,
+or `d2_dt2`, which returns d^2 x_n/dt^2 and may take the velocities after the fields:
+d2_dt2(p, x, v) or d2_dt2(p, x, y, vx, vy). `p` holds the parameters and the time `p.t`. The
+function is called with symbols in place of numbers; these record each operation in a graph
+(`symbols`, `graph`).
 """
 
 import inspect
@@ -80,22 +81,27 @@ RESERVED = {
     "component",
     "member",
 }
-"""Names that no parameter has: they are changed or varied beside parameters, or label results."""
+"""Names forbidden for parameters: keys of a case, and dimensions of its datasets."""
 ALL_FIELDS = "pair"
 FORMS = ("i_dt", "dt", "d2_dt2")
-"""The functions that give a model its equations, of which it has one."""
+"""The names of the functions that define the equations; a model has exactly one of them."""
 
 
 class Model:
-    """A traced model: the rates of the real rows of its state, two of each field.
+    """The traced equations of a lattice.
 
-    The rows of a complex field are its real and its imaginary part, those of a field with `d2_dt2`
-    its value and its rate, and those of a field with `dt` its value and zero. `parameters` holds a
-    number for each name, or a function of an array of sites n that returns a number for each (as
-    for disorder). conserved(p, *fields) returns densities by name, whose sums over the chain are
-    kept. `text` is the source, for datasets.
+    fields: the names of the fields.
+    parameters: a default for each name: a number, a number for each site, or a function of the
+        array of sites n that returns these (for disorder).
+    i_dt, dt, d2_dt2: the equations, one of the three; see the module.
+    conserved: a function (p, *fields) that returns densities by name; runs record their sums over
+        the chain.
+    text: the source code, which datasets store.
 
-    Raises ModelError where the functions cannot be traced.
+    The state has two real rows for each field: real and imaginary part (`i_dt`), value and velocity
+    (`d2_dt2`), or value and zero (`dt`). `rates` are the time derivatives of these rows.
+
+    Raises ModelError if a function cannot be traced.
     """
 
     def __init__(
@@ -129,9 +135,11 @@ class Model:
 
     @classmethod
     def read(cls, path: Path | str) -> "Model":
-        """Return the model of a file, whose code is run twice and must give the same both times.
+        """Return the model defined by a Python file.
 
-        Modules beside the file can be imported, and `__file__` is its path.
+        The file is executed twice and must define the same equations and values both times. It can
+        import modules in its folder, and `__file__` is its path. Raises ModelError if the file
+        cannot be read, fails, or defines no model.
         """
         path = Path(path)
         try:
@@ -149,7 +157,7 @@ class Model:
 
     @classmethod
     def _of_run(cls, namespace: Mapping[str, Any], name: str, text: str) -> "Model":
-        """Return the model that the names of a file make, once the file has run."""
+        """Return the model defined by the namespace of an executed file."""
         absent = [key for key in ("fields", "parameters") if key not in namespace]
         if absent:
             raise ModelError(f"{name} has no {' and no '.join(absent)}")
@@ -160,7 +168,7 @@ class Model:
 
     @cached_property
     def plain(self) -> dict[str, Any]:
-        """The model as plain values, from which `of_plain` makes it without running its code."""
+        """The model as plain values; `of_plain` restores it without running its code."""
         roots = (*self.rates, *self.conserved.values())
         order = in_order(roots)
         place = {entry: i for i, entry in enumerate(order)}
@@ -183,14 +191,13 @@ class Model:
 
     @classmethod
     def of_plain(cls, values: Mapping[str, Any]) -> "Model":
-        """Return the model of `plain` values; its parameters are those of the problem."""
+        """Return the model of `plain` values; a problem supplies its parameters."""
         return _of_json(json.dumps(values))
 
     # --- The trace
 
     def _called(self, function: Callable) -> Any:
-        """Return what a function of the model returns for symbols; with velocities if it takes
-        them."""
+        """Return the result of a model function for symbols (and velocities, if it takes them)."""
         values = [
             Value(leaf(c, 0), ZERO if self.real else leaf(c, 1)) for c in range(len(self.fields))
         ]
@@ -218,10 +225,9 @@ class Model:
         return "\n    ".join(["; ".join([head, *values]), *text])
 
     def trace(self, function: Callable) -> Node:
-        """Return the real expression of the fields that a function (p, *fields) returns.
+        """Return the node of a real function (p, *fields), which may take velocities as `d2_dt2`.
 
-        It may take velocities as `d2_dt2` does. Raises ModelError where it cannot be traced, or
-        depends on no field.
+        Raises ModelError if it cannot be traced, is complex, or depends on no field.
         """
 
         def real_node(returned: Any) -> Node:
@@ -237,10 +243,10 @@ class Model:
         return self._twice(function, real_node)
 
     def _twice(self, function: Callable, nodes_of: Callable) -> Any:
-        """Return the nodes of what a function of the model returns, which is traced twice.
+        """Return nodes_of(result) for a function of the model, traced twice.
 
-        Equal expressions are one node. So random numbers and counters inside a function, which
-        would be frozen at their first values and recorded nowhere, show as other nodes.
+        Equal expressions are the same node, so the traces differ if the function draws random
+        numbers or counts its calls. Such values would be frozen at the first call and not recorded.
         """
         nodes, retraced = (nodes_of(self._called(function)) for _ in range(2))
         if retraced != nodes:
@@ -249,7 +255,7 @@ class Model:
         return nodes
 
     def _rates_of(self, returned: Any) -> tuple[Node, ...]:
-        """Return the rates of all rows from what the function of the equations returned."""
+        """Return the rates of all rows from the result of `i_dt`, `dt` or `d2_dt2`."""
         if returned is None:
             raise ModelError(f"{self.name} returns nothing: its function needs a return")
         values = returned if isinstance(returned, tuple | list) else (returned,)
@@ -260,16 +266,16 @@ class Model:
         if not self.real:  # i u' = F: Re u' = Im F and Im u' = -Re F
             return tuple(row for value in values for row in (value.im, neg(value.re)))
         if any(value.im is not ZERO for value in values):
-            text = f"{self.form} returns complex numbers, and its fields are real"
+            text = f"{self.form} returns complex numbers, but its fields are real"
             raise ModelError(f"{self.name}: {text}")
         if self.form == "dt":
             return tuple(row for value in values for row in (value.re, ZERO))
         return tuple(row for c, value in enumerate(values) for row in (leaf(c, 1), value.re))
 
     def _require_real_fields_to_move(self) -> None:
-        """Raise ModelError where `i_dt` is that of a real field without its factor 1j.
+        """Raise ModelError if `i_dt` of a real field lacks the factor 1j.
 
-        Then the field's real part, which alone is read, never moves.
+        Without it the real part, the only one that the equations read, never changes.
         """
         read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         for c, field in enumerate(self.fields if self.form == "i_dt" else ()):
@@ -283,7 +289,7 @@ class Model:
                 )
 
     def _require_matrices_apart(self) -> None:
-        """Raise ModelError where a parameter is a matrix in one place and a number in another."""
+        """Raise ModelError if a parameter is used both as a matrix and as a number."""
         nodes = (*self.rates, *self.conserved.values())
         if leaves_in(self.conserved.values(), "matrix"):
             raise ModelError(f"{self.name}: a density in conserved has no couple(p.W, u)")
@@ -293,7 +299,7 @@ class Model:
             raise ModelError(f"{self.name}: {text}; give two parameters")
 
     def _densities(self, returned: Any) -> dict[str, Node]:
-        """Return the real densities by name from what `conserved` returned."""
+        """Return the real densities by name from the result of `conserved`."""
         if not isinstance(returned, Mapping):
             text = 'conserved returns no dictionary of densities, such as {"P": abs2(u)}'
             raise ModelError(f"{self.name}: {text}")
@@ -328,36 +334,36 @@ class Model:
 
     @cached_property
     def matrices(self) -> frozenset[str]:
-        """The names of the parameters that are matrices, which couple any sites."""
+        """The names of the parameters that are coupling matrices."""
         return frozenset(leaf.operands[0] for leaf in leaves_in(self.rates, "matrix"))
 
     def value_at(self, name: str, value: Any, sites: range) -> Any:
-        """Return what a parameter is on the sites of a chain: a number, a list, or `Entries`.
+        """Return a parameter on the sites of a chain: a number, a list (site,), or `Entries`.
 
-        Raises ValueError with what is wrong, to stand behind its name.
+        Raises ValueError if it does not fit the chain; the message completes "parameter W ...".
         """
         return entries_of(value, sites) if name in self.matrices else values_at(value, sites)
 
     @cached_property
     def farthest(self) -> int:
-        """How many sites away the farthest neighbour is that an equation or a density sees."""
+        """The distance in sites to the farthest neighbour in an equation or a density."""
         return max(entry.reach for entry in (*self.rates, *self.conserved.values()))
 
     @cached_property
     def reach(self) -> int:
-        """How many sites to each side kernels look: as far as an equation, one at least."""
+        """The number of neighbours on each side that the equations read, at least 1."""
         return max(1, *(rate.reach for rate in self.rates))
 
     @cached_property
     def reach_of_densities(self) -> int:
-        """How many sites to each side a conserved density looks."""
+        """The number of neighbours on each side that a conserved density reads, at least 1."""
         return max((1, *(density.reach for density in self.conserved.values())))
 
     @cached_property
     def even(self) -> bool:
-        """Whether the equations are the same, to the last bit, with left and right exchanged."""
+        """Whether the equations are identical, to the last bit, with left and right exchanged."""
 
-        if self.matrices:  # nobody knows what is symmetric in them
+        if self.matrices:  # their symmetry depends on their values
             return False
 
         def ordered(entry: Node, operands: list[Node]) -> Node | None:
@@ -372,7 +378,7 @@ class Model:
 
     @cached_property
     def separable(self) -> bool:
-        """Whether the equations are of second order and their forces free of velocities."""
+        """Whether the equations are of second order with forces independent of velocities."""
         leaves = leaves_in(self.rates[1::2], "field")
         return self.second_order and not any(entry.operands[1] for entry in leaves)
 
@@ -380,17 +386,20 @@ class Model:
     def without_imaginary_parts(self) -> tuple[str, ...]:
         """The complex fields whose imaginary parts never change and are never read."""
         read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
+        if self.form == "d2_dt2":
+            return ()
         return tuple(
-            field for c, field in enumerate(self.fields)
-            if self.form != "d2_dt2" and (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
-        )  # fmt: skip
+            field
+            for c, field in enumerate(self.fields)
+            if (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
+        )
 
     @cached_property
     def continues_real_equations(self) -> bool:
-        """Whether the equations are those of real fields, as of x' = x y, written for complex ones.
+        """Whether `i_dt` contains equations of real fields, such as x' = x y.
 
-        Then they keep real data real and are not linear, and no rate reads a conjugate: it changes
-        i times as much with an imaginary part as with the real one (Cauchy and Riemann).
+        Criterion: real data stay real, the equations are nonlinear, and the rates are analytic in
+        the fields (Cauchy-Riemann equations), so that no rate reads a conjugate.
         """
         if self.real:
             return False
@@ -427,10 +436,10 @@ class Model:
 
     @cached_property
     def why_no_series(self) -> str:
-        """Why there is no power series, in words to stand behind the model's name; "" if there is.
+        """The reason why solutions have no power series, "" if they have one.
 
-        Where x passes zero, |x| = sqrt(x * x) of a real field has a kink, but its power series
-        continues as x or as -x.
+        At x = 0, |x| = sqrt(x * x) of a real field has a kink, but its power series would continue
+        as x or as -x.
         """
         if switches(self.rates):
             return "has max, abs, sign or where, which have no power series where they switch"
@@ -440,9 +449,10 @@ class Model:
         return ""
 
     def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
-        """Return a bound of the rates at which fields of the size `peak` turn or grow.
+        """Return an upper bound of the rate, per unit time, at which fields rotate or grow.
 
-        Where a function has no derivative at rest, that of the fields at rest leaves it out.
+        `peak` is the largest amplitude. A function without a derivative at zero does not count for
+        fields at rest.
         """
         defaults = {name: value for name, value in self.parameters.items() if not callable(value)}
         sizes = {name: _size_of(value) for name, value in (defaults | parameters).items()}
@@ -466,7 +476,7 @@ class Model:
 
     @cached_property
     def _slopes(self) -> tuple[list[int], tuple[Node, ...]]:
-        """The rows of the fields that rates read, and the derivatives of all rates by each."""
+        """The rows that the rates read, and the derivatives of all rates with respect to each."""
         columns, changes = [], []
         for entry in leaves_in(self.rates, "field"):
             component, re_im, _ = entry.operands
@@ -475,7 +485,7 @@ class Model:
         return columns, tuple(changes)
 
     def tangent(self) -> "Model":
-        """Return the model of a solution and a small perturbation of it: twice the fields."""
+        """Return the model of a solution and a tangent vector: the fields, then their changes."""
         count = len(self.fields)
 
         def change(entry: Node) -> Node:
@@ -498,7 +508,7 @@ class Model:
 
 
 def _size_of(value: Any) -> float:
-    """Return a bound of the values of a parameter, or of what a matrix makes of ones."""
+    """Return the largest magnitude of a parameter, or the largest row sum of a matrix."""
     if isinstance(value, Mapping):
         return largest_row_sum(value)
     if hasattr(value, "tocoo") or np.ndim(value) == 2:
@@ -509,7 +519,8 @@ def _size_of(value: Any) -> float:
 def _largest_eigenvalue(matrix: np.ndarray) -> float:
     """Return an upper bound of the largest eigenvalue of a matrix without negative entries.
 
-    It is the 64th root of the norm of its 64th power: x'' = -k x turns at sqrt(k), and not at k.
+    It is the 64th root of the norm of the 64th power. The norm itself would be too coarse: x'' =
+    -k x oscillates at sqrt(k), but the norm of its matrix is k.
     """
     bound, exponent = 1.0, 1.0
     for _ in range(6):
@@ -522,22 +533,22 @@ def _largest_eigenvalue(matrix: np.ndarray) -> float:
 
 
 MOST_SHOWN = 20
-"""Lines of the source of a model that its repr shows."""
+"""The number of lines of source code in the repr of a model."""
 
 
 def values_shown(value: Any) -> str:
-    """Return a parameter as the repr of a model shows it."""
+    """Return the text of a parameter's value in the repr of a model."""
     return f"{value}" if np.ndim(value) == 0 else f"{len(value)} values"
 
 
 class _Parameters:
-    """What a model calls `p`."""
+    """The first argument `p` of a model's functions: parameters and the time as symbols."""
 
     no_number = (
         "the first argument of the function holds the parameters: write (p, ...) with the fields"
-        " behind p, p.name for a parameter, and p.t for the time"
+        " after p, p.name for a parameter, and p.t for the time"
     )
-    """Why nobody computes with it."""
+    """The message of the error raised by arithmetic with `p` itself."""
 
     def __init__(self, names: Iterable[str]):
         self._names = list(names)
@@ -576,10 +587,7 @@ def _of_json(text: str) -> Model:
 
 
 def _names(kind: str, names: Iterable[str], model: str) -> tuple[str, ...]:
-    """Return the names of fields or parameters.
-
-    Raises ModelError with the first that is no valid name, and why.
-    """
+    """Return the names of fields or parameters; raises ModelError for the first invalid one."""
     if not isinstance(names, Iterable):
         raise ModelError(f"{model}: {kind} is {names!r}; give names, such as ('u',)")
     checked = tuple(names)
@@ -592,11 +600,11 @@ def _names(kind: str, names: Iterable[str], model: str) -> tuple[str, ...]:
         elif name.startswith("_"):
             why = "begins with _; leave that out"
         elif kind == "parameters" and name == "t":
-            why = "is the time, p.t; give the parameter another name, such as J for a hopping"
+            why = "is the time, p.t; give the parameter another name, such as J for a hopping rate"
         elif kind == "parameters" and name in RESERVED:
             why = "is a key of a case or a dimension of its datasets; give it another name"
         elif kind == "fields" and name == ALL_FIELDS:
-            why = "stands for all fields together in sweeps; give the field another name"
+            why = "denotes all fields together in sweeps; give the field another name"
         elif name in checked[:place]:
             why = "is given twice"
         if why:
@@ -621,7 +629,7 @@ def _is_sum_of_squares(term: Node) -> bool:
 
 
 def _vanishes(entry: Node) -> bool:
-    """Return whether an expression is zero, but for rounding, at numbers drawn for its leaves."""
+    """Return whether an expression is zero up to rounding, tested with random leaf values."""
     if entry is ZERO:
         return True
     rng = np.random.default_rng(2017)
@@ -637,7 +645,7 @@ def _vanishes(entry: Node) -> bool:
 
 
 def _accepts(function: Callable, count: int) -> bool:
-    """Return whether a function can be called with so many values."""
+    """Return whether a function can be called with `count` positional arguments."""
     try:
         inspect.signature(function).bind(*range(count))
     except TypeError:
@@ -648,5 +656,5 @@ def _accepts(function: Callable, count: int) -> bool:
 def _source_of(function: Callable) -> str:
     try:
         return inspect.getsource(function)
-    except (OSError, TypeError):  # typed where no file keeps it
+    except (OSError, TypeError):  # typed at a prompt: no source file
         return ""

@@ -1,4 +1,4 @@
-"""What a person writes of a model: the file that is run, the values of parameters, and messages."""
+"""Files of models: running them, reading their parameters, and locating their errors."""
 
 import importlib
 import sys
@@ -21,9 +21,9 @@ BEFORE = (
 
 
 def run_file(path: Path, text: str) -> dict[str, Any]:
-    """Return the names that a file makes; what it imports from its own folder is read anew.
+    """Return the namespace of an executed file; modules in its folder are imported again.
 
-    Raises ModelError with the line of the file where it fails.
+    Raises ModelError with the line of the file that fails.
     """
     folder, namespace = path.resolve().parent, {"__file__": str(path), "__name__": path.stem}
     known, bytecode = _modules_in(folder), sys.dont_write_bytecode
@@ -53,7 +53,7 @@ def _modules_in(folder: Path) -> dict[str, Any]:
 
 
 def placed(error: BaseException, place: str, text: str, name: str) -> str:
-    """Return what is wrong, with the line of the user's file or notebook where it is."""
+    """Return the message of an error with the failing line of the user's file or notebook."""
     frames = [
         frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == place
     ]
@@ -67,15 +67,16 @@ def placed(error: BaseException, place: str, text: str, name: str) -> str:
 
 
 def chain_sites(half_width: int | None, site_count: int | None = None) -> range:
-    """Return the sites of a chain: 0 to site_count - 1 where there is a count, else -M..M."""
+    """Return the sites of a chain: 0..site_count - 1 if there is a count, else -M..M."""
     return range(-half_width, half_width + 1) if site_count is None else range(site_count)
 
 
 def values_at(value: Any, sites: range) -> float | list[float]:
-    """Return a parameter as a number, or as a list of one for each of the sites of a chain.
+    """Return a parameter as a number, or as a list with a number for each site of a chain.
 
-    `value` is a number, a list or an array of one for each site, or a function of the array of
-    sites that returns either. Raises ValueError with what is wrong, to stand behind its name.
+    `value` is a number, a list or array (site,), or a function of the array of sites that returns
+    one of these. Raises ValueError if the length differs or a number is not finite; the message
+    completes "parameter W ...".
     """
     if callable(value):
         value = call_on_sites(value, np.array(sites))
@@ -92,7 +93,7 @@ def values_at(value: Any, sites: range) -> float | list[float]:
 
 
 def _as_array(given: Any) -> np.ndarray:
-    """Return real numbers as an array; a text may stand for a number, as YAML makes of 1e-5."""
+    """Return real numbers as an array; also converts text, because YAML reads 1e-5 as text."""
     kind = ""
     with suppress(TypeError, ValueError, OverflowError):
         values = np.asarray(given)
@@ -104,7 +105,7 @@ def _as_array(given: Any) -> np.ndarray:
 
 
 def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
-    """Return what a function of the sites gives, which must be the same each time."""
+    """Return function(sites); raises ValueError if it fails or a second call differs."""
     with np.errstate(all="ignore"):
         try:
             first, second = function(sites.copy()), function(sites.copy())
@@ -122,7 +123,7 @@ def same(a: Any, b: Any) -> bool:
         return a.shape == b.shape and (a != b).nnz == 0
     try:
         return bool(np.array_equal(a, b, equal_nan=True))
-    except TypeError:  # no numbers; they are refused where values are asked for
+    except TypeError:  # not numbers: rejected later, when the values are read
         return True
 
 

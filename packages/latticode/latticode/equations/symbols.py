@@ -1,4 +1,4 @@
-"""The complex numbers that a model computes with: pairs of nodes, and functions of them."""
+"""Symbols that stand for complex numbers while a model is traced: pairs of nodes, and functions."""
 
 import builtins
 from functools import reduce
@@ -27,19 +27,19 @@ from .graph import couple as coupled
 from .graph import where as select
 
 HIGHEST_POWER = 16
-"""Whole powers up to this one are products; others are exponentials of a logarithm."""
+"""Integer powers up to this one are products; all others are exp(exponent * log(base))."""
 KNOWN = "exp", "log", "sqrt", "sin", "cos", "abs2", "conj", "abs", "max", "sign", "where"
-"""The functions of fields and parameters."""
+"""The functions that accept fields and parameters."""
 ARRAYS = (
-    "a field is its value at one site, and no array of all; neighbours are u.left, u.right and "
-    "shift(u, m), and a value for each site is a parameter"
+    "a field is its value at one site, not an array of all sites; neighbours are u.left, u.right "
+    "and shift(u, m), and a value for each site is a parameter"
 )
 LONGEST_SHIFT = 7
-"""How far along the chain an equation may look: within the next block of a vector."""
+"""The largest distance in sites to a neighbour: it must lie in the next vector of eight sites."""
 
 
 BRANCH = (
-    "a comparison or a branch is taken from a symbol, which has no value yet; write max(a, b), "
+    "a comparison or a branch uses a symbol, which has no value yet; write max(a, b), "
     "where(x > 0, a, b), abs(x) or sign(x) of latticode"
 )
 
@@ -49,7 +49,7 @@ class ModelError(ValueError):
 
 
 class Value:
-    """A complex number at each site, as a model computes with it: a pair of nodes."""
+    """A symbol for a complex number at each site: the nodes of its real and imaginary parts."""
 
     __hash__ = None
 
@@ -58,7 +58,7 @@ class Value:
 
     @staticmethod
     def of(x: Any) -> "Value":
-        """Return a number as a Value."""
+        """Return a number as a Value; raises ModelError for arrays and other types."""
         if isinstance(x, Value):
             return x
         if isinstance(x, int | float | complex | np.number) and not isinstance(x, bool):
@@ -152,14 +152,14 @@ class Value:
     def __rtruediv__(self, operand):
         return Value.of(operand) / self
 
-    def conjugate(self):
+    def conjugate(self) -> "Value":
         """Return the complex conjugate."""
         return Value(self.re, neg(self.im))
 
     conj = conjugate
 
     def __array_ufunc__(self, ufunc, method, *operands, **_):
-        """Do what NumPy's functions and its numbers ask for, where there is a rule for it."""
+        """Apply a ufunc of NumPy, as its functions and scalars do, if it is one of UFUNCS."""
         rule = UFUNCS.get(ufunc.__name__)
         if rule is None or method != "__call__":
             text = f"{ufunc.__name__} of a field or a parameter has no rule"
@@ -184,7 +184,7 @@ class Value:
         raise ModelError(BRANCH)
 
     def _refuse_number(self, *_):
-        text = "a number is taken from a symbol; the functions of latticode take symbols"
+        text = "a symbol cannot be converted to a number; the functions of latticode take symbols"
         raise ModelError(f"{text}: {', '.join(KNOWN)}")
 
     def _refuse_sites(self, *_, **__):
@@ -195,9 +195,9 @@ class Value:
     __iter__ = __len__ = __getitem__ = __array__ = _refuse_sites
 
     def __getattr__(self, name: str):
-        if name.startswith("__"):  # what Python and NumPy look for
+        if name.startswith("__"):  # Python and NumPy probe for special methods
             raise AttributeError(name)
-        text = "a field has .real, .imag, .left and .right; d2_dt2(p, x, v) is given velocities"
+        text = "a field has .real, .imag, .left and .right; d2_dt2(p, x, v) receives velocities"
         raise ModelError(f"there is no .{name}: {text}")
 
     def __abs__(self):
@@ -207,7 +207,7 @@ class Value:
 
 
 class Condition:
-    """A comparison of two real values, for `where`: whether their difference is above zero."""
+    """A comparison of two real values, for `where`: true if `difference` > 0, or its negation."""
 
     __hash__ = None
 
@@ -223,7 +223,7 @@ class Condition:
 def shift(w: Value, sites: int) -> Value:
     """Return the value at the site n + `sites`.
 
-    Raises ModelError where that is no whole number, or farther than LONGEST_SHIFT sites away.
+    Raises ModelError if `sites` is no integer or the result reads beyond LONGEST_SHIFT sites.
     """
     try:
         sites = index(sites)
@@ -240,18 +240,18 @@ def shift(w: Value, sites: int) -> Value:
     reach = builtins.max(moved.re.reach, moved.im.reach)
     if reach > LONGEST_SHIFT:
         raise ModelError(
-            f"this looks {reach} sites along the chain, and an equation may look at most "
-            f"{LONGEST_SHIFT}; with a field for the even sites and one for the odd sites, it may "
-            f"look {2 * LONGEST_SHIFT} of them far; to look along the whole chain, take a matrix: "
-            "couple(p.W, u)"
+            f"this reads a neighbour {reach} sites away, and an equation may read at most "
+            f"{LONGEST_SHIFT}; with one field for even and one for odd sites it may read "
+            f"{2 * LONGEST_SHIFT} sites away; for longer couplings, take a matrix: couple(p.W, u)"
         )
     return moved
 
 
 def couple(matrix: Value, w: Value) -> Value:
-    """Return the sums over all sites m of the entries (n, m) of a matrix times the value at m.
+    """Return sum_m W_nm w_m over all sites m.
 
-    The matrix is a parameter, p.W, of N x N real numbers, dense or scipy.sparse.
+    The matrix W is a parameter, p.W, of N x N real numbers, dense or scipy.sparse. Raises
+    ModelError if it is anything else.
     """
     matrix = Value.of(matrix)
     if matrix.re.operation != "parameter" or matrix.im is not ZERO:
@@ -261,7 +261,7 @@ def couple(matrix: Value, w: Value) -> Value:
 
 
 def lap(w: Value) -> Value:
-    """Return w_{n+1} - 2 w_n + w_{n-1}, neighbours first, which keeps even data even."""
+    """Return w_{n+1} - 2 w_n + w_{n-1}; adding the neighbours first keeps even data even."""
     return (shift(w, 1) + shift(w, -1)) - 2 * Value.of(w)
 
 
@@ -304,7 +304,7 @@ def sqrt(w: Value) -> Value:
 
 
 def where(condition: Condition, if_true: Value, if_false: Value) -> Value:
-    """Return `if_true` at the sites where a condition such as x > 0 holds, `if_false` elsewhere."""
+    """Return `if_true` at sites where a condition such as x > 0 holds, `if_false` elsewhere."""
     if not isinstance(condition, Condition):
         raise ModelError("where(condition, a, b) takes a comparison of real values, such as x > 0")
     if_true, if_false = Value.of(if_true), Value.of(if_false)
@@ -318,14 +318,14 @@ def where(condition: Condition, if_true: Value, if_false: Value) -> Value:
 
 
 def max(*values: Value) -> Value:
-    """Return the largest of real values at each site; of plain numbers, what Python does."""
+    """Return the largest of real values at each site; for plain numbers, Python's max."""
     if not any(isinstance(value, Value) for value in values):
         return builtins.max(*values)
     return reduce(lambda first, second: where(Value.of(first) > second, first, second), values)
 
 
 def abs(w: Value) -> Value:
-    """Return the modulus; of a plain number, what Python does."""
+    """Return the modulus; for a plain number, Python's abs."""
     return builtins.abs(w)
 
 
@@ -371,4 +371,4 @@ UFUNCS = {
     "greater_equal": Value.__ge__,
     "less_equal": Value.__le__,
 }
-"""Functions of NumPy by their names, with their rules."""
+"""The operations that replace NumPy's functions, by their names."""

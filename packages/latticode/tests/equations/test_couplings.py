@@ -167,7 +167,7 @@ def test_a_configuration_sweeps_surveys_and_files_take_matrices(tmp_path):
     [
         (np.ones((3, 3)), "is 3 x 3; couple takes a matrix of 4 x 4 for 4 sites"),
         (1.0, "is one number; couple takes a matrix of 4 x 4"),
-        (np.eye(4) * 1j, "is a matrix of complex, and couple takes real ones"),
+        (np.eye(4) * 1j, "is a matrix of complex, but couple takes real numbers"),
         ([[1, 2], [3]], "whose rows are not of one length"),
         (np.diag([1, 2, np.nan, 3]), r"is nan at the sites \(2, 2\), which is not finite"),
         (scipy.sparse.eye_array(5), "is 5 x 5; couple takes"),

@@ -89,7 +89,7 @@ def test_i_dt_of_a_real_field_without_its_factor_is_refused(rate):
 
 
 def test_complex_numbers_are_refused_in_rates_and_in_data():
-    with pytest.raises(ModelError, match="dt returns complex numbers, and its fields are real"):
+    with pytest.raises(ModelError, match="dt returns complex numbers, but its fields are real"):
         Model(fields="x", parameters={}, dt=lambda p, x: 1j * x)
     decay = Model(fields="x", parameters={}, dt=lambda p, x: -x)
     with pytest.raises(ConfigurationError, match="give a real number"):

@@ -51,7 +51,7 @@ def test_the_farthest_look_is_that_of_every_solver(solver):
 
 @pytest.mark.parametrize("by", [LONGEST_SHIFT + 1, -LONGEST_SHIFT - 1])
 def test_a_look_that_is_too_far_is_refused_with_a_way_out(by):
-    expected = "looks 8 sites along the chain, .* at most 7; with a field for the even sites"
+    expected = "a neighbour 8 sites away, .* at most 7; with one field for even"
     with pytest.raises(ModelError, match=expected):
         Model(fields="u", parameters={}, i_dt=lambda p, u: shift(u.right, by - 1) + u)
 
