@@ -48,11 +48,17 @@ def run(name: str, even: bool) -> str:
     """Return the hash of Fig 4, large data, to tau = 3, by half of the chain or the whole."""
     model, solver = of_model(name)
     plain = {
-        "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 30, "boundary": "dirichlet",
-        "initial": {0: (5.0, 1.0)}, "end_time": 3.0, "output_step": 0.1,
+        "epsilon": 1.0,
+        "gamma": 1.0,
+        "omega": 0.0,
+        "half_width": 30,
+        "boundary": "dirichlet",
+        "initial": {0: (5.0, 1.0)},
+        "end_time": 3.0,
+        "output_step": 0.1,
         "solver": {"name": solver, **CONTROLS[name]},
         **({"model": model, "mu": 0.1} if model == "pendula" else {}),
-    }  # fmt: skip
+    }
     return digest(simulate(PaperProblem.of(plain), Reduction(even=even, synchronised=False)))
 
 

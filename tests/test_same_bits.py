@@ -100,8 +100,10 @@ def test_each_library_chooses_the_code_of_the_machine(name):
     """Otherwise a comparison of two machines would compare one."""
     need_machine(name)
     command = [sys.executable, "-c", CHOSEN]
-    here, second = (json.loads(output_of(command, entry))
-                   for entry in (dict(os.environ), machines.environment(name)))  # fmt: skip
+    here, second = (
+        json.loads(output_of(command, entry))
+        for entry in (dict(os.environ), machines.environment(name))
+    )
     machine = machines.PLAYED[name]
     assert second[:3] == [list(machine.numpy), machine.openblas, machine.numba]
     assert (second[3] == here[3]) == (machine.numpy != ())

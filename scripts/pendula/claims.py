@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 from replication.ledger.changes import exchange
-from replication.ledger.claim import Control
+from replication.ledger.claim import ClaimControl
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -110,13 +110,13 @@ def almost_equal(sensitivity, within: float) -> PerturbedShare:
             f" {least:.0%} for perturbations up to {sizes[near].max():g}, but"
             f" {share[found[0]]:.0%} for {sizes[found[0]]:g}"
         )
-    says = "least share of equally perturbed runs that spread"
+    label = "least share of equally perturbed runs that spread"
     return PerturbedShare(
-        {"share_nearby": least}, Above(MAJORITY, "share_nearby", says=says), caveat
+        {"share_nearby": least}, Above(MAJORITY, "share_nearby", label=label), caveat
     )
 
 
-FAR_AS_NEAR = Control(
+FAR_AS_NEAR = ClaimControl(
     "the shares that spread, with the sizes of the perturbation in reverse order",
     {SENSITIVITY: exchange("size", names=("share", "share_low", "share_high"))},
 )

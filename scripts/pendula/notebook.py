@@ -41,8 +41,8 @@ __all__ = [
 ]
 
 
-class ChangedKeys(RunKeys, total=False):
-    """The keys of a case of the paper's equations, or of a model of one's own."""
+class PaperCaseKeys(RunKeys, total=False):
+    """The keys of a case of the paper's equations, or of a user's own model, which has no omega."""
 
     omega: float
     epsilon: float
@@ -52,9 +52,6 @@ class ChangedKeys(RunKeys, total=False):
     model: Literal["amplitudes", "pendula"] | Model | str | Path
     parameters: Mapping[str, Numbers]
     sites: int | None
-
-
-CaseKeys = ChangedKeys  # a model of one's own has no omega
 
 
 class Case(cases.PaperCaseSection):
@@ -94,10 +91,10 @@ class Case(cases.PaperCaseSection):
         """Return a case of the kind that its model asks for."""
         return notebook.Case(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
 
-    def __init__(self, /, **keys: Unpack[CaseKeys]) -> None:
+    def __init__(self, /, **keys: Unpack[PaperCaseKeys]) -> None:
         notebook.validate_case(super().__init__, keys, root=Sections)
 
-    def changed(self, **keys: Unpack[ChangedKeys]) -> "Case":
+    def changed(self, **keys: Unpack[PaperCaseKeys]) -> "Case":
         """Return the case with other values under `keys`, checked anew.
 
         >>> Case(omega=-4).changed(omega=8, half_width=10).half_width

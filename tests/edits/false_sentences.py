@@ -91,8 +91,12 @@ def cases_of(run: Run, name: str, on: tuple[str, ...]) -> set[str]:
     if not (run.results / f"{name}.nc").exists():
         return set()
     data = run.data(name)
-    found = {str(one) for along in ("case", "sweep") if along in data.coords
-             for one in np.atleast_1d(data[along].values)}  # fmt: skip
+    found = {
+        str(one)
+        for along in ("case", "sweep")
+        if along in data.coords
+        for one in np.atleast_1d(data[along].values)
+    }
     if on:
         found &= set(on)
     found |= {str(data.attrs.get("case"))} | {name.partition("/")[2].partition(".")[0]}

@@ -63,17 +63,23 @@ PLANTED = [
     ((run_with("fig2_small", boundary="periodic"),), "does not begin with fig2_small.boundary"),
     ((run_with("fig2_small", boundary="periodic"),), "of fig2 do not say that fig2_small.boundary"),
     ((run_with("fig3_small", gamma=0.5),), "of fig5 do not say that fig3_small.gamma"),
-    ((replaced("report.html", "fig2_small.end_time (4 in", "fig2_small.end_time (5 in"),),
-     "fig2_small.end_time (5 in place of 50), which was not run"),
+    (
+        (replaced("report.html", "fig2_small.end_time (4 in", "fig2_small.end_time (5 in"),),
+        "fig2_small.end_time (5 in place of 50), which was not run",
+    ),
     ((replaced("report.html", "with other settings", "replicated"),), "The title".lower()),
-    ((row_of("fig2_bounded", lambda row: row.update(verdict="confirmed")),),
-     "the claim fig2_bounded is confirmed, and fig2_small is edited"),
+    (
+        (row_of("fig2_bounded", lambda row: row.update(verdict="confirmed")),),
+        "the claim fig2_bounded is confirmed, and fig2_small is edited",
+    ),
     ((row_of("theorem_3", failed),), "theorem_3 is confirmed, and its control"),
     ((replaced("figures/fig2.json", "Omega = 8", "Omega = 6"),), "fig2 has titles at Omega = [6.0"),
     ((replaced("figures/fig2.json", "Not the paper's", "As"),), "fig2 and its data do not both"),
-    ((dataset("figures/fig2", lambda figure: figure.drop_attrs(deep=False)),),
-     "of fig2 do not say that fig2_small.end_time"),
-]  # fmt: skip
+    (
+        (dataset("figures/fig2", lambda figure: figure.drop_attrs(deep=False)),),
+        "of fig2 do not say that fig2_small.end_time",
+    ),
+]
 
 
 def planted_in(full_run, folder, plants) -> list[str]:

@@ -18,12 +18,14 @@ def exponential(z, tau, constants, boundary):
     drive = gamma * np.eye(sites)
     none = np.zeros_like(chain)
     # A' = -i (chain A + gamma (conj B - conj A)) in its real and imaginary parts
-    matrix = np.block([
-        [none, chain + drive, none, -drive],
-        [drive - chain, none, -drive, none],
-        [none, -drive, none, chain + drive],
-        [-drive, none, drive - chain, none],
-    ])  # fmt: skip
+    matrix = np.block(
+        [
+            [none, chain + drive, none, -drive],
+            [drive - chain, none, -drive, none],
+            [none, -drive, none, chain + drive],
+            [-drive, none, drive - chain, none],
+        ]
+    )
     parts = np.concatenate([z[0].real, z[0].imag, z[1].real, z[1].imag])
     re_a, im_a, re_b, im_b = (expm(tau * matrix) @ parts).reshape(4, sites)
     return np.stack([re_a + 1j * im_a, re_b + 1j * im_b])

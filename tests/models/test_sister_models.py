@@ -15,12 +15,19 @@ FOLDER = Path(__file__).parents[2] / "docs/models"
 
 def problem(name, initial, boundary="dirichlet", half_width=10, end_time=5.0, **parameters):
     """Return the problem of an example from data {site: (field, ...)}."""
-    return PaperProblem.of({
-        "model": Model.read(FOLDER / f"{name}.py"),
-        "parameters": parameters, "half_width": half_width, "boundary": boundary,
-        "initial": initial, "end_time": end_time, "output_step": 0.5, "snapshot_every": 1,
-        "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-13},
-    })  # fmt: skip
+    return PaperProblem.of(
+        {
+            "model": Model.read(FOLDER / f"{name}.py"),
+            "parameters": parameters,
+            "half_width": half_width,
+            "boundary": boundary,
+            "initial": initial,
+            "end_time": end_time,
+            "output_step": 0.5,
+            "snapshot_every": 1,
+            "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-13},
+        }
+    )
 
 
 def growth(given, state):

@@ -100,8 +100,10 @@ def plot(request, tmp_path_factory):
 
 def not_accepted() -> list[str]:
     """Return the figures of which a file, or a dataset that they show, is not in the baseline."""
-    files = {name: [f"figures/{name}.json", *(f"{data}.nc" for data in FIGURES[name][2:])]
-             for name in FIGURES}  # fmt: skip
+    files = {
+        name: [f"figures/{name}.json", *(f"{data}.nc" for data in FIGURES[name][2:])]
+        for name in FIGURES
+    }
     return [name for name in files if not all((BASELINE / file).exists() for file in files[name])]
 
 

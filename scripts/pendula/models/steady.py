@@ -49,9 +49,14 @@ def localised(
         raise NoStateError(f"no pair has a state {family.name} at Omega = {constants.omega:g}")
     data = np.array(ends).reshape(2, 1) * (1j if family.imaginary else 1.0)
     problem = PaperProblem(
-        parameters=vars(constants), half_width=min(SHORT, half_width), boundary="dirichlet",
-        initial=data, end_time=1.0, output_step=1.0, solver={},
-    )  # fmt: skip
+        parameters=vars(constants),
+        half_width=min(SHORT, half_width),
+        boundary="dirichlet",
+        initial=data,
+        end_time=1.0,
+        output_step=1.0,
+        solver={},
+    )
     state = coupled(problem, LocalisedState(flat(problem.amplitudes, even=True), even=True), None)
     problem = problem.changed(half_width=half_width)
     return problem, newton(problem, widened(problem, state), None)

@@ -23,7 +23,7 @@ class FileResult(NamedTuple):
 
     name: str
     status: Status
-    says: str = ""
+    reason: str = ""
 
 
 class ComparisonResult(NamedTuple):
@@ -46,8 +46,9 @@ class ComparisonResult(NamedTuple):
     @property
     def lines(self) -> list[str]:
         """Return a line for each file that is not identical, then the measure and the counts."""
-        told = [f"{s}: {name}: {says}" for name, s, says in self.findings if s != Status.IDENTICAL]
+        differing = [result for result in self.findings if result.status != Status.IDENTICAL]
+        messages = [f"{status}: {name}: {reason}" for name, status, reason in differing]
         tally = ", ".join(f"{count} {status}" for status, count in self.counts.items())
         if Status.BEYOND in self.counts:
             tally += f". The files {Status.BEYOND} were not compared: they may be right or wrong"
-        return [*told, self.judged, tally]
+        return [*messages, self.judged, tally]

@@ -214,8 +214,8 @@ class Comparison:
         elif result.name.startswith(FIGURES) or result.name in compare_shown.OF_VERSIONS:
             is_dataset = result.name.endswith(".nc")
             strict = strict and (is_dataset or self.same_drawing)
-        reason = f"other bits, {result.status}: {result.says}"
-        return result._replace(status=Status.DIFFERENT, says=reason) if strict else result
+        reason = f"other bits, {result.status}: {result.reason}"
+        return result._replace(status=Status.DIFFERENT, reason=reason) if strict else result
 
 
 def place(name: str) -> tuple[bool, ...]:

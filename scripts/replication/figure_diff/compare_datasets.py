@@ -31,7 +31,7 @@ class VariableDifference(NamedTuple):
 
     is_fault: bool
     beyond: int
-    says: str
+    reason: str
 
 
 def compare(
@@ -60,13 +60,13 @@ def compare(
         return Status.DIFFERENT, undeclared_words(undeclared)
     was = read(accepted_copy)
     unlike = list(differences(name, was, content, accepted["variables"], chaos, scatter))
-    faults = [each.says for each in unlike if each.is_fault]
+    faults = [each.reason for each in unlike if each.is_fault]
     if faults := faults or [*values.jumps(was, content, steps)]:
         return Status.DIFFERENT, "; ".join(faults[:3])
-    if beyond := [each.says for each in unlike if each.beyond]:
+    if beyond := [each.reason for each in unlike if each.beyond]:
         count = sum(each.beyond for each in unlike)
         return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
-    return Status.WITHIN, "; ".join([each.says for each in unlike][:3])
+    return Status.WITHIN, "; ".join([each.reason for each in unlike][:3])
 
 
 def undeclared_words(variables: list[str]) -> str:

@@ -26,7 +26,7 @@ def render(verdict: ComparisonResult, results: Path, folder: Path) -> str:
         "title": title,
         "sections": [],
         "verdict": verdict,
-        "told": unlike,
+        "differing": unlike,
         "pictures": pictures,
     }
     return page.render("comparison_page.html.j2", Path(__file__).parent, **values)

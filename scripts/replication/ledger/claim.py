@@ -11,7 +11,7 @@ from .criterion import Verdict
 Wrong = str | Callable | tuple[str, Callable]
 
 
-class Control(NamedTuple):
+class ClaimControl(NamedTuple):
     """A wrong case for a deciding function, which must not confirm the claim by it.
 
     `fed` says, by the name of a needed dataset, what takes its place: the name of another dataset,
@@ -25,7 +25,7 @@ class Control(NamedTuple):
     and sweeps that the control takes from a dataset of many.
     """
 
-    says: str
+    description: str
     fed: Mapping[str, Wrong] | Wrong
     confirms: bool = False
     on: tuple[str, ...] = ()
@@ -68,10 +68,10 @@ class Claim(NamedTuple):
 
     name: str
     place: str
-    says: str
+    statement: str
     needs: tuple[str, ...]
     decide: Callable
-    controls: tuple[Control, ...]
+    controls: tuple[ClaimControl, ...]
     on: tuple[str, ...] = ()
     kind: Kind = Kind.OBSERVATION
     origin: Origin = Origin.PAPER
@@ -92,7 +92,7 @@ def claim(
     place: str,
     statement: str,
     needs: tuple[str, ...],
-    controls: tuple[Control, ...] = (),
+    controls: tuple[ClaimControl, ...] = (),
     on: tuple[str, ...] = (),
     kind: Kind = Kind.OBSERVATION,
     origin: Origin = Origin.PAPER,
@@ -113,17 +113,21 @@ def claim(
     return declare
 
 
-def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
+def _by_name(control: ClaimControl, needs: tuple[str, ...]) -> ClaimControl:
     """Return the control with what it feeds by names that all have their folder."""
     fed, complete = control.fed, {}
     if not isinstance(fed, Mapping):
         if len(needs) > 1:
-            raise ValueError(f"control {control.says!r}: say which of {', '.join(needs)} it feeds")
+            raise ValueError(
+                f"control {control.description!r}: say which of {', '.join(needs)} it feeds"
+            )
         fed = {needs[0]: fed}
     for name, wrong in fed.items():
         right = [need for need in needs if name in (need, need.partition("/")[2])]
         if len(right) != 1:
-            raise ValueError(f"control {control.says!r}: {name} is not one of {', '.join(needs)}")
+            raise ValueError(
+                f"control {control.description!r}: {name} is not one of {', '.join(needs)}"
+            )
         replacement, *change = wrong if isinstance(wrong, tuple) else (wrong,)
         if isinstance(replacement, str) and "/" not in replacement:
             replacement = f"{right[0].partition('/')[0]}/{replacement}"

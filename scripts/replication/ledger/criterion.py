@@ -39,14 +39,14 @@ class Criterion(ABC):
 class Limit(Criterion):
     """A limit to which measured numbers have the relation `sign`; all of `names` must keep it.
 
-    The limit is a number or a `Cutoff`. `says` are the words for the numbers in print, if their
-    names alone do not say what they are.
+    The limit is a number or a `Cutoff`. `label` is what the numbers are called in print,
+    if their names alone are not clear.
     """
 
     sign: str
 
-    def __init__(self, limit: SupportsFloat, *names: str, says: str = ""):
-        self.limit, self.names, self.says = float(limit), names, says
+    def __init__(self, limit: SupportsFloat, *names: str, label: str = ""):
+        self.limit, self.names, self.label = float(limit), names, label
 
     def is_within(self, value: float) -> bool:
         """Return whether one number keeps the limit."""
@@ -65,7 +65,7 @@ class Limit(Criterion):
     @property
     def words(self) -> str:
         """What must keep the limit."""
-        return self.says or ", ".join(map(in_words, self.names))
+        return self.label or ", ".join(map(in_words, self.names))
 
     def __str__(self) -> str:
         return f"{self.words} {self.sign} {limit_as_text(self.limit)}"
@@ -121,8 +121,8 @@ class WithinFactor(Below):
 class Near(Limit):
     """Each number differs from `target` by no more than the limit."""
 
-    def __init__(self, target: float, limit: SupportsFloat, *names: str, says: str = ""):
-        super().__init__(limit, *names, says=says)
+    def __init__(self, target: float, limit: SupportsFloat, *names: str, label: str = ""):
+        super().__init__(limit, *names, label=label)
         self.target = float(target)
 
     def is_within(self, value: float) -> bool:

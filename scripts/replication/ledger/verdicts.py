@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 
 from replication.differences import NO_DIFFERENCES, Differences
 
-from .claim import Claim, Control, Wrong
+from .claim import Claim, ClaimControl, Wrong
 from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
 from .cutoff import each_move, flips, reading
 from .missing import missing
@@ -35,7 +35,7 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
     return undecided(finding.measured, lacking) if lacking else finding
 
 
-def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
+def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
     """Return the finding of a claim's function on a control."""
     absent = [name for name in (*claim.needs, *control.names) if name not in sources]
     if absent:
@@ -66,11 +66,11 @@ def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
         f"{value:.4g} instead of {cutoff.number:.4g} ({cutoff.origin})": finding_when_moved
         for cutoff, value, finding_when_moved in each_move(cutoffs, lambda: decide(claim, sources))
     }
-    controls = {control.says: feed(claim, control, sources) for control in claim.controls}
+    controls = {control.description: feed(claim, control, sources) for control in claim.controls}
     return {"": finding} | moves | controls
 
 
-def passes(control: Control, finding: Finding) -> bool | None:
+def passes(control: ClaimControl, finding: Finding) -> bool | None:
     """Return whether a finding is what the control must give, None where it does not apply.
 
     A refusal must come from numbers: what is missing or no number refuses everything.
@@ -90,7 +90,7 @@ def confirmed(finding: Finding) -> bool:
 
 
 def why_not_applicable(
-    differences: Differences, claim: Claim, control: Control | None = None
+    differences: Differences, claim: Claim, control: ClaimControl | None = None
 ) -> str:
     """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
     of_claim = differences.reason(claim.needs, claim.on)
@@ -130,7 +130,7 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
         "section": claim.section,
         "place": claim.place,
         "origin": str(claim.origin),
-        "says": claim.says,
+        "says": claim.statement,
         "kind": str(claim.kind),
         "decided_by": list(claim.needs),
         "function": f"{claim.decide.__module__}.{claim.name}",
@@ -144,7 +144,7 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
         "rests_on": moved,
         "controls": [
             {
-                "fed": control.says,
+                "fed": control.description,
                 "must": control.must,
                 "verdict": str(fed.verdict),
                 "because": fed.because,
@@ -155,12 +155,14 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
     }
 
 
-def _severe(finding: Finding, moved: list[str], controls: list[tuple[Control, Finding]]) -> Finding:
+def _severe(
+    finding: Finding, moved: list[str], controls: list[tuple[ClaimControl, Finding]]
+) -> Finding:
     """Return the finding with what the moved cut-offs and the controls say against it."""
     failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
     if failed is not None and finding.verdict != Verdict.UNDECIDED:
         control, fed = failed
-        wrong = f"{control.says}: must {control.must}, found: {fed.verdict}"
+        wrong = f"{control.description}: must {control.must}, found: {fed.verdict}"
         return undecided(finding.measured, f"its function fails a control: {wrong}")
     if not moved:
         return finding

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from replication.figure_diff import ComparisonResult as ComparisonResult
 from replication.figure_diff import acceptance, baseline
 from replication.ledger.changes import scale
-from replication.ledger.claim import Claim, Control, claim
+from replication.ledger.claim import Claim, ClaimControl, claim
 from replication.ledger.criterion import AllOf, AtLeast, AtMost, Finding, judge
 from replication.ledger.cutoff import Cutoff
 from replication.ledger.decide import decide_claims, join_claims
@@ -74,7 +74,7 @@ def shares(run: xr.Dataset) -> xr.DataArray:
     "Fig 1",
     "The energy leaves the first mode, and most of it comes back.",
     (RUN,),
-    (Control("a linear chain, whose energy stays in the first mode", LINEAR),),
+    (ClaimControl("a linear chain, whose energy stays in the first mode", LINEAR),),
 )
 def energy_returns(run: xr.Dataset) -> Finding:
     """Decide by the smallest fraction in the first mode and the largest one after that."""
@@ -89,7 +89,7 @@ def energy_returns(run: xr.Dataset) -> Finding:
     "The energy is not shared by all modes: the first five keep most of it.",
     (RUN,),
     (
-        Control(
+        ClaimControl(
             "a tenth of the energy after period 50", scale("energy", 0.1, time=slice(50.0, None))
         ),
     ),

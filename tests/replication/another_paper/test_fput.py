@@ -21,8 +21,9 @@ def run(tmp_path_factory):
 def test_the_claims_of_1955_hold_and_their_wrong_cases_are_rejected(run):
     rows = json.loads((run[0] / "claims.json").read_text())["rows"]
     assert {row["name"]: row["verdict"] for row in rows} == {
-        "energy_returns": "confirmed", "low_modes_hold_the_energy": "confirmed"
-    }  # fmt: skip
+        "energy_returns": "confirmed",
+        "low_modes_hold_the_energy": "confirmed",
+    }
     assert all(control["passes"] for row in rows for control in row["controls"])
     measured = {name: value for row in rows for name, value in row["measured"].items()}
     assert measured["returned"] > 0.97  # "to within a few percent", as the paper says

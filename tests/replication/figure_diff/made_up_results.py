@@ -134,7 +134,7 @@ def numbers(seed: int = 0) -> dict[str, xr.Dataset]:
             SCATTERED,
             "error",
         ),
-    }  # fmt: skip
+    }
 
 
 @style.styled

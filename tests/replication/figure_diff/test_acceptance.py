@@ -124,7 +124,7 @@ def test_a_copy_in_the_baseline_that_is_not_as_accepted_is_a_fault(run, name, ho
     path.unlink() if how == "missing" else path.write_bytes(path.read_bytes() + b"\n")
     for any_bits in (False, True):
         found = run.findings(any_bits=any_bits)[name]
-        assert found.status == Status.DAMAGED and how in found.says and "restore" in found.says
+        assert found.status == Status.DAMAGED and how in found.reason and "restore" in found.reason
 
 
 @pytest.mark.parametrize("name", ["../thesis.md", "/thesis.md", "thesis.docx", "up/thesis.md"])

@@ -49,7 +49,7 @@ def test_pictures_of_other_versions_are_judged_by_their_descriptions(run):
     pdf.write_bytes(sealed_pdf(pdf.read_bytes()))
     run.pretend("drawing", "zlib")
     found = run.findings()["figures/fig2.pdf"]
-    assert found.status == Status.BEYOND and "its description; that is identical" in found.says
+    assert found.status == Status.BEYOND and "its description; that is identical" in found.reason
 
 
 def test_other_versions_of_drawing_may_choose_other_ticks_and_no_other_words(run):
@@ -69,7 +69,7 @@ def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run, m
     assert run.findings(any_bits=True)[LEDGER].status == Status.DIFFERENT
     made_up.put_words(moved.made, largest=6.9, verdict="not reproduced")
     found = moved.findings(any_bits=True)
-    assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].says
+    assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].reason
 
 
 @pytest.mark.parametrize(
@@ -184,8 +184,8 @@ def test_a_variable_that_says_nothing_of_chaos_is_neither_compared_nor_accepted(
     run.change(made_up.LIVES, lambda lives: (lives + 1.0).drop_attrs())
     found = run.findings(any_bits=True)[made_up.LIVES]
     assert found.status == Status.DIFFERENT
-    assert found.says.startswith("median does not say whether it rests on chaos")
-    assert 'write the attribute rests_on_chaos = "no" or "yes"' in found.says
+    assert found.reason.startswith("median does not say whether it rests on chaos")
+    assert 'write the attribute rests_on_chaos = "no" or "yes"' in found.reason
     with pytest.raises(AcceptanceError, match=r"checks/lifetimes.nc, median does not say whether"):
         run.accept()
 
@@ -202,8 +202,8 @@ def test_missing_and_extra_files_and_another_configuration_are_named(run):
     cases = CONFIGURATION["cases"] | {"fig2_small": {"end_time": 4, "omega": 8}}
     shorter = CONFIGURATION | {"cases": cases}
     fault = baseline.compare(NAMES, *run, shorter).findings[0]
-    says = "is not the accepted one: cases.fig2_small.end_time is 4 in place of 50"
-    assert fault == ("configuration", "different", says)
+    reason = "is not the accepted one: cases.fig2_small.end_time is 4 in place of 50"
+    assert fault == ("configuration", "different", reason)
 
 
 def test_without_a_baseline_all_is_extra(run, tmp_path):

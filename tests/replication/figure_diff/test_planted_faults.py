@@ -23,11 +23,19 @@ from replication.ledger.changes import exchange, put, roll, scale, shift
 
 REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING = made_up.NAMES[:6]
 MAP, BOUND, LIVES, PROOFS, HARD = (
-    made_up.MAP, made_up.BOUND, made_up.LIVES, made_up.PROOFS, made_up.HARD,
-)  # fmt: skip
+    made_up.MAP,
+    made_up.BOUND,
+    made_up.LIVES,
+    made_up.PROOFS,
+    made_up.HARD,
+)
 LEDGER, PART, TABLE, REPORT, LIVE = (
-    made_up.LEDGER, made_up.PART, made_up.TABLE, made_up.REPORT, made_up.LIVE,
-)  # fmt: skip
+    made_up.LEDGER,
+    made_up.PART,
+    made_up.TABLE,
+    made_up.REPORT,
+    made_up.LIVE,
+)
 DIFFERENT, DAMAGED, MISSING = Status.DIFFERENT, Status.DAMAGED, Status.MISSING
 BEYOND, WITHIN = Status.BEYOND, Status.WITHIN
 PDF = "figures/fig2.pdf"
@@ -43,14 +51,14 @@ class Fault(NamedTuple):
     file: str
     plant: Callable
     any_bits: Status = DIFFERENT
-    says: str = ""
+    reason: str = ""
     status: Status = DIFFERENT
     elsewhere: Status | None = None
 
 
-def data(name: str, file: str, change: Callable, any_bits=DIFFERENT, says: str = "") -> Fault:
+def data(name: str, file: str, change: Callable, any_bits=DIFFERENT, reason: str = "") -> Fault:
     """Return the fault of a dataset that `change` returns changed."""
-    return Fault(name, file, lambda run: run.change(file, change), any_bits, says)
+    return Fault(name, file, lambda run: run.change(file, change), any_bits, reason)
 
 
 def text(name: str, file: str, old: str, new: str, any_bits=DIFFERENT, status=DIFFERENT, **how):
@@ -199,9 +207,13 @@ FAULTS = [
     # Numbers of a regular run
     data("last bit", REGULAR, shift("l2", 1e-15), WITHIN, "off by"),
     data("a part in 1e9", REGULAR, scale("l2", 1 + 1e-9), WITHIN),
-    data("a part in 1e5", REGULAR, scale("l2", 1 + 1e-5), says="1e-06 is allowed"),
-    data("NaN", REGULAR, put("l2", np.nan, component="A", tau=TAU[77]),
-         says="NaN or infinity elsewhere, at 1 "),
+    data("a part in 1e5", REGULAR, scale("l2", 1 + 1e-5), reason="1e-06 is allowed"),
+    data(
+        "NaN",
+        REGULAR,
+        put("l2", np.nan, component="A", tau=TAU[77]),
+        reason="NaN or infinity elsewhere, at 1 ",
+    ),
     Fault("stale dataset", REGULAR, stale),
     data("sign", REGULAR, scale("l2", -1.0)),
     data("A and B exchanged", REGULAR, exchange("component", names="l2")),
@@ -209,64 +221,98 @@ FAULTS = [
     data("one number", REGULAR, put("l2", 2.0, component="A", tau=TAU[200])),
     data("zeros", REGULAR, put("l2", 0.0, tau=slice(40, None))),
     # What a dataset holds
-    data("tau moved", REGULAR, lambda d: d.assign_coords(tau=d["tau"] + 1e-9), says="coordinates"),
-    data("names exchanged", REGULAR, lambda d: d.assign_coords(component=["B", "A"]), says="words"),
+    data(
+        "tau moved", REGULAR, lambda d: d.assign_coords(tau=d["tau"] + 1e-9), reason="coordinates"
+    ),
+    data(
+        "names exchanged", REGULAR, lambda d: d.assign_coords(component=["B", "A"]), reason="words"
+    ),
     data("sign of infinity", REGULAR, lambda d: d.assign(bound=-d["bound"])),
-    data("whole number", REGULAR, lambda d: d.assign(sites=d["sites"] + 1), says="0 is allowed"),
-    data("lost variable", REGULAR, lambda d: d.drop_vars("bound"), says="bound is gone"),
-    data("variable more", REGULAR, add(more=((), 1.0, {"long_name": "more"})), says="more is new"),
-    data("other type", REGULAR, lambda d: d.astype("float32"), says="l2 is float32"),
-    data("lost attribute", REGULAR, lambda d: d.drop_attrs(deep=False), says="absent"),
-    data("attribute more", REGULAR, lambda d: d.assign_attrs(more=1), says="attribute more is 1"),
-    data("other omega", REGULAR, lambda d: d.assign_attrs(omega=-8.0), says="attribute omega"),
-    data("other units", REGULAR, describe("l2", units="rad"), says="l2: attribute units"),
-    data("other name", REGULAR, describe("l2", long_name="the square"), says="attribute long_name"),
+    data("whole number", REGULAR, lambda d: d.assign(sites=d["sites"] + 1), reason="0 is allowed"),
+    data("lost variable", REGULAR, lambda d: d.drop_vars("bound"), reason="bound is gone"),
+    data(
+        "variable more", REGULAR, add(more=((), 1.0, {"long_name": "more"})), reason="more is new"
+    ),
+    data("other type", REGULAR, lambda d: d.astype("float32"), reason="l2 is float32"),
+    data("lost attribute", REGULAR, lambda d: d.drop_attrs(deep=False), reason="absent"),
+    data("attribute more", REGULAR, lambda d: d.assign_attrs(more=1), reason="attribute more is 1"),
+    data("other omega", REGULAR, lambda d: d.assign_attrs(omega=-8.0), reason="attribute omega"),
+    data("other units", REGULAR, describe("l2", units="rad"), reason="l2: attribute units"),
+    data(
+        "other name", REGULAR, describe("l2", long_name="the square"), reason="attribute long_name"
+    ),
     data("other steps", REGULAR, lambda d: d.assign_attrs(steps=1600), BEYOND, "steps is 1600"),
-    data("other order of axes", REGULAR, lambda d: d.assign(l2=d["l2"].T), says="l2 is float64"),
-    data("a time less", REGULAR, lambda d: d.isel(tau=slice(None, -1)), says="tau 400"),
+    data("other order of axes", REGULAR, lambda d: d.assign(l2=d["l2"].T), reason="l2 is float64"),
+    data("a time less", REGULAR, lambda d: d.isel(tau=slice(None, -1)), reason="tau 400"),
     hidden("group", lambda file: file.createGroup("more")),
     hidden("dimension", lambda file: file.createDimension("more", 3)),
     hidden("type", lambda file: file.createEnumType(np.int8, "fate", ENUM)),
     content("lost seal", REGULAR, lambda found: found[:-LENGTH], DAMAGED),
     content("flipped bit", REGULAR, flip, DAMAGED),
-    Fault("attribute that hides numbers", REGULAR,
-          lambda run: run.change(REGULAR, lambda d: d, fill={"l2": 1e30}), DAMAGED,
-          "hidden attribute: l2:_FillValue", DAMAGED),
+    Fault(
+        "attribute that hides numbers",
+        REGULAR,
+        lambda run: run.change(REGULAR, lambda d: d, fill={"l2": 1e30}),
+        DAMAGED,
+        "hidden attribute: l2:_FillValue",
+        DAMAGED,
+    ),
     # What rests on chaos
     data("another tail", CHAOTIC, shift("l2", 1.0, tau=slice(HORIZON + 10, None)), BEYOND),
-    data("huge number in the tail", CHAOTIC, put("l2", 1e300, tau=45.0), says="too much"),
-    data("negative norms", CHAOTIC, scale("l2", -1.0, tau=slice(40, None)), says="negative"),
-    data("NaN in the tail", CHAOTIC, put("l2", np.nan, tau=45.0), says="NaN"),
-    data("a jump in time", CHAOTIC, put("l2", 14.0, tau=45.0, component="A"), says="range"),
+    data("huge number in the tail", CHAOTIC, put("l2", 1e300, tau=45.0), reason="too much"),
+    data("negative norms", CHAOTIC, scale("l2", -1.0, tau=slice(40, None)), reason="negative"),
+    data("NaN in the tail", CHAOTIC, put("l2", np.nan, tau=45.0), reason="NaN"),
+    data("a jump in time", CHAOTIC, put("l2", 14.0, tau=45.0, component="A"), reason="range"),
     data("tail thrice as large", CHAOTIC, scale("l2", 3.0, tau=slice(40, None))),
-    data("before the horizon", CHAOTIC, put("l2", 2.5, component="A", tau=TAU[60]), says="off by"),
-    data("A and B exchanged after the horizon", CHAOTIC, exchanged_late, says="soon after"),
-    data("a tail that begins at the horizon", CHAOTIC,
-         shift("l2", 0.1, tau=slice(HORIZON + 0.3, None)),
-         says="soon after"),
+    data(
+        "before the horizon", CHAOTIC, put("l2", 2.5, component="A", tau=TAU[60]), reason="off by"
+    ),
+    data("A and B exchanged after the horizon", CHAOTIC, exchanged_late, reason="soon after"),
+    data(
+        "a tail that begins at the horizon",
+        CHAOTIC,
+        shift("l2", 0.1, tau=slice(HORIZON + 0.3, None)),
+        reason="soon after",
+    ),
     data("tau of chaos moved", CHAOTIC, lambda d: d.assign_coords(tau=d["tau"] * (1 + 1e-12))),
     data("points of a sweep exchanged", SWEEP, exchange("half_width", names="l2")),
     data("sweep shifted by a half-width", SWEEP, roll("l2", {"half_width": 1})),
-    data("sweep lower by a fifth", SWEEP, scale("l2", 0.8), says="differs by too much"),
+    data("sweep lower by a fifth", SWEEP, scale("l2", 0.8), reason="differs by too much"),
     data("sweep by another draw", SWEEP, scale("l2", 1.005), BEYOND),
-    data("half-widths of a sweep", SWEEP, lambda d: d.assign_coords(half_width=d["half_width"] + 5),
-         says="coordinates"),
-    data("fates at a regular omega", MAP, put("fate", 3.0, omega=8.0, half_width=20.0),
-         says="fate is off"),
-    data("fates at a chaotic omega", MAP, put("fate", 3.0, omega=0.0), says="differs by too much"),
-    data("lifetimes halved", LIVES, scale("median", 0.5), says="differs by too much"),
+    data(
+        "half-widths of a sweep",
+        SWEEP,
+        lambda d: d.assign_coords(half_width=d["half_width"] + 5),
+        reason="coordinates",
+    ),
+    data(
+        "fates at a regular omega",
+        MAP,
+        put("fate", 3.0, omega=8.0, half_width=20.0),
+        reason="fate is off",
+    ),
+    data(
+        "fates at a chaotic omega", MAP, put("fate", 3.0, omega=0.0), reason="differs by too much"
+    ),
+    data("lifetimes halved", LIVES, scale("median", 0.5), reason="differs by too much"),
     data("lifetimes exchanged", LIVES, exchange("half_width", names="median")),
-    data("names of cases exchanged", EXPONENTS,
-         lambda d: d.assign_coords(case=["fig4_small", "fig2_small"]), says="words"),
+    data(
+        "names of cases exchanged",
+        EXPONENTS,
+        lambda d: d.assign_coords(case=["fig4_small", "fig2_small"]),
+        reason="words",
+    ),
     data("exponent of a regular case", EXPONENTS, shift("exponent", 0.01, case="fig2_small")),
     data("exponent halved", EXPONENTS, scale("exponent", 0.5, case="fig4_small")),
     data("a horizon", TRUST, scale("difference", 1.1, case="fig4_small")),
     # Roundings and proofs
     data("roundings", ROUNDING, scale("defect", 2.0), WITHIN, "by roundings"),
     data("roundings that are none", ROUNDING, scale("defect", 1e9)),
-    data("proven bound times 0.01", BOUND, scale("bound", 0.01), says="smaller than what was"),
-    data("proven radius times 0.995", PROOFS, scale("radius", 0.995), says="smaller than what was"),
-    data("proven radius times 1.05", PROOFS, scale("radius", 1.05), says="of what is proved"),
+    data("proven bound times 0.01", BOUND, scale("bound", 0.01), reason="smaller than what was"),
+    data(
+        "proven radius times 0.995", PROOFS, scale("radius", 0.995), reason="smaller than what was"
+    ),
+    data("proven radius times 1.05", PROOFS, scale("radius", 1.05), reason="of what is proved"),
     data("proven radius times 1.005", PROOFS, scale("radius", 1.005), WITHIN),
     data("errors of hard cases", HARD, put("error", 9e-9)),
     data("error of no hard case", HARD, put("error", np.nan, row=1)),
@@ -282,12 +328,20 @@ FAULTS = [
     text("verdict by hand", LEDGER, "confirmed", "refuted", DAMAGED, DAMAGED, sealed=False),
     text("number of a claim", LEDGER, "6.60403", "6.60404"),
     text("verdict in the report", REPORT, "confirmed", "refuted"),
-    text("verdict hidden in the report", REPORT, "<p>The claim is",
-         '<section id="run"><p>The claim is refuted.</p></section><p>The claim is'),
+    text(
+        "verdict hidden in the report",
+        REPORT,
+        "<p>The claim is",
+        '<section id="run"><p>The claim is refuted.</p></section><p>The claim is',
+    ),
     text("verdict among the times", REPORT, "Wall time: 96 s", "all 77 claims are refuted"),
     text("line more among the times", REPORT, "</p>\n</section>", "</p>\n<p>Bad.</p>\n</section>"),
-    text("report without its times", REPORT,
-         '<section id="run">\n<p>Wall time: 96 s</p>\n</section>', ""),
+    text(
+        "report without its times",
+        REPORT,
+        '<section id="run">\n<p>Wall time: 96 s</p>\n</section>',
+        "",
+    ),
     text("code of the live page in a report", REPORT, "</p>", '</p>"code": "AA=="'),
     content("emptied report", REPORT, lambda found: b"", DIFFERENT),
     text("other WebAssembly", LIVE, '"code": "AGFz', '"code": "AGFt')._replace(elsewhere=WITHIN),
@@ -299,25 +353,32 @@ FAULTS = [
     drawn("a panel less", panels=1),
     drawn("other label", label="norm"),
     drawn("other limit in the PDF", PDF, limit=9),
-    Fault("axis nearly doubled", "figures/fig4.json",
-          lambda run: made_up.put(run.made, "fig4", made_up.norms(True, seed=1), limit=15)),
+    Fault(
+        "axis nearly doubled",
+        "figures/fig4.json",
+        lambda run: made_up.put(run.made, "fig4", made_up.norms(True, seed=1), limit=15),
+    ),
     *(repainted("darkened picture", darkened, is_drawn_so) for is_drawn_so in (False, True)),
-    *(repainted("red and blue exchanged", with_red_and_blue_exchanged, is_drawn_so)
-      for is_drawn_so in (False, True)),
-    *(repainted("white box over a curve", with_a_white_box, is_drawn_so)
-      for is_drawn_so in (False, True)),
+    *(
+        repainted("red and blue exchanged", with_red_and_blue_exchanged, is_drawn_so)
+        for is_drawn_so in (False, True)
+    ),
+    *(
+        repainted("white box over a curve", with_a_white_box, is_drawn_so)
+        for is_drawn_so in (False, True)
+    ),
     *(rewritten("text lost in a PDF", without_text, is_drawn_so) for is_drawn_so in (False, True)),
     rewritten("colours of a PDF", with_exchanged_strokes, False),
     rewritten("colours of a PDF", with_exchanged_strokes, True)._replace(elsewhere=BEYOND),
     content("other version of PDF", PDF, lambda f: f.replace(b"%PDF-1.4", b"%PDF-1.5"), DAMAGED),
     content("flipped bit of a picture", PICTURE, flip, DAMAGED),
-    Fault("older picture", PICTURE, of_older_run("png"), says="stale"),
-    Fault("older description", "figures/fig2.json", of_older_run("json"), says="other data"),
+    Fault("older picture", PICTURE, of_older_run("png"), reason="stale"),
+    Fault("older description", "figures/fig2.json", of_older_run("json"), reason="other data"),
     text("description by hand", "figures/fig2.json", "some case", "another case"),
     # Files
     content("empty picture", "figures/fig4.png", lambda found: b"", DAMAGED),
     Fault("lost dataset", REGULAR, lambda run: (run.made / REGULAR).unlink(), MISSING, "", MISSING),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=[fault.name for fault in FAULTS])
@@ -325,9 +386,9 @@ def test_a_planted_fault_is_found(fault, run, known):
     fault.plant(run)
     accepted, any_bits, elsewhere = run.anew(fault.file, known)
     assert accepted.status == fault.status and accepted.status.is_fault, accepted
-    assert any_bits.status == fault.any_bits and fault.says in any_bits.says, any_bits
+    assert any_bits.status == fault.any_bits and fault.reason in any_bits.reason, any_bits
     assert elsewhere.status == (fault.elsewhere or fault.any_bits), elsewhere
-    assert fault.says in accepted.says
+    assert fault.reason in accepted.reason
 
 
 def test_most_faults_are_told_in_every_environment():
@@ -343,14 +404,30 @@ def test_an_untouched_run_is_identical(known):
 
 
 OF_CHAOS = (
-    *("huge number in the tail", "negative norms", "NaN in the tail", "tail thrice as large"),
-    *("before the horizon", "proven bound times 0.01", "roundings that are none", "verdict"),
-    *("sweep shifted by a half-width", "lifetimes halved", "fates at a regular omega"),
-    *("A and B exchanged after the horizon", "proven radius times 0.995", "errors of hard cases"),
-    *("red and blue exchanged when drawn", "text lost in a PDF when drawn"),
-    *("criterion of a chaotic claim", "cut-off of a chaotic claim", "verdict in a table"),
+    "huge number in the tail",
+    "negative norms",
+    "NaN in the tail",
+    "tail thrice as large",
+    "before the horizon",
+    "proven bound times 0.01",
+    "roundings that are none",
+    "verdict",
+    "sweep shifted by a half-width",
+    "lifetimes halved",
+    "fates at a regular omega",
+    "A and B exchanged after the horizon",
+    "proven radius times 0.995",
+    "errors of hard cases",
+    "red and blue exchanged when drawn",
+    "text lost in a PDF when drawn",
+    "criterion of a chaotic claim",
+    "cut-off of a chaotic claim",
+    "verdict in a table",
     "row more in a table",
-    *("verdict in the report", "curves of A and B exchanged", "other label", "older picture"),
+    "verdict in the report",
+    "curves of A and B exchanged",
+    "other label",
+    "older picture",
     "axis nearly doubled",
 )
 """Faults that are found where chaos has taken another path too."""

@@ -6,7 +6,7 @@ import pytest
 from accepted import dataset, datasets
 from pendula.configuration.paper import from_paper, paper
 from pendula.jobs.decide import all_claims
-from replication.ledger.claim import Claim, Control
+from replication.ledger.claim import Claim, ClaimControl
 from replication.ledger.criterion import Above, Verdict, judge
 from replication.ledger.verdicts import decide, evaluate, feed, needed, why_not_applicable
 
@@ -27,7 +27,7 @@ def row_of(differs, needs, controls=(), on=()):
 
 
 def test_an_edited_case_decides_no_claim_on_it():
-    control = Control("a flat run", {"trajectories/fig2_small": "trajectories/fig3_small"})
+    control = ClaimControl("a flat run", {"trajectories/fig2_small": "trajectories/fig3_small"})
     row = row_of(FIG2, ("trajectories/fig2_small",), (control,))
     assert row["verdict"] == Verdict.NOT_APPLICABLE
     assert row["because"] == "the configuration differs in fig2_small.omega (1 in place of 8)"
@@ -37,7 +37,7 @@ def test_an_edited_case_decides_no_claim_on_it():
 
 
 def test_a_control_that_is_fed_an_edited_case_is_not_asked():
-    control = Control("a flat run", {"trajectories/fig3_small": "trajectories/fig2_small"})
+    control = ClaimControl("a flat run", {"trajectories/fig3_small": "trajectories/fig2_small"})
     row = row_of(FIG2, ("trajectories/fig3_small",), (control,))
     assert row["verdict"] == Verdict.CONFIRMED
     assert row["controls"][0]["verdict"] == Verdict.NOT_APPLICABLE

@@ -31,8 +31,11 @@ def findings(numbers, *criteria):
 
 
 def test_every_claim_and_control_has_a_chance():
-    expected = {(claim.name, says) for claim in all_claims()
-                for says in ("", *(control.says for control in claim.controls))}  # fmt: skip
+    expected = {
+        (claim.name, description)
+        for claim in all_claims()
+        for description in ("", *(control.description for control in claim.controls))
+    }
     assert ROWS.keys() == expected, "run `.ci/elsewhere moved`"
     assert KEPT["runs"] >= 10
 
@@ -103,7 +106,10 @@ def test_numbers_without_scatter_turn_nothing():
 
 def test_a_confirmed_claim_counts_where_moved_cut_offs_would_give_it_a_caveat():
     values = [1.0, 1.01, 0.99, 1.02]
-    runs = [{"": by_limit, "moved": by_moved} for by_limit, by_moved in zip(
-        findings(values, Above(0.1, "x")), findings(values, Above(0.97, "x")), strict=True
-    )]  # fmt: skip
+    runs = [
+        {"": by_limit, "moved": by_moved}
+        for by_limit, by_moved in zip(
+            findings(values, Above(0.1, "x")), findings(values, Above(0.97, "x")), strict=True
+        )
+    ]
     assert chance_of_claim(runs, []).value < 1e-5 < 1e-2 < chance_of_claim(runs, ["moved"]).value

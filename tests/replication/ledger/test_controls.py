@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from replication.ledger.claim import Claim, Control
+from replication.ledger.claim import Claim, ClaimControl
 from replication.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
 from replication.ledger.cutoff import Cutoff
 from replication.ledger.verdicts import evaluate, needed, passes
@@ -33,8 +33,8 @@ def it(decide, *controls):
     return Claim("it", "Section 0", "It is so.", ("run",), decide, controls)
 
 
-FLAT = Control("a flat run", {"run": "flat"})
-FALLING = Control("a falling run", {"run": "falling"}, confirms=True)
+FLAT = ClaimControl("a flat run", {"run": "flat"})
+FALLING = ClaimControl("a falling run", {"run": "falling"}, confirms=True)
 
 
 @pytest.mark.parametrize(
@@ -42,17 +42,41 @@ FALLING = Control("a falling run", {"run": "falling"}, confirms=True)
     [
         (grows, FLAT, {"flat": 1.0}, Verdict.NOT_REPRODUCED, Verdict.CONFIRMED, ""),
         (anything, FLAT, {"flat": 1.0}, False, Verdict.UNDECIDED, "fails a control: a flat run"),
-        (grows, FLAT, {}, False, Verdict.UNDECIDED,
-         "a flat run: must be rejected, found: cannot be decided"),
-        (grows, Control("a changed run", {"run": impossible}), {}, False, Verdict.UNDECIDED,
-         "a changed run: must be rejected"),
-        (grows, Control("a tenth", {"run": lambda run: 0.1 * run}), {}, Verdict.NOT_REPRODUCED,
-         Verdict.CONFIRMED, ""),
-        (shrinks, FALLING, {"falling": 0.1}, Verdict.CONFIRMED, Verdict.NOT_REPRODUCED,
-         "growth is 5"),
+        (
+            grows,
+            FLAT,
+            {},
+            False,
+            Verdict.UNDECIDED,
+            "a flat run: must be rejected, found: cannot be decided",
+        ),
+        (
+            grows,
+            ClaimControl("a changed run", {"run": impossible}),
+            {},
+            False,
+            Verdict.UNDECIDED,
+            "a changed run: must be rejected",
+        ),
+        (
+            grows,
+            ClaimControl("a tenth", {"run": lambda run: 0.1 * run}),
+            {},
+            Verdict.NOT_REPRODUCED,
+            Verdict.CONFIRMED,
+            "",
+        ),
+        (
+            shrinks,
+            FALLING,
+            {"falling": 0.1},
+            Verdict.CONFIRMED,
+            Verdict.NOT_REPRODUCED,
+            "growth is 5",
+        ),
         (shrinks, FALLING, {"falling": 5.0}, False, Verdict.UNDECIDED, "a falling run"),
     ],
-)  # fmt: skip
+)
 def test_a_function_that_is_wrong_on_a_control_decides_nothing(
     decide, control, sources, passed, verdict, because
 ):
@@ -61,13 +85,13 @@ def test_a_function_that_is_wrong_on_a_control_decides_nothing(
     (row,) = evaluate([claim], {"run": 5.0, **sources})
     (fed,) = row["controls"]
     assert row["verdict"] == verdict and because in row["because"]
-    assert fed["fed"] == control.says and fed["passes"] == bool(passed)
+    assert fed["fed"] == control.description and fed["passes"] == bool(passed)
     assert not passed or fed["verdict"] == passed
     assert needed([claim]) == ["run", *control.names]
 
 
 def test_a_refusal_comes_from_numbers():
-    refuse = Control("wrong", {})
+    refuse = ClaimControl("wrong", {})
     assert passes(refuse, grows(1.0))
     half_known = judge({"x": 1.5, "y": math.nan}, Below(1.0, "x", "y"))
     assert not passes(refuse, grows(math.nan)) and not passes(refuse, half_known)

@@ -35,7 +35,7 @@ def test_a_criterion_decides_and_prints_the_same_limit(criterion, text, right, w
 
 
 def test_each_number_and_each_part_alone_can_fail():
-    both = AllOf(Below(1.0, "a", "b", says="sizes"), Above(0.0, "c_of_d"))
+    both = AllOf(Below(1.0, "a", "b", label="sizes"), Above(0.0, "c_of_d"))
     right = {"a": 0.0, "b": 0.5, "c_of_d": 1.0}
     assert both.holds(right) and str(both) == "sizes < 1, c of d > 0"
     for name in right:

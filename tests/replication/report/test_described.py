@@ -25,9 +25,7 @@ def test_a_dataset_is_told_with_its_parameters_and_variables(tmp_path):
     words = {"text": f"{300 * 'a'} ...", "sizes": "1, 2"}
     assert found.attributes == {"seed": "20170817", "epsilon": "10⁻⁷", **words}
     meaning = "height of <b>waves</b>"
-    assert found.variables == [
-        ("many", meaning, "rad", "x 3 × y 100"), ("one", meaning, "", "")
-    ]  # fmt: skip
+    assert found.variables == [("many", meaning, "rad", "x 3 × y 100"), ("one", meaning, "", "")]
 
 
 def test_a_figure_is_told_by_its_caption_and_the_size_of_its_picture(tmp_path):

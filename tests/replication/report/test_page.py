@@ -22,9 +22,16 @@ NASTY = "<script>alert(1)</script> {0.__class__} & {{ 7 }}"
 @pytest.fixture
 def written(tmp_path, monkeypatch):
     """Return a function: the page on rows of the ledger and captions, without datasets."""
-    monkeypatch.setattr(document, "figure", lambda path, folder: DescribedFigure(
-        f"figures/{path.stem}", NASTY if path.stem == "extra" else f"{path.stem} is shown.", 30, 20
-    ))  # fmt: skip
+    monkeypatch.setattr(
+        document,
+        "figure",
+        lambda path, folder: DescribedFigure(
+            f"figures/{path.stem}",
+            NASTY if path.stem == "extra" else f"{path.stem} is shown.",
+            30,
+            20,
+        ),
+    )
 
     def write(rows, differs=()):
         (tmp_path / "claims.json").write_text(sealed({"rows": list(rows)}))
@@ -67,8 +74,10 @@ def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
     ],
 )
 def test_a_figure_has_the_verdict_of_its_claims(written, verdicts, said):
-    rows = [row("fig5_decreases") | {"name": f"row{n}", "verdict": one}
-            for n, one in enumerate(verdicts)]  # fmt: skip
+    rows = [
+        row("fig5_decreases") | {"name": f"row{n}", "verdict": one}
+        for n, one in enumerate(verdicts)
+    ]
     line, *_ = re.findall(r'<a href="#figures/fig5">.*?</tr>', written(rows), re.DOTALL)
     assert f"fig5 is shown {said}" in plain(line)
 

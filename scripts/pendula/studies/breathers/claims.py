@@ -2,7 +2,7 @@
 
 import xarray as xr
 from replication.ledger.changes import exchange, put, scale
-from replication.ledger.claim import Control, Origin, claim
+from replication.ledger.claim import ClaimControl, Origin, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -45,7 +45,11 @@ def at_omega(dataset: xr.Dataset, omega: float) -> xr.Dataset:
     PLACE,
     "At the detuning of Fig 3 no computed steady state that is localised on one pair is stable.",
     (STEADY,),
-    (Control("the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names="growth")),),
+    (
+        ClaimControl(
+            "the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names="growth")
+        ),
+    ),
     origin=Origin.OPEN,
 )
 def steady_unstable(steady: xr.Dataset) -> Finding:
@@ -59,7 +63,7 @@ def steady_unstable(steady: xr.Dataset) -> Finding:
         "least_power": states["power"].min(),
         "largest_power": states["power"].max(),
     }
-    criterion = AllOf(AtLeast(1, "families"), Above(0.0, "least_growth", says="least growth rate"))
+    criterion = AllOf(AtLeast(1, "families"), Above(0.0, "least_growth", label="least growth rate"))
     return judge(measured, criterion)
 
 
@@ -76,7 +80,11 @@ def breathers_of_fig3(periodic: xr.Dataset) -> xr.Dataset:
     "At the detuning of Fig 3 there are stable breathers above the frequencies of linear waves: "
     "those in which A swings more than B, and those with A = -B.",
     (PERIODIC,),
-    (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
+    (
+        ClaimControl(
+            "breathers with A = B in place of A alone", exchange("family", "A only", "A = B")
+        ),
+    ),
     origin=Origin.OPEN,
 )
 def periodic_stable(periodic: xr.Dataset) -> Finding:
@@ -90,8 +98,10 @@ def periodic_stable(periodic: xr.Dataset) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "breathers"),
-        Above(float(breathers["highest_wave"]), "lowest_frequency", says="lowest frequency of any"),
-        AtMost(0.0, "largest_growth", says="largest growth rate"),
+        Above(
+            float(breathers["highest_wave"]), "lowest_frequency", label="lowest frequency of any"
+        ),
+        AtMost(0.0, "largest_growth", label="largest growth rate"),
     )
     return judge(measured, criterion, f"tested at {breathers.sizes['frequency']} frequencies")
 
@@ -101,7 +111,7 @@ def periodic_stable(periodic: xr.Dataset) -> Finding:
     "At the detuning of Fig 3 solitons with A = B and frequencies from -3.5 to -1 are breathers of "
     "less P than the large initial condition, and unstable.",
     (PERIODIC,),
-    (Control("solitons that no perturbation leaves", put("soliton_growth", 0.0)),),
+    (ClaimControl("solitons that no perturbation leaves", put("soliton_growth", 0.0)),),
     origin=Origin.OPEN,
 )
 def solitons_unstable(periodic: xr.Dataset) -> Finding:
@@ -119,10 +129,10 @@ def solitons_unstable(periodic: xr.Dataset) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "solitons"),
-        Below(DATA_POWER, "largest_power", says="largest P"),
-        Above(0.0, "least_growth", says="least growth rate"),
+        Below(DATA_POWER, "largest_power", label="largest P"),
+        Above(0.0, "least_growth", label="least growth rate"),
         Below(
-            SAME_GROWTH, "change_with_length", says="change of a growth rate on the longer chain"
+            SAME_GROWTH, "change_with_length", label="change of a growth rate on the longer chain"
         ),
     )
     return judge(measured, criterion)
@@ -134,8 +144,8 @@ def solitons_unstable(periodic: xr.Dataset) -> Finding:
     "frequencies of linear waves at Omega = -4 ever has.",
     (PERIODIC,),
     (
-        Control("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
-        Control("a family with half of its P", scale("least_power", 0.5, family="A only")),
+        ClaimControl("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
+        ClaimControl("a family with half of its P", scale("least_power", 0.5, family="A only")),
     ),
     origin=Origin.OPEN,
 )
@@ -148,7 +158,7 @@ def data_below_breathers(periodic: xr.Dataset) -> Finding:
     stable = breathers["least_power"].where(breathers["growth"] == 0.0)
     measured = {"least_of_a_period": stable.min(), "data": DATA_POWER}
     label = "least P of a stable breather within a period, over all frequencies and families"
-    return judge(measured, Above(DATA_POWER, "least_of_a_period", says=label))
+    return judge(measured, Above(DATA_POWER, "least_of_a_period", label=label))
 
 
 @claim(
@@ -156,7 +166,7 @@ def data_below_breathers(periodic: xr.Dataset) -> Finding:
     "At Omega = -4 the large initial condition spreads over the chain, but most "
     "initial conditions perturbed by 1 % do not.",
     (SENSITIVITY,),
-    (FAR_AS_NEAR, Control("runs that all spread", ALL_SPREAD)),
+    (FAR_AS_NEAR, ClaimControl("runs that all spread", ALL_SPREAD)),
     on=("fig3_large",),
     origin=Origin.OWN,
 )
@@ -174,8 +184,8 @@ def spreading_is_an_accident(sensitivity: xr.Dataset) -> Finding:
     }
     label = "confidence limit of the share that spreads"
     criterion = AllOf(
-        Above(MAJORITY, "small_at_least", says=f"lower {label}, perturbed by up to 1e-6"),
-        Below(MAJORITY, "large_at_most", says=f"upper {label}, perturbed by 1e-2 and more"),
+        Above(MAJORITY, "small_at_least", label=f"lower {label}, perturbed by up to 1e-6"),
+        Below(MAJORITY, "large_at_most", label=f"upper {label}, perturbed by 1e-2 and more"),
     )
     spread = measured["of_large"]
     some = f"{100 * spread:.2g} % of the runs perturbed by 1e-2 and more spread too"
@@ -193,8 +203,8 @@ def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
     "all spread at Omega = 0, and none at Omega = 8.",
     (MAP,),
     (
-        Control("the maps at both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
-        Control("one initial condition at Omega = 0 that disperses", one_that_disperses),
+        ClaimControl("the maps at both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
+        ClaimControl("one initial condition at Omega = 0 that disperses", one_that_disperses),
     ),
     origin=Origin.OWN,
 )
@@ -208,7 +218,7 @@ def detuning_decides(fates: xr.Dataset) -> Finding:
         "spread_at_0": at_omega(unequal, OF_FIG_4).mean(),
     }
     criterion = AllOf(
-        AtLeast(1.0, "spread_at_0", says="share that spreads at Omega = 0"),
-        AtMost(0.0, "spread_at_8", says="share that spreads at Omega = 8"),
+        AtLeast(1.0, "spread_at_0", label="share that spreads at Omega = 0"),
+        AtMost(0.0, "spread_at_8", label="share that spreads at Omega = 8"),
     )
     return judge(measured, criterion)

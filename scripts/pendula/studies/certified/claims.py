@@ -2,7 +2,7 @@
 
 import xarray as xr
 from replication.ledger.changes import put
-from replication.ledger.claim import Control, Origin, claim
+from replication.ledger.claim import ClaimControl, Origin, claim
 from replication.ledger.criterion import (
     AllOf,
     AtLeast,
@@ -26,7 +26,7 @@ NEAR = Cutoff(1e-12, "twelve correct digits of a state")
     "One computed trajectory of each case is proved to lie within 1e-9 of the true one.",
     (CURVES,),
     (
-        Control(
+        ClaimControl(
             "the same trajectories one output late",
             lambda trust: trust.assign(distance=trust["late_distance"]),
         ),
@@ -44,8 +44,10 @@ def curves_certified(trust: xr.Dataset) -> Finding:
         "largest_distance": proved["distance"].max(skipna=False),
     }
     criterion = AllOf(
-        AtMost(NEEDED, "largest_bound", says="largest proven distance"),
-        AtMost(1.0, "largest_distance", says="largest distance from the reference, over its bound"),
+        AtMost(NEEDED, "largest_bound", label="largest proven distance"),
+        AtMost(
+            1.0, "largest_distance", label="largest distance from the reference, over its bound"
+        ),
     )
     return judge(measured, criterion)
 
@@ -55,11 +57,11 @@ def curves_certified(trust: xr.Dataset) -> Finding:
     "On the infinite chain a steady breather exists near each computed one, as proved.",
     (BREATHERS,),
     (
-        Control(
+        ClaimControl(
             "a state inside the band of linear waves",
             lambda proved: put("radius", proved["wrong_radius"][0])(proved),
         ),
-        Control(
+        ClaimControl(
             "a state at another Omega than its own",
             lambda proved: put("radius", proved["wrong_radius"][1])(proved),
         ),
@@ -72,5 +74,5 @@ def breathers_exist(proved: xr.Dataset) -> Finding:
         "proofs": proved.sizes["proof"],
         "largest_radius": proved["radius"].max(skipna=False),
     }
-    near = Below(NEAR, "largest_radius", says="largest proven distance to the true state")
+    near = Below(NEAR, "largest_radius", label="largest proven distance to the true state")
     return judge(measured, AllOf(AtLeast(1, "proofs"), near))

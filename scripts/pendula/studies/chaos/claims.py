@@ -16,7 +16,7 @@ from latticode.measures.confidence import (
     mean_limits,
 )
 from replication.ledger.changes import repeat, scale, take
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import ClaimControl, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -114,10 +114,10 @@ WORDS = {
 }
 
 
-def wrong_case(right: str, wrong: str) -> Control:
+def wrong_case(right: str, wrong: str) -> ClaimControl:
     """Return a control: the members of another case in place of those of `right`."""
     fed = {"members": repeat("case", wrong, at=right)}
-    return Control(WORDS[wrong], fed, on=(right, wrong))
+    return ClaimControl(WORDS[wrong], fed, on=(right, wrong))
 
 
 # --- Fig 3, lower ---------------------------------------------------------------------------------
@@ -139,7 +139,7 @@ def ensemble_fig3_grows(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding
     near = almost_equal(sensitivity, members.attrs["perturbation"])
     grown = mean_limits_of(members, "fig3_large", over_start, "l2")
     label = f"lower confidence limit of the mean l2 on {LATER} over its initial value"
-    return near.judge({"growth": grown.value, "low": grown.low}, Above(FACTOR, "low", says=label))
+    return near.judge({"growth": grown.value, "low": grown.low}, Above(FACTOR, "low", label=label))
 
 
 @fig3(
@@ -155,7 +155,7 @@ def ensemble_fig3_excites(members: xr.Dataset, sensitivity: xr.Dataset) -> Findi
 
     low = mean_limits_of(members, "fig3_large", excited).low
     label = f"lower confidence limit of the number of other pendula above A_0 / 3 on {LATER}"
-    return near.judge({"low": low}, Above(SEVERAL, "low", says=label))
+    return near.judge({"low": low}, Above(SEVERAL, "low", label=label))
 
 
 @fig3("The A and B modes mix up.", "fig2_large", "fig2_small")
@@ -171,11 +171,13 @@ def ensemble_fig3_mixes(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding
     ratios = mean_limits_of(members, "fig3_large", ratio)
     measured = {"ratio_low": ratios.low, "ratio_high": ratios.high}
     is_comparable = WithinFactor(
-        FACTOR, *measured, says="confidence interval of l2 of A over that of B"
+        FACTOR, *measured, label="confidence interval of l2 of A over that of B"
     )
     measured["correlation_low"] = mean_limits_of(members, "fig3_large", correlation).low
     label = "lower confidence limit of the correlation of |A|^2 and |B|^2"
-    return near.judge(measured, is_comparable, Above(ANTICORRELATED, "correlation_low", says=label))
+    return near.judge(
+        measured, is_comparable, Above(ANTICORRELATED, "correlation_low", label=label)
+    )
 
 
 @fig3("The l-infinity norm stays at its initial level.", "fig4_small", "fig2_small")
@@ -185,7 +187,7 @@ def ensemble_fig3_maximum(members: xr.Dataset, sensitivity: xr.Dataset) -> Findi
     measured = {"ratio": ratio.value, "low": ratio.low, "high": ratio.high}
     rises = f"it rises by at least {ratio.low - 1.0:.0%}" if ratio.low > 1.0 else ""
     label = f"confidence interval of the mean l-infinity norm on {LATER} over its initial value"
-    return near.judge(measured, WithinFactor(FACTOR, "low", "high", says=label), caveat=rises)
+    return near.judge(measured, WithinFactor(FACTOR, "low", "high", label=label), caveat=rises)
 
 
 # --- Fig 4 ----------------------------------------------------------------------------------------
@@ -212,9 +214,9 @@ def ensemble_fig4_settles(members: xr.Dataset) -> Finding:
     grown = {"growth_low": mean_limits_of(members, "fig4_small", over_start, "linf").low}
     over = lows(members, "l2_over_linf", lambda case: level(case, "l2") / level(case, "linf"))
     criterion = AllOf(
-        Below(CHANGE, *changes, says=f"upper confidence limit of the change to {LATER}"),
-        Above(FACTOR, *grown, says="lower confidence limit of the growth in the small case"),
-        Above(MUCH, *over, says=f"lower confidence limit of l2 over l-infinity on {LATER}"),
+        Below(CHANGE, *changes, label=f"upper confidence limit of the change to {LATER}"),
+        Above(FACTOR, *grown, label="lower confidence limit of the growth in the small case"),
+        Above(MUCH, *over, label=f"lower confidence limit of l2 over l-infinity on {LATER}"),
     )
     return judge(changes | grown | over, criterion)
 
@@ -235,14 +237,14 @@ def ensemble_fig4_many(members: xr.Dataset) -> Finding:
 
     measured = lows(members, "share", share)
     label = "lower confidence limit of the share above half of the centre and A_0 / 3"
-    return judge(measured, Above(MANY, *measured, says=label))
+    return judge(measured, Above(MANY, *measured, label=label))
 
 
 @fig4(
     "There are no visible differences between the upper and lower panels.",
     controls=(
         wrong_case("fig4_small", "fig3_small"),
-        Control(
+        ClaimControl(
             "the lower panel in place of the upper one",
             repeat("case", "fig4_large", at="fig4_small"),
             confirms=True,
@@ -266,7 +268,7 @@ def ensemble_fig4_alike(members: xr.Dataset) -> Finding:
         f" {band:.1%} (standard deviation)"
     )
     label = f"confidence limit of the difference of mean l2 on {LATER}, over the scatter of runs"
-    return judge(measured, Below(BAND, "over_band", says=label), caveat)
+    return judge(measured, Below(BAND, "over_band", label=label), caveat)
 
 
 # --- The abstract ---------------------------------------------------------------------------------
@@ -296,10 +298,10 @@ def ensemble_equilibrium(members: xr.Dataset) -> Finding:
     everywhere = Above(
         FACTOR,
         "least_low",
-        says=f"lower confidence limit of the least amplitude of all pendula on {LATER}, over that"
+        label=f"lower confidence limit of the least amplitude of all pendula on {LATER}, over that"
         " of the initial power spread evenly",
     )
-    settled = Below(CHANGE, "change", says=f"confidence limit of the change of P to {LATER}")
+    settled = Below(CHANGE, "change", label=f"confidence limit of the change of P to {LATER}")
     caveat = "only a finite chain reaches equilibrium everywhere; a longer chain takes longer"
     return judge(measured, AllOf(everywhere, settled), caveat)
 
@@ -315,8 +317,8 @@ def slower_from_one(lifetimes: xr.Dataset) -> xr.Dataset:
     "The transition does not depend on how large the initial amplitude is.",
     checks("lifetimes"),
     controls=(
-        Control("the time at which the central pair calms down", take(transition="life")),
-        Control("runs from one amplitude that take 2.5 times as long", slower_from_one),
+        ClaimControl("the time at which the central pair calms down", take(transition="life")),
+        ClaimControl("runs from one amplitude that take 2.5 times as long", slower_from_one),
     ),
 )
 def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
@@ -339,8 +341,8 @@ def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
         "slowest": times.value.max(),
     }
     criterion = AllOf(
-        Below(FACTOR, "slowest_over_fastest", says="ratio of confidence limits of median times"),
-        Below(CHANGE, "level_range", says="relative difference of confidence limits of late l2"),
+        Below(FACTOR, "slowest_over_fastest", label="ratio of confidence limits of median times"),
+        Below(CHANGE, "level_range", label="relative difference of confidence limits of late l2"),
     )
     return judge(measured, criterion, excited_centre(lifetimes, limits["centre_share"]))
 

@@ -19,7 +19,7 @@ from latticode.measures.levels import relative_range
 from latticode.measures.norms import total_power
 from replication.ledger.chances import RARE
 from replication.ledger.changes import keep, repeat, scale, take, take_from
-from replication.ledger.claim import Control, Kind, claim
+from replication.ledger.claim import ClaimControl, Kind, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -115,7 +115,7 @@ def means_of(ensembles: xr.Dataset, sweep: str, norm: str = "l2", reading: str =
 # --- Wrong cases ----------------------------------------------------------------------------------
 
 
-def flat(name: str) -> Control:
+def flat(name: str) -> ClaimControl:
     """Return a control: all means of the l2 norm of a sweep equal that on its shortest chain.
 
     Their relative errors stay the same.
@@ -125,7 +125,7 @@ def flat(name: str) -> Control:
         to_shortest = ensembles["l2_mean"].isel(half_width=0) / ensembles["l2_mean"]
         return scale(("l2_mean", "l2_error"), to_shortest, sweep=name)(ensembles)
 
-    return Control("means that do not depend on M", {NEEDS[0]: changed})
+    return ClaimControl("means that do not depend on M", {NEEDS[0]: changed})
 
 
 def at_the_start(ensembles: xr.Dataset) -> xr.Dataset:
@@ -134,7 +134,7 @@ def at_the_start(ensembles: xr.Dataset) -> xr.Dataset:
     return scale("l2_mean", to_start, sweep="fig6_right")(ensembles)
 
 
-SMALL = Control("means that stay at the initial norm", {NEEDS[0]: at_the_start})
+SMALL = ClaimControl("means that stay at the initial norm", {NEEDS[0]: at_the_start})
 CROSSED = keep(half_width=slice(None, 100))
 """Chains whose ends the front reaches within the time window."""
 
@@ -160,15 +160,15 @@ def ensemble_fig5_grows(ensembles: xr.Dataset) -> Finding:
         "largest_at": means.half_width[means.largest_before],
     }
     criterion = AllOf(
-        Above(FACTOR, "growth_low", says="lower confidence limit of longest over shortest chain"),
-        Above(NEARLY_ALL, "rising", says="share of steps in M with a significant rise"),
+        Above(FACTOR, "growth_low", label="lower confidence limit of longest over shortest chain"),
+        Above(NEARLY_ALL, "rising", label="share of steps in M with a significant rise"),
     )
     levels = f"up to M = {measured['largest_at']:g}, where it levels off"
     return judge(measured, criterion, levels if last.low <= 1.0 else "")
 
 
 STILL_GROWS = Above(
-    1.0, "last_growth_low", says="lower confidence limit of the longest over any shorter chain"
+    1.0, "last_growth_low", label="lower confidence limit of the longest over any shorter chain"
 )
 
 
@@ -198,7 +198,7 @@ def explain_no_growth(means: Means) -> str:
     "The growth with M confirms growth on the unbounded lattice as time goes to infinity.",
     controls=(
         flat("fig5_right"),
-        Control(
+        ClaimControl(
             "only chains whose ends the front reaches, so that the norm does not level off",
             CROSSED,
             confirms=True,
@@ -211,7 +211,7 @@ def ensemble_fig5_conjecture(ensembles: xr.Dataset) -> Finding:
     means = means_of(ensembles, "fig5_right")
     measured = {"growth_low": means.over(slice(1), slice(-1, None)).low, **last_growth_of(means)}
     label = "lower confidence limit of longest over shortest chain"
-    grows, fails = Above(1.0, "growth_low", says=label), ""
+    grows, fails = Above(1.0, "growth_low", label=label), ""
     if grows.holds(measured):
         fails = (
             f"growth with M is no growth in time: {explain_no_growth(means)}; whether the norm"
@@ -224,7 +224,7 @@ def ensemble_fig5_conjecture(ensembles: xr.Dataset) -> Finding:
 @fig5(
     "The l-infinity norm saturates to the same level independently of M.",
     controls=(
-        Control("the l2 norm, which grows", take(linf_mean="l2_mean", linf_error="l2_error")),
+        ClaimControl("the l2 norm, which grows", take(linf_mean="l2_mean", linf_error="l2_error")),
     ),
 )
 def ensemble_fig5_maximum(ensembles: xr.Dataset) -> Finding:
@@ -234,7 +234,7 @@ def ensemble_fig5_maximum(ensembles: xr.Dataset) -> Finding:
     ratio = means.over(slice(half), slice(half, None))
     label = "confidence interval of the mean on long chains over that on short ones"
     return judge(
-        {"low": ratio.low, "high": ratio.high}, Near(1.0, CHANGE, "low", "high", says=label)
+        {"low": ratio.low, "high": ratio.high}, Near(1.0, CHANGE, "low", "high", label=label)
     )
 
 
@@ -244,7 +244,7 @@ def ensemble_fig5_maximum(ensembles: xr.Dataset) -> Finding:
 def fig6(
     statement: str,
     *more_needs: str,
-    wrong: Control,
+    wrong: ClaimControl,
     place: str = "Section 5, Fig 6 right, in ensembles",
 ) -> Callable:
     """Return the decorator of a claim that also needs the shares of runs that spread.
@@ -270,7 +270,7 @@ def ensemble_fig6_grows(ensembles: xr.Dataset, sensitivity: xr.Dataset) -> Findi
         " peak"
     )
     label = "lower confidence limit of the mean on all longer chains over that on the shortest"
-    return near.judge(measured, Above(1.0, "low", says=label), caveat=caveat)
+    return near.judge(measured, Above(1.0, "low", label=label), caveat=caveat)
 
 
 @claim(
@@ -278,7 +278,7 @@ def ensemble_fig6_grows(ensembles: xr.Dataset, sensitivity: xr.Dataset) -> Findi
     "It apparently diverges as N goes to infinity.",
     NEEDS,
     controls=(
-        Control(
+        ClaimControl(
             "Omega = 0 on chains whose ends the front reaches",
             lambda data: repeat("sweep", "fig5_right", at="fig6_right")(CROSSED(data)),
             confirms=True,
@@ -312,7 +312,7 @@ def ensemble_fig6_not_technical(
     low = np.square(means.mean[-1] - means.off[-1]) / total_power(run)[0]
     fixed = "a fixed time window cannot show growth without bound"
     label = "lower confidence limit of the largest P over its initial value"
-    return near.judge({"low": low, "C_0": c_0}, Above(c_0, "low", says=label), caveat=fixed)
+    return near.judge({"low": low, "C_0": c_0}, Above(c_0, "low", label=label), caveat=fixed)
 
 
 @fig6(
@@ -326,7 +326,7 @@ def ensemble_fig6_time(ensembles: xr.Dataset, sensitivity: xr.Dataset, run: xr.D
     means = means_of(ensembles, "fig6_right")
     measured = {"low": (means.mean - means.off).min() / np.sqrt(total_power(run)[0])}
     label = "lower confidence limit of l2 over its initial value, at every M"
-    return near.judge(measured, Above(FACTOR, "low", says=label))
+    return near.judge(measured, Above(FACTOR, "low", label=label))
 
 
 @claim(
@@ -334,7 +334,7 @@ def ensemble_fig6_time(ensembles: xr.Dataset, sensitivity: xr.Dataset, run: xr.D
     "The norms shown are averages over [10, 40].",
     (*sweeps("fig6_left"), *checks("ensembles")),
     controls=(
-        Control(
+        ClaimControl(
             "averages that grow on the left",
             {"fig6_left": ("fig6_right", take_from("l2", statistic="mean"))},
         ),
@@ -349,8 +349,8 @@ def fig6_caption(left: xr.Dataset, ensembles: xr.Dataset) -> Finding:
         measured[f"range_by_{reading}"] = relative_range(swept(left, "l2", *quantity)[1])
         measured[f"low_by_{reading}"] = right.over(slice(1), slice(1, None)).low
         criteria[reading] = AllOf(
-            Below(CONSTANT, f"range_by_{reading}", says="range on the left over its mean"),
-            Above(1.0, f"low_by_{reading}", says="lower confidence limit of growth on the right"),
+            Below(CONSTANT, f"range_by_{reading}", label="range on the left over its mean"),
+            Above(1.0, f"low_by_{reading}", label="lower confidence limit of growth on the right"),
         )
     if criteria["text"].holds(measured) == criteria["caption"].holds(measured):
         why = "the text is right on the figure by both readings or by neither"

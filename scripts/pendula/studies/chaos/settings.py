@@ -24,7 +24,7 @@ from pendula.configuration.runs import Runs
 from pendula.configuration.schema import PAPER_CASES, Faults, PaperConfiguration
 
 
-class Spectrum(Section):
+class SpectrumSection(Section):
     """All Lyapunov exponents, on a short chain; `duration_factor` times the latest end time.
 
     The chain is also integrated without a drive, for `undriven_duration_factor`.
@@ -48,7 +48,7 @@ VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", 
 Lyapunov = section_of(
     span=Window,
     members=Annotated[Integer, Field(ge=2)],
-    spectrum=Spectrum,
+    spectrum=SpectrumSection,
     **RANDOM,
 )
 

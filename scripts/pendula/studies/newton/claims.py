@@ -6,7 +6,7 @@ from latticode.measures.confidence import difference_limits, order_limits
 from latticode.numerics.elementary import log
 from replication.ledger.chances import RARE
 from replication.ledger.changes import exchange, keep, repeat, scale
-from replication.ledger.claim import Control, Origin, claim
+from replication.ledger.claim import ClaimControl, Origin, claim
 from replication.ledger.criterion import (
     Above,
     AtLeast,
@@ -55,7 +55,7 @@ def order_of(values: xr.DataArray) -> np.ndarray:
 
 # --- The expansion (3) ----------------------------------------------------------------------------
 
-FAST_SLOW_TIME = Control("amplitudes with the slow time mu^2 t", exchange("slow_time"))
+FAST_SLOW_TIME = ClaimControl("amplitudes with the slow time mu^2 t", exchange("slow_time"))
 
 
 @claim(
@@ -74,7 +74,7 @@ def expansion_order(remainder: xr.Dataset) -> Finding:
         "up_to_tau": remainder.attrs["end_time"],
     }
     label = "order in mu of the error of the angles"
-    return judge(measured, Near(3.0, ORDER, "least_order", "largest_order", says=label))
+    return judge(measured, Near(3.0, ORDER, "least_order", "largest_order", label=label))
 
 
 @claim(
@@ -98,7 +98,7 @@ def remainder_bounded(remainder: xr.Dataset) -> Finding:
     label = f"growth of the remainder over mu^3 at tau = {end:g} as t grows {times:g} times"
     caveat = f"as mu goes to 0 at a fixed slow time, here up to tau = {end:g}"
     growth = (fine.values / coarse.values).max()
-    return judge({"largest_growth": growth}, Below(FACTOR, "largest_growth", says=label), caveat)
+    return judge({"largest_growth": growth}, Below(FACTOR, "largest_growth", label=label), caveat)
 
 
 # --- Lemma 1 --------------------------------------------------------------------------------------
@@ -117,7 +117,7 @@ def outside_band(data: xr.Dataset) -> xr.Dataset:
     "In the limit of small mu the pendula become unstable at the gamma_0 of Lemma 1, up to the "
     "order mu^2.",
     (THRESHOLD,),
-    (Control("thresholds for half of the drive", scale("gamma_0_lemma", 2.0)),),
+    (ClaimControl("thresholds for half of the drive", scale("gamma_0_lemma", 2.0)),),
     origin=Origin.OPEN,
     rejected=Verdict.NOT_CARRIED,
 )
@@ -126,14 +126,14 @@ def lemma_1_is_the_limit(threshold: xr.Dataset) -> Finding:
     order = order_of(abs(thresholds["gamma_0"] - thresholds["gamma_0_lemma"]))
     measured = {"least_order": order.min(), "largest_order": order.max()}
     label = "order in mu of the difference"
-    return judge(measured, Near(2.0, ORDER, *measured, says=label))
+    return judge(measured, Near(2.0, ORDER, *measured, label=label))
 
 
 @claim(
     LEMMA_1,
     "The pendula at rest are linearly stable if gamma is below the gamma_0 of Lemma 1.",
     (THRESHOLD,),
-    (Control("only detunings below the band", keep(omega=slice(None, -1e-6)), confirms=True),),
+    (ClaimControl("only detunings below the band", keep(omega=slice(None, -1e-6)), confirms=True),),
     origin=Origin.OPEN,
     rejected=Verdict.NOT_CARRIED,
 )
@@ -142,7 +142,7 @@ def lemma_1_for_the_pendula(threshold: xr.Dataset) -> Finding:
     thresholds = outside_band(threshold)
     fails = "above the band a drive weaker than gamma_0 makes the pendula unstable"
     label = "least threshold of the pendula over that of Lemma 1"
-    criterion = AtLeast(1.0, "least_share", says=label)
+    criterion = AtLeast(1.0, "least_share", label=label)
     share = (thresholds["gamma_0"] / thresholds["gamma_0_lemma"]).min()
     return judge({"least_share": share}, criterion, fails=fails)
 
@@ -155,8 +155,8 @@ def lemma_1_for_the_pendula(threshold: xr.Dataset) -> Finding:
     "At Omega = 0 and small mu the pendula reach a chaotic state with the power of the amplitudes.",
     (TOP,),
     (
-        Control("angles in place of their envelope", scale("site_power", 0.5)),
-        Control("mu in reverse order", exchange("mu")),
+        ClaimControl("angles in place of their envelope", scale("site_power", 0.5)),
+        ClaimControl("mu in reverse order", exchange("mu")),
     ),
     origin=Origin.OPEN,
     rejected=Verdict.NOT_CARRIED,
@@ -174,14 +174,14 @@ def same_sea(over_the_top: xr.Dataset) -> Finding:
     label = "relative difference of P per site, and half of its confidence interval"
     smallest = float(over_the_top["mu"].min())
     caveat = f"at mu = {smallest:g}, where they differ by {measured['difference']:.1%}"
-    return judge(measured, Distance(SAME, *measured, says=label), caveat)
+    return judge(measured, Distance(SAME, *measured, label=label), caveat)
 
 
 @claim(
     "Abstract and Section 6, for the pendula (1)",
     "The l-infinity norm of the pendula at Omega = 0 remains finite: each oscillates.",
     (TOP,),
-    (Control(f"only mu up to {SMALL_ANGLES:g}", SMALL_MU_ALONE, confirms=True),),
+    (ClaimControl(f"only mu up to {SMALL_ANGLES:g}", SMALL_MU_ALONE, confirms=True),),
     origin=Origin.OPEN,
     rejected=Verdict.NOT_CARRIED,
 )
@@ -189,7 +189,7 @@ def pendula_stay_below_the_top(over_the_top: xr.Dataset) -> Finding:
     shares = over_the_top["passed"].isel(tau=-1)
     label = "largest share of runs in which a pendulum goes over the top"
     fails = "at larger mu some pendula go over the top after a while and keep rotating"
-    criterion = AtMost(0.0, "largest_share", says=label)
+    criterion = AtMost(0.0, "largest_share", label=label)
     return judge({"largest_share": shares.max()}, criterion, fails=fails)
 
 
@@ -198,8 +198,10 @@ def pendula_stay_below_the_top(over_the_top: xr.Dataset) -> Finding:
     "At a smaller mu it takes longer until a pendulum goes over the top.",
     (TOP,),
     (
-        Control("mu in reverse order", exchange("mu")),
-        Control("the same times of passage at all mu", repeat("mu", SMALL_ANGLES, slice(None))),
+        ClaimControl("mu in reverse order", exchange("mu")),
+        ClaimControl(
+            "the same times of passage at all mu", repeat("mu", SMALL_ANGLES, slice(None))
+        ),
     ),
     origin=Origin.OPEN,
     rejected=Verdict.NOT_CARRIED,
@@ -215,4 +217,4 @@ def waiting_grows(over_the_top: xr.Dataset) -> Finding:
     share = order_limits(times, 1.0 - RARE.value)
     label = "lower limit of the share of pairs of runs in which that at the smaller mu takes longer"
     measured = {"share": share.value, "share_low": share.low}
-    return judge(measured, Above(0.5, "share_low", says=label))
+    return judge(measured, Above(0.5, "share_low", label=label))

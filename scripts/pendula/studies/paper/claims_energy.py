@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import xarray as xr
 from replication.ledger.changes import repeat
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import ClaimControl, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -59,7 +59,7 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
         largest = max(measured, key=measured.get)
         either = AllOf(AtMost(allowed, *relative), Above(allowed, largest))
         return undecided(measured, caveat, either)
-    return judge(measured, AtMost(allowed, *measured, says=label), fails=caveat)
+    return judge(measured, AtMost(allowed, *measured, label=label), fails=caveat)
 
 
 def as_by(solver: str) -> dict:
@@ -67,7 +67,7 @@ def as_by(solver: str) -> dict:
     return repeat("solver", solver, at=list(UNKNOWNS.values()), names="largest_drift")
 
 
-OF_HIGH_ORDER = Control(
+OF_HIGH_ORDER = ClaimControl(
     "runs of a solver of high order at tight tolerances", as_by("taylor"), confirms=True
 )
 
@@ -89,7 +89,7 @@ def energy_small(solvers: xr.Dataset) -> Finding:
     checks("solvers"),
     controls=(
         OF_HIGH_ORDER,
-        Control(
+        ClaimControl(
             "runs of the second solver, whose scheme does not conserve H", as_by("crank_nicolson")
         ),
     ),

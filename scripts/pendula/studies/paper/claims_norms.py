@@ -8,7 +8,7 @@ from latticode.measures.levels import correlation
 from latticode.measures.norms import largest, total_power
 from latticode.numerics.elementary import log
 from replication.ledger.changes import take_from
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import ClaimControl, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -48,7 +48,7 @@ UNSTABLE = 3.0
     "The simulations at Omega = 8 agree with the global bound of Theorem 1.",
     (*runs("fig2_small", "fig2_large"), *sweeps("fig6_left")),
     controls=(
-        Control(
+        ClaimControl(
             "the norms of the unstable case",
             {"fig2_small": ("fig4_small", take_from("l2", "linf"))},
         ),
@@ -66,7 +66,7 @@ def fig2_bounded(small: xr.Dataset, large: xr.Dataset, sweep: xr.Dataset) -> Fin
         "large": total_power(large).max() / bounds[1],
         "sweep": np.square(sweep["l2"].sel(quantity="pair").values).max() / bounds[1],
     }
-    return judge(measured, AtMost(1.0, *measured, says="largest P over the bound of Theorem 1"))
+    return judge(measured, AtMost(1.0, *measured, label="largest P over the bound of Theorem 1"))
 
 
 fig2_upper = partial(claim, "Section 5, Fig 2 upper", needs=runs("fig2_small"))
@@ -74,7 +74,7 @@ fig2_upper = partial(claim, "Section 5, Fig 2 upper", needs=runs("fig2_small"))
 
 @fig2_upper(
     "The central pendulum excites other pendula in the chain, so that its oscillation decreases.",
-    controls=(Control("the large case, which stays at the centre", "fig2_large"),),
+    controls=(ClaimControl("the large case, which stays at the centre", "fig2_large"),),
 )
 def fig2_excites(small: xr.Dataset) -> Finding:
     a = late(small)["linf"].sel(component="A").max() / small["linf"].sel(component="A")[0]
@@ -86,9 +86,9 @@ def fig2_excites(small: xr.Dataset) -> Finding:
         Above(
             MOST,
             "least_share_elsewhere",
-            says="least share of P beside the largest |A_n| and |B_n|",
+            label="least share of P beside the largest |A_n| and |B_n|",
         ),
-        Below(HALF, "largest_late_amplitude", says="largest late |A_n| over the initial one"),
+        Below(HALF, "largest_late_amplitude", label="largest late |A_n| over the initial one"),
     )
     return judge(measured, criterion)
 
@@ -100,11 +100,11 @@ def share_at_maxima(trajectory: xr.Dataset) -> np.ndarray:
 
 @fig2_upper(
     "The l2 norm oscillates between A and B.",
-    controls=(Control("the large case, where A and B are separate", "fig2_large"),),
+    controls=(ClaimControl("the large case, where A and B are separate", "fig2_large"),),
 )
 def fig2_exchange(small: xr.Dataset) -> Finding:
     a, b = late(small)["l2"].values ** 2
-    against = Below(ANTICORRELATED, "correlation", says="correlation of |A|^2 and |B|^2")
+    against = Below(ANTICORRELATED, "correlation", label="correlation of |A|^2 and |B|^2")
     return judge({"correlation": correlation(a, b)}, against)
 
 
@@ -112,8 +112,8 @@ def fig2_exchange(small: xr.Dataset) -> Finding:
     "While the central oscillation decreases, the l-infinity norms of A and B become comparable "
     "and stay so.",
     controls=(
-        Control("the large case, where B stays small", "fig2_large"),
-        Control("the large case at Omega = 0, whose norms do not fall", "fig4_large"),
+        ClaimControl("the large case, where B stays small", "fig2_large"),
+        ClaimControl("the large case at Omega = 0, whose norms do not fall", "fig4_large"),
     ),
 )
 def fig2_maxima(small: xr.Dataset) -> Finding:
@@ -124,11 +124,11 @@ def fig2_maxima(small: xr.Dataset) -> Finding:
         "deviation": (settled.std("tau") / means).max(),
         "level": means.max() / largest(small)[0],
     }
-    little = Below(CHANGE, "deviation", says="standard deviation over time, relative to the mean")
-    fallen = Below(HALF, "level", says="late mean over the initial value")
+    little = Below(CHANGE, "deviation", label="standard deviation over time, relative to the mean")
+    fallen = Below(HALF, "level", label="late mean over the initial value")
     return judge(
         measured,
-        AllOf(WithinFactor(FACTOR, "ratio", says="mean norm of A over that of B"), little, fallen),
+        AllOf(WithinFactor(FACTOR, "ratio", label="mean norm of A over that of B"), little, fallen),
     )
 
 
@@ -137,7 +137,7 @@ def fig2_maxima(small: xr.Dataset) -> Finding:
     "The motion of A is effectively separated from that of B, and the central pendulum does not"
     " excite large oscillations of others.",
     runs("fig2_large"),
-    controls=(Control("the small case, where A and B exchange P and spread", "fig2_small"),),
+    controls=(ClaimControl("the small case, where A and B exchange P and spread", "fig2_small"),),
 )
 def fig2_separate(large: xr.Dataset) -> Finding:
     settled, start = late(large), float(large["linf"].sel(component="A")[0])
@@ -152,10 +152,10 @@ def fig2_separate(large: xr.Dataset) -> Finding:
         Above(
             RETAINED_MAXIMUM,
             "smallest_A_kept",
-            says="least l-infinity norm of A over its initial value",
+            label="least l-infinity norm of A over its initial value",
         ),
-        Below(small, "B_over_A", says="l2 norm of B over that of A"),
-        Below(small, "all_other_A", says="l2 of all other A_n over A_0"),
+        Below(small, "B_over_A", label="l2 norm of B over that of A"),
+        Below(small, "all_other_A", label="l2 of all other A_n over A_0"),
     )
     return judge(measured, criterion)
 
@@ -172,11 +172,11 @@ def with_growth_of(run: xr.Dataset, growing: xr.Dataset) -> xr.Dataset:
     " determine.",
     runs(*AT_STABLE_REST),
     controls=(
-        Control(
+        ClaimControl(
             "the norms of the unstable case at Omega = 0",
             {"fig3_small": ("fig4_small", take_from("l2", "linf"))},
         ),
-        Control(
+        ClaimControl(
             "norms of the small case at Omega = -4 that grow as those of the large one",
             {"fig3_small": ("fig3_large", with_growth_of)},
         ),
@@ -200,7 +200,10 @@ def stable_oscillations(*trajectories) -> Finding:
         "largest": max(grown[case].max() for case in covered),
     }
     criterion = WithinFactor(
-        FACTOR, "least", "largest", says="l2 over its initial value where a theorem covers the case"
+        FACTOR,
+        "least",
+        "largest",
+        label="l2 over its initial value where a theorem covers the case",
     )
     uncovered = {case: ratio.max() for case, ratio in grown.items() if case not in covered}
     measured |= {f"largest_{case}": ratio for case, ratio in uncovered.items()}
@@ -217,7 +220,7 @@ def stable_oscillations(*trajectories) -> Finding:
     "Section 5, Fig 3 upper",
     "For small initial conditions Omega = -4 shows no drastic difference from Omega = 8.",
     runs("fig2_small", "fig3_small"),
-    controls=(Control("the unstable case at Omega = 0", {"fig3_small": "fig4_small"}),),
+    controls=(ClaimControl("the unstable case at Omega = 0", {"fig3_small": "fig4_small"}),),
 )
 def fig3_alike(eight: xr.Dataset, four: xr.Dataset) -> Finding:
     if eight.attrs["omega"] == four.attrs["omega"]:
@@ -226,7 +229,7 @@ def fig3_alike(eight: xr.Dataset, four: xr.Dataset) -> Finding:
     linf = largest(late(four)).mean() / largest(late(eight)).mean()
     measured = {"l2_ratio": l2, "linf_ratio": linf}
     return judge(
-        measured, WithinFactor(FACTOR, "l2_ratio", "linf_ratio", says="ratio of the mean norms")
+        measured, WithinFactor(FACTOR, "l2_ratio", "linf_ratio", label="ratio of the mean norms")
     )
 
 
@@ -235,8 +238,8 @@ def fig3_alike(eight: xr.Dataset, four: xr.Dataset) -> Finding:
     "At Omega = -4 the bound of Theorem 2 applies only to the smaller initial condition.",
     runs("fig3_small", "fig3_large"),
     controls=(
-        Control("the small case in place of the large one", {"fig3_large": "fig3_small"}),
-        Control("the large case in place of the small one", {"fig3_small": "fig3_large"}),
+        ClaimControl("the small case in place of the large one", {"fig3_large": "fig3_small"}),
+        ClaimControl("the large case in place of the small one", {"fig3_small": "fig3_large"}),
     ),
 )
 def fig3_only_small(small: xr.Dataset, large: xr.Dataset) -> Finding:
@@ -245,8 +248,8 @@ def fig3_only_small(small: xr.Dataset, large: xr.Dataset) -> Finding:
     covered = [region.startswith("theorem 2") for region in regions]
     measured = dict(zip(("small_is_covered", "large_is_covered"), covered, strict=True))
     criterion = AllOf(
-        AtLeast(1, "small_is_covered", says="small case covered by Theorem 2"),
-        AtMost(0, "large_is_covered", says="large case covered by Theorem 2"),
+        AtLeast(1, "small_is_covered", label="small case covered by Theorem 2"),
+        AtMost(0, "large_is_covered", label="large case covered by Theorem 2"),
     )
     widened = "the small case is covered only if the proof keeps the coupling energy"
     return judge(measured, criterion, widened if regions[0] == "theorem 2 widened" else "")
@@ -262,7 +265,7 @@ def region_of(run: xr.Dataset) -> str:
     "Section 5, Fig 4",
     "Zero is linearly unstable at Omega = 0.",
     runs("fig4_small"),
-    controls=(Control("a stable run at Omega = -4", "fig3_small"),),
+    controls=(ClaimControl("a stable run at Omega = -4", "fig3_small"),),
 )
 def fig4_unstable(small: xr.Dataset) -> Finding:
     """Require growth of small data: once cubic terms matter, growth is no instability of zero."""
@@ -271,4 +274,4 @@ def fig4_unstable(small: xr.Dataset) -> Finding:
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]
     measured = {"mean_rate": 0.5 * log(growth) / UNSTABLE}
     label = f"mean growth rate up to tau = {UNSTABLE:g}"
-    return judge(measured, Above(FOLDED, "mean_rate", says=label))
+    return judge(measured, Above(FOLDED, "mean_rate", label=label))

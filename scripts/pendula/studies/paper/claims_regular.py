@@ -2,7 +2,7 @@
 
 import xarray as xr
 from replication.ledger.changes import exchange
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import ClaimControl, claim
 from replication.ledger.criterion import AtMost, Finding, judge
 
 from pendula.claims import checks
@@ -18,7 +18,9 @@ GAMMA = EPSILON = 1.0
     "Section 6",
     "Stable dynamics is relatively simple; that of unstable chains is more interesting.",
     checks("lyapunov", "cases"),
-    controls=(Control("exponents of the cases in reverse order", {"lyapunov": exchange("case")}),),
+    controls=(
+        ClaimControl("exponents of the cases in reverse order", {"lyapunov": exchange("case")}),
+    ),
 )
 def stable_is_regular(lyapunov: xr.Dataset, cases: xr.Dataset) -> Finding:
     grown = lyapunov["chaotic"].sel(case=cases["case"]) == 1
@@ -30,7 +32,7 @@ def stable_is_regular(lyapunov: xr.Dataset, cases: xr.Dataset) -> Finding:
         "regular_among_them": (~grown & ~covered).sum(),
     }
     label = "chaotic cases to which Theorem 1 or 2 applies, and regular ones to which neither does"
-    criterion = AtMost(0, "chaotic_among_them", "regular_among_them", says=label)
+    criterion = AtMost(0, "chaotic_among_them", "regular_among_them", label=label)
     at_rest = gamma_0(cases["omega"].values, EPSILON) > GAMMA
     names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
     caveat = f"{names} is chaotic though its chain at rest is stable" if names else ""

@@ -13,7 +13,7 @@ from latticode.measures.difference import VISIBLE
 from replication.ledger import missing
 from replication.ledger.chances import RARE
 from replication.ledger.changes import put, repeat
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import ClaimControl, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -66,11 +66,13 @@ def late_distance(solvers: xr.Dataset, members: xr.Dataset, case: str) -> tuple[
     "With the second solver Figs 2 to 4 show no significant differences.",
     checks("solvers", "lyapunov", "members"),
     controls=(
-        Control(
+        ClaimControl(
             "Omega = -4 by the second solver for Omega = 0, in the chaotic cases",
             {"solvers": repeat("case", "fig3_large", at=ZERO, names="second_l2")},
         ),
-        Control("chaotic cases required to agree as single runs", {"lyapunov": put("chaotic", 0)}),
+        ClaimControl(
+            "chaotic cases required to agree as single runs", {"lyapunov": put("chaotic", 0)}
+        ),
     ),
 )
 def second_solver(solvers: xr.Dataset, lyapunov: xr.Dataset, members: xr.Dataset) -> Finding:
@@ -90,12 +92,12 @@ def second_solver(solvers: xr.Dataset, lyapunov: xr.Dataset, members: xr.Dataset
         "late_distance": max((distance for distance, _ in distances), default=0.0),
     }
     criterion = AllOf(
-        Below(SEEN, "at_half_step", says="difference of regular runs at half of the assumed step"),
+        Below(SEEN, "at_half_step", label="difference of regular runs at half of the assumed step"),
         Distance(
             likely,
             "late_distance",
-            says="distance of a chaotic run from the mean late l2 norm of its ensemble, in standard"
-            " deviations",
+            label="distance of a chaotic run from the mean late l2 norm of its ensemble, in"
+            " standard deviations",
         ),
     )
     caveats = [
@@ -158,16 +160,16 @@ def coarse_alone(right: xr.Dataset) -> xr.Dataset:
     "With the second solver Figs 5 and 6 show no significant differences.",
     (*FIRST, *SECOND, RIGHT),
     controls=(
-        Control(
+        ClaimControl(
             "runs of the first solver, as those of the second",
             {**dict(zip(SECOND, FIRST, strict=True)), RIGHT: first_as_second},
             confirms=True,
         ),
-        Control(
+        ClaimControl(
             "the sweep at Omega = -4 for that at Omega = 8 by the second solver",
             {SECOND[1]: "fig6_right"},
         ),
-        Control("a coarse step in place of both", {RIGHT: coarse_alone}),
+        ClaimControl("a coarse step in place of both", {RIGHT: coarse_alone}),
     ),
     on=("fig5_left", "fig6_left", "fig6_right"),
 )
@@ -190,9 +192,9 @@ def second_solver_sweeps(
         "share_inside": shares[0],
         "coarse_share_inside": shares[-1],
     }
-    regular = Below(SEEN, "fig5_left", "fig6_left", says="largest difference of a regular sweep")
+    regular = Below(SEEN, "fig5_left", "fig6_left", label="largest difference of a regular sweep")
     label = "share of runs within the range of the first solver in Fig 6, right, at every M"
-    same_range = Above(MAJORITY, "share_inside", "coarse_share_inside", says=label)
+    same_range = Above(MAJORITY, "share_inside", "coarse_share_inside", label=label)
     if regular.holds(measured) and len(same_range.failing(measured)) == 1:
         fine, coarse = right["solver_step"].values[[0, -1]]
         because = (

@@ -10,7 +10,7 @@ from latticode.measures import levels
 from latticode.measures.levels import levelling, relative_range
 from latticode.measures.norms import total_power
 from replication.ledger.changes import scale
-from replication.ledger.claim import Control, claim
+from replication.ledger.claim import ClaimControl, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -49,8 +49,8 @@ def falls_to_a_level(
         "largest_rise": np.max(values / np.minimum.accumulate(values)) - 1.0,
         "level_from": levelling(half_widths, values, LEVEL.value),
     }
-    steady = Below(CONSTANT, "largest_rise", says="largest rise in between")
-    level = Below(np.inf, "level_from", says="half-width where it levels off")
+    steady = Below(CONSTANT, "largest_rise", label="largest rise in between")
+    level = Below(np.inf, "level_from", label="half-width where it levels off")
     return measured, AllOf(Above(CONSTANT, fall), steady, level)
 
 
@@ -59,8 +59,8 @@ def falls_to_a_level(
     "At Omega = -4 the l2 norm decreases in M towards a level.",
     sweeps("fig5_left"),
     controls=(
-        Control("the sweep at Omega = 0, which grows", "fig5_right"),
-        Control("norms 30 % higher at the second to the fifth M", with_a_hump),
+        ClaimControl("the sweep at Omega = 0, which grows", "fig5_right"),
+        ClaimControl("norms 30 % higher at the second to the fifth M", with_a_hump),
     ),
 )
 def fig5_decreases(sweep: xr.Dataset) -> Finding:
@@ -80,7 +80,7 @@ def fig5_decreases(sweep: xr.Dataset) -> Finding:
     "For Omega < -2 gamma a small solution does not grow on the unbounded lattice, in agreement"
     " with Theorem 2.",
     (*runs("fig3_small"), *sweeps("fig5_left")),
-    controls=(Control("the sweep of the large case", {"fig5_left": "fig6_right"}),),
+    controls=(ClaimControl("the sweep of the large case", {"fig5_left": "fig6_right"}),),
 )
 def fig5_theorem_2(case: xr.Dataset, sweep: xr.Dataset) -> Finding:
     start, energy = float(total_power(case)[0]), float(case["energy"][0])
@@ -96,7 +96,7 @@ def fig5_theorem_2(case: xr.Dataset, sweep: xr.Dataset) -> Finding:
         "theorem 2 widened": "covered only if the proof of the theorem keeps the coupling energy",
         "none": "no theorem for the infinite chain covers the initial condition",
     }
-    criterion = AtMost(1.0, "P_over_C0_delta", says="P over C_0 delta")
+    criterion = AtMost(1.0, "P_over_C0_delta", label="P over C_0 delta")
     return judge(measured, criterion, caveats.get(region, ""))
 
 
@@ -105,11 +105,11 @@ def fig5_theorem_2(case: xr.Dataset, sweep: xr.Dataset) -> Finding:
     "A similar dependence (not shown) exists for Omega = 8.",
     checks("not_shown"),
     controls=(
-        Control(
+        ClaimControl(
             "the sweep at Omega = 0, which grows",
             ("sweeps/fig5_right", lambda _, sweep: maxima_of(sweep)),
         ),
-        Control("norms 30 % higher at the second to the fifth M", with_a_hump),
+        ClaimControl("norms 30 % higher at the second to the fifth M", with_a_hump),
     ),
 )
 def fig5_not_shown(check: xr.Dataset) -> Finding:
@@ -126,9 +126,9 @@ def maxima_of(sweep: xr.Dataset) -> xr.Dataset:
     "Section 5, Fig 6 left",
     "At Omega = 8 the maximal l2 norm does not change with N.",
     sweeps("fig6_left"),
-    controls=(Control("the large case at Omega = -4, which grows", "fig6_right"),),
+    controls=(ClaimControl("the large case at Omega = -4, which grows", "fig6_right"),),
 )
 def fig6_constant(sweep: xr.Dataset) -> Finding:
     _, l2 = swept(sweep, "l2", "max", TEXT_6)
-    criterion = Below(CONSTANT, "relative_range", says="range of the maxima over their mean")
+    criterion = Below(CONSTANT, "relative_range", label="range of the maxima over their mean")
     return judge({"relative_range": relative_range(l2)}, criterion)

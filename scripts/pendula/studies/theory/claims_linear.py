@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from latticode.numerics.elementary import log
 from replication.ledger.changes import exchange, roll, shift, take
-from replication.ledger.claim import Control, Kind, claim
+from replication.ledger.claim import ClaimControl, Kind, claim
 from replication.ledger.criterion import Above, AllOf, AtLeast, AtMost, Below, Finding, Near, judge
 from replication.ledger.cutoff import Cutoff
 
@@ -40,7 +40,7 @@ def dispersion() -> None:
     "Lemma 1",
     "Zero is linearly stable for |gamma| < gamma_0, and linearly unstable for |gamma| > gamma_0.",
     checks("chart"),
-    controls=(Control("gamma_0 of another Omega", roll("gamma_0", {"omega": 4})),),
+    controls=(ClaimControl("gamma_0 of another Omega", roll("gamma_0", {"omega": 4})),),
     kind=Kind.THEOREM,
 )
 def stable_below(chart: xr.Dataset) -> Finding:
@@ -56,8 +56,8 @@ def stable_below(chart: xr.Dataset) -> Finding:
     spared = int((above & (chart["finite_rate"] == 0.0)).sum())
     caveat = f"{spared} drives above gamma_0 leave the finite chain stable" if spared else ""
     criterion = AllOf(
-        AtMost(RESOLVED, "fastest", says="fastest growth below gamma_0"),
-        AtLeast(HALF, "slowest", says="slowest growth above it over the predicted rate"),
+        AtMost(RESOLVED, "fastest", label="fastest growth below gamma_0"),
+        AtLeast(HALF, "slowest", label="slowest growth above it over the predicted rate"),
     )
     return judge(measured, criterion, caveat)
 
@@ -66,7 +66,7 @@ def stable_below(chart: xr.Dataset) -> Finding:
     "Lemma 1",
     "Zero is linearly unstable for Omega in [0, 4 epsilon] and any nonzero gamma.",
     checks("chart"),
-    controls=(Control("growth at another Omega", roll("measured", {"omega": 4})),),
+    controls=(ClaimControl("growth at another Omega", roll("measured", {"omega": 4})),),
     kind=Kind.THEOREM,
 )
 def unstable_band(chart: xr.Dataset) -> Finding:
@@ -77,14 +77,14 @@ def unstable_band(chart: xr.Dataset) -> Finding:
         "some Omega of the band stable"
     )
     label = "slowest growth within the band"
-    return judge({"slowest": slowest}, Above(RESOLVED, "slowest", says=label), caveat)
+    return judge({"slowest": slowest}, Above(RESOLVED, "slowest", label=label), caveat)
 
 
 @claim(
     "Section 3, before Lemma 1",
     "The bound gamma_0 on the drive is sharp.",
     checks("threshold"),
-    controls=(Control("gamma_0 of an Omega that is 0.1 farther off", shift("excess", 0.05)),),
+    controls=(ClaimControl("gamma_0 of an Omega that is 0.1 farther off", shift("excess", 0.05)),),
     kind=Kind.THEOREM,
 )
 def sharp_threshold(check: xr.Dataset) -> Finding:
@@ -94,31 +94,33 @@ def sharp_threshold(check: xr.Dataset) -> Finding:
     measured = {"order": steps.min(), "excess_of_the_longest": excess.isel(sites=-1).max()}
     caveat = "on the infinite chain; on N sites the threshold is higher by O(1 / (N + 1)^2)"
     label = "order in 1 / (N + 1) of the threshold of N sites minus gamma_0"
-    return judge(measured, AtLeast(1.0, "order", says=label), caveat)
+    return judge(measured, AtLeast(1.0, "order", label=label), caveat)
 
 
 @claim(
     "Proof of Lemma 1",
     "Above gamma_0 waves grow near theta = pi if Omega > 4 epsilon, near 0 if Omega < 0.",
     checks("threshold"),
-    controls=(Control("the waves of an Omega on the other side of the band", exchange("omega")),),
+    controls=(
+        ClaimControl("the waves of an Omega on the other side of the band", exchange("omega")),
+    ),
     kind=Kind.THEOREM,
 )
 def unstable_waves(check: xr.Dataset) -> Finding:
     edge = abs(check["leading_wave"] - np.pi * (check["omega"] > 0.0)).max(skipna=False)
     label = "distance of the leading wave from its edge"
-    return judge({"from_its_edge": edge}, Below(0.5 * np.pi, "from_its_edge", says=label))
+    return judge({"from_its_edge": edge}, Below(0.5 * np.pi, "from_its_edge", label=label))
 
 
 @claim(
     "Proof of Lemma 1",
     "At |gamma| = gamma_0 perturbations grow polynomially.",
     checks("threshold"),
-    controls=(Control("a drive that exceeds gamma_0", take(wave_exponent="exponent_above")),),
+    controls=(ClaimControl("a drive that exceeds gamma_0", take(wave_exponent="exponent_above")),),
     kind=Kind.THEOREM,
 )
 def threshold_growth(threshold: xr.Dataset) -> Finding:
     measured = {"wave_exponent": threshold["wave_exponent"].max(skipna=False)}
     caveat = "on N sites at their own threshold: at gamma_0, which is lower, none grows"
-    criterion = Near(1.0, RESOLVED_EXPONENT, "wave_exponent", says="exponent of tau of a wave")
+    criterion = Near(1.0, RESOLVED_EXPONENT, "wave_exponent", label="exponent of tau of a wave")
     return judge(measured, criterion, caveat)

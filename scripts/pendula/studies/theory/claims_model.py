@@ -8,7 +8,7 @@ from latticode.measures.confidence import student
 from latticode.measures.growth import INTERVALS
 from replication.ledger import changes
 from replication.ledger.chances import RARE
-from replication.ledger.claim import Control, Kind, claim
+from replication.ledger.claim import ClaimControl, Kind, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -60,10 +60,10 @@ def terms_left(identities: xr.Dataset, *names: str) -> dict[str, float]:
 
 def nothing_left(left: Mapping[str, float]) -> AtMost:
     """Return the criterion that no terms are left of these statements."""
-    return AtMost(0, *left, says="terms left of the identity")
+    return AtMost(0, *left, label="terms left of the identity")
 
 
-def twin(name: str, description: str) -> Control:
+def twin(name: str, description: str) -> ClaimControl:
     """Return the control that puts the wrong twin of this statement in its place."""
 
     def wrong(identities: xr.Dataset):
@@ -71,7 +71,7 @@ def twin(name: str, description: str) -> Control:
         terms = identities["terms"].where(~is_named, identities["twin_terms"])
         return identities.assign(terms=terms)
 
-    return Control(description, {IDENTITIES[0]: wrong})
+    return ClaimControl(description, {IDENTITIES[0]: wrong})
 
 
 @by_algebra(
@@ -91,7 +91,7 @@ def hamiltonian() -> None:
     "The equations have no gauge symmetry, neither as (4) nor in the PT-symmetric form (10).",
     IDENTITIES,
     controls=(
-        Control("gamma = 0, where both have gauge symmetry", changes.take(twin_terms="terms")),
+        ClaimControl("gamma = 0, where both have gauge symmetry", changes.take(twin_terms="terms")),
     ),
     kind=Kind.IDENTITY,
 )
@@ -102,7 +102,7 @@ def no_gauge(identities: xr.Dataset) -> Finding:
         f"terms_left_of_{form}": left.sel(identity=f"phases of ({form}) without drive")
         for form in (4, 10)
     }
-    return judge(measured, Above(0, *measured, says="terms left if all phases are turned"))
+    return judge(measured, Above(0, *measured, label="terms left if all phases are turned"))
 
 
 def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
@@ -117,7 +117,7 @@ def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
     "Introduction",
     "The energy is the only integral of motion.",
     checks("lyapunov"),
-    controls=(Control("spectra at gamma = 0, where l2 is an integral too", without_drive),),
+    controls=(ClaimControl("spectra at gamma = 0, where l2 is an integral too", without_drive),),
 )
 def one_integral(lyapunov: xr.Dataset) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
@@ -132,14 +132,14 @@ def one_integral(lyapunov: xr.Dataset) -> Finding:
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
     measured["most_resolved_pairs"] = vanishing.max()
     label = "vanishing pairs of Lyapunov exponents in every spectrum"
-    one_pair = AtLeast(1.0, "fewest_pairs", says=label), AtMost(1.0, "most_pairs", says=label)
+    one_pair = AtLeast(1.0, "fewest_pairs", label=label), AtMost(1.0, "most_pairs", label=label)
     if measured["most_resolved_pairs"] <= 1.0 < measured["most_pairs"]:
         many = ", ".join(map(str, pairs["spectrum_case"].values[pairs.values > 1.0]))
         return undecided(
             measured,
             "each integral makes a pair of Lyapunov exponents vanish, and on a short chain the runs"
             f" of {many} are too short to exclude that a second pair vanishes",
-            AllOf(one_pair[1], AtMost(1.0, "most_resolved_pairs", says="pairs close to zero")),
+            AllOf(one_pair[1], AtMost(1.0, "most_resolved_pairs", label="pairs close to zero")),
         )
     caveat = (
         "each integral makes a pair of Lyapunov exponents vanish, and on short chaotic chains "

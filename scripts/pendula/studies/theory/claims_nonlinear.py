@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from latticode.numerics.elementary import log
 from replication.ledger.changes import exchange, put, scale, take
-from replication.ledger.claim import Control, Kind, claim
+from replication.ledger.claim import ClaimControl, Kind, claim
 from replication.ledger.criterion import (
     Above,
     AllOf,
@@ -79,7 +79,7 @@ def beyond_runs(well_posed: xr.Dataset, time: str) -> str:
     "For every initial condition in l2 the solution exists at all times.",
     controls=(
         twin(GROWTH, "the bound exp(2 |gamma tau|)"),
-        Control(
+        ClaimControl(
             "runs under twice the drive, by the bound of the drive",
             {"well_posed": take(steepest="steepest_of_twice_the_drive")},
         ),
@@ -91,8 +91,8 @@ def global_existence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     measured = {name: well_posed[name].max(skipna=False) for name in ("from_start", "steepest")}
     criterion = AllOf(
         nothing_left(left),
-        AtMost(1.0, "from_start", says="largest P of a run over the bound (19)"),
-        AtMost(1.0, "steepest", says="largest change of log P over 4 gamma times its duration"),
+        AtMost(1.0, "from_start", label="largest P of a run over the bound (19)"),
+        AtMost(1.0, "steepest", label="largest change of log P over 4 gamma times its duration"),
     )
     caveat = f"{beyond_runs(well_posed, 'end_time')}, where (19) keeps P finite"
     return judge(left | measured, criterion, caveat)
@@ -102,7 +102,7 @@ def global_existence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     "The solution is unique.",
     controls=(
         HALF_OF_THE_RATE,
-        Control(
+        ClaimControl(
             "the solution from a perturbed initial condition as that by the second solver",
             {"well_posed": of_a_neighbour},
         ),
@@ -122,8 +122,8 @@ def uniqueness(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     }
     criterion = AllOf(
         nothing_left(left),
-        AtMost(1.0, "rate", says=RATE),
-        Below(ONE_SOLUTION, "between_solvers", says="distance of the solutions by two solvers"),
+        AtMost(1.0, "rate", label=RATE),
+        Below(ONE_SOLUTION, "between_solvers", label="distance of the solutions by two solvers"),
     )
     caveat = f"{beyond_runs(well_posed, 'close_time')}, where M is finite"
     return judge(left | measured, criterion, caveat)
@@ -136,7 +136,7 @@ RATE = "largest growth of the log of a distance over (2 gamma + M^2 / 2) tau"
     "The solution depends continuously on the initial data.",
     controls=(
         HALF_OF_THE_RATE,
-        Control("distances that do not depend on the size", {"well_posed": of_one_distance}),
+        ClaimControl("distances that do not depend on the size", {"well_posed": of_one_distance}),
     ),
 )
 def continuous_dependence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
@@ -157,9 +157,13 @@ def continuous_dependence(identities: xr.Dataset, well_posed: xr.Dataset) -> Fin
         "largest_order": order.max(),
     }
     orders = Near(
-        1.0, RESOLVED_ORDER, "least_order", "largest_order", says="order of a distance in the first"
+        1.0,
+        RESOLVED_ORDER,
+        "least_order",
+        "largest_order",
+        label="order of a distance in the first",
     )
-    criterion = AllOf(nothing_left(left), AtMost(1.0, "rate", says=RATE), orders)
+    criterion = AllOf(nothing_left(left), AtMost(1.0, "rate", label=RATE), orders)
     caveat = f"{beyond_runs(well_posed, 'close_time')}, where the rate bounds the distance"
     return judge(left | measured, criterion, caveat)
 
@@ -255,7 +259,7 @@ def positive_depth() -> None:
     "The lower bound (25) yields the upper bound (24).",
     checks("errata"),
     controls=(
-        Control(
+        ClaimControl(
             "only states below the barrier, which continuity in time ensures",
             take(largest_power="largest_power_below"),
             confirms=True,
@@ -272,7 +276,7 @@ def bootstrap(check: xr.Dataset) -> Finding:
         "theorem stands, because P is continuous in time and starts below the barrier"
     )
     label = "largest P that the proof's inequalities allow"
-    return judge(measured, AtMost(allowed, "largest_power", says=label), fails=fails)
+    return judge(measured, AtMost(allowed, "largest_power", label=label), fails=fails)
 
 
 @by_algebra(
@@ -289,7 +293,7 @@ def theorem_3() -> None:
     "Proof of Theorem 3",
     "The quadratic part of H is at least -(|Omega| + gamma + 4 epsilon) P.",
     checks("errata"),
-    controls=(Control("2 gamma in place of gamma", take(printed="corrected"), confirms=True),),
+    controls=(ClaimControl("2 gamma in place of gamma", take(printed="corrected"), confirms=True),),
     kind=Kind.THEOREM,
 )
 def theorem_3_proof(check: xr.Dataset) -> Finding:
@@ -299,7 +303,9 @@ def theorem_3_proof(check: xr.Dataset) -> Finding:
         f"A = -B = x (-1)^n violates it on {smallest:.0f} sites and more; with 2 gamma in place of "
         "gamma it holds"
     )
-    return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H minus the bound"), fails=fails)
+    return judge(
+        measured, AtLeast(ROUNDING_OF_H, "printed", label="H minus the bound"), fails=fails
+    )
 
 
 ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)
@@ -309,7 +315,7 @@ ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)
     "Theorem 3",
     "The bound C_N grows without bound with N, and must do so.",
     checks("chain_growth"),
-    controls=(Control("Omega = 8, where Theorem 1 bounds P on any chain", ABOVE_THE_BAND),),
+    controls=(ClaimControl("Omega = 8, where Theorem 1 bounds P on any chain", ABOVE_THE_BAND),),
 )
 def bound_grows(check: xr.Dataset) -> Finding:
     """Require that C_N grows, and that the largest P of data of one energy does."""
@@ -318,8 +324,10 @@ def bound_grows(check: xr.Dataset) -> Finding:
     }
     caveat = "it must at Omega = 0; above the band Theorem 1 gives one bound for all N"
     criterion = AllOf(
-        Above(IN_PROPORTION, "constant_exponent", says="exponent of N in C_N"),
-        Above(IN_PROPORTION, "shell_exponent", says="exponent of N in the largest P of one energy"),
+        Above(IN_PROPORTION, "constant_exponent", label="exponent of N in C_N"),
+        Above(
+            IN_PROPORTION, "shell_exponent", label="exponent of N in the largest P of one energy"
+        ),
     )
     return judge(measured, criterion, caveat)
 
@@ -328,12 +336,12 @@ def bound_grows(check: xr.Dataset) -> Finding:
     "Section 5, before Fig 4",
     "At Omega = 0 the energy does not control large solutions.",
     checks("chain_growth"),
-    controls=(Control("Omega = 8, where the energy bounds P", ABOVE_THE_BAND),),
+    controls=(ClaimControl("Omega = 8, where the energy bounds P", ABOVE_THE_BAND),),
 )
 def energy_not_useful(check: xr.Dataset) -> Finding:
     measured = {"shell_exponent": number(check, "shell_exponent", omega=0.0)}
     label = "exponent of N in the largest P of one energy"
-    return judge(measured, Above(IN_PROPORTION, "shell_exponent", says=label))
+    return judge(measured, Above(IN_PROPORTION, "shell_exponent", label=label))
 
 
 SIZES = ("theorem_1", "theorem_2")
@@ -346,13 +354,13 @@ SIZES = ("theorem_1", "theorem_2")
     " condition.",
     checks("sharpness"),
     controls=(
-        Control(
+        ClaimControl(
             "the least constants in place of the proofs'",
             take(proof_constant="least_constant"),
             confirms=True,
         ),
-        Control("initial conditions of which no P grows", put("least_constant", 1.0)),
-        Control("bounds in terms of H that are 25 % too large", scale("reached", 0.8)),
+        ClaimControl("initial conditions of which no P grows", put("least_constant", 1.0)),
+        ClaimControl("bounds in terms of H that are 25 % too large", scale("reached", 0.8)),
     ),
 )
 def sharp_theorems(check: xr.Dataset) -> Finding:
@@ -372,14 +380,14 @@ def sharp_theorems(check: xr.Dataset) -> Finding:
     }
     shares = [f"share_{theorem}" for theorem in SIZES]
     growths = Above(
-        1.0, *(f"least_constant_{theorem_name}" for theorem_name in SIZES), says="growth of P"
+        1.0, *(f"least_constant_{theorem_name}" for theorem_name in SIZES), label="growth of P"
     )
     by_energy = Above(
         SHARP,
         *(name for name in measured if name.startswith("by_energy")),
-        says="share of the bound by H that is reached",
+        label="share of the bound by H that is reached",
     )
-    by_size = Above(SHARP, *shares, says="share of the bound by the size that is reached")
+    by_size = Above(SHARP, *shares, label="share of the bound by the size that is reached")
     sharp = AllOf(growths, by_energy, by_size)
     if set(sharp.failing(measured)) == set(shares):
         return undecided(measured, _by_energy_alone(measured), sharp)

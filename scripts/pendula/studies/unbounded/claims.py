@@ -12,7 +12,7 @@ import xarray as xr
 from latticode.measures.confidence import ConfidenceInterval, mean_limits, share_limits
 from latticode.measures.spreading import exponent_with_offset
 from replication.ledger.changes import take
-from replication.ledger.claim import Control, Origin, claim
+from replication.ledger.claim import ClaimControl, Origin, claim
 from replication.ledger.criterion import Above, AllOf, Below, Finding, UndecidableError, judge
 from replication.ledger.cutoff import Cutoff, once
 
@@ -86,8 +86,10 @@ def growths_of(run: xr.Dataset) -> tuple[list[ConfidenceInterval], list[float]]:
 
 
 GROWS = AllOf(
-    Above(SLOW, "exponent_at_least", says="lower confidence limit of the exponent of tau in l2"),
-    Above(FACTOR, "factor_at_least", says=f"least factor by which l2 grew since tau = {SETTLED:g}"),
+    Above(SLOW, "exponent_at_least", label="lower confidence limit of the exponent of tau in l2"),
+    Above(
+        FACTOR, "factor_at_least", label=f"least factor by which l2 grew since tau = {SETTLED:g}"
+    ),
 )
 """Criteria on lower limits that hold if l2 grows."""
 
@@ -126,11 +128,11 @@ def following(law: Callable) -> Callable:
     return changed
 
 
-SLOWER = Control(
+SLOWER = ClaimControl(
     "the norm follows tau^(1/4), as in diffusion",
     following(lambda tau: 20.0 * np.sqrt(np.sqrt(tau))),
 )
-SLOWEST = Control(
+SLOWEST = ClaimControl(
     "the norm follows tau^(1/8), slower than in diffusion",
     following(lambda tau: 20.0 * np.sqrt(np.sqrt(np.sqrt(tau)))),
 )
@@ -141,7 +143,7 @@ SLOWEST = Control(
     "Introduction",
     "The l2 norm diverges in the unbounded chain as time goes to infinity.",
     unbounded("fig4_small"),
-    (Control("the stable run fig2_large", "fig2_large"), SLOWEST),
+    (ClaimControl("the stable run fig2_large", "fig2_large"), SLOWEST),
 )
 def unbounded_in_time(run: xr.Dataset) -> Finding:
     measured = growth_of(run)
@@ -178,8 +180,8 @@ def unbounded_band(run: xr.Dataset) -> Finding:
     "For Omega < -2 gamma a large solution can grow in time on the unbounded lattice.",
     (*unbounded("fig3_large"), SENSITIVITY),
     (
-        Control("the stable run fig3_small", {"fig3_large": "fig3_small"}),
-        Control("the run that grows at Omega = 0", {"fig3_large": "fig4_small"}),
+        ClaimControl("the stable run fig3_small", {"fig3_large": "fig3_small"}),
+        ClaimControl("the run that grows at Omega = 0", {"fig3_large": "fig4_small"}),
         FAR_AS_NEAR,
     ),
 )
@@ -198,13 +200,13 @@ def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
         "omega": run["omega"].max(),
     }
     criteria = (
-        Above(FACTOR, "median_factor", says=f"median growth of l2 since tau = {SETTLED:g}"),
+        Above(FACTOR, "median_factor", label=f"median growth of l2 since tau = {SETTLED:g}"),
         Above(
             CHANGE,
             "median_late_growth",
-            says="median growth of the mean of l2 of an octave of tau within two octaves",
+            label="median growth of the mean of l2 of an octave of tau within two octaves",
         ),
-        Below(-2.0 * run.attrs["gamma"], "omega", says="Omega of the run"),
+        Below(-2.0 * run.attrs["gamma"], "omega", label="Omega of the run"),
     )
     return near.judge(measured, *criteria)
 
@@ -214,7 +216,7 @@ def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     "At the detuning of Fig 6, right, the norm grows from other initial conditions of the central "
     "pair too on the unbounded lattice.",
     unbounded("starts"),
-    (Control("the stable run fig3_small", "fig3_small"), SLOWER),
+    (ClaimControl("the stable run fig3_small", "fig3_small"), SLOWER),
     origin=Origin.OWN,
 )
 def unbounded_starts(run: xr.Dataset) -> Finding:
@@ -232,21 +234,21 @@ def unbounded_starts(run: xr.Dataset) -> Finding:
     label = (
         f"lower confidence limit of the share of runs whose l2 grew twofold since tau = {SETTLED:g}"
     )
-    outside = Below(-2.0 * run.attrs["gamma"], "omega", says="Omega of the runs")
+    outside = Below(-2.0 * run.attrs["gamma"], "omega", label="Omega of the runs")
     caveat = f"{share.value:.0%} of the runs, up to tau = {tau[-1]:.0f}"
-    return judge(measured, AllOf(Above(MAJORITY, "share_at_least", says=label), outside), caveat)
+    return judge(measured, AllOf(Above(MAJORITY, "share_at_least", label=label), outside), caveat)
 
 
 @claim(
     "Section 5, Fig 6 left",
     "For Omega > 2 gamma + 4 epsilon a large solution does not grow on the unbounded lattice.",
     unbounded("fig2_large"),
-    (Control("the spreading run fig4_small", "fig4_small"), SLOWER),
+    (ClaimControl("the spreading run fig4_small", "fig4_small"), SLOWER),
 )
 def unbounded_stable(run: xr.Dataset) -> Finding:
     measured = {"growth": late_growths(run, "l2").max()}
     label = "largest relative growth of the mean of l2 of an octave of tau within two octaves"
-    return judge(measured, Below(CONSTANT, "growth", says=label))
+    return judge(measured, Below(CONSTANT, "growth", label=label))
 
 
 @claim(
@@ -254,7 +256,7 @@ def unbounded_stable(run: xr.Dataset) -> Finding:
     "The l-infinity norm remains finite at the dynamical equilibrium.",
     unbounded("fig4_small"),
     (
-        Control("l2, which grows as the square root of tau, in its place", take(linf="l2")),
+        ClaimControl("l2, which grows as the square root of tau, in its place", take(linf="l2")),
         SLOWER,
     ),
 )
@@ -274,4 +276,4 @@ def unbounded_maximum(run: xr.Dataset) -> Finding:
         f"shown up to tau = {times_of(run)[-1]:.0f}; this does not exclude a growth as the fourth "
         "root of ln tau, which the largest of many amplitudes has in thermal equilibrium"
     )
-    return judge(measured, Below(CHANGE, "growth_at_most", says=label), caveat)
+    return judge(measured, Below(CHANGE, "growth_at_most", label=label), caveat)

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from latticode.measures.confidence import ConfidenceInterval, mean_limits
 from replication.ledger.changes import roll, scale, take
-from replication.ledger.claim import Control, Origin, claim
+from replication.ledger.claim import ClaimControl, Origin, claim
 from replication.ledger.criterion import (
     AllOf,
     AtMost,
@@ -46,8 +46,8 @@ def a_stop(run: xr.Dataset) -> xr.Dataset:
     "The central pendulum excites its neighbours, and this process continues.",
     unbounded("omegas"),
     (
-        Control("the speed at another Omega", roll("predicted_speed", {"variant": 1})),
-        Control("fronts that stop", a_stop),
+        ClaimControl("the speed at another Omega", roll("predicted_speed", {"variant": 1})),
+        ClaimControl("fronts that stop", a_stop),
     ),
 )
 def unbounded_front(run: xr.Dataset) -> Finding:
@@ -60,7 +60,7 @@ def unbounded_front(run: xr.Dataset) -> Finding:
         "that of linear spreading, over the resolution"
     )
     fails = "not every front moves at the speed of linear spreading"
-    return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", says=label), fails=fails)
+    return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", label=label), fails=fails)
 
 
 def both_between(run: xr.Dataset) -> xr.Dataset:
@@ -77,8 +77,8 @@ def both_between(run: xr.Dataset) -> xr.Dataset:
     "which is slower where a region between the fronts forms.",
     unbounded("omegas"),
     (
-        Control("second fronts as fast as the first", take(second_front="front")),
-        Control("both fields excited between the fronts", both_between),
+        ClaimControl("second fronts as fast as the first", take(second_front="front")),
+        ClaimControl("both fields excited between the fronts", both_between),
     ),
     origin=Origin.OWN,
 )
@@ -96,7 +96,7 @@ def second_front(run: xr.Dataset) -> Finding:
     slower = "largest upper limit of the speed of a second front over that of the first"
     filled = "largest share of |A + B|^2 / 2 in P between"
     criterion = AllOf(
-        Below(1.0, "fastest", says=slower), Below(CONSTANT, "share_between", says=filled)
+        Below(1.0, "fastest", label=slower), Below(CONSTANT, "share_between", label=filled)
     )
     absent = ", ".join(f"{omega:g}" for omega in omegas[~np.isfinite(speed)])
     caveat = f"no second front has formed at Omega = {absent}" if absent else ""
@@ -125,7 +125,7 @@ def next_states(thermal: xr.Dataset) -> xr.Dataset:
     "Behind the second front the infinite chain is in thermal equilibrium, where each pendulum "
     "oscillates at a finite amplitude.",
     unbounded("omegas", "thermal"),
-    (Control("the thermal states of the next Omega", {"thermal": next_states}),),
+    (ClaimControl("the thermal states of the next Omega", {"thermal": next_states}),),
     origin=Origin.OWN,
 )
 def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
@@ -153,7 +153,7 @@ def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     )
     if absent := ", ".join(f"{omega:g}" for omega in omegas[~formed]):
         caveat += f"; no second front has formed at Omega = {absent}"
-    return judge(measured, Near(1.0, CHANGE, "at_least", "at_most", says=label), caveat)
+    return judge(measured, Near(1.0, CHANGE, "at_least", "at_most", label=label), caveat)
 
 
 def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
@@ -170,8 +170,8 @@ def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
     "fields and p' of A = -B, the predicted speed v_1 of the first front and v_2 of the second.",
     unbounded("omegas", "thermal"),
     (
-        Control("the thermal states of the next Omega", {"thermal": next_states}),
-        Control(
+        ClaimControl("the thermal states of the next Omega", {"thermal": next_states}),
+        ClaimControl(
             "a first front that is half as fast again", {OMEGAS: scale("predicted_speed", 1.5)}
         ),
     ),
@@ -196,4 +196,4 @@ def unbounded_slope(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     )
     caveat += f"; significantly off at Omega = {', '.join(deviating)}" if deviating else ""
     label = "slope of l2^2 over that of its law"
-    return judge(measured, Near(1.0, CHANGE, "least", "largest", says=label), caveat)
+    return judge(measured, Near(1.0, CHANGE, "least", "largest", label=label), caveat)
