@@ -47,15 +47,15 @@ _HOMES = {
     "latticode.simulation.simulate": "IntegrationError",
     "pendula.notebook": _NOTEBOOK,
 }
-"""The public names by their module. A module is loaded when a name of it is first asked for, so
-that no job waits for modules that it does not use."""
+"""The public names by their module. A module is imported when one of its names is first used,
+because a job would else wait for modules that it does not need."""
 
 __all__ = sorted(name for names in _HOMES.values() for name in names.split())
 
 
 if not TYPE_CHECKING:
 
-    def __getattr__(name: str):
+    def __getattr__(name: str) -> object:
         for home, names in _HOMES.items():
             if name in names.split():
                 return getattr(import_module(home), name)

@@ -1,4 +1,4 @@
-"""A case of the paper in words, for pages: its detuning and its initial conditions."""
+"""A case of the paper as text for pages: its detuning and its initial conditions."""
 
 import xarray as xr
 from latticode.equations.initial_values import read_initial
@@ -8,12 +8,12 @@ SUBSCRIPTS = str.maketrans("-0123456789", "₋₀₁₂₃₄₅₆₇₈₉")
 
 
 def case_of(dataset: xr.Dataset) -> str:
-    """Return the case that `omega` and `initial` of a dataset name: Ω = 8, (A₀, B₀) = (5, 1)."""
+    """Return `omega` and `initial` of a dataset as text, such as Ω = 8, (A₀, B₀) = (5, 1)."""
     return case_in_words(float(dataset["omega"]), str(dataset["initial"].values))
 
 
 def case_in_words(omega: float, initial: str) -> str:
-    """Return the detuning and the initial conditions of a case."""
+    """Return the detuning and the initial conditions of a case as text."""
     sites = read_initial(initial)
     if len(sites) != 1:
         return f"Ω = {number(omega)}, data on {len(sites)} sites"

@@ -1,19 +1,22 @@
-"""How figures name the paper's cases, and a figure with a panel for each of them."""
+"""Titles of the paper's cases in figures, and a figure with a panel for each case."""
 
 from collections.abc import Callable
 
 import xarray as xr
 from latticode.drawing import runs, style
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 CASE_ATTRIBUTES = ("omega", "initial")
-"""What panels say of a case."""
+"""Attributes of a dataset that the title of a panel needs."""
 
 
-def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None], label: str):
+def draw_cases(
+    data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None], label: str
+) -> Figure:
     """Return a figure with a panel for each case, drawn by `draw_panel`, and one legend above.
 
-    Each figure of the paper has a column, with small data above.
+    Each figure of the paper has a column, with its small initial data in the upper row.
     """
     figure, count = style.new_figure(style.WIDTH, 3.2), data.sizes["case"]
     grid = figure.subplots(min(count, 2), -(-count // 2), sharex=True, sharey=True, squeeze=False)
@@ -34,11 +37,11 @@ def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None],
 
 
 def name_case(case: xr.Dataset) -> str:
-    """Return the detuning and the initial data of one case as they are written in its panel."""
+    """Return the title of a case's panel: its detuning and its initial data."""
     omega = rf"$\Omega = {float(case['omega']):g}$"
     return f"{omega},  {name_initial(str(case['initial'].values))}"
 
 
 def name_initial(initial: str) -> str:
-    """Return initial data, as datasets keep them ({site: [A, B]}), as written in a panel."""
+    """Return initial data as titles show them, from a dataset's text "{site: [A, B]}"."""
     return runs.name_initial(initial, ("A", "B"))

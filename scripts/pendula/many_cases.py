@@ -1,4 +1,4 @@
-"""Datasets of many cases of the paper: what each of them solved."""
+"""Variables and attributes that describe the cases in a dataset of many."""
 
 from collections.abc import Mapping
 
@@ -7,7 +7,7 @@ from latticode.datasets.stated import describe_run, shared_by
 from latticode.datasets.trajectories import Contents
 from replication.variables import REGULAR
 
-from pendula import names  # noqa: F401, so that datasets have the paper's words
+from pendula import names  # noqa: F401, adds the paper's long names
 from pendula.problem import PaperProblem
 
 COMPONENTS = Variable(("component",), ["A", "B"])
@@ -16,8 +16,8 @@ COMPONENTS = Variable(("component",), ["A", "B"])
 def describe_cases(problems: Mapping[str, PaperProblem]) -> Contents:
     """Return names, detunings and initial data of several cases as variables, and attributes.
 
-    The attributes hold each value that is the same in all cases, so that a dataset of many cases
-    says what was solved, as a dataset of one case does. Other constants are variables too.
+    The attributes hold each value that is the same in all cases, under the names that a dataset of
+    a single case has. Constants that differ are variables too.
     """
     each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
     variables = {

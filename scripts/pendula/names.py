@@ -1,4 +1,4 @@
-"""What datasets of the replication call their variables, and who made them.
+"""Long names of the variables in the replication's datasets, and the program that writes them.
 
 Everything in the paper is dimensionless. Time is the slow time tau, so that a rate is "per unit of
 tau".

@@ -2,9 +2,10 @@
 
 Everything is dimensionless, as in the paper (Phys. Lett. A 381 (2017) 3884, arXiv 1708.06134):
 time is tau = mu^2 t / 2 of its expansion (3), amplitudes are A_n and B_n of its equations (4).
-Datasets are those that the workflow writes, by the same code: components are "A" and "B", and a run
-keeps the energy H of equation (8). Those of the pendula are "x" and "y" in rad, without energy, and
-their parts "angle" and "velocity". Figures are matplotlib's.
+Datasets have the variables of the workflow's, and are computed by the same code. The components of
+amplitudes are "A" and "B", and a run has the energy H of equation (8). The components of pendula
+are "x" and "y" in rad, with the parts "angle" and "velocity", without energy. Figures are
+matplotlib's.
 """
 
 from collections.abc import Mapping
@@ -55,7 +56,7 @@ class PaperCaseKeys(RunKeys, total=False):
 
 
 class Case(cases.PaperCaseSection):
-    """One initial-value problem of the paper's equations, checked when it is made.
+    """An initial-value problem of the paper's equations; its keys are checked at once.
 
     Keys and defaults are those of a case in YAML:
 
@@ -76,7 +77,7 @@ class Case(cases.PaperCaseSection):
     model: "amplitudes", or "pendula", which need the small parameter mu; or a `latticode.Model` or
         the path of its file, and then `parameters` in place of the constants.
 
-    Raises ConfigurationError, with every fault in words.
+    Raises ConfigurationError, whose message lists every invalid key.
 
     >>> Case(omega=-4).half_width
     30
@@ -88,14 +89,14 @@ class Case(cases.PaperCaseSection):
     """
 
     def __new__(cls, /, **keys: Any) -> Any:
-        """Return a case of the kind that its model asks for."""
+        """Return a case of the paper's equations, or a `latticode.Case` for a user's own model."""
         return notebook.Case(**keys) if takes_model(keys.get("model")) else super().__new__(cls)
 
     def __init__(self, /, **keys: Unpack[PaperCaseKeys]) -> None:
         notebook.validate_case(super().__init__, keys, root=Sections)
 
     def changed(self, **keys: Unpack[PaperCaseKeys]) -> "Case":
-        """Return the case with other values under `keys`, checked anew.
+        """Return a copy of the case with the values in `keys` changed, and checked again.
 
         >>> Case(omega=-4).changed(omega=8, half_width=10).half_width
         10
@@ -110,14 +111,14 @@ show_keys(Case, ("omega", "epsilon", "gamma", "initial"))
 
 
 def check(case: library_cases.CaseSection, run: xr.Dataset | None = None) -> xr.Dataset:
-    """Set a run beside the paper's lemmas and theorems, and measure how far it can be trusted.
+    """Return how a run compares with the paper's theorems, and until when it can be trusted.
 
-    `run` is what `simulate` made of the case; if it is left out, the case is integrated here.
-    Returns an xarray.Dataset of numbers, each with a long_name and units; pendula.own_cases.checks
-    says how each is computed.
+    `run` is the result of `simulate(case)`; without it the case is integrated here. The
+    xarray.Dataset has numbers with a long_name and units each; pendula.own_cases.checks describes
+    how they are computed.
 
-    >>> found = check(Case(omega=8, end_time=10))
-    >>> str(found["region"].values), bool(found["ratio"] < 1)
+    >>> checks = check(Case(omega=8, end_time=10))
+    >>> str(checks["region"].values), bool(checks["ratio"] < 1)
     ('theorem 1', True)
     """
     model: Any = getattr(case, "model", "")
@@ -128,8 +129,8 @@ def check(case: library_cases.CaseSection, run: xr.Dataset | None = None) -> xr.
 def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
     """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
 
-    With the `checks` that `pendula.check` made of a run, their second run is drawn below it in pale
-    colours, and a mark shows the divergence time.
+    With `checks`, the result of `pendula.check`, the run by a second solver is drawn below it in
+    pale colours, and a mark shows the divergence time.
 
     >>> from pendula import Case, simulate
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
@@ -142,7 +143,7 @@ def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
 
 
 def draw_spacetime(run: xr.Dataset) -> "Figure":
-    """Draw |A_n| (left) and |B_n| (right) over tau and sites, from a run that keeps `modulus`.
+    """Draw |A_n| (left) and |B_n| (right) over tau and sites, from a run with snapshots `modulus`.
 
     >>> from pendula import Case, simulate
     >>> len(draw_spacetime(simulate(Case(omega=8, end_time=10))).axes)
@@ -159,8 +160,8 @@ def draw_sweep(
 ) -> "Figure":
     """Draw the norms of the pair (A, B) against the half-width M: l-infinity left, l2 right.
 
-    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`; where
-    one is left out, the first window is taken.
+    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`; the
+    default of both is the first window of the sweep.
 
     >>> from pendula import Case, sweep
     >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)

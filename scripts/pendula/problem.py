@@ -1,13 +1,13 @@
 """Problems of the paper's equations: (4) of the amplitudes, and Newton's (1) of the pendula.
 
-Their plain values are those of a case in the configuration: the constants by their names, and
-`model` and `mu` where they are of the pendula.
+Their plain values have the keys of a case in the configuration: omega, epsilon and gamma, and for
+pendula also `model` and `mu`.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from latticode.equations.ends import ANTIPERIODIC, kind_of
@@ -24,23 +24,26 @@ from pendula.models.equations import (
     Constants,
 )
 
+if TYPE_CHECKING:
+    from latticode.simulation.equations import Equations
+
 BOUNDARIES = ("dirichlet", "free", "periodic")
 """The ends for which the paper's equations have an energy, bounds and proofs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PaperProblem(problem.Problem):
-    """A problem of the paper's equations, or of a model of a user's own.
+    """An initial-value problem of the paper's equations, or of a user's own model.
 
-    `model` may be the name of the equations. Data and times are those of (4) for either: pendula
-    start from the angles and velocities that (3) makes of A and B, and time is the slow time tau.
+    `model` may be a name, "amplitudes" or "pendula". Initial data and times are those of (4) for
+    both: pendula start from the angles and velocities of (3) at A and B, and time is tau.
 
-    Raises ValueError as its base does, and where there is no such model, or mu is missing.
+    Raises ValueError as its base does, and if no model has the name, or mu is missing.
     """
 
     model: Model | str = AMPLITUDES
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if isinstance(self.model, str):
             object.__setattr__(self, "model", _model_of(self.model))
         super().__post_init__()
@@ -70,7 +73,7 @@ class PaperProblem(problem.Problem):
         return super().of({**plain_values, "model": model, "parameters": parameters})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values; (4) names no model, since nearly all are of (4)."""
+        """Return the problem as plain values; without the key `model` they are of (4)."""
         values = super().plain()
         if self.model.name in MODELS:
             values |= {"model": self.model.name} | values.pop("parameters")
@@ -79,7 +82,7 @@ class PaperProblem(problem.Problem):
         return values
 
     def changed(self, **changes) -> Self:
-        """Return the problem with other values; `constants` changes all three."""
+        """Return the problem with some values changed; `constants` changes all three."""
         if "constants" in changes:
             changes["parameters"] = vars(changes.pop("constants"))
         if isinstance(changes.get("model"), str):
@@ -87,9 +90,9 @@ class PaperProblem(problem.Problem):
         return super().changed(**changes)
 
     @cached_property
-    def equations(self):
-        """How the problem is integrated; a model of a user's own follows from its trace."""
-        # here, since the configuration makes problems and needs no kernels
+    def equations(self) -> "Equations":
+        """The integration of the problem: compiled by hand for (4) and (1), else from the trace."""
+        # imported here: the configuration makes problems without kernels, which are slow to import
         from pendula.models.integrations import AmplitudeEquations, PendulumEquations
 
         if self.model is AMPLITUDE_MODEL:
@@ -103,7 +106,7 @@ class PaperProblem(problem.Problem):
 
     @property
     def mu(self) -> float | None:
-        """The size of the angles of pendula."""
+        """The small parameter mu of pendula, None for amplitudes."""
         return self.parameters.get("mu")
 
 
@@ -114,5 +117,5 @@ def _model_of(name: str) -> Model:
 
 
 def by_name(problems: Mapping[str, Mapping]) -> dict[str, PaperProblem]:
-    """Return the problems that mappings of plain values describe, under their names."""
+    """Return the problems of mappings of plain values, by name."""
     return {name: PaperProblem.of(values) for name, values in problems.items()}

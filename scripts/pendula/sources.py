@@ -1,4 +1,4 @@
-"""The project's folders, and which of them hold code that results rest on."""
+"""The project's folders whose code enters the hashes of results."""
 
 from pathlib import Path
 

@@ -1,12 +1,12 @@
-"""A number beyond the paper is measured again with each choice that made it changed.
+"""Numbers beyond the paper, measured again with each of their choices changed.
 
-Such a choice is a tolerance, a length, a margin, a seed or a definition. `vary` takes the first
-value of every choice for the printed number, and one other value at a time for its variations. The
-error of the number is the larger of its statistical error and its largest change under a variation.
+A choice is a tolerance, a length, a margin, a seed or a definition. `vary` uses the first value of
+every choice for the printed number, and changes one choice at a time for its variations. The error
+of the number is the larger of its statistical error and its largest change under a variation.
 
-In a dataset the number `speed` has beside it `speed_error`, `speed_statistical_error`, and
-`speed_varied` along `variation`, whose labels say "tolerance = 1e-10". A number with limits has
-`speed_low` and `speed_high` too, which enclose its variations.
+For the number `speed` a dataset also has `speed_error`, `speed_statistical_error`, and
+`speed_varied` along `variation`, with labels such as "tolerance = 1e-10". A number with a
+confidence interval also has `speed_low` and `speed_high`, which enclose its variations.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,9 +17,10 @@ import xarray as xr
 from latticode.measures.confidence import ConfidenceInterval
 
 Estimate = tuple[Any, Any] | ConfidenceInterval
-"""A number with its statistical error or its limits, or arrays of one shape; NaN: not measured."""
+"""A number with its statistical error or its confidence interval, or arrays of one shape; NaN is a
+number that was not measured."""
 VARIATION, ENDINGS = "variation", ("", "_error", "_statistical_error", "_varied")
-"""The dimension of variations, and how the names of a number's variables end."""
+"""The dimension of variations, and the endings of the names of a number's variables."""
 
 
 class VariedNumber(NamedTuple):
@@ -29,13 +30,11 @@ class VariedNumber(NamedTuple):
     statistical_error: np.ndarray  # of the shape of `value`
     choices: Mapping[str, Any]  # those of the printed number, by name
     variations: Mapping[str, np.ndarray]  # the number again, by "choice = value"
-    limits: ConfidenceInterval | None = (
-        None  # where they need not be as far from the number on both sides
-    )
+    limits: ConfidenceInterval | None = None  # given if it may be asymmetric about the number
 
     @property
     def widened(self) -> tuple[np.ndarray, np.ndarray]:
-        """The limits, moved outward to enclose all variations."""
+        """The ends of the confidence interval, widened to enclose all variations."""
         varied_values = list(self.variations.values())
         low = np.fmin.reduce([self.limits.low, *varied_values], axis=0)
         return low, np.fmax.reduce([self.limits.high, *varied_values], axis=0)
@@ -43,16 +42,16 @@ class VariedNumber(NamedTuple):
     @property
     def error(self) -> np.ndarray:
         """The larger of the statistical error and the largest change under a variation."""
-        with np.errstate(invalid="ignore"):  # a time that never comes is infinite
+        with np.errstate(invalid="ignore"):  # infinite is a time that is never reached
             changes = np.abs(np.array(list(self.variations.values())) - self.value)
         return np.fmax(self.statistical_error, np.fmax.reduce(changes, axis=0))
 
 
 def settings_of(choices: Mapping[str, Sequence]) -> dict[str, dict[str, Any]]:
-    """Return all choices of each measurement that `vary` makes, by "choice = value".
+    """Return the settings of each measurement that `vary` makes, by a label "choice = value".
 
-    The first has the label "" and the first value of every choice. In each other measurement one
-    choice has another of its values.
+    The first has the label "" and the first value of every choice. Each further measurement changes
+    one choice to one of its other values.
     """
     printed = {name: values[0] for name, values in choices.items()}
     changed = {
@@ -68,9 +67,9 @@ def _written(value: Any) -> str:
 
 
 def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> VariedNumber:
-    """Return what `measure(**settings)` returns for all of `settings_of(choices)`.
+    """Return the number `measure(**settings)` with its variations by `settings_of(choices)`.
 
-    Raises ValueError if no choice has a second value: nothing would be varied.
+    Raises ValueError if no choice has a second value, since nothing would be varied.
     """
     return vary_several(lambda **settings: {"number": measure(**settings)}, choices)["number"]
 
@@ -78,7 +77,7 @@ def vary(measure: Callable[..., Estimate], choices: Mapping[str, Sequence]) -> V
 def vary_several(
     measure: Callable[..., Mapping[str, Estimate]], choices: Mapping[str, Sequence]
 ) -> dict[str, VariedNumber]:
-    """Return the same of the numbers that one measurement makes, by their names."""
+    """Return, by name, each number of a measurement with its variations; see `vary`."""
     (_, printed), *changed = settings_of(choices).items()
     if not changed:
         raise ValueError(f"no choice has a second value to vary: {', '.join(choices) or 'none'}")
@@ -101,7 +100,7 @@ def _varied(
     arrays = [np.asarray(array, float) for array in estimate]
     if limits:
         value, low, high = arrays
-        with np.errstate(invalid="ignore"):  # see `Varied.error`
+        with np.errstate(invalid="ignore"):  # see `VariedNumber.error`
             error = np.fmax(value - low, high - value)
     else:
         value, error = arrays
@@ -110,7 +109,7 @@ def _varied(
 
 
 class NamedNumber(NamedTuple):
-    """A number as a dataset keeps it."""
+    """A number with its dimensions in a dataset and its long name."""
 
     dimensions: tuple[str, ...]
     number: VariedNumber
@@ -120,8 +119,8 @@ class NamedNumber(NamedTuple):
 def as_dataset(numbers: Mapping[str, NamedNumber], coordinates: Mapping[str, Any]) -> xr.Dataset:
     """Return a dataset of numbers by name, with the coordinates of their dimensions.
 
-    The attribute `choices` of a number says what was chosen for it. Where a number was measured
-    without a variation, its value under this variation is NaN.
+    The attribute `choices` of a number holds the choices of the printed value. A number that was
+    not measured under a variation is NaN there.
     """
     labels = list(
         dict.fromkeys(label for one in numbers.values() for label in one.number.variations)
@@ -152,7 +151,7 @@ def _variables_of(printed: NamedNumber, labels: Sequence[str]) -> list[xr.Variab
 
 
 def _limits(name: str, printed: NamedNumber) -> dict[str, xr.Variable]:
-    """Return the limits of a number that has them, by name."""
+    """Return the ends of a number's confidence interval by name, none if it has no interval."""
     dims, number, meaning = printed
     if number.limits is None:
         return {}
@@ -170,7 +169,7 @@ def _named(long_name: str) -> dict[str, str]:
 
 
 def names_of(number: str) -> list[str]:
-    """Return the names of the variables that a dataset has of a number, and of its variations."""
+    """Return the names of a number's variables: value, both errors, and its variations."""
     return [f"{number}{end}" for end in ENDINGS]
 
 
@@ -183,7 +182,7 @@ def numbers_in(data: xr.Dataset) -> list[str]:
 def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
     """Return the values of a single number of a dataset under its variations, by label.
 
-    `data` has no dimension but that of variations. There are none where none was measured.
+    `data` has only the dimension of variations. The result is empty for a number without any.
     """
     if number not in numbers_in(data):
         return {}
@@ -192,7 +191,7 @@ def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
 
 
 def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield the name of every single number with variations, and the dataset at its labels."""
+    """Yield name and dataset of each single number with variations, one for each of its labels."""
     for name in numbers_in(data):
         dims = data[name].dims
         for place in np.ndindex(data[name].shape):

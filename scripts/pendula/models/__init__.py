@@ -1,8 +1,11 @@
-"""The paper's equations, each written once: what solvers, observables and checks need of them.
+"""The paper's equations, each written once, with their kernels, bounds and exact solutions.
 
-`equations` are (4) of the amplitudes and Newton's equations (1) as traced models. Their kernels are
-in `amplitudes`, with the energy (8), and in `pendula`; `solvers` joins them to the methods of the
-library, and `integrations` to its runs. Of (4) there are also the exact solution without the cubic
-terms and Lemma 1 (`linear_chain`), the constants of Theorems 1 to 3 (`bounds`), and the steady
-states of one pair (`pairs`).
+`equations`      (4) of the amplitudes and Newton's equations (1), as traced models
+`amplitudes`     kernels of (4), and the energy (8)
+`pendula`        kernels of (1), and their drive
+`solvers`        the library's methods with these kernels
+`integrations`   the library's runs with these kernels
+`linear_chain`   (4) without the cubic terms: the exact solution, and Lemma 1
+`bounds`         Theorems 1 to 3 with their constants
+`pairs`          the steady states of one pair; `steady` continues them to a chain
 """

@@ -14,7 +14,7 @@ from latticode.generation.chain import MIRROR, at_every_site, close, modulus2
 from latticode.generation.chain import can_be_tiled as can_be_tiled
 from latticode.generation.modules import load_function, load_rule, load_series
 from latticode.kernels.compiled import kernel
-from latticode.simulation.observables import observe_moduli
+from latticode.simulation.observables import ObservableRecord, observe_moduli
 
 from .equations import AMPLITUDE_MODEL, CONSERVING_MODEL
 
@@ -30,17 +30,17 @@ class AmplitudeChain(NamedTuple):
 
 
 @kernel
-def system_of_tile(chain, at_left_end, at_right_end):
-    """Return the chain of a tile, which ends as the whole chain does where it reaches an end.
+def system_of_tile(chain: AmplitudeChain, at_left_end: bool, at_right_end: bool) -> AmplitudeChain:
+    """Return the chain of a tile: the ends of the full chain where the tile reaches them.
 
-    Elsewhere the kind of end does not matter: what is wrong there stays in the margin of the tile.
+    At the other ends any kind will do: the error that it makes stays in the margin of the tile.
     """
     left = chain.left if at_left_end else DIRICHLET
     right = chain.right if at_right_end else DIRICHLET
     return AmplitudeChain(chain.epsilon, chain.gamma, chain.omega, left, right)
 
 
-# --- What is generated from the traced model -----------------------------------------------------
+# --- Functions generated from the traced model ---------------------------------------------------
 
 _re_rate, _im_rate = AMPLITUDE_MODEL.rates[:2]
 field = load_function((neg(_im_rate), _re_rate))
@@ -48,12 +48,12 @@ field = load_function((neg(_im_rate), _re_rate))
 
 See `generated.load_function`; `seen` counts A as field 0 and B as field 1."""
 continue_series = load_series(AMPLITUDE_MODEL).continue_in_waves
-"""Writes the coefficients of all orders from those of order 0, given a chain and a series."""
+"""The function (chain, series) that writes the coefficients of all orders from those of order 0."""
 write_rates = at_every_site(load_rule(AMPLITUDE_MODEL.rates, "y"))
 
 
 @kernel
-def rates(chain, y, dy):
+def rates(chain: AmplitudeChain, y: np.ndarray, dy: np.ndarray) -> None:
     """Write the right-hand side of equations (4) at `y` into `dy` (same shape)."""
     close(chain, y)
     write_rates(chain, (y,), dy)
@@ -63,10 +63,10 @@ write_tangent_rates = at_every_site(load_rule(AMPLITUDE_MODEL.tangent().rates[4:
 
 
 @kernel
-def tangent_rates(chain, y, w, dw):
+def tangent_rates(chain: AmplitudeChain, y: np.ndarray, w: np.ndarray, dw: np.ndarray) -> None:
     """Write the rate of `w`, a small perturbation of the state `y`, into `dw` (all of one shape).
 
-    The ghosts of `y` must be filled.
+    The ghost columns of `y` must be filled.
     """
     close(chain, w)
     write_tangent_rates(chain, (y, w), dw)
@@ -76,11 +76,13 @@ write_mean_rates = at_every_site(load_rule(CONSERVING_MODEL.rates[8:], "old", "n
 
 
 @kernel
-def mean_rates(chain, old, new, middle, dy):
+def mean_rates(
+    chain: AmplitudeChain, old: np.ndarray, new: np.ndarray, middle: np.ndarray, dy: np.ndarray
+) -> None:
     """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
 
-    See `mean_i_dt`; `middle` is left with the mean state. Then H(new) = H(old) exactly (Delfour,
-    Fortin and Payre, J. Comput. Phys. 44 (1981) 277).
+    See `mean_i_dt`; the mean state is written into `middle`. A step with these rates has
+    H(new) = H(old) exactly (Delfour, Fortin and Payre, J. Comput. Phys. 44 (1981) 277).
     """
     for row in range(old.shape[0]):
         for j in range(old.shape[1]):
@@ -93,8 +95,8 @@ def mean_rates(chain, old, new, middle, dy):
 
 
 @kernel
-def fill_site_terms(chain, y, out):
-    """Write into out[j] the terms of (8) that live on the site in column j.
+def fill_site_terms(chain: AmplitudeChain, y: np.ndarray, out: np.ndarray) -> None:
+    """Write into out[j] the terms of (8) on the site in column j.
 
     They are |A|^4 / 4 + Omega |A|^2, the same of B, and the drive -gamma Re (A - B)^2.
     """
@@ -110,7 +112,7 @@ def fill_site_terms(chain, y, out):
 
 
 @kernel
-def fill_bond_terms(y, out):
+def fill_bond_terms(y: np.ndarray, out: np.ndarray) -> None:
     """Write |A_i - A_j|^2 + |B_i - B_j|^2 of columns j and j + 1, ghosts included, into out[j]."""
     for row in range(y.shape[0]):
         for j in range(y.shape[1] - 1):
@@ -120,50 +122,52 @@ def fill_bond_terms(y, out):
 
 
 @kernel
-def energy_with_scratch(chain, y, scratch):
-    """Return H of equation (8) for the whole chain; `y` may hold half of it, or one component.
+def energy_with_scratch(chain: AmplitudeChain, y: np.ndarray, scratch: np.ndarray) -> float:
+    """Return H of equation (8) for the full chain; `y` may hold half of it, or one component.
 
-    Beyond a Dirichlet end hangs a site at rest: its bond is |A_M|^2 (and |A_{-M}|^2 on the other
-    side). A free end has no bond, a ring has one bond that joins its ends. The sums run from the
-    centre outwards in pairs of sites, so that half a chain gives the same bits as the whole.
-    `scratch` holds two rows of as many columns as `y`.
+    Beyond a Dirichlet end is a site at rest: its bond is |A_M|^2 (|A_{-M}|^2 on the other side). A
+    free end has no bond, a ring has one bond that joins its ends. The sums run from the centre
+    outwards in pairs of sites, because half a chain then gives the same bits as the full one.
+    `scratch` has two rows of as many columns as `y`.
     """
     close(chain, y)
     sites, bonds = scratch[0], scratch[1]
     fill_site_terms(chain, y, sites)
     fill_bond_terms(y, bonds)
     mirrored = chain.left == MIRROR
-    reach = y.shape[1] - 3 if mirrored else (y.shape[1] - 3) // 2  # sites beside the centre
+    reach = y.shape[1] - 3 if mirrored else (y.shape[1] - 3) // 2  # sites on one side of the centre
     centre = 1 if mirrored else 1 + reach
     on_sites, on_bonds = sites[centre], 0.0
     for n in range(reach + 1):
         right, left = centre + n, centre + n if mirrored else centre - n
         if n > 0:
             on_sites += sites[right] + sites[left]
-        # bonds[j] joins columns j and j + 1; that to the left of a column is bonds[j - 1], and on
-        # the other half of a mirrored chain it is the reflection of the bond to the right
+        # bonds[j] joins columns j and j + 1. To the left of a column is bonds[j - 1]; in a mirrored
+        # chain it is the reflection of the bond to the right.
         on_bonds += bonds[right]
         if n < reach or chain.left != PERIODIC:
             on_bonds += bonds[left] if mirrored else bonds[left - 1]
-    copies = 4 // y.shape[0]  # A = B: the one component that is stored counts twice
+    copies = 4 // y.shape[0]  # A = B: one component is stored, and counts twice
     return copies * (on_sites - chain.epsilon * on_bonds)
 
 
-def energy(chain, y):
+def energy(chain: AmplitudeChain, y: np.ndarray) -> float:
     """Return H of equation (8) for the state `y`; see `energy_with_scratch`."""
     return energy_with_scratch(chain, y, np.empty((2, y.shape[1])))
 
 
 @kernel
-def energies(chain, states, scratch, out):
+def energies(
+    chain: AmplitudeChain, states: np.ndarray, scratch: np.ndarray, out: np.ndarray
+) -> None:
     """Write H of each of `states` (count, row, column) to `out`; `scratch` is (2, column)."""
     for i in range(len(states)):
         out[i] = energy_with_scratch(chain, states[i], scratch)
 
 
 @kernel
-def observe(chain, y, i, record):
-    """Reduce the state `y` of (4) to the observables of output `i`, its energy among them."""
+def observe(chain: AmplitudeChain, y: np.ndarray, i: int, record: ObservableRecord) -> None:
+    """Write the observables of the state `y` of (4), with its energy, as output `i` of `record`."""
     observe_moduli(chain, y, i, record)
     if record.conserved.size > 0:
         record.conserved[0, i] = energy_with_scratch(chain, y, record.scratch)

@@ -35,7 +35,7 @@ def with_positive_coupling(constants: Constants) -> Constants:
 
 
 def extent(constants: Constants) -> float:
-    """Return c = |Omega| + 2 gamma + 4 epsilon, the corrected constant of Theorem 3's proof."""
+    """Return c = |Omega| + 2 gamma + 4 epsilon, the constant of Theorem 3's proof, corrected."""
     k = with_positive_coupling(constants)
     return abs(k.omega) + 2.0 * abs(k.gamma) + 4.0 * k.epsilon
 
@@ -60,7 +60,10 @@ def theorem_2_constants(constants: Constants) -> tuple[float, float]:
 
 
 def theorem_2_bound(energy: float, start: float, constants: Constants) -> float:
-    """Return the smaller root of f(P) = -H for data with P(0) = `start`; infinite outside."""
+    """Return the bound of Theorem 2 on P, the smaller root of f(P) = -H, where P(0) = `start`.
+
+    It is infinite where P(0) or H is beyond the barrier.
+    """
     a = theorem_2_gap(constants)
     if not (start < 2.0 * a and -energy < a * a):
         return np.inf
@@ -70,19 +73,21 @@ def theorem_2_bound(energy: float, start: float, constants: Constants) -> float:
 
 
 def widened_barrier(constants: Constants) -> tuple[float, float]:
-    """Return (P, -H) at the top of a P - P^3 / (64 epsilon), (0, 0) where it does not apply."""
+    """Return (P, -H) at the maximum of a P - P^3 / (64 epsilon); (0, 0) outside Theorem 2."""
     epsilon, a = with_positive_coupling(constants).epsilon, theorem_2_gap(constants)
     top = float(np.sqrt(64.0 * epsilon * a / 3.0))
     return top, 2.0 * a * top / 3.0
 
 
 def widened_bound(energy: float, start: float, constants: Constants) -> float:
-    """Return the smaller root of a P - P^3 / (64 epsilon) = -H by bisection; infinite outside.
+    """Return a bound on P for more data than Theorem 2 has: a P - P^3 / (64 epsilon) <= -H.
 
-    On Z, and on a chain with sites at rest beyond its ends, max |A_n|^2 <= |A| |grad A| in l2, so
-    that the bonds, which (25) drops, pay for the quartic term: for each component with p = |A|^2
-    and g = |grad A|, epsilon g^2 - p^(3/2) g / 4 >= -p^3 / (64 epsilon). This does not hold on a
-    ring or with free ends, where a constant has no gradient.
+    It is the smaller root of the equality, found by bisection, and infinite beyond the barrier.
+
+    On Z, and on a chain with sites at rest beyond its ends, max |A_n|^2 <= |A| |grad A| in l2. The
+    bonds, which (25) drops, then bound the quartic term: for each component with p = |A|^2 and
+    g = |grad A|, epsilon g^2 - p^(3/2) g / 4 >= -p^3 / (64 epsilon). This does not hold on a ring
+    or with free ends, where a constant has no gradient.
     """
     top, barrier = widened_barrier(constants)
     if not (start < top and -energy < barrier):
@@ -100,7 +105,7 @@ def widened_bound(energy: float, start: float, constants: Constants) -> float:
 def theorem_3_bound(energy: float, sites: int, constants: Constants) -> float:
     """Return C_N of Theorem 3."""
     c = extent(constants)
-    # a state at the very bottom of H may round below it
+    # at the minimum of H rounding may make this negative
     inner = max(0.0, c * c + float(energy) / (2.0 * sites))
     return float(4.0 * sites * (c + np.sqrt(inner)))
 
@@ -108,7 +113,7 @@ def theorem_3_bound(energy: float, sites: int, constants: Constants) -> float:
 def find_bounds(
     energy: float, start: float, sites: int, constants: Constants, boundary: str
 ) -> dict[str, float]:
-    """Return the bounds on P for data with this H and P(0); infinite is what does not apply."""
+    """Return each bound on P for data with this H and P(0); infinite where it does not apply."""
     at_rest = kind_of(boundary) == DIRICHLET
     return {
         "theorem_1": theorem_1_bound(energy, constants),
@@ -119,14 +124,14 @@ def find_bounds(
 
 
 def proven_region(energy: float, start: float, constants: Constants, boundary: str) -> str:
-    """Return which theorem bounds P independently of N, in the words of the ledger."""
+    """Return the theorem that bounds P independently of N, such as "theorem 1", or "none"."""
     bounds = find_bounds(energy, start, 1, constants, boundary)
     regions = {"theorem_1": "theorem 1", "theorem_2": "theorem 2", "widened": "theorem 2 widened"}
     return next((words for name, words in regions.items() if np.isfinite(bounds[name])), "none")
 
 
 def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:
-    """Return how close a trajectory with norms `l2`, shape (2, time), comes to the bound (19).
+    """Return how close the norms `l2` of a trajectory, (component, time), come to the bound (19).
 
     `from_start`: largest P(tau) / (P(0) e^{4 |gamma| tau}) over tau > 0; `steepest`: largest
     |change of log P| over 4 |gamma| times its duration. Both must be at most one.
@@ -136,7 +141,7 @@ def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, fl
     forth = (rise - rise[0]) - (allowed - allowed[0])
     steps = np.abs(np.diff(rise))
     bound = np.diff(allowed)
-    unbounded = np.where(steps > 0, np.inf, 0.0)  # without a drive P may not move at all
+    unbounded = np.where(steps > 0, np.inf, 0.0)  # without a drive P is constant
     steepest = np.where(bound > 0, steps / np.where(bound > 0, bound, 1.0), unbounded)
     return {
         "from_start": float(exp(forth[1:].max())),

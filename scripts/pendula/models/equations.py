@@ -27,9 +27,9 @@ AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
 
 @dataclass(frozen=True, kw_only=True)
 class Constants:
-    """The constants of the equations (4), in the one order that they have everywhere.
+    """The constants of the equations (4), always in this order.
 
-    Keywords are required, so that no two of them can change places.
+    Keywords are required: three numbers by position are easily exchanged.
     """
 
     epsilon: float  # coupling of neighbours
@@ -42,7 +42,7 @@ class Constants:
 
     @classmethod
     def of(cls, values: Mapping) -> "Constants":
-        """Return the constants that a mapping holds, such as the attributes of a dataset."""
+        """Return the constants in a mapping, such as the attributes of a dataset."""
         return cls(**{name: float(values[name]) for name in ("epsilon", "gamma", "omega")})
 
 
@@ -73,10 +73,10 @@ def mean_i_dt(p, *fields: Value) -> list[Value]:
 
 COEFFICIENTS = dict.fromkeys(("epsilon", "gamma", "omega"), 1.0)
 AMPLITUDE_MODEL = Model(fields=("A", "B"), parameters=COEFFICIENTS, i_dt=i_dt, name=AMPLITUDES)
-"""(4) as problems have it."""
+"""Equations (4) with the parameters of a problem."""
 MEANS = [f"{name}{i}" for i in range(3) for name in "AB"]
 CONSERVING_MODEL = Model(fields=MEANS, parameters=COEFFICIENTS, i_dt=mean_i_dt)
-"""The mean of (4) over a step, as `delfour_fortin_payre` has it."""
+"""The mean of (4) over a step of `delfour_fortin_payre`."""
 
 
 # --- The pendula --------------------------------------------------------------------------------
@@ -95,7 +95,7 @@ def d2_dt2(p, x: Value, y: Value) -> list[Value]:
 
 
 def driven(p, x: Value, y: Value) -> list[Value]:
-    """Return the same from C, with D a function of the time that `at_time` knows."""
+    """Return the second derivatives of x and y from C, with D(t) computed by `at_time`."""
     return accelerations(p.coupling, Value(node("clock", "drive")), x, y)
 
 
@@ -105,9 +105,9 @@ PENDULUM_MODEL = Model(
     d2_dt2=d2_dt2,
     name=PENDULA,
 )
-"""(1) as problems have it."""
+"""Equations (1) with the parameters of a problem."""
 KERNEL_MODEL = Model(fields=("x", "y"), parameters={"coupling": 1.0}, d2_dt2=driven)
-"""(1) as kernels have it, which know the drive as a function of time."""
+"""Equations (1) for the kernels, which compute the drive as a function of time."""
 
 MODEL_NAMED = {AMPLITUDES: AMPLITUDE_MODEL, PENDULA: PENDULUM_MODEL}
 """The models by name."""
@@ -115,4 +115,4 @@ METHODS_OF = {
     AMPLITUDES: [*methods_taking(AMPLITUDE_MODEL), "delfour_fortin_payre"],
     PENDULA: methods_taking(PENDULUM_MODEL),
 }
-"""The methods that integrate each model: (4) has the mean rates of the conserving scheme too."""
+"""The methods that integrate each model; only (4) has the mean rates of the conserving scheme."""

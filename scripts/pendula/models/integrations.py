@@ -1,7 +1,7 @@
-"""How the paper's equations are integrated: by kernels that know more than their trace.
+"""Integrations of the paper's equations, by kernels with more than a traced model has.
 
-(4) has both symmetries, energy (8) at every output, and two schemes more. Pendula start from
-amplitudes, count the time t, and are shown as the angle to which they swing.
+(4) has both symmetries, the energy (8) at every output, and two more schemes. Pendula start from
+amplitudes, have the time t, and their modulus is the angle to which they swing.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from latticode.simulation.equations import CompiledMethod, Equations, ResultName
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unfold, unpack
 from latticode.simulation.observables import ObservableRecord, blank_record
 
-from pendula import names  # noqa: F401, whose words stand below
+from pendula import names  # noqa: F401, adds the names used below
 from pendula.feasibility import clock_of, rates_of
 
 from .amplitudes import AmplitudeChain
@@ -24,7 +24,7 @@ from .solvers import SOLVERS
 
 
 def make_chain(constants: Constants, boundary: str, cut: Reduction) -> AmplitudeChain:
-    """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
+    """Return the parameters of the kernels: the constants, and the ends of the reduced chain."""
     ends = choose_ends(boundary, cut)
     return AmplitudeChain(
         float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends
@@ -32,7 +32,7 @@ def make_chain(constants: Constants, boundary: str, cut: Reduction) -> Amplitude
 
 
 class PaperEquations(Equations):
-    """What both of the paper's equations share: their constants and their compiled methods."""
+    """Base of both of the paper's equations: their constants and their compiled methods."""
 
     model_name: str
 
@@ -73,7 +73,7 @@ class AmplitudeEquations(PaperEquations):
         return dict(self.problem.parameters)
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds of the rates at which amplitudes of this size turn or grow, by key."""
+        """Return bounds on the rates at which amplitudes up to `peak` turn or grow, by key."""
         return rates_of(self.constants, peak)
 
     def system(self, cut: Reduction) -> AmplitudeChain:
@@ -83,11 +83,11 @@ class AmplitudeEquations(PaperEquations):
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool
     ) -> ObservableRecord:
-        """Return empty arrays for moduli, norms and energy at so many times."""
+        """Return empty arrays for moduli, norms and energy at `times` outputs."""
         return blank_record(components, sites, times, every, quantities=int(conserved))
 
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-        """Return energy, moduli or states, and final amplitudes of the whole chain."""
+        """Return energy, moduli or states, and final amplitudes of the full chain."""
         conserved = dict(zip(("energy",), record.conserved, strict=False))
         results = {"conserved": conserved, "final": unpack(y, cut)}
         if record.snapshots.ndim == 3:
@@ -103,12 +103,12 @@ class PendulumEquations(PaperEquations):
 
     @property
     def mu(self) -> float:
-        """The size of the angles."""
+        """The small parameter mu; angles are of the size 2 mu |A|."""
         return self.problem.parameters["mu"]
 
     @property
     def names(self) -> ResultNames:
-        """What datasets call the results, which are angles in rad."""
+        """Names and units of the results in datasets; angles are in rad."""
         return ResultNames(
             ("x", "y"),
             ("angle", "velocity"),
@@ -128,17 +128,17 @@ class PendulumEquations(PaperEquations):
         return {"model": PENDULA, **self.problem.parameters}
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds of the rates per unit of tau, for amplitudes of this size, by key."""
+        """Return bounds on the rates per unit of tau, for amplitudes up to `peak`, by key."""
         return rates_of(self.constants, peak, self.mu)
 
     @property
     def clock(self) -> float:
-        """How many units of t make one of tau."""
+        """Units of t in one of tau, 2 / mu^2."""
         return clock_of(self.mu)
 
     @property
     def atol_scale(self) -> float:
-        """2 mu: a tolerance is that of the amplitudes, so that it means the same at any mu."""
+        """2 mu, by which absolute tolerances are scaled: they are given for the amplitudes."""
         return 2.0 * self.mu
 
     def system(self, cut: Reduction) -> Pendula:
@@ -160,11 +160,10 @@ class PendulumEquations(PaperEquations):
         return 0.5 * self.mu * self.mu * time
 
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-        """Return swings, angles and velocities of the whole chain."""
+        """Return swings, angles and velocities of the full chain."""
         snapshots = np.array([unfold(part, cut) for part in record.snapshots])
         return {
-            # a snapshot finds all pendula at one phase of their swing, so angles alone would show
-            # the phase
+            # at a snapshot all pendula are at the same phase, so the angle alone depends on it
             "modulus": swings_of(*snapshots, self.constants.omega, self.mu),
             "final": np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)]),
             "state": snapshots,

@@ -1,7 +1,7 @@
 """The chain without the cubic terms of (4): its modes, its exact flow, and Lemma 1.
 
-The lattice Laplacian has real orthonormal modes with the eigenvalues -lambda_k, and each mode
-moves alone: the sum S = A + B obeys i S' = -kappa S, the difference D = A - B obeys
+The lattice Laplacian has real orthonormal modes with the eigenvalues -lambda_k, and the modes
+decouple: the sum S = A + B obeys i S' = -kappa S, the difference D = A - B obeys
 i D' = -kappa D - 2 gamma conj(D), where kappa = epsilon lambda_k - Omega as in (14). Lemma 1
 follows: the dispersion relation (15), the threshold gamma_0 (12), and those of finite chains.
 Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N sites it takes N values.
@@ -15,28 +15,30 @@ from latticode.numerics import elementary
 from latticode.numerics.elementary import complex_of
 from latticode.numerics.matrices import times
 
+Reals = float | np.ndarray
+
 
 @lru_cache(maxsize=16)
 def curvatures(sites: int, boundary: str) -> np.ndarray:
-    """Return, to be read only, lambda_k = 4 sin^2(theta_k / 2) of every mode, shape (sites,)."""
+    """Return lambda_k = 4 sin^2(theta_k / 2) of every mode, shape (sites,), read-only."""
     half_angle = ends_of(boundary).half_angle(np.arange(sites), sites)
     return _read_only(4.0 * elementary.sin(half_angle) ** 2)
 
 
 @lru_cache(maxsize=16)
 def modes(sites: int, boundary: str) -> np.ndarray:
-    """Return, to be read only, the orthonormal modes of the lattice Laplacian, (mode, site)."""
+    """Return the orthonormal modes of the lattice Laplacian, (mode, site), read-only."""
     k, j = np.arange(sites)[:, None], np.arange(sites)
     return _read_only(ends_of(boundary).mode(k, j, sites))
 
 
 def _read_only(values: np.ndarray) -> np.ndarray:
-    """Return the array, which all callers share, so that none can write to it."""
+    """Return the array, made read-only because all callers share it."""
     values.flags.writeable = False
     return values
 
 
-def driven(kappa, gamma: float, tau: float):
+def driven(kappa: np.ndarray, gamma: float, tau: float) -> tuple[np.ndarray, np.ndarray]:
     """Return (C, S) with D'' = (4 gamma^2 - kappa^2) D: C = cosh(s tau), S = sinh(s tau) / s.
 
     Where 4 gamma^2 < kappa^2 these are cosine and sine; at equality C = 1 and S = tau, the growth
@@ -55,12 +57,12 @@ def driven(kappa, gamma: float, tau: float):
 
 
 def flow(
-    amplitudes: np.ndarray, tau: float, epsilon: float, gamma: float, omega, boundary: str
+    amplitudes: np.ndarray, tau: float, epsilon: float, gamma: float, omega: Reals, boundary: str
 ) -> np.ndarray:
-    """Return the amplitudes (A, B), shape (2, N), that the linear equations make of `amplitudes`.
+    """Return the solution (A, B) of the linear equations at `tau`, shape (2, N), from `amplitudes`.
 
-    `amplitudes` is complex of shape (2, N), `tau` may be negative. Exact up to
-    rounding. Of an array of `omega` the result is (..., 2, N).
+    `amplitudes` is complex, shape (2, N), and `tau` may be negative. The result is exact up to
+    rounding. For an array `omega` its shape is (..., 2, N).
     """
     sites = amplitudes.shape[1]
     basis = modes(sites, boundary)
@@ -77,31 +79,31 @@ def flow(
     return 0.5 * np.stack([total + difference, total - difference], axis=-2)
 
 
-def growth_rate(kappa, gamma):
+def growth_rate(kappa: Reals, gamma: Reals) -> Reals:
     """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 where it is stable."""
     return np.sqrt(np.maximum(0.0, (2.0 * np.abs(gamma) - kappa) * (2.0 * np.abs(gamma) + kappa)))
 
 
-def gamma_0(omega, epsilon: float):
-    """Return the threshold (12) of the infinite chain; inside [0, 4 epsilon] it is zero.
+def gamma_0(omega: Reals, epsilon: float) -> Reals:
+    """Return the threshold (12) of the infinite chain, zero for Omega in [0, 4 epsilon].
 
-    With epsilon < 0, which the paper leaves out, the band is [4 epsilon, 0].
+    With epsilon < 0, which the paper does not treat, the band is [4 epsilon, 0].
     """
     low, high = min(0.0, 4.0 * epsilon), max(0.0, 4.0 * epsilon)
     return 0.5 * np.maximum(0.0, np.maximum(low - np.asarray(omega), omega - high))
 
 
-def infinite_rate(omega, gamma, epsilon: float):
+def infinite_rate(omega: Reals, gamma: Reals, epsilon: float) -> Reals:
     """Return the largest growth rate over all wave numbers of the infinite chain."""
     return growth_rate(2.0 * gamma_0(omega, epsilon), gamma)
 
 
-def finite_threshold(omega, epsilon: float, sites: int, boundary: str):
+def finite_threshold(omega: Reals, epsilon: float, sites: int, boundary: str) -> Reals:
     """Return the threshold min_k |kappa_k| / 2 of a chain of N sites, of the shape of `omega`."""
     kappa = epsilon * curvatures(sites, boundary) - np.asarray(omega)[..., None]
     return 0.5 * np.abs(kappa).min(axis=-1)
 
 
-def finite_rate(omega, gamma, epsilon: float, sites: int, boundary: str):
+def finite_rate(omega: Reals, gamma: Reals, epsilon: float, sites: int, boundary: str) -> Reals:
     """Return the largest growth rate of a chain of N sites."""
     return growth_rate(2.0 * finite_threshold(omega, epsilon, sites, boundary), gamma)

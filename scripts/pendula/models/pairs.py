@@ -1,4 +1,4 @@
-"""Steady states of a single pair of pendula, all of them, in closed form.
+"""All steady states of a single pair of pendula, in closed form.
 
 For epsilon = 0 a steady state of (4) obeys
 
@@ -24,14 +24,14 @@ from typing import NamedTuple
 
 
 class Family(NamedTuple):
-    """A family of steady states of one pair, named as the datasets name it."""
+    """A family of steady states of one pair; `name` is its label in datasets."""
 
     name: str
     imaginary: bool  # whether A and B are imaginary; else real
     kind: str  # "opposite" for a = -b, "equal" for a = b, "asymmetric"
 
     def drive(self, gamma: float) -> float:
-        """Return s, by which the drive acts on a and b."""
+        """Return s, the strength of the drive on a and b with its sign."""
         return -gamma if self.imaginary else gamma
 
 
@@ -42,7 +42,7 @@ FAMILIES = (
     Family("A = -B imaginary", True, "opposite"),
     Family("asymmetric imaginary", True, "asymmetric"),
 )
-"""All families but for the phase of A = B, whose real state stands for its circle."""
+"""All families; the real state represents the circle A = B, whose phase is free."""
 
 
 def pair(family: Family, gamma: float, omega: float) -> tuple[float, float] | None:

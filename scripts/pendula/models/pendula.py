@@ -1,13 +1,14 @@
 """Kernels of Newton's equations (1) of the pendula on a finite chain, and their drive.
 
-Time is t, which is 2 tau / mu^2 (`times_of`). A state has the rows x, x', y, y', or the first two
-alone where x = y (see `latticode.generation.chain`); x is an angle in rad.
+Time is t = 2 tau / mu^2 (`times_of`). A state has the rows x, x', y, y', or the first two alone
+where x = y (see `latticode.generation.chain`); x is an angle in rad.
 
-Data are amplitudes: x = 2 mu Re A and x' = -2 mu omega Im A at t = 0, the leading terms of (3).
+Initial data are amplitudes: x = 2 mu Re A and x' = -2 mu omega Im A at t = 0, the leading terms of
+(3).
 
-Bits. Sines and cosines are made of + - * in one order. The phase of the drive is reduced to a part
-of a turn before it is rounded: its error is some 1e-16 at every t, where the product 2 omega t
-would be wrong by 1e-11 at t = 1e5. What stands here has the same bits on every machine.
+Sines and cosines use only + - *, in a fixed order, and have the same bits on every machine. The
+phase of the drive is reduced to a fraction of a turn before it is rounded. Its error is about 1e-16
+at every t; the product 2 omega t would be wrong by 1e-11 at t = 1e5.
 """
 
 from decimal import Decimal, localcontext
@@ -19,7 +20,7 @@ from latticode.generation.chain import at_every_site, close
 from latticode.generation.chain import can_be_tiled as can_be_tiled
 from latticode.generation.modules import load_rule, load_series
 from latticode.generation.toolbox import sine_and_cosine
-from latticode.integrators.taylor import ORDER, spare_start
+from latticode.integrators.taylor import ORDER, PowerSeries, spare_start
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.numerics import elementary
 from latticode.numerics.elementary import SPLITTER, complex_of, modulus, product
@@ -30,7 +31,7 @@ from .equations import KERNEL_MODEL
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"
 
-# --- The system, and what drives it -------------------------------------------------------------
+# --- The system and its drive -------------------------------------------------------------------
 
 
 class Clock(NamedTuple):
@@ -38,8 +39,8 @@ class Clock(NamedTuple):
 
     strength: float  # 2 gamma mu^2
     frequency: float  # 2 omega
-    turns: float  # turns in a unit of t, omega / pi ...
-    turns_rest: float  # ... and what rounding took from it
+    turns: float  # turns in a unit of t, omega / pi, rounded
+    turns_rest: float  # the rounding error of `turns`
 
 
 class Pendula(NamedTuple):
@@ -59,7 +60,7 @@ def frequency(omega: float, mu: float) -> float:
 
 
 def turns_of_drive(omega: float, mu: float) -> tuple[float, float]:
-    """Return omega / pi, the turns of the drive in a unit of t, as a sum of two numbers."""
+    """Return omega / pi, the turns of the drive in a unit of t, and the rounding error of it."""
     with localcontext() as context:
         context.prec = 50
         turns = (1 + Decimal.from_float(mu) ** 2 * Decimal.from_float(omega)).sqrt() / Decimal(PI)
@@ -84,15 +85,15 @@ def angles_of(amplitudes: np.ndarray, omega: float, mu: float) -> np.ndarray:
 
 
 def swings_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: float) -> np.ndarray:
-    """Return sqrt(x^2 + (x' / omega)^2): the angle that a pendulum swings to, were it harmonic.
+    """Return sqrt(x^2 + (x' / omega)^2): the angle that a harmonic pendulum would swing to.
 
-    Of the leading terms of (3) it is 2 mu |A|, whatever the phase.
+    For the leading terms of (3) it is 2 mu |A| at every phase.
     """
     return modulus(complex_of(angles, velocities / frequency(omega, mu)))
 
 
 def leading_angles(amplitudes: np.ndarray, omega: float, mu: float, tau: float) -> np.ndarray:
-    """Return the angles 2 mu Re(A e^{i omega t}) of the expansion (3) at one tau, shaped alike."""
+    """Return the angles 2 mu Re(A e^{i omega t}) of the expansion (3) at one tau, shaped as A."""
     turns, rest = turns_of_drive(omega, mu)
     t = float(times_of(tau, mu))
     half = Decimal.from_float(t) * (Decimal.from_float(turns) + Decimal.from_float(rest)) / 2
@@ -106,8 +107,8 @@ def times_of(tau: np.ndarray, mu: float) -> np.ndarray:
 
 
 @inlined_by_llvm
-def rest_of_product(a, b, product):
-    """Return what rounding took from the product of two numbers (Dekker, Veltkamp)."""
+def rest_of_product(a: float, b: float, product: float) -> float:
+    """Return a b minus the rounded `product` of both, exactly (Dekker, Veltkamp)."""
     long, wide = SPLITTER * a, SPLITTER * b
     a_high, b_high = long - (long - a), wide - (wide - b)
     a_low, b_low = a - a_high, b - b_high
@@ -115,8 +116,8 @@ def rest_of_product(a, b, product):
 
 
 @kernel
-def at_time(pendula, t):
-    """Return the pendula as they are driven at the time t."""
+def at_time(pendula: Pendula, t: float) -> Pendula:
+    """Return the parameters with the drive at the time t."""
     coupling, clock, _, _, left, right = pendula
     turns = clock.turns * t
     rest = rest_of_product(clock.turns, t, turns) + clock.turns_rest * t
@@ -125,14 +126,14 @@ def at_time(pendula, t):
 
 
 @kernel
-def system_of_tile(pendula, at_left_end, at_right_end):
-    """Return the pendula of a tile, which end as the whole chain does where it reaches an end."""
+def system_of_tile(pendula: Pendula, at_left_end: bool, at_right_end: bool) -> Pendula:
+    """Return the pendula of a tile: the ends of the full chain where the tile reaches them."""
     coupling, clock, drive, quadrature, left, right = pendula
     left = left if at_left_end else DIRICHLET
     return Pendula(coupling, clock, drive, quadrature, left, right if at_right_end else DIRICHLET)
 
 
-# --- What is generated from the traced model -----------------------------------------------------
+# --- Functions generated from the traced model ---------------------------------------------------
 
 SERIES = load_series(KERNEL_MODEL)
 WORK, continue_in_waves = SERIES.WORK, SERIES.continue_in_waves
@@ -141,17 +142,17 @@ write_rates = at_every_site(load_rule(KERNEL_MODEL.rates, "y"))
 
 
 @kernel
-def rates(pendula, y, dy):
-    """Write the right-hand side of (1) at `y`, a system of first order, into `dy` (same shape)."""
+def rates(pendula: Pendula, y: np.ndarray, dy: np.ndarray) -> None:
+    """Write the right-hand side of (1) at `y`, as a first-order system, into `dy` (same shape)."""
     close(pendula, y)
     write_rates(pendula, (y,), dy)
 
 
 @kernel
-def continue_series(pendula, series):
+def continue_series(pendula: Pendula, series: PowerSeries) -> None:
     """Write the coefficients of all orders from those of order 0, at the time of `pendula`.
 
-    Those of D are written first: the series of a cosine, by its frequency.
+    The coefficients of D come first: the series of a cosine of known frequency.
     """
     m, d = series.memory, spare_start(series)
     cosine, sine = pendula.drive, pendula.quadrature

@@ -1,4 +1,4 @@
-"""The methods with the kernels of the paper's equations, compiled and cached, by name."""
+"""The library's methods with the kernels of the paper's equations, compiled and cached, by name."""
 
 from latticode.simulation.traced import load_runs
 
@@ -9,4 +9,4 @@ SOLVERS = {
     AMPLITUDES: load_runs(amplitudes.__name__, [*METHODS_OF[AMPLITUDES], "ode45_real"]),
     PENDULA: load_runs(pendula.__name__, METHODS_OF[PENDULA], driven=True),
 }
-"""The compiled methods of each model; of (4) also ode45 as it is for real unknowns."""
+"""The compiled methods of each model; for (4) also ode45 with the error norm of real unknowns."""

@@ -1,4 +1,4 @@
-"""Steady states of the chain that are localised at one pair, and where there is none.
+"""Steady states of the chain that are localised at one pair, and parameters without any.
 
 A steady state of (4), steady in the rotating frame of (3), obeys
 
@@ -8,8 +8,8 @@ A steady state of (4), steady in the rotating frame of (3), obeys
 and the same with A and B exchanged. The families of one pair (see `pairs`) are continued from
 epsilon = 0 by what the library does with any model (`latticode.localised.breathers`).
 
-Where there is none. Multiply (S) by conj A and its partner by conj B, sum over the chain and take
-the real part:
+Parameters without any: multiply (S) by conj A and its partner by conj B, sum over the chain and
+take the real part:
 
     -epsilon (|dA|^2 + |dB|^2) + Omega P - gamma Re sum (A_n - B_n)^2
         + (1/2) sum (|A_n|^4 + |B_n|^4) = 0,
@@ -34,15 +34,15 @@ from pendula.problem import Constants, PaperProblem
 from .pairs import Family, pair
 
 SHORT = 8
-"""Half-width of the chain on which a state is continued, before it is found on the whole one."""
+"""Half-width of the short chain on which a state is continued, before the full chain is solved."""
 
 
 def localised(
     family: Family, constants: Constants, half_width: int
 ) -> tuple[PaperProblem, LocalisedState]:
-    """Return a family's even state, and the chain on which it is one.
+    """Return a problem on the full chain, and the steady state of a family there, even in n.
 
-    Raises NoStateError where the pair has no such state, or the family does not reach this epsilon.
+    Raises NoStateError if the pair has no such state, or if continuation fails before this epsilon.
     """
     ends = pair(family, constants.gamma, constants.omega)
     if ends is None:
