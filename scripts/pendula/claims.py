@@ -1,15 +1,16 @@
-"""What claims of several studies share: the paper's words for sizes, its runs, its perturbed runs.
+"""Cut-offs, names of datasets and helpers that the claims of several studies share.
 
-Runs whose initial conditions differ from the paper's by a millionth cannot show that a difference
-of a hundredth would end the motion. The study of breathers counts how many runs spread, by the size
-of the difference. A sentence that rests on perturbed runs holds only if most runs with so small a
-difference spread, and it has a caveat if most runs with some larger difference do not.
+Runs with relative perturbations of 1e-6 cannot show that one of 1e-2 would end the motion. The
+study of breathers measures the share of runs that spread, by the size of the perturbation. A claim
+on perturbed runs holds only if most runs with perturbations of that size spread, and it has a
+caveat if most runs with some larger perturbation do not.
 """
 
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 from replication.ledger.changes import exchange
 from replication.ledger.claim import ClaimControl
 from replication.ledger.criterion import (
@@ -37,7 +38,7 @@ FEWEST = 6
 
 
 def _in(folder: str) -> Callable[..., tuple[str, ...]]:
-    """Return a function that takes names and returns those of the datasets in a folder."""
+    """Return a function that prefixes names of datasets with their folder."""
     return lambda *names: tuple(f"{folder}/{name}" for name in names)
 
 
@@ -46,16 +47,24 @@ sweeps, unbounded = _in("sweeps"), _in("unbounded")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 
 
-def late(trajectory, start: float = SETTLED):
-    """Return the trajectory from tau = `start` on, which must leave as long a time again."""
+def late(trajectory: xr.Dataset, start: float = SETTLED) -> xr.Dataset:
+    """Return the trajectory from tau = `start` on.
+
+    Raises UndecidableError if it ends before 2 `start`.
+    """
     end = float(trajectory["tau"][-1])
     if end < 2.0 * start:
         raise UndecidableError(f"the run ends at tau = {end:g}, before {2.0 * start:g}")
     return trajectory.sel(tau=slice(start, None))
 
 
-def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair"):
-    """Return the half-widths of a sweep and one statistic of a norm of the pair at each."""
+def swept(
+    sweep: xr.Dataset, norm: str, statistic: str, window: str, quantity: str = "pair"
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the half-widths of a sweep and a statistic of a norm at each.
+
+    Raises UndecidableError if the sweep has not the window, or fewer than FEWEST half-widths.
+    """
     if window not in sweep["window"].values:
         raise UndecidableError(f"the sweep has no window {window}")
     values = sweep[norm].sel(quantity=quantity, statistic=statistic, window=window).values
@@ -82,22 +91,22 @@ MAJORITY = Cutoff(0.5, '"most": more than half')
 
 
 class PerturbedShare(NamedTuple):
-    """The share of runs that spread from data this close, what it must keep, and a caveat."""
+    """The share of perturbed runs that spread, the criterion on it, and a caveat."""
 
     measured: dict[str, float]
     criterion: Criterion
     caveat: str
 
     def judge(self, measured: dict[str, float], *criteria: Criterion, caveat: str = "") -> Finding:
-        """Return the finding on a sentence for which this share must be large enough as well."""
+        """Return the finding on a claim that also requires this share to be large enough."""
         every, caveats = AllOf(*criteria, self.criterion), filter(None, (caveat, self.caveat))
         return judge(measured | self.measured, every, "; ".join(caveats))
 
 
 def almost_equal(sensitivity, within: float) -> PerturbedShare:
-    """Return what the shares that spread say of an ensemble whose data are `within` the paper's.
+    """Return the share of runs that spread with relative perturbations up to `within`.
 
-    Where no change that small was tried, the smallest that was stands for it.
+    If no perturbation was that small, the smallest one is used.
     """
     sizes = sensitivity["size"].values
     share, high = (sensitivity[name].values for name in ("share", "share_high"))

@@ -1,1 +1,1 @@
-"""What a replication of any paper needs: claims and verdicts, accepted results, report, archive."""
+"""Replication of any paper: claims and verdicts, accepted results, report, archive."""

@@ -1,11 +1,11 @@
-"""Where a configuration differs from the one that the claims are about."""
+"""Differences of a configuration from the one that the claims are about."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 
 def in_short(differences: list[str]) -> str:
-    """Return some differences as half a sentence; an empty text where there are none."""
+    """Return up to three differences as a clause, and the number of the rest; empty for none."""
     if not differences:
         return ""
     more = f" and {len(differences) - 3} more" if len(differences) > 3 else ""
@@ -13,24 +13,24 @@ def in_short(differences: list[str]) -> str:
 
 
 def rests_on_nothing(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """Return no path: what a dataset of this name rests on where nobody can edit a case."""
+    """Return no path, for a project whose datasets depend on no configuration."""
     return ()
 
 
 class Differences(NamedTuple):
-    """Differences of a configuration from the paper's, and what datasets rest on.
+    """Differences of a configuration from the paper's, and the keys that datasets depend on.
 
-    `words` has them by dotted path, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in
-    place of 8)"}. `rests_on` returns the dotted paths that decide a dataset, by its path below
-    results/ without its ending; it is given the names of cases and sweeps where a statement is on
-    some alone of all that a dataset holds.
+    `words` describes each difference by dotted path, such as {"cases.fig2_small.omega":
+    "fig2_small.omega (1 in place of 8)"}. `rests_on(name, on)` returns the dotted paths that decide
+    the dataset results/<name>.nc; `on` names the cases and sweeps of a statement that is not about
+    all in the dataset.
     """
 
     words: Mapping[str, str] = {}
     rests_on: Callable[[str, tuple[str, ...]], Iterable[str]] = rests_on_nothing
 
     def concerning(self, names: Iterable[str], on: Iterable[str] = ()) -> dict[str, str]:
-        """Return those differences that datasets rest on."""
+        """Return the differences that affect the datasets `names`, by dotted path."""
         paths = {path for name in names for path in self.rests_on(name, tuple(on))}
         return {
             place: words
@@ -40,7 +40,7 @@ class Differences(NamedTuple):
         }
 
     def reason(self, names: Iterable[str], on: Iterable[str] = ()) -> str:
-        """Return why datasets are not about the paper's cases; an empty text where they are."""
+        """Return why datasets are not of the paper's cases; an empty text if they are."""
         return in_short(list(self.concerning(names, on).values()))
 
 
@@ -48,21 +48,21 @@ NO_DIFFERENCES = Differences()
 
 
 class Tolerated(NamedTuple):
-    """Keys of a configuration whose values may differ: any, larger or smaller numbers."""
+    """Keys of a configuration whose values may differ: freely, or only up or down."""
 
     free: frozenset[str] = frozenset()
     at_least: frozenset[str] = frozenset()
     at_most: frozenset[str] = frozenset()
     single: frozenset[str] = frozenset()
-    """Keys whose mapping is one value."""
+    """Keys whose mapping is compared as a single value."""
 
 
 def find_differences(
     accepted: Mapping[str, Any], configuration: Mapping[str, Any], tolerated: Tolerated
 ) -> dict[tuple[str, ...], tuple[Any, Any]]:
-    """Return by path where plain values differ, with the accepted value and the new one.
+    """Return the accepted and the new value of each entry that differs, by its path.
 
-    What the configuration has beside the accepted sections and their entries is no difference.
+    Additional sections and entries of the configuration are no differences.
     """
     differences: dict[tuple[str, ...], tuple[Any, Any]] = {}
     for section, entries in accepted.items():

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 TOOK = "wall time: "
-"""How the last line of a job's log begins, with its time in s and its memory in MB."""
+"""The beginning of the last line of a job's log, which has its time in s and its memory in MB."""
 LAST_LINE = re.compile(rf"{TOOK}([\d.]+) s, largest memory: (\d+) MB")
 
 

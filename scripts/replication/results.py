@@ -1,4 +1,4 @@
-"""The files of a run by name, for the article."""
+"""The files of a run by name, as the article and the report read them."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -11,9 +11,9 @@ class ReportError(RuntimeError):
 
 
 class Results:
-    """The files of a run; names are paths seen from the page, without the ending .nc.
+    """The files of a run; names are paths relative to the page, without the ending .nc.
 
-    `differs` says where the configuration is not the paper's.
+    `differs` holds the differences of the configuration from the paper's, in words by path.
     """
 
     def __init__(self, files: Iterable[str], page: str, differs: Mapping[str, str] | None = None):
@@ -31,7 +31,7 @@ class Results:
         return f"{name}.nc" in self._paths
 
     def path(self, link: str) -> Path:
-        """Return where the file is to which the page links."""
+        """Return the path of the file to which the page links as `link`."""
         try:
             return self._paths[link]
         except KeyError:
@@ -39,5 +39,5 @@ class Results:
 
 
 def link_to(path: str, page: str) -> str:
-    """Return how a page links to a file of the run."""
+    """Return the path of a file of the run relative to the page, for a link."""
     return Path(path).relative_to(Path(page).parent).as_posix()

@@ -1,6 +1,6 @@
-"""Attributes by which a variable says what the comparison, the ledger and the article must know.
+"""Attributes of variables that the comparison, the ledger and the article read.
 
-Whoever makes a variable writes them, so that no other room lists variables by name:
+The code that makes a variable writes them, because the readers then need no lists of names:
 
 `missing_meaning`  why a value is NaN; without it a NaN is unknown, and confirms no claim
 `rests_on_chaos`   "no", "yes", "by case" or "by case at all times", or "along x", where x is a
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 VARIATION = "variation"
-"""The dimension of a number's values that were measured again with other choices."""
+"""The dimension of a number's values when it is measured again with other choices."""
 
 MISSING = "missing_meaning"
 CHAOS = "rests_on_chaos"
@@ -32,11 +32,11 @@ BOUND, STATISTIC = "upper bound", "statistic"
 """Values of `compared_as`."""
 
 REGULAR = {CHAOS: NO}
-"""For what theory, a reference or the configuration gives, also beside chaotic runs."""
+"""For values of theory, references or the configuration, also in datasets of chaotic runs."""
 CHAOTIC = {CHAOS: YES}
-"""For what another right run finds otherwise."""
+"""For values that differ between correct runs."""
 ALL_TIMES = {CHAOS: ALWAYS}
-"""For what rests on the end of a run at all times, as a number divided by its largest value."""
+"""For values that depend on the end of a run at all times, such as one divided by its maximum."""
 PROVEN = {KIND: BOUND}
 SCATTERED = {KIND: STATISTIC}
 """For an error, a deviation or a correlation of a few runs, which is uncertain itself."""
@@ -45,12 +45,12 @@ FEW_CHOICES = {SAMPLES: 1}
 
 
 def missing(meaning: str) -> dict[str, str]:
-    """Return the attribute that says what NaN means."""
+    """Return the attribute with the meaning of NaN."""
     return {MISSING: meaning}
 
 
 def chaotic_along(dimension: str) -> dict[str, str]:
-    """Return the attribute of what rests on chaos where a case with this parameter is chaotic."""
+    """Return the attribute of a variable that is chaotic where a case with this parameter is."""
     return {CHAOS: f"{ALONG}{dimension}"}
 
 

@@ -1,4 +1,4 @@
-"""How pages write numbers, symbols and tables."""
+"""Numbers, symbols and tables as text for pages."""
 
 import re
 from collections.abc import Callable, Iterable, Sequence
@@ -44,7 +44,7 @@ _NAMES = re.compile(r"(?<![A-Za-z])(?<![a-z]\.)(" + "|".join(SYMBOLS) + r")(?![A
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Return a number to so many digits, small and large ones with a raised power of ten."""
+    """Return a number to `digits` significant digits; small and large ones have a power of ten."""
     value = float(value)
     if not np.isfinite(value):
         return "none" if np.isnan(value) else "infinite" if value > 0 else f"{MINUS}infinite"
@@ -66,9 +66,9 @@ def raised(exponent: str) -> str:
 def with_error(value: float, error: float, digits: int = 3) -> str:
     """Return a number and its error, to the first digit of the error (two after a 1).
 
-    The error is rounded up, and includes what rounding does to the number: the interval that is
-    written contains the interval that is meant. Small numbers with small errors have a common power
-    of ten. A number whose error is that of the arithmetic has `digits` digits and no error.
+    The error is rounded up and includes the rounding of the number, so the printed interval
+    contains the exact one. Small numbers with small errors have a common power of ten. A number
+    with an error below ROUNDING is printed to `digits` digits without it.
     """
     if not (np.isfinite(error) and error > ROUNDING * abs(value)):
         return number(value, digits)
@@ -89,14 +89,14 @@ def rounded(value: float, places: int, direction: Direction) -> float:
 
 
 def outward(value: float, digits: int, direction: Direction) -> float:
-    """Return a number rounded to so many digits, up or down."""
+    """Return a number rounded to `digits` significant digits, up or down."""
     if not np.isfinite(value) or value == 0:
         return float(value)
     return rounded(value, digits - 1 - int(np.floor(np.log10(abs(value)))), direction)
 
 
 def percent(fraction: float, digits: int = 2) -> str:
-    """Return a fraction in per cent: 13 %. What is not the whole is not rounded to it: 99.5 %."""
+    """Return a fraction in per cent, such as 13 %; only 1 itself is printed as 100 %."""
     value = 100.0 * float(fraction)
     if abs(value) < 10:
         return f"{number(value, digits)}{FIRM}%"

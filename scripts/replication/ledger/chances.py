@@ -1,12 +1,12 @@
-"""How likely another right run turns a verdict: chaos draws other numbers in each of them.
+"""The chance that another correct run changes a verdict, since chaotic numbers differ between runs.
 
-Two right runs differ in last bits or seeds, and so in each number that rests on chaos. A claim
-whose verdict one of twenty of them turns has no verdict. So a test that true data fail by chance
-takes the level `RARE`, and the numbers of other criteria must lie far from their limits.
+Two correct runs differ in last bits or seeds, and so in each chaotic number. A verdict that one run
+in twenty changes is worthless. Statistical tests therefore use the level `RARE`, and the numbers of
+other criteria must lie far from their limits.
 
-How far is measured by several right runs: a number turns where its room within its limit changes
-sign, and the chance of that in one more run is that of Student's t, by the mean and the scatter of
-its room over the runs. A number that is the same in all runs has no chance of it.
+The distance is measured on several correct runs. A number changes a verdict where its margin to the
+limit changes sign. The chance of that in one more run is given by Student's t, from the mean and
+the scatter of the margin over the runs. It is zero for a number that is the same in all runs.
 """
 
 from collections import Counter
@@ -22,15 +22,15 @@ from .cutoff import Cutoff
 
 RARE = Cutoff(1e-5, "the chance of an error of the test: no right run of 10,000 may turn a verdict")
 ALLOWED = 1e-4
-"""No larger may be the chance that a right run turns a verdict, or the outcome of a control."""
+"""Largest allowed chance that a correct run changes a verdict, or the outcome of a control."""
 SAME = 1e-12
-"""Numbers that scatter by a smaller part of their mean differ by rounding alone."""
+"""A relative scatter below this is rounding alone."""
 
 
 class Chance(NamedTuple):
-    """The chance that one more right run turns a verdict, and the number that is nearest to it.
+    """The chance that one more correct run changes a verdict, and the number most likely to do so.
 
-    `nearest` is empty where no number can do so.
+    `nearest` is empty if no number can.
     """
 
     value: float
@@ -38,9 +38,9 @@ class Chance(NamedTuple):
 
 
 def chance_to_cross(rooms: Sequence[float]) -> float:
-    """Return the chance that one more draw has another sign than `rooms`, which share theirs.
+    """Return the chance that one more sample has the opposite sign of `rooms`, which share a sign.
 
-    Some may be infinite, as that of a test on means without scatter: then the others decide.
+    Infinite ones, as of a test on means without scatter, are left out.
     """
     finite = np.abs([room for room in rooms if np.isfinite(room)])
     if len(finite) < 2:
@@ -52,10 +52,10 @@ def chance_to_cross(rooms: Sequence[float]) -> float:
 
 
 def chance_to_turn(findings: Sequence[Finding]) -> Chance:
-    """Return the chance that one more right run comes to another verdict than these, which agree.
+    """Return the chance that one more correct run has another verdict than `findings`.
 
-    A verdict that holds falls with any of its numbers, and one that the numbers contradict holds
-    only if all that fail do. What cannot be decided changes with any number.
+    A confirmed or undecided claim changes if any of its numbers crosses its limit. A contradicted
+    one changes only if all of its failing numbers do.
     """
     verdicts = Counter(finding.verdict for finding in findings)
     if len(verdicts) > 1:
@@ -80,10 +80,11 @@ def chance_to_turn(findings: Sequence[Finding]) -> Chance:
 
 
 def chance_of_claim(looks: Sequence[Mapping[str, Finding]], moves: Iterable[str]) -> Chance:
-    """Return the chance that a right run turns a claim, with its cut-offs and with moved ones.
+    """Return the chance that a correct run changes the verdict on a claim, its caveat included.
 
-    Moves count where the verdict is confirmed: it has a caveat if one of them turns it. `looks`
-    has the findings of each run, with the cut-offs as "", and by the names of the `moves`.
+    Moved cut-offs count if the claim is confirmed, because it gets a caveat if one of them changes
+    the verdict. `looks` has the findings of each run: "" for the cut-offs themselves, and one for
+    each name in `moves`.
     """
     unmoved = chance_to_turn([look[""] for look in looks])
     if any(look[""].verdict != Verdict.CONFIRMED for look in looks):

@@ -1,8 +1,8 @@
-"""Verbs that make wrong cases of datasets, for the controls of claims and for tests.
+"""Functions that make wrong cases of datasets, for the controls of claims and for tests.
 
-Each returns a function of a dataset that makes the changed one. `names` are one or more
-variables. `at` says where, by coordinate; without it everywhere. It is a label, a list of labels,
-or a slice of them with both ends; the labels of a dimension without any are its places 0, 1, ...
+Each returns a function that takes a dataset and returns the changed one. `names` are one or more
+variables. `at` restricts the change by coordinates, each with a label, a list of labels, or a slice
+that includes both ends. A dimension without labels has the labels 0, 1, ...
 """
 
 from collections.abc import Callable, Mapping
@@ -16,7 +16,7 @@ from .criterion import UndecidableError
 Change = Callable[[xr.Dataset], xr.Dataset]
 Names = str | tuple[str, ...]
 NEAR = 1e-6
-"""Labels that differ by a smaller part are one: accepted files hold them in single precision."""
+"""Relative tolerance of labels, since accepted files hold them in single precision."""
 
 
 def scale(names: Names, by: float | xr.DataArray, **at) -> Change:
@@ -30,12 +30,12 @@ def shift(names: Names, by: float, **at) -> Change:
 
 
 def put(names: Names, to: float, **at) -> Change:
-    """Put one number in the place of all."""
+    """Set all values of variables to one number."""
     return _in_place(names, lambda values: xr.full_like(values, to), at)
 
 
 def roll(names: Names, places: Mapping[str, int], **at) -> Change:
-    """Move numbers along dimensions, whose labels stay; the last ones come first."""
+    """Shift values cyclically along dimensions, by numbers of places; labels stay."""
     return _in_place(names, lambda values: values.roll(places, roll_coords=False), at)
 
 
@@ -52,7 +52,7 @@ def exchange(along: str, *labels, names: Names = ()) -> Change:
 
 
 def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
-    """Put what stands at one label at other ones too; `names` alone if they are given."""
+    """Copy the values at one label to the labels `at`; in the variables `names` or in all."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
         is_replaced = _is_at(data, along, at)
@@ -63,7 +63,7 @@ def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
 
 
 def take(**replacements: str) -> Change:
-    """Put other variables in the place of some, which keep their attributes."""
+    """Replace the values of variables by those of others; attributes stay."""
     return lambda data: data.assign(
         {
             name: data[replacement].assign_attrs(data[name].attrs)
@@ -73,7 +73,7 @@ def take(**replacements: str) -> Change:
 
 
 def take_from(*names: str, **at) -> Callable[[xr.Dataset, xr.Dataset], xr.Dataset]:
-    """Put variables of another dataset, which is given second, in the place of its own."""
+    """Return a function of two datasets that copies variables of the second into the first."""
     return lambda data, source: _in_place(names, lambda values: source[values.name], at)(data)
 
 
@@ -120,7 +120,7 @@ def _place(data: xr.Dataset, along: str, label) -> int:
 
 
 def _is_at(data: xr.Dataset, along: str, requested) -> xr.DataArray:
-    """Return where a coordinate has one of some labels, of which one at least must be there."""
+    """Return a mask of the requested labels; raises UndecidableError if there is none."""
     labels = data[along]
     if isinstance(requested, slice):
         low = -np.inf if requested.start is None else requested.start

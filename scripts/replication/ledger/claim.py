@@ -1,4 +1,4 @@
-"""How a study declares a claim."""
+"""Claims and their controls, as a study declares them above the function that decides them."""
 
 import sys
 from collections.abc import Callable, Iterable, Mapping
@@ -12,17 +12,16 @@ Wrong = str | Callable | tuple[str, Callable]
 
 
 class ClaimControl(NamedTuple):
-    """A wrong case for a deciding function, which must not confirm the claim by it.
+    """A wrong case for a deciding function, for which it must not confirm the claim.
 
-    `fed` says, by the name of a needed dataset, what takes its place: the name of another dataset,
-    a function that makes the wrong dataset from the right one, as those of `changes` do, or a pair
-    of a name and a function that makes it from the right and the named dataset. Where the claim
-    needs one dataset alone, `fed` is what takes the place of that. A folder can be left out of the
-    names that the claim needs, and of a name in the same folder.
+    `fed` maps the name of a needed dataset to its replacement: the name of another dataset, a
+    function that makes the wrong dataset from the right one (see `changes`), or a pair of a name
+    and a function of the right and the named dataset. If the claim needs a single dataset, `fed` is
+    the replacement itself. The folder of a name can be left out if it is the claim's.
 
-    `confirms` turns the control round, for a claim that is not reproduced: the function must
-    confirm this right case, or it could not have confirmed anything. `on` names the paper's cases
-    and sweeps that the control takes from a dataset of many.
+    With `confirms` the case is right, and the function must confirm it. This is for a claim that
+    is not reproduced, whose function might confirm nothing at all. `on` names the paper's cases and
+    sweeps that the control uses from a dataset of many.
     """
 
     description: str
@@ -32,18 +31,18 @@ class ClaimControl(NamedTuple):
 
     @property
     def must(self) -> str:
-        """What the function must say of it, in words."""
+        """The outcome that the control requires."""
         return "be confirmed" if self.confirms else "be rejected"
 
     @property
     def names(self) -> list[str]:
-        """The other datasets that it needs."""
+        """The further datasets that the control needs."""
         sources = [wrong if isinstance(wrong, tuple) else (wrong,) for wrong in self.fed.values()]
         return [source[0] for source in sources if isinstance(source[0], str)]
 
 
 class Origin(StrEnum):
-    """Whose sentence a claim is."""
+    """The author of a claim: the paper, its open questions, or this project."""
 
     PAPER = "of the paper"
     OPEN = "on its open questions"
@@ -51,7 +50,7 @@ class Origin(StrEnum):
 
 
 class Kind(StrEnum):
-    """What a claim is: an identity or a theorem has the same verdict in every run."""
+    """Kinds of claims; identities and theorems have the same verdict in every run."""
 
     IDENTITY = "identity"  # both sides are one polynomial, or differ by a sum of squares
     THEOREM = "theorem"  # the paper proves it; numbers can only contradict it
@@ -84,7 +83,7 @@ class Claim(NamedTuple):
 
     @property
     def refuted(self) -> Verdict:
-        """The verdict on it where the numbers contradict it."""
+        """The verdict if the numbers contradict the claim."""
         return Verdict.NOT_FOLLOWING if self.kind == Kind.CONCLUSION else self.rejected
 
 
@@ -114,7 +113,7 @@ def claim(
 
 
 def _by_name(control: ClaimControl, needs: tuple[str, ...]) -> ClaimControl:
-    """Return the control with what it feeds by names that all have their folder."""
+    """Return the control with its replacements by complete names of datasets."""
     fed, complete = control.fed, {}
     if not isinstance(fed, Mapping):
         if len(needs) > 1:

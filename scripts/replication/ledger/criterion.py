@@ -1,8 +1,8 @@
-"""Criteria that decide and print themselves, and the verdicts that follow from them.
+"""Criteria on measured numbers with their text, and the verdicts that follow from them.
 
-A criterion is an object: `holds` decides by its limit, and `str` writes the same limit, so that the
-text in the ledger can never differ from the constant that decides. NaN satisfies no criterion. A
-verdict is computed from a criterion and numbers, never typed.
+A criterion is an object: `holds` compares with its limit and `str` prints the same limit, so the
+text in the ledger cannot differ from the constant. NaN satisfies no criterion. A verdict is always
+computed from a criterion and numbers.
 """
 
 import math
@@ -19,7 +19,7 @@ RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operat
 
 
 class Criterion(ABC):
-    """What the numbers called `names` must keep; its text states the limits that decide."""
+    """An inequality for the numbers called `names`; its text has the limits."""
 
     names: tuple[str, ...]
 
@@ -29,7 +29,7 @@ class Criterion(ABC):
 
     @abstractmethod
     def rooms(self, measured: Measured) -> dict[str, float]:
-        """Return by name how far a number lies within its limit; it is negative beyond it."""
+        """Return by name the distance of a number to its limit, negative beyond the limit."""
 
     def holds(self, measured: Measured) -> bool:
         """Return whether all numbers keep the criterion."""
@@ -49,14 +49,14 @@ class Limit(Criterion):
         self.limit, self.names, self.label = float(limit), names, label
 
     def is_within(self, value: float) -> bool:
-        """Return whether one number keeps the limit."""
+        """Return whether a number satisfies the limit."""
         return RELATIONS[self.sign](value, self.limit)
 
     def failing(self, measured: Measured) -> list[str]:
         return [name for name in self.names if not self.is_within(measured[name])]
 
     def room(self, value: float) -> float:
-        """Return how far one number lies within the limit; it is negative beyond it."""
+        """Return the distance of a number to the limit, negative beyond the limit."""
         return self.limit - value if self.sign[0] == "<" else value - self.limit
 
     def rooms(self, measured: Measured) -> dict[str, float]:
@@ -64,7 +64,7 @@ class Limit(Criterion):
 
     @property
     def words(self) -> str:
-        """What must keep the limit."""
+        """The label of the numbers in print."""
         return self.label or ", ".join(map(in_words, self.names))
 
     def __str__(self) -> str:
@@ -174,12 +174,11 @@ def in_words(name: str) -> str:
 
 
 class Verdict(StrEnum):
-    """What the numbers can say about a sentence of the paper.
+    """Verdicts on a sentence of the paper.
 
-    A sentence that is read for another model than the paper's can fail to carry over, but not to be
-    reproduced. A sentence is on the paper's case: where another one was run, it is not applicable.
-    A conclusion that the paper draws from a figure may be true and still not follow from what the
-    figure shows.
+    A sentence that is applied to another model than the paper's can "not carry over", but cannot be
+    "not reproduced". Sentences are about the paper's cases: if another case was run, the verdict is
+    "not applicable". A conclusion from a figure may be true and yet "not follow" from the figure.
     """
 
     CONFIRMED = "confirmed"
@@ -200,7 +199,7 @@ class UndecidableError(Exception):
 
 
 class Finding(NamedTuple):
-    """What was measured for a claim, by which criterion it is judged, and what follows."""
+    """The verdict on a claim, with the measured numbers, the criterion and the reason."""
 
     measured: dict[str, float]
     criterion: Criterion | None
@@ -209,11 +208,11 @@ class Finding(NamedTuple):
 
 
 def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str = "") -> Finding:
-    """Return a finding: not reproduced, because it `fails`, unless the criterion holds.
+    """Return the finding on a claim: confirmed if the criterion holds, else not reproduced.
 
-    Without these words the numbers that do not keep the criterion are the reason. If it holds and
-    `caveat` is not empty, the claim is confirmed with that caveat. Where all that fails is unknown,
-    nothing is decided.
+    With a `caveat` the claim is confirmed with that caveat. `fails` is the reason if the criterion
+    does not hold; by default it lists the failing numbers. If all of these are NaN, the claim is
+    undecided.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     if off := dict.fromkeys(criterion.failing(numbers)):
@@ -229,7 +228,7 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
 def undecided(measured: Measured, because: str, criterion: Criterion | None = None) -> Finding:
     """Return the finding on a claim that the numbers at hand cannot decide.
 
-    A `criterion` says on which sides of their limits the numbers lie for which this is so.
+    The finding holds while the numbers stay on the same sides of the limits of `criterion`.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     return Finding(numbers, criterion, Verdict.UNDECIDED, because)

@@ -1,9 +1,9 @@
-"""Cut-offs: numbers that decide a verdict, where each comes from, and what follows if one moves.
+"""Cut-offs: numbers that decide a verdict, their origins, and the verdicts if one is changed.
 
-The paper says "grows" or "comparable" and gives no number. Who decides such a sentence by numbers
-has to choose one, and a verdict that hangs on the choice must say so. So a cut-off is no plain
-float: while a claim is decided it notes that it was read, and it can be moved, so that the ledger
-can decide the claim again with each of its cut-offs a third smaller and larger.
+The paper writes "grows" or "comparable" without a number. To decide such a sentence we must choose
+one, and the ledger must report a verdict that depends on the choice. A cut-off therefore records
+that it was read while a claim is decided, and the ledger decides the claim again with each of these
+cut-offs a third smaller and larger.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,10 +15,10 @@ MOVES = (2.0 / 3.0, 4.0 / 3.0)
 
 
 class Cutoff(NamedTuple):
-    """A number that decides, and in words where it comes from.
+    """A number that decides, and its origin in words.
 
-    `ideal` is the value that the cut-off keeps a distance from, and this distance is what a move
-    changes: a share of "at least 0.9" is 0.1 away from the whole, so it moves to 0.87 and 0.93.
+    A move changes the distance to `ideal` by a third: a share of at least 0.9, with the ideal 1,
+    moves to 0.87 and 0.93.
     """
 
     number: float
@@ -27,7 +27,7 @@ class Cutoff(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The number that decides now."""
+        """The number, changed while the ledger moves it; reading it is recorded."""
         _read.add(self)
         return self.ideal + _moved.get(self, 1.0) * (self.number - self.ideal)
 
@@ -40,7 +40,7 @@ _moved: dict[Cutoff, float] = {}
 
 
 def reading(decide: Callable[[], Any]) -> tuple[Any, set[Cutoff]]:
-    """Return what a function returns, and the cut-offs that it reads."""
+    """Return the result of a function, and the cut-offs that it reads."""
     before = set(_read)
     _read.clear()
     try:
@@ -50,9 +50,9 @@ def reading(decide: Callable[[], Any]) -> tuple[Any, set[Cutoff]]:
 
 
 def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> list[str]:
-    """Return which moves of the cut-offs in `read` change the `verdict`, a phrase for each.
+    """Return a phrase for each move of the cut-offs in `read` that changes the `verdict`.
 
-    `verdict_of` decides again.
+    `verdict_of` decides the claim again.
     """
     return [
         f"{moved_verdict} with {value:.3g} instead of {cutoff.number:.3g}"
@@ -74,9 +74,9 @@ def each_move(read: set[Cutoff], decide: Callable[[], Any]) -> Iterator[tuple[Cu
 
 
 def once(measure: Callable) -> Callable:
-    """Let deciding functions measure the same datasets once, however often they decide.
+    """Return `measure` with a cache of its results for each dataset, used by several decisions.
 
-    What reads a cut-off is measured again while this cut-off is moved.
+    A result that depends on a cut-off is measured again while this cut-off is moved.
     """
     stored: dict[tuple, tuple] = {}
 

@@ -22,8 +22,8 @@ def decide_claims(
 ) -> None:
     """Write the rows of the ledger on some claims into the file `part`.
 
-    `names` are those that the claims have for the paths `datasets`, in their order. `differences`
-    are those of the configuration from the paper's.
+    `names` are the claims' names of the files `datasets`, in the same order. `differences` are
+    those of the configuration from the paper's.
     """
     if absent := set(needed(claims)) - set(names):
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")

@@ -1,8 +1,8 @@
-"""What is missing cannot confirm a claim: numbers that are unknown, and series of too few samples.
+"""Missing data, which cannot confirm a claim: unknown numbers, and series of too few samples.
 
-What is there may still refute a claim, for which one counterexample is enough. So only a finding
-that confirms is taken back, for every claim alike: reductions that skip NaN would hide that half of
-a dataset is unknown, and a line through two points is no law.
+Data with gaps may still refute a claim, since one counterexample is enough. Only confirming
+findings are therefore withdrawn, in the same way for every claim: reductions that skip NaN would
+hide that half of a dataset is unknown, and two points always lie on a line.
 """
 
 from collections.abc import Iterable, Mapping
@@ -15,13 +15,13 @@ from replication.variables import MISSING, SAMPLES
 from .cutoff import once
 
 FEWEST = 3
-"""So many samples at least: any two of them make a line."""
+"""Default of the fewest samples along a coordinate, since any two lie on a line."""
 
 
 def missing(
     names: Iterable[str], datasets: Mapping[str, xr.Dataset], on: tuple[str, ...] = ()
 ) -> str:
-    """Return what of these datasets is too little to confirm anything, empty if nothing is.
+    """Return what is missing from these datasets to confirm a claim; empty if nothing is.
 
     `on` names the cases and sweeps that are read, where a dataset holds others as well.
     """

@@ -1,4 +1,4 @@
-"""The rows of a run's ledger, counts of them, and the numbers that others quote from them."""
+"""The rows of a run's ledger, and counts of them by verdict and origin."""
 
 import re
 from collections import Counter
@@ -27,7 +27,7 @@ def on_figure(rows: list[dict], figure: int) -> list[dict]:
 
 
 def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
-    """Return by origin how many rows have each verdict; what no row has is left out."""
+    """Return the number of rows by origin and verdict, without zeros."""
     counts = Counter((row["origin"], row["verdict"]) for row in rows)
     by_origin = {
         str(origin): {str(v): counts[origin, v] for v in Verdict if counts[origin, v]}
@@ -60,7 +60,7 @@ def counted_origins(rows: list[dict]) -> str:
 
 
 def whether_it_holds(rows: list[dict]) -> str:
-    """Return in words whether what the paper says of a figure holds, from the claims about it."""
+    """Return whether the paper's claims about a figure hold, as a phrase."""
     counts = Counter(row["verdict"] for row in rows)
     failing = len(rows) - counts[Verdict.CONFIRMED] - counts[Verdict.CAVEAT]
     if not rows:

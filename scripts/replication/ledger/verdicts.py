@@ -1,4 +1,4 @@
-"""The verdict on each claim, with what its controls say."""
+"""The verdict on each claim, with the outcomes of its controls."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -12,7 +12,7 @@ from .missing import missing
 
 
 def needed(claims: Iterable[Claim]) -> list[str]:
-    """Return every dataset that claims and their controls read, once each, in their order."""
+    """Return the names of all datasets that claims and their controls read, in order of use."""
     names: list[str] = []
     for claim in claims:
         names += claim.needs
@@ -21,7 +21,7 @@ def needed(claims: Iterable[Claim]) -> list[str]:
 
 
 def decide(claim: Claim, sources: Mapping) -> Finding:
-    """Return the finding of one claim; without its datasets it cannot be decided."""
+    """Return the finding on a claim, undecided if one of its datasets is missing."""
     absent = [name for name in claim.needs if name not in sources]
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
@@ -36,7 +36,7 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
 
 
 def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
-    """Return the finding of a claim's function on a control."""
+    """Return the finding of a claim's function for the datasets of a control."""
     absent = [name for name in (*claim.needs, *control.names) if name not in sources]
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
@@ -57,9 +57,9 @@ def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
 
 
 def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
-    """Return all that is found for a claim: "" by its cut-offs, and by each move of them.
+    """Return all findings on a claim: "" with its cut-offs, one for each moved cut-off and control.
 
-    Controls have their descriptions as names, moves the values that they move a cut-off to.
+    The name of a move has the value of the cut-off, that of a control is its description.
     """
     finding, cutoffs = reading(lambda: decide(claim, sources))
     moves = {
@@ -71,9 +71,9 @@ def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
 
 
 def passes(control: ClaimControl, finding: Finding) -> bool | None:
-    """Return whether a finding is what the control must give, None where it does not apply.
+    """Return whether a control has the required outcome, None if it is not applicable.
 
-    A refusal must come from numbers: what is missing or no number refuses everything.
+    A rejection counts only if it rests on numbers: missing data or NaN would reject every claim.
     """
     if finding.verdict == Verdict.NOT_APPLICABLE:
         return None
@@ -92,7 +92,7 @@ def confirmed(finding: Finding) -> bool:
 def why_not_applicable(
     differences: Differences, claim: Claim, control: ClaimControl | None = None
 ) -> str:
-    """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
+    """Return why the data of a claim or a control are not the paper's; empty if they are."""
     of_claim = differences.reason(claim.needs, claim.on)
     if of_claim or control is None:
         return of_claim
@@ -103,11 +103,11 @@ def why_not_applicable(
 def evaluate(
     claims: Iterable[Claim], sources: Mapping, differences: Differences = NO_DIFFERENCES
 ) -> list[dict]:
-    """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
+    """Return a row for each claim with its verdict, ready for JSON, from datasets by name.
 
-    A verdict that changes where a cut-off moves by a third says so. Where a control comes out
-    wrong, its function cannot decide the claim. A claim or a control that rests on a key in which
-    the configuration has `differences` from the paper's is not applicable.
+    A row lists the cut-offs that change the verdict if moved by a third. If a control has the wrong
+    outcome, the claim is undecided. A claim or a control that depends on a key with `differences`
+    from the paper's configuration is not applicable.
     """
     return [_row(claim, sources, differences) for claim in claims]
 
@@ -158,7 +158,7 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
 def _severe(
     finding: Finding, moved: list[str], controls: list[tuple[ClaimControl, Finding]]
 ) -> Finding:
-    """Return the finding with what the moved cut-offs and the controls say against it."""
+    """Return the finding after its controls and moved cut-offs: undecided or with a caveat."""
     failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
     if failed is not None and finding.verdict != Verdict.UNDECIDED:
         control, fed = failed
