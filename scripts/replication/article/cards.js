@@ -27,7 +27,7 @@ const place = () => {
   const { left, top, bottom } = owner.getClientRects()[0];
   const { width } = panel.getBoundingClientRect();
   const isBelow = innerHeight - bottom > top;
-  panel.style.left = `${Math.max(MARGIN, Math.min(left, innerWidth - width - MARGIN))}px`;
+  panel.style.left = `${Math.max(MARGIN, Math.min(left, document.documentElement.clientWidth - width - MARGIN))}px`;
   panel.style.top = isBelow ? `${bottom + MARGIN}px` : "auto";
   panel.style.bottom = isBelow ? "auto" : `${innerHeight - top + MARGIN}px`;
   panel.style.maxHeight = `${(isBelow ? innerHeight - bottom : top) - 2 * MARGIN}px`;
