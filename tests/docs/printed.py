@@ -151,13 +151,21 @@ class Reader:
         output = ""
         for line in block.text.splitlines():
             if SNAKEMAKE.match(line):
-                done = self._ready(shlex.split(line), PATH=self.path, PYTHONPATH="")
+                done = self._ready(shlex.split(line), **self._environment())
             else:
                 done = self._shell(line)
             output += done.said
             if done.code:
                 break
         return Done(done.code, output)
+
+    def _environment(self) -> dict[str, str]:
+        """Return the variables of a reader who has installed the copy in whose folder he is."""
+        folders = (self.folder, *self.folder.parents)
+        project = next(
+            (folder for folder in folders if (folder / "Snakefile").exists()), self.clone
+        )
+        return {"PATH": self.path, "PYTHONPATH": python_path(project)}
 
     def _ready(self, words: list[str], **variables: str) -> Done:
         """Run a module where its imports are done: they are nearly half of most commands."""
@@ -170,7 +178,7 @@ class Reader:
         run = subprocess.run(
             ["bash", "-euo", "pipefail", "-c", f"{line}\npwd > {shlex.quote(str(reached))}"],
             cwd=self.folder,
-            env={**os.environ, "PATH": self.path, "PYTHONPATH": ""},
+            env={**os.environ, **self._environment()},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
