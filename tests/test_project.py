@@ -71,13 +71,19 @@ def test_what_computes_does_not_depend_on_what_is_drawn_or_written(function):
     assert not [file for file in files if file.endswith((".j2", ".css", ".js"))]
 
 
-def test_what_draws_does_not_depend_on_how_it_was_integrated():
+def test_what_draws_depends_on_no_model_no_run_and_no_page():
+    """It depends on the methods for their names and colours, so their edits redraw figures."""
     assert len(DRAWING) > 10
     general = [f"scripts/replication/{room}/" for room in ("report", "figure_diff", "archive")]
-    foreign = (f"{LIBRARY}/integrators/", "models/", *general)
+    runs = [f"{LIBRARY}/{room}/" for room in ("simulation", "generation", "localised")]
+    foreign = ("models/", *runs, *general)
     files = {(name, file) for name in DRAWING for file in files_behind(name)}
     assert [pair for pair in files if pair[1].startswith(foreign)] == []
     assert [name for name in DRAWING if (name, f"{LIBRARY}/drawing/style.py") not in files] == []
+
+
+METHODS = ROOT / "packages/latticode/latticode/integrators/methods/__init__.py"
+"""Where a line adds a method; each imports its kernels inside a function."""
 
 
 def test_importing_a_package_drags_in_no_other_room():
@@ -91,4 +97,4 @@ def test_importing_a_package_drags_in_no_other_room():
     for init in packages:
         above = {folder / "__init__.py" for folder in init.parent.parents}
         imported = {path for path in sources.modules_of(init) if init.parent not in path.parents}
-        assert imported <= above | named, init
+        assert imported <= above | named or init == METHODS, init
