@@ -25,13 +25,14 @@ def draw_cases(
     drawn = list(grid.T.flat[:count])
     for axes, name in zip(drawn, data["case"].values, strict=True):
         case = data.sel(case=name)
-        axes.set_title(name_case(case), loc="left")
+        axes.set_title(name_case(case), loc="left", fontsize=style.WITH_INDICES)
         axes.set_yscale("log")
+        axes.tick_params(axis="y", labelsize=style.WITH_INDICES)
         draw_panel(axes, case)
         axes.set_xlim(0, float(data["tau"].max()))
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
-    figure.supylabel(label, fontsize="medium")
+    figure.supylabel(label, fontsize=style.WITH_INDICES)
     style.name_legend(figure, *drawn, columns=4)
     return figure
 

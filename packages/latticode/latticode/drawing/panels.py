@@ -56,7 +56,9 @@ def draw_moduli(
     image = _draw_fields(row, moduli, names, r"$|{field}|$,  {name}", evenly, **look)
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
     units = moduli.attrs.get("units", "1")
-    bar.set_label(f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)")
+    bar.set_label(
+        f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)", fontsize="medium"
+    )
 
 
 def draw_values(
@@ -71,7 +73,7 @@ def draw_values(
     look = {"cmap": "RdBu_r", "norm": Normalize(-peak, peak)}
     image = _draw_fields(row, values, names, "${field}$,  {name}", evenly, **look)
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
-    bar.set_label(f"value{style.name_units(values)}")
+    bar.set_label(f"value{style.name_units(values)}", fontsize="medium")
 
 
 def is_even(times: np.ndarray) -> bool:

@@ -38,6 +38,9 @@ WIDTH = 16.4 / 2.54
 NOTE = 110
 """The width of a note below the panels, in letters."""
 
+WITH_INDICES = 10
+"""The size in points of text with indices and powers: mathtext draws these at 0.7 of it."""
+
 ON_COLOURS = {
     "color": "white", "lw": 1.0, "ls": (0, (3, 1.5)),
     "path_effects": [withStroke(linewidth=2.2, foreground="black")],
@@ -92,7 +95,7 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "font.family": "DejaVu Sans",
     "font.size": 8,
     "axes.titlesize": "medium",
-    "axes.labelsize": "medium",
+    "axes.labelsize": WITH_INDICES,
     "legend.fontsize": "medium",
     "xtick.labelsize": 7.5,
     "ytick.labelsize": 7.5,
@@ -138,7 +141,9 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def name_legend(figure: Figure, *panels: Axes, columns: int = 7) -> None:
+def name_legend(
+    figure: Figure, *panels: Axes, columns: int = 7, fontsize: float | None = None
+) -> None:
     """Put one legend for all panels above them; its lines are thick enough to show their colour.
 
     What several panels show is named once. A row has at most so many columns.
@@ -151,7 +156,9 @@ def name_legend(figure: Figure, *panels: Axes, columns: int = 7) -> None:
         return
     rows = -(-len(named) // columns)
     look = {"loc": "outside upper center", "ncols": -(-len(named) // rows)}
-    legend = figure.legend(named.values(), named.keys(), columnspacing=1.2, **look)
+    legend = figure.legend(
+        named.values(), named.keys(), columnspacing=1.2, fontsize=fontsize, **look
+    )
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
 

@@ -83,6 +83,7 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
         left.plot(a0, later, "^", color=colour, label=label_of_open, **open_marks)
     left.axhline(PAPERS_END, color="0.5", lw=0.8, ls="--", label="end of Fig 4")
     left.set(yscale="log", ylabel=r"time $\tau$", ymargin=0.08)
+    left.yaxis.set_major_formatter("{x:g}")
     _draw_runs(right, data, "centre_share", style.RED, "s", 0.0)
     right.axhline(1.0 / float(data["pairs"]), color="0.5", lw=0.8, ls=":", label="$1 / N$")
     right.set(ylabel="share of $P$", ylim=(0.0, None))

@@ -73,7 +73,7 @@ def _coil() -> np.ndarray:
 @style.styled
 def draw_chain(data: xr.Dataset) -> Figure:
     """Draw the chain from the back to the front, with the names of the angles and couplings."""
-    figure = style.new_figure(style.WIDTH * 0.62, 1.75)
+    figure = style.new_figure(style.WIDTH * 0.7, 1.95)
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -107,4 +107,12 @@ def _draw_row(axes: Axes, row: xr.Dataset) -> None:
         name = f"${pendulum}_{{n{offset:+d}}}$" if offset else f"${pendulum}_n$"
         # on the side to which the pendulum is turned, away from its dashed position at rest
         side, ha = (1, "left") if bob[0] >= rest_position[0] else (-1, "right")
-        axes.annotate(name, bob, (7 * side, 0), textcoords="offset points", ha=ha, va="center")
+        axes.annotate(
+            name,
+            bob,
+            (7 * side, 0),
+            textcoords="offset points",
+            ha=ha,
+            va="center",
+            fontsize=style.WITH_INDICES,
+        )

@@ -115,7 +115,7 @@ def draw_norms(data: xr.Dataset) -> Figure:
     figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
     for case, grid in zip(cases, drawn, strict=True):
         for axes in grid[0]:
-            axes.set_title(name_case(case), loc="left")
+            axes.set_title(name_case(case), loc="left", fontsize=style.WITH_INDICES)
     any_diverges = any(strips.diverges(case) for case in cases)
     under = any(strip.under for case in cases for strip in _strips(case))
     strips.name_legend(figure, data["component"].values, DIVERGED if any_diverges else "", under)
@@ -123,7 +123,7 @@ def draw_norms(data: xr.Dataset) -> Figure:
 
 
 def _strips(case: xr.Dataset) -> list[Strip]:
-    run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
+    run = f"by {SOLVER_NAMES[case['solver'].item()]}"
     strips_of_case = [Strip("", run, under="true_" if case["true_l2"].notnull().any() else "")]
     if strips.diverges(case) and "band_l2" in case:
         strips_of_case.append(
@@ -154,6 +154,9 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
     for row, size in zip(grid, data["initial_size"].values, strict=True):
         case = data.sel(initial_size=size)
         panels.draw_moduli(figure, row, case, 2 * [name_case(case)])
+        for axes in row:
+            title = axes.get_title(loc="left")
+            axes.set_title(title, loc="left", fontsize=style.WITH_INDICES)
         for axes in row if strips.diverges(case) else ():
             axes.axvline(float(case["divergence_time"]), label=DIVERGED, **style.ON_COLOURS)
     for axes in grid[-1]:
@@ -199,12 +202,13 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
     Each dot of a chaotic sweep is one random sample, so the bars of its ensemble are drawn next to
     it.
     """
-    figure = style.new_figure(style.WIDTH, 2.4)
+    figure = style.new_figure(style.WIDTH, 2.6)
     row = figure.subplots(1, 2)
     for axes, name in zip(row, data["panel"].values, strict=True):
         panels.draw_sweep(axes, data.sel(panel=name), "$(A, B)$")
-        axes.set_title(name_case(data.sel(panel=name)), loc="left")
-    style.name_legend(figure, *row, columns=3)
+        name_above = name_case(data.sel(panel=name))
+        axes.set_title(name_above, loc="left", fontsize=style.WITH_INDICES)
+    style.name_legend(figure, *row, columns=2, fontsize=style.WITH_INDICES)
     return figure
 
 

@@ -22,7 +22,7 @@ CURVES = {
         "color": "black",
         "lw": 1.4,
         "dashes": (4, 2),
-        "label": r"$\gamma_0$ of the infinite chain",
+        "label": "threshold of the infinite chain",
     },
 }
 CHART_CAPTION = (
@@ -102,12 +102,14 @@ def draw_bounds(data: xr.Dataset) -> Figure:
             look = {"color": colour, "label": label, "markersize": 6, "markeredgewidth": 1.5}
             axes.plot(bound, rows, marker, **look)
     axes.set_yticks(rows, list(map(_name, data["omega"], data["initial"])))
+    axes.tick_params(axis="y", labelsize=style.WITH_INDICES)
     xlabel = r"$P = \|A\|^2 + \|B\|^2$"
     axes.set(ylim=(rows[-1] + 0.5, -0.5), xscale="log", xlabel=xlabel)
     axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter("{x:g}")
     style.name_legend(figure, axes)
     return figure
 
 
 def _name(omega: xr.DataArray, initial: xr.DataArray) -> str:
-    return rf"$\Omega = {float(omega):g}$" + "\n" + name_initial(str(initial.values))
+    return rf"$\Omega = {float(omega):g}$,  " + name_initial(str(initial.values))

@@ -68,7 +68,7 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
     """Draw l2^2 with its law, l-infinity, and l2^2 over its law on a scale of its own."""
-    figure = style.new_figure(style.WIDTH, 2.4)
+    figure = style.new_figure(style.WIDTH, 2.8)
     square, linf, ratio = figure.subplots(1, 3, sharex=True)
     for case in data["case"].values:
         case_data, look = data.sel(case=case), LOOKS[str(case)]
@@ -81,6 +81,8 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     ratio.axhline(1.0, **LAW)
     square.set_yscale("log")
     square.set_xscale("log")
+    for axis in (square.yaxis, square.xaxis, linf.xaxis, ratio.xaxis):
+        axis.set_major_formatter("{x:g}")
     linf.set_ylim(bottom=0)
     square.set_ylabel(r"squared $\ell^2$ norm")
     ratio.set_ylabel(r"squared $\ell^2$ norm / law")
@@ -92,7 +94,7 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     bands = tuple(Patch(color=LOOKS[case]["color"], alpha=BAND_ALPHA, lw=0) for case in CHAOTIC)
     handles += [Line2D([], [], **LAW), bands]
     labels += ["law in the text", "range of the ensemble"]
-    style.legend_above(figure, handles, labels, ncols=3, columnspacing=1.4)
+    style.legend_above(figure, handles, labels, ncols=2, fontsize=style.WITH_INDICES)
     return figure
 
 
