@@ -85,7 +85,7 @@ def listed(count: int) -> str:
     [
         (f"breathers: {{steady: {{omegas: {listed(1_000_000)}}}}}", "more than 100000 values"),
         (f'{{"breathers": {{"steady": {{"omegas": {listed(1_000_000)}}}}}}}', "more than 100000 v"),
-        (f"breathers: {{steady: {{omegas: {listed(30_000)}}}}}", "the same value stands twice: 5"),
+        (f"breathers: {{steady: {{omegas: {listed(30_000)}}}}}", "same value is given twice: 5"),
     ],
     ids=["YAML", "JSON", "fewer, which are read"],
 )
@@ -100,7 +100,7 @@ def test_what_is_no_file_in_utf_8_is_told(tmp_path):
     path = tmp_path / "mine.yaml"
     for code in ("utf-16", "latin-1"):
         path.write_bytes("cases: {möwe: {omega: 1}}".encode(code))
-        with pytest.raises(ConfigurationError, match=r"mine.yaml is not a text in UTF-8: save it"):
+        with pytest.raises(ConfigurationError, match=r"mine.yaml is not text in UTF-8: save it"):
             read(path)
     with pytest.raises(ConfigurationError, match=r"there is no file .*none.yaml"):
         read(tmp_path / "none.yaml")

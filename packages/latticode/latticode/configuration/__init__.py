@@ -1,1 +1,1 @@
-"""The configuration of cases and sweeps: what may stand in it, what a run costs, its errors."""
+"""The configuration of cases, sweeps and surveys: its keys, the cost of runs, and its errors."""

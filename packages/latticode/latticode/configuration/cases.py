@@ -1,4 +1,4 @@
-"""A case of a traced model: every key with its default, and which values fit each other."""
+"""A case of a traced model: its keys with their defaults, and the checks between keys."""
 
 import difflib
 from collections.abc import Iterator, Mapping
@@ -51,19 +51,20 @@ from .values import (
 )
 
 FEWEST = 200
-"""A smooth picture needs so many snapshots."""
+"""The number of snapshots that makes a smooth picture."""
 MOST_NUMBERS = 20_000_000
-"""At most so many moduli are kept in memory: very long chains have fewer snapshots."""
+"""The largest number of moduli kept in memory; very long chains get fewer snapshots."""
 UNKNOWN = "initial", "mu", "parameters", "solver.name"
-"""Where one of these keys has a fault, nothing can be said of what the run takes."""
+"""Keys that determine the cost of a run, which is not estimated if one of them is invalid."""
 MOST_COUNTED = 1e15
-"""Of more steps no digit tells whether they divide a time; such runs are refused by their cost."""
+"""Beyond this many steps, rounding hides whether a step divides a time. Such runs are rejected for
+their cost."""
 
 
 def choose_every(outputs: int, sites: int) -> int:
-    """Return how many output steps lie between snapshots, for a run of `outputs` steps.
+    """Return the number of output steps between two snapshots of a run of `outputs` steps.
 
-    They divide the run, so that its last state is among the snapshots.
+    It divides the run, so that the last state is a snapshot.
     """
     most = max(1, MOST_NUMBERS // (2 * sites))
     divisors = [every for every in range(1, outputs // FEWEST + 1) if outputs % every == 0]
@@ -74,7 +75,7 @@ def choose_every(outputs: int, sites: int) -> int:
 
 
 def is_multiple(time: float, step: float) -> bool:
-    """Return whether a time is a whole number of steps, one at least."""
+    """Return whether a time is a whole number of steps, at least one."""
     if time / step >= MOST_COUNTED:
         return True
     count = round(time / step)
@@ -88,7 +89,7 @@ def _nearest_multiples(time: float, step: float) -> str:
 
 
 def _nearest_parts(span: float, step: float) -> str:
-    """Return in words the steps next to `step` that divide `span`."""
+    """Return the part of a message that names the steps nearest to `step` that divide `span`."""
     count = min(span / step, MOST_COUNTED)
     near = [span / max(1, int(count) + more) for more in (0, 1)]
     shortest = f"the longest that does is {span:.12g}"
@@ -96,14 +97,14 @@ def _nearest_parts(span: float, step: float) -> str:
 
 
 def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
-    """Return in words the snapshot steps next to `every` outputs that divide the run."""
+    """Return the part of a message that names the nearest snapshot steps that divide the run."""
     below = next(n for n in range(every, 0, -1) if outputs % n == 0)
     above = next(n for n in range(every, outputs + 1) if outputs % n == 0)
     return f"the nearest that do are {below * step:.12g} and {above * step:.12g}"
 
 
 def _initial(raw_value: Any, by_site: ValidatorFunctionWrapHandler) -> Any:
-    """Return data by site as numbers; arrays and functions get the sites of a chain later."""
+    """Return data by site as numbers; arrays and functions are placed on the sites later."""
     data = read_initial(raw_value)
     return by_site(data) if isinstance(data, dict) else data
 
@@ -114,7 +115,7 @@ Initial = Annotated[
     WrapValidator(_initial),
     PlainSerializer(lambda data: data),
 ]
-"""Data by site, an array of a number for each site, or a function of the sites."""
+"""Initial data: by site, an array with a number for each site, or a function of the sites."""
 
 
 def _listed_times(raw_value: Any) -> Any:
@@ -142,18 +143,18 @@ def _as_model(value: Any) -> Traced:
 
 
 def _as_written(model: Traced, info: SerializationInfo) -> Any:
-    """Return a model as it is, or in JSON as its plain values."""
+    """Return a model unchanged, or its plain values when the case is written as JSON."""
     return model.plain if info.mode == "json" else model
 
 
 class CaseSection(Section):
-    """One initial-value problem of a traced model, and the solver that integrates it.
+    """One initial-value problem of a traced model, with its solver.
 
-    Data and parameters are named as the model names them.
+    Fields and parameters have the names that the model gives them.
     """
 
     kind: ClassVar[type[Problem]] = Problem
-    """What its plain values make."""
+    """The class of problems that are built from the plain values of a case."""
     model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
     parameters: dict[str, Any] = {}
     half_width: Natural | None = 30
@@ -171,7 +172,7 @@ class CaseSection(Section):
     @model_validator(mode="before")
     @classmethod
     def _going_on(cls, raw: Any) -> Any:
-        """Let a case that starts from a run start at its end, if it names no other time."""
+        """Set `start_time` to the end of the run in `initial`, unless it is given."""
         if not isinstance(raw, dict) or "start_time" in raw:
             return raw
         start = end_of_run(raw.get("initial"))
@@ -180,7 +181,7 @@ class CaseSection(Section):
     @model_validator(mode="before")
     @classmethod
     def _one_length(cls, raw_keys: Any) -> Any:
-        """Leave `half_width` out where the chain has a number of `sites`; refuse both."""
+        """Drop `half_width` if the chain has a number of `sites`; reject a case with both."""
         if not isinstance(raw_keys, Mapping) or raw_keys.get("sites") is None:
             if isinstance(raw_keys, Mapping) and raw_keys.get("half_width", 0) is None:
                 raise faults([("half_width", "is empty; give half_width or sites")])
@@ -193,7 +194,7 @@ class CaseSection(Section):
     @field_validator("solver", mode="before")
     @classmethod
     def _known(cls, raw_value: Any, info: ValidationInfo) -> Any:
-        """Refuse a name of no solver, with the names of those that take the model."""
+        """Reject an unknown solver, and list the solvers that can integrate the model."""
         if not isinstance(raw_value, Mapping) or "model" not in info.data:
             return raw_value
         name, known = raw_value.get("name"), cls.solvers_taking(info.data["model"])
@@ -229,17 +230,17 @@ class CaseSection(Section):
 
     @property
     def span(self) -> float:
-        """How long the run lasts."""
+        """The duration of the run."""
         return self.end_time - self.start_time
 
     @classmethod
     def solvers_taking(cls, model: Any) -> list[str]:
-        """Return the solvers that take a model."""
+        """Return the names of the solvers that can integrate a model."""
         return [*methods_taking(model), "auto"]
 
     @property
     def equations(self) -> str:
-        """What the case is of, in words."""
+        """The name of the equations in messages."""
         return "the model" if self.model.name == "model" else f"the model {self.model.name}"
 
     @property
@@ -254,17 +255,17 @@ class CaseSection(Section):
 
     @property
     def solver_names(self) -> list[str]:
-        """The solvers that take the equations."""
+        """The names of the solvers that can integrate the equations."""
         return self.solvers_taking(self.model)
 
     @property
     def why_no_series(self) -> str:
-        """Why the equations have no power series, in words; "" where they have."""
+        """The reason why solutions have no power series, "" if they have one."""
         return self.model.why_no_series if isinstance(self.model, Traced) else ""
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:
-        """Values, at which a run is short, of the keys that decide a cost."""
+        """Values that make a run short, for the keys that determine its cost."""
         return cost.ORDINARY
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
@@ -284,7 +285,7 @@ class CaseSection(Section):
         yield from self.faults_of_parameters(self.chain)
 
     def faults_of_parameters(self, sites: range) -> Iterator[tuple[str, str]]:
-        """Yield the fault of each parameter that has no values on the sites of such a chain."""
+        """Yield (key, error) of each parameter whose values do not fit the sites of a chain."""
         for name, value in self._values_by_name().items():
             try:
                 self.model.value_at(name, value, sites)
@@ -293,10 +294,10 @@ class CaseSection(Section):
                 yield f"parameters.{name}", f"{error}{where}"
 
     def faults_of_half_widths(self, half_widths: list[int]) -> Iterator[tuple[str, str]]:
-        """Yield the fault of each parameter without values on all chains of a sweep.
+        """Yield (key, error) of each parameter whose values do not fit all chains of a sweep.
 
-        All chains have the values of the longest at their sites, which must be those that a
-        function gives for them.
+        Every chain uses the values of the longest chain at its sites. A function must therefore
+        return the same value at a site for every chain.
         """
         longest, without_values = max(half_widths), []
         for name, text in self.faults_of_parameters(chain_sites(longest)):
@@ -321,7 +322,7 @@ class CaseSection(Section):
         }
 
     def values_by_half_width(self, half_widths: list[int]) -> dict[int, dict[str, Any]]:
-        """Return the values of the parameters that are functions of the sites, by half-width."""
+        """Return, by half-width, the values of the parameters that are functions of the sites."""
         functions = {
             name: value for name, value in self._values_by_name().items() if callable(value)
         }
@@ -336,15 +337,15 @@ class CaseSection(Section):
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
-        """Return what keeps data of the size `peak` from being followed, and how fast they turn."""
+        """Return why amplitudes up to `peak` cannot be integrated, or None, and a rate bound."""
         values = self._values(self.chain)
         obstacle = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
         return obstacle, self.model.rate(values, peak)
 
     def problem(self, **changes) -> dict:
-        """Return the case as plain values of a Problem, some of them changed.
+        """Return the case as plain values of a Problem, with `changes` to some of them.
 
-        Each parameter is what it is on the sites of the chain, so that a job depends on the values.
+        Parameters are evaluated on the sites, so that a job is rerun if a value changes.
         """
         plain_values = self._plain_values(**changes)
         values = self._values(
@@ -353,25 +354,25 @@ class CaseSection(Section):
         return {**plain_values, "model": self.model.plain, "parameters": values}
 
     def cost(self, problem: Mapping) -> Cost:
-        """Return what such a problem of the case takes, given as plain values."""
+        """Return the cost of a problem of this case, given as plain values."""
         return cost.estimate(problem)
 
     def cost_with_checks(self, problem: Mapping) -> Cost:
-        """Return what a run and its checks take."""
+        """Return the cost of a run together with its checks."""
         return cost.with_checks(problem)
 
     # --- What a survey changes
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """The names that an axis of a survey may have, beside those of chain, time and data."""
+        """The names that a survey can vary, besides `half_width`, `end_time` and initial data."""
         return tuple(self.model.parameters)
 
     def _varied(self, name: str, value: Any) -> dict[str, Any]:
         return {"parameters": {**self.parameters, name: value}}
 
     def at(self, values: Mapping[str, Any]) -> "CaseSection":
-        """Return the case at a point of the axes of a survey, checked."""
+        """Return the validated case at one point of a survey's axes."""
         changes: dict[str, Any] = {"snapshot_step": None, "times": None}
         initial = {site: list(data) for site, data in self.data.items()}
         for name, value in values.items():
@@ -421,7 +422,7 @@ class CaseSection(Section):
             yield "initial", f"site {outside[0]} lies outside the chain, whose sites run {ends}"
 
     def _needless_imaginary_parts(self) -> Iterator[tuple[str, str]]:
-        """Yield an imaginary part that no equation reads or changes, and that norms would count."""
+        """Yield an error for an imaginary part that no equation uses but the norms would count."""
         alone = getattr(self.model, "without_imaginary_parts", ())
         for site, values in self.data.items():
             for name, z in zip(self.fields, values, strict=False):
@@ -432,12 +433,12 @@ class CaseSection(Section):
 
     @property
     def has_needless_imaginary_parts(self) -> bool:
-        """Whether data have imaginary parts, and equations are those of real fields."""
+        """Whether initial data are complex but the equations are equations of real fields."""
         complex_data = any(z.imag for values in self.data.values() for z in values)
         return complex_data and getattr(self.model, "continues_real_equations", False)
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
-        """Yield the fault of a solver that does not take the equations of the case."""
+        """Yield the error of a solver that cannot integrate the equations of the case."""
         if solver.name not in self.solver_names and not getattr(solver, FLAG, False):
             known, equations = ", ".join(self.solver_names), self.equations
             why = self.why_no_series if solver.name == "taylor" else ""
@@ -484,7 +485,7 @@ class CaseSection(Section):
             yield "times", f"{text}; {near}"
 
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
-        """Yield the fault of a step that does not divide the time between two outputs."""
+        """Yield the error of a step that does not divide the output step."""
         step, method = getattr(solver, "step", None), METHODS.get(solver.name)
         if method is None or not method.step_divides_outputs:
             return
@@ -494,9 +495,9 @@ class CaseSection(Section):
             yield "solver.step", f"{text}; {near}"
 
     def obstacles(self, solver: Section | None = None, span: float = 0.0) -> list[tuple[str, str]]:
-        """Return the key that keeps a run from reaching its end with its digits, and why.
+        """Return (key, reason) if a run cannot reach its end with the requested accuracy.
 
-        `solver` and `span` take the place of the case's own solver and end time.
+        `solver` and `span` replace the solver and the duration of the case.
         """
         span = span or self.span
         controls = self._solver_of_run((solver or self.solver).model_dump())
@@ -517,7 +518,8 @@ class CaseSection(Section):
             longest = self.start_time + 0.99 * MOST_STEPS / speed
             obstacle = obstacle[0], f"{obstacle[1]}; end_time may be at most {longest:.3g} here"
         if obstacle is None and 0.0 < angle < SMALLEST_ANGLE:
-            text = f"is so short that the data turn by {angle:.0e} radians: nothing would be seen"
+            text = f"is too short: the phases change by only {angle:.0e} radians"
+            text += ", little above rounding"
             obstacle = "end_time", f"{span:g} {text}"
         return [obstacle] if obstacle else []
 
@@ -540,8 +542,8 @@ class CaseSection(Section):
     def _solver_of_run(self, solver: dict) -> dict:
         """Return the controls of the solver that runs the case.
 
-        Where a case names none and its equations have no power series, that is `dop853`. Where a
-        series may still end on the way, a flag lets `dop853` take over.
+        It is `dop853` if the case names no solver and its solutions have no power series. If the
+        series may fail during the run, a flag allows `dop853` to take over.
         """
         if not solver.get(FLAG) or "taylor" in self.solver_names:
             return solver
@@ -549,7 +551,7 @@ class CaseSection(Section):
         return {**instead_of_taylor(solver), "instead_of_taylor": why}
 
     def shown_problem(self, **changes) -> dict:
-        """Return the problem, with snapshots enough for a picture if the case names no times."""
+        """Return the problem, with enough snapshots for a picture if the case specifies none."""
         problem = self.problem(**changes)
         if self.keep == "norms":
             return {**problem, "snapshot_every": 0, "snapshots_at": []}
@@ -560,4 +562,4 @@ class CaseSection(Section):
 
 
 SMALLEST_ANGLE = 1e-9
-"""Radians by which a run must turn its data: of less, rounding is most of what is seen."""
+"""The smallest phase change of a run, in radians; below it, rounding dominates the result."""

@@ -1,9 +1,9 @@
-"""What a run will take, estimated before it starts, so that one without end is refused by its key.
+"""Estimates of the time and memory of a run, which reject an endless run before it starts.
 
-The cost of a run is the number of its steps times that of its sites. The number of steps follows
-from the fastest rate at which the data turn, and from the tolerance by the order of the method.
-The constants fit the speeds that were measured (tests/baseline/speed),
-and a test asks that every estimate is within a factor of three of what was measured.
+Time is proportional to the number of steps times the number of sites. The number of steps follows
+from the fastest rate of the initial data, the tolerance and the order of the method. The constants
+are fitted to measured speeds (tests/baseline/speed); a test requires every estimate to be within a
+factor of three of the measurement.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -17,23 +17,24 @@ from latticode.integrators.methods import METHODS, methods_taking
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0
-"""Seconds: a run that will take longer says so before it starts."""
+"""Seconds; the estimated time of a longer run is printed before it starts."""
 
 
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
-"""Of an output: the state between two steps, its norms and its energy."""
+"""Cost of an output: interpolation of the state, norms and energy."""
 OUTPUT_BYTES, MODULUS_BYTES, STATE_BYTES, SITE_BYTES = 200.0, 40.0, 60.0, 200.0
-"""Of an output, of a modulus that is kept alone or with the parts of its field, and of a site of
-the whole chain in complex numbers."""
+"""Bytes of an output, of a stored modulus, of a modulus stored with the real and imaginary parts of
+its field, and of a site of the full chain in complex numbers."""
 
 
 def span_of(problem: Mapping) -> float:
-    """Return how long a run lasts, in the problem's time."""
+    """Return the duration of a run, in the time unit of the equations."""
     return problem["end_time"] - problem.get("start_time", 0.0)
 
 
 Measure = Callable[[Mapping], Demand]
-"""From a problem, as plain values, to its demand. What knows its equations better has its own."""
+"""A function from a problem, as plain values, to its demand; equations with known bounds have their
+own function."""
 
 
 class Cost(NamedTuple):
@@ -52,22 +53,22 @@ class Cost(NamedTuple):
         return f"{'' if ' than ' in time else 'about '}{time}", amount(self.memory)
 
     def excess(self, limits: Mapping[str, float]) -> float:
-        """Return this cost divided by the largest that `limits` allow: above 1 it is refused."""
+        """Return the cost divided by the allowed one; a run above 1 is rejected."""
         return max(
             self.seconds / (limits["hours"] * HOUR), self.memory / (limits["gigabytes"] * GIGABYTE)
         )
 
 
 def demand(problem: Mapping) -> Demand:
-    """Return the demand of a problem as it follows from its model.
+    """Return the demand of a problem, derived from its model.
 
-    Half of the chain is integrated where equations, parameters and data are even in n.
+    Only half of the chain is integrated if equations, parameters and data are even in n.
     """
     model, initial = problem["model"], problem["initial"]
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
     peak = max(max(map(abs, values)) for values in initial.values())
     if not model.real:
-        peak *= 0.5**0.5  # of both parts of a complex field, whose squares add up to its own
+        peak *= 0.5**0.5  # real and imaginary part: their squares add up to the squared modulus
     same_equations = model.even and not any(
         isinstance(value, list) for value in problem["parameters"].values()
     )
@@ -78,7 +79,7 @@ def demand(problem: Mapping) -> Demand:
 
 
 def _sites_of(problem: Mapping) -> float:
-    """Return how many sites the chain of a problem has; the paper's may have a fraction more."""
+    """Return the number of sites of the chain; it may be fractional for an infinite chain."""
     count = problem.get("site_count")
     return 2 * problem["half_width"] + 1 if count is None else count
 
@@ -86,7 +87,7 @@ def _sites_of(problem: Mapping) -> float:
 def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
     """Return the cost of a problem, given as the plain values of a Problem.
 
-    Nothing of the size of the chain is made; what overflows costs infinitely much.
+    No array of the chain's size is allocated; the cost is infinite if a number overflows.
     """
     solver, every = problem["solver"], problem["snapshot_every"]
     try:
@@ -120,17 +121,17 @@ OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
 
 
 def solvers_of(problem: Mapping) -> Collection[str]:
-    """Return the solvers that take the equations of a problem, given as plain values."""
+    """Return the solvers that can integrate the equations of a problem, given as plain values."""
     model = problem.get("model")
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
     return methods_taking(model) if isinstance(model, Model) else METHODS
 
 
 def runs_of_checks(problem: Mapping) -> list[Mapping]:
-    """Return what the checks of a run integrate, as plain values: two runs, and a tangent.
+    """Return the problems that the checks integrate, as plain values: two runs and a tangent.
 
-    Both runs keep fields at the snapshots. A tangent is carried beside the solution, which takes
-    twice the work.
+    Both runs store fields at the snapshots. A tangent vector is integrated together with the
+    solution, which doubles the work.
     """
     second = other_family(problem["solver"]["name"], solvers_of(problem))
     second_run = {**problem, "solver": {"name": second, "rtol": METHODS[second].tightest}}
@@ -140,16 +141,16 @@ def runs_of_checks(problem: Mapping) -> list[Mapping]:
 
 
 KEPT_TO_COMPARE = 2.5
-"""Memory of two runs whose fields are compared, over that of one run."""
+"""Memory of two runs whose fields are compared, divided by the memory of one run."""
 LOCALISED = {"seconds": 3e-5, "bytes": 80.0}
-"""Of a localised state with its exponents, for each entry of its matrix: Newton's method solves
-with this matrix on the way to the full coupling, and its eigenvalues follow."""
+"""Cost of a localised state and its exponents, per entry of its matrix: Newton's method solves with
+this matrix while the coupling is turned on, then its eigenvalues are computed."""
 MOST_UNKNOWNS = 1000
-"""Longer chains have no such check."""
+"""The longest chain with this check."""
 
 
 def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
-    """Return the cost of a run and of all its checks, a localised state among them."""
+    """Return the cost of a run and all its checks, including the localised state."""
     runs = of_checked([estimate(run, measure) for run in [problem, *runs_of_checks(problem)]])
     unknowns = 4.0 * measure(problem).pairs  # two real numbers a field and site
     entries = unknowns**2 if unknowns <= MOST_UNKNOWNS else 0.0
@@ -158,20 +159,20 @@ def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
 
 
 def of_checked(runs: Iterable[Cost]) -> Cost:
-    """Return the cost of runs two of which are compared field by field, one of them the first."""
+    """Return the cost of runs, where the first run and another one are compared field by field."""
     first, *_ = runs = list(runs)
     compared = first._replace(seconds=0.0, memory=KEPT_TO_COMPARE * first.memory)
     return total([*runs, compared])
 
 
 def total(costs: Iterable[Cost]) -> Cost:
-    """Return the cost of runs that are made one after another."""
+    """Return the cost of runs executed one after another."""
     costs = list(costs)
     return Cost(sum(cost.seconds for cost in costs), max(cost.memory for cost in costs))
 
 
 def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
-    """Return the steps of a run and, for a scheme that is solved by iteration, the evaluations."""
+    """Return the number of steps and, for an implicit method, of evaluations per step."""
     cost = METHODS[solver["name"]].cost
     return cost.steps(solver, needs, span_of(problem), problem["output_step"])
 
@@ -185,7 +186,7 @@ ORDINARY = {
     "initial": {"initial": {0: (1.0,)}},
     "solver": {"solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}},
 }
-"""Values, at which a run is short, of the keys that decide a cost."""
+"""Values that make a run short, for the keys that determine its cost."""
 
 
 def find_excess(
@@ -195,10 +196,10 @@ def find_excess(
     ordinary: Mapping[str, Mapping] = ORDINARY,
     subject: str = "the run",
 ) -> Obstacle | None:
-    """Return the key that makes a run longer or larger than is allowed, and what it would take.
+    """Return (key, message) if a run exceeds the limits on time or memory, else None.
 
-    It is the key whose change to its `ordinary` values would save most. `estimate_cost` returns the
-    cost of a problem; messages call it by `subject`.
+    The key is the one whose replacement by its `ordinary` values would save most. `estimate_cost`
+    returns the cost of a problem, and `subject` names the run in the message.
     """
     cost = estimate_cost(problem)
     if cost.excess(limits) <= 1.0:
@@ -208,7 +209,7 @@ def find_excess(
 
 
 def refusal(cost: Cost, limits: Mapping[str, float], subject: str = "the run") -> str:
-    """Return the words for a run that costs more than is allowed."""
+    """Return the message for a run that exceeds the limits on time or memory."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
     limit, (time, memory) = f"{limits[name]:g} {unit}", cost.words
@@ -222,7 +223,7 @@ def refusal(cost: Cost, limits: Mapping[str, float], subject: str = "the run") -
 
 
 def duration(seconds: float) -> str:
-    """Return a time in words, of one or two digits."""
+    """Return a duration as text with one or two digits, such as "2 minutes"."""
     units = {"second": 1.0, "minute": 60.0, "hour": HOUR, "day": 24 * HOUR, "year": YEAR}
     if seconds >= 1e6 * YEAR:
         return "more than a million years"
@@ -234,7 +235,7 @@ def duration(seconds: float) -> str:
 
 
 def amount(size: float) -> str:
-    """Return an amount of memory in words."""
+    """Return an amount of memory as text, such as "1 GB"."""
     if size >= 1e18:
         return "more than a million terabytes"
     for unit, scale in (("TB", 1e12), ("GB", 1e9)):

@@ -1,7 +1,7 @@
-"""Configuration files as they stand: read strictly, and laid over each other.
+"""Configuration files: read strictly, then merged.
 
-YAML readers take the last of two equal keys, 010 for eight and 1:30 for ninety, and say nothing.
-Here each is a fault with its place. All else is read as YAML 1.1 or JSON, as Snakemake reads it.
+YAML readers silently accept duplicate keys, read 010 as eight and 1:30 as ninety. Here each of
+these is an error with its line. Everything else is read as YAML 1.1 or JSON, as in Snakemake.
 """
 
 import json
@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 
 MOST_VALUES, DEEPEST = 100_000, 30
-"""A file of more values, or nested deeper, is no configuration but an accident."""
+"""Limits on the number of values and the nesting of a file; beyond them, it is rejected."""
 TOO_MANY = f"more than {MOST_VALUES} values, counting each time that one is repeated"
 SURPRISES = {
     "int": (
@@ -28,15 +28,15 @@ SURPRISES = {
         (re.compile(r".*_.*"), "has a _ in it"),
     ),
 }
-"""Numbers that YAML reads otherwise than people do."""
+"""Numbers that YAML reads differently than people do."""
 OF_MODELS = ".py"
-"""How the names of files end that hold equations."""
+"""The suffix of files that define equations."""
 PATHS = {"model": (OF_MODELS,), "initial": (".nc", ".npy", ".py")}
-"""Keys of a case that may be the path of a file, and how its name ends."""
+"""Keys of a case whose value may be the path of a file, with the allowed suffixes."""
 PLAIN_TAGS = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
-"""The tags of YAML that a configuration may have; others would make objects of programs."""
+"""The YAML tags that a configuration may contain; others would create Python objects."""
 SINGLE_VALUES = ("initial",)
-"""Keys of mappings that are one value: a later file replaces them, and adds nothing to them."""
+"""Keys whose mapping is replaced by that of a later file instead of merged with it."""
 
 
 class ConfigurationError(ValueError):
@@ -44,20 +44,20 @@ class ConfigurationError(ValueError):
 
 
 def list_faults(lines: list[str], subject: str) -> ConfigurationError:
-    """Return the exception that lists all errors of `subject`, a line each."""
+    """Return the exception that lists all errors of `subject`, one per line."""
     many = f"{subject} has {len(lines)} error{'s' * (len(lines) > 1)}:"
     return ConfigurationError("\n  ".join([many, *lines]))
 
 
 def read(path: Path | str) -> dict:
-    """Return what a file holds, or raise ConfigurationError with every fault and its line."""
+    """Return the content of a file; raises ConfigurationError with all errors and their lines."""
     path = Path(os.path.normpath(path))
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
         raise ConfigurationError(f"there is no file {path}") from None
     except UnicodeDecodeError:
-        raise ConfigurationError(f"{path} is not a text in UTF-8: save it in that code") from None
+        raise ConfigurationError(f"{path} is not text in UTF-8: save it in this encoding") from None
     except OSError as error:
         raise ConfigurationError(f"{path} cannot be read: {error.strerror}") from None
     configuration, faults = parse(text)
@@ -70,7 +70,7 @@ def read(path: Path | str) -> dict:
 
 
 def read_entries(entries: Iterable[str]) -> dict:
-    """Return what entries "name=value" of a command line hold, each value read as a file is."""
+    """Return the entries "name=value" of a command line as a mapping; values are YAML or JSON."""
     values: dict = {}
     faults = []
     for entry in entries:
@@ -85,13 +85,13 @@ def read_entries(entries: Iterable[str]) -> dict:
 
 
 def _of_entry(name: str, text: str) -> str:
-    """Return a fault of the value of an entry behind the whole path of its key."""
+    """Return an error in the value of an entry, preceded by the full path of its key."""
     place, _, fault = text.removeprefix("line 1: ").rpartition(": ")
     return f"{name}.{place}: {fault}" if place else f"{name}: {fault}"
 
 
 def parse(text: str) -> tuple[Any, list[str]]:
-    """Return what a text in JSON or YAML holds, and its faults in words."""
+    """Return the content of a text in JSON or YAML, and a list of error messages."""
     if text.lstrip().startswith("{"):
         faults: list[str] = []
         try:
@@ -99,7 +99,7 @@ def parse(text: str) -> tuple[Any, list[str]]:
                 return None, [TOO_MANY]
             return json.loads(text, object_pairs_hook=lambda pairs: _pairs(pairs, faults)), faults
         except (ValueError, RecursionError):
-            pass  # YAML may start with a brace too
+            pass  # not JSON: YAML may start with a brace too
     try:
         too_large = _size_fault(text)
         if too_large:
@@ -114,12 +114,12 @@ def parse(text: str) -> tuple[Any, list[str]]:
 
 def _pairs(pairs: list, faults: list[str]) -> dict:
     counts = Counter(key for key, _ in pairs)
-    faults += [f"the key {key!r} stands twice" for key, count in counts.items() if count > 1]
+    faults += [f"the key {key!r} is given twice" for key, count in counts.items() if count > 1]
     return dict(pairs)
 
 
 def _size_fault(text: str) -> str | None:
-    """Return the fault of a text that is too long or nested too deeply to be read."""
+    """Return the error of a text with too many values or too deep nesting, if it has one."""
     depth = scalars = 0
     for event in yaml.parse(text, yaml.CSafeLoader):
         scalars += isinstance(event, yaml.ScalarEvent)
@@ -135,7 +135,7 @@ def _size_fault(text: str) -> str | None:
 
 
 def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
-    """Yield what YAML would read in silence, with its line and dotted path."""
+    """Yield the errors that YAML readers would ignore, each with line and dotted path."""
     position = f"line {node.start_mark.line + 1}: {'.'.join(place)}".rstrip(": ") + ":"
     if id(node) in above:
         yield f"{position} contains itself"
@@ -170,17 +170,17 @@ def _faults_of_mapping(node: yaml.MappingNode, place: tuple, above: set, loader)
         if tag in ("bool", "null", "timestamp"):
             yield f"{line} {path}: the key is read as {tag}; put it into quotes"
         elif read_as in seen:
-            yield f"{line} {path}: the key stands twice"
+            yield f"{line} {path}: the key is given twice"
         yield from (f"{line} {path}: the key {text}" for text in _surprises(key, tag, loader))
         seen.add(read_as)
         yield from _faults(value, place if tag == "merge" else (*place, name), above, loader)
 
 
 def _read_as(key: yaml.ScalarNode, tag: str, loader) -> Any:
-    """Return what YAML makes of a key: 1, +1 and 0x1 are the same, and 1 and "1" are not."""
+    """Return the value of a key in YAML: 1, +1 and 0x1 are equal, but 1 and "1" differ."""
     try:
         return loader.construct_object(key) if tag in ("int", "float") else (tag, key.value)
-    except ValueError:  # told elsewhere
+    except ValueError:  # reported by `_surprises`
         return tag, key.value
 
 
@@ -204,17 +204,17 @@ def _in_words(error: yaml.YAMLError, text: str) -> str:
         return f"is not YAML: {problem}"
     line = [*text.split("\n"), ""][min(mark.line, text.count("\n") + 1)]
     if "start any token" in problem and line[mark.column : mark.column + 1] == "\t":
-        problem = "a tab stands where blanks must: YAML is indented by blanks alone"
+        problem = "a tab in the indentation: YAML allows only spaces there"
     if "single document" in str(getattr(error, "context", "")):
         problem = "a second document starts; a configuration is one"
     return f"line {mark.line + 1}: {problem}"
 
 
 def merge(below: Mapping, above: Mapping) -> dict:
-    """Return one configuration laid over another: keys are added, values replaced.
+    """Return the configuration `below`, updated by `above`.
 
-    Mappings are merged key by key, but not those under the keys WHOLE, which are one value, and
-    not the controls of another solver.
+    Mappings are merged key by key, except under the keys WHOLE and for the controls of different
+    solvers, which are replaced.
     """
     merged = dict(below)
     for key, value in above.items():
@@ -230,7 +230,7 @@ def merge(below: Mapping, above: Mapping) -> dict:
 
 
 def with_paths(configuration: dict, folder: Path) -> dict:
-    """Return a configuration whose paths of models and of initial data start at `folder`."""
+    """Return a configuration in which paths of models and initial data are relative to `folder`."""
     cases = configuration.get("cases")
     if not isinstance(cases, dict):
         return configuration
@@ -245,7 +245,7 @@ def with_paths(configuration: dict, folder: Path) -> dict:
 
 
 def gather(files: list[Path], entries: Mapping) -> dict:
-    """Return what files hold, each laid over those before it, and `entries` over all."""
+    """Return the merged content of `files`, later files and finally `entries` taking precedence."""
     merged: dict = {}
     for path in files:
         merged = merge(merged, with_paths(read(path), Path(path).parent))

@@ -1,7 +1,7 @@
-"""Initial data as people write them: by site, as an array, a function, a run, or a file of these.
+"""Initial data in all accepted forms: by site, an array, a function, a run, or a file of these.
 
-All of them become {site: a value for each field}. A complex field has its value; of a field with a
-second derivative the real part is the value, and the imaginary part the rate.
+All of them become {site: [a complex number for each field]}. For second-order equations, the real
+part is the value and the imaginary part the velocity.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -35,9 +35,9 @@ class LabelledFields(NamedTuple):
 
 
 def read_initial(data: Any) -> Any:
-    """Return data by site, an array, a function or `LabelledFields`, of all that a case may take.
+    """Return initial data of any accepted form as a mapping, array, function or `LabelledFields`.
 
-    Raises the fault of what is none of these.
+    Raises a validation error for anything else.
     """
     if isinstance(data, str | Path) and Path(data).suffix in PATHS["initial"]:
         data = _read_file(Path(data))
@@ -55,7 +55,7 @@ def read_initial(data: Any) -> Any:
 
 
 def end_of_run(data: Any) -> float | None:
-    """Return the time at which a run ends, or the run in a file; None for all other data."""
+    """Return the end time of a run, or of the run in a file; None for other initial data."""
     if isinstance(data, str | Path) and Path(data).suffix == ".nc" and Path(data).exists():
         data = _read_file(Path(data))
     end = getattr(data, "attrs", {}).get("end_time") if hasattr(data, "data_vars") else None
@@ -63,12 +63,12 @@ def end_of_run(data: Any) -> float | None:
 
 
 def _by_number(data: Mapping) -> dict[int, list]:
-    """Return data by the number of their site; refuse a site that stands twice."""
+    """Return initial data with integer sites as keys; rejects duplicate sites."""
     by_site: dict = {}
     for key, values in data.items():
         site = as_whole(key)
         if site in by_site and len(by_site) < len(data):
-            raise fault(f"the site {site} stands twice, as a number and as a word")
+            raise fault(f'site {site} is given twice ({site} and "{site}")')
         values = values.tolist() if isinstance(values, np.ndarray) else values
         if not isinstance(values, list | tuple):
             raise fault(
@@ -79,8 +79,8 @@ def _by_number(data: Mapping) -> dict[int, list]:
 
 
 def _read_file(path: Path) -> Any:
-    """Return the dataset, the array, or what a Python file calls `initial`."""
-    from latticode.datasets import DatasetError, netcdf  # here: few cases read a file
+    """Return the dataset or array in a file, or the variable `initial` of a Python file."""
+    from latticode.datasets import DatasetError, netcdf  # imported here: few cases read a file
 
     try:
         if path.suffix == ".nc":
@@ -103,7 +103,7 @@ def final_of(run) -> Any:
         return run["final"]
     if "state" in run and float(run["snapshot_tau"][-1]) == float(run.attrs["end_time"]):
         return run["state"].isel(snapshot=-1)
-    raise fault("is a dataset without the fields at the end of a run: it has no final")
+    raise fault("is a dataset without the fields at the end of a run: it has no variable final")
 
 
 def _labelled(array) -> LabelledFields:
@@ -127,7 +127,7 @@ def _labelled(array) -> LabelledFields:
 
 
 def _as_numbers(raw_value: Any) -> np.ndarray:
-    """Return an array of finite complex numbers; refuse all else."""
+    """Return an array of complex numbers; rejects everything else."""
     try:
         values = np.asarray(raw_value)
     except ValueError:
@@ -140,9 +140,9 @@ def _as_numbers(raw_value: Any) -> np.ndarray:
 
 
 def fields_on(data: Any, names: Sequence[str], sites: Sequence[int]) -> BySite:
-    """Return initial data {site: a value for each of the named fields} on the sites of a chain.
+    """Return initial data {site: [a value for each of the named fields]} on the sites of a chain.
 
-    Raises ValueError with what is wrong, to stand behind `initial`.
+    Raises ValueError if data do not fit the chain; the message completes "initial ...".
     """
     if isinstance(data, Mapping):
         return data
@@ -176,7 +176,7 @@ def _of_labels(
 
 
 def _called(function: Callable, fields: int, sites: np.ndarray) -> Any:
-    """Return the values of a function of the sites, which may return one for each field."""
+    """Return the values of a function of the sites, which may return an array for each field."""
 
     def on_sites(sites: np.ndarray) -> Any:
         values = function(sites)

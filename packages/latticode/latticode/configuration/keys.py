@@ -1,4 +1,4 @@
-"""The keys of a case for type checkers and `help`; `cases.CaseSection` says what each may be."""
+"""The keys of a case for type checkers and `help`; `cases.CaseSection` validates their values."""
 
 from collections.abc import Callable, Mapping, Sequence
 from inspect import Parameter, Signature
@@ -29,7 +29,7 @@ Boundary = Literal["dirichlet", "free", "periodic", "antiperiodic"]
 
 
 class RunKeys(TypedDict, total=False):
-    """The keys of every case but for its equations and its initial data."""
+    """The keys of every case, except equations and initial data."""
 
     half_width: int
     boundary: Boundary
@@ -61,8 +61,8 @@ class CaseKeys(RunKeys, total=False):
 
 
 def show_keys(case: type[Keys], first: Sequence[str]) -> None:
-    """Let `help` show the keys of a case with their defaults, the `first` in front."""
-    case.model_rebuild()  # else pydantic would write its own signature when the class is first used
+    """Make `help` show the keys of a case with their defaults, beginning with `first`."""
+    case.model_rebuild()  # otherwise pydantic would set its own signature on first use
     names = [*first, *(name for name in case.model_fields if name not in first)]
     fields = {name: case.model_fields[name] for name in names}
     keys = [

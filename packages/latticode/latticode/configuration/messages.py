@@ -1,4 +1,4 @@
-"""Messages on what is wrong with a configuration: all at once, each with path and nearest key."""
+"""Error messages of a configuration: all errors at once, each with its path and the nearest key."""
 
 import difflib
 import re
@@ -27,7 +27,7 @@ WORDS = {
     "too_long": "has {actual_length} entries; give at most {max_length}",
     "invalid_key": "is not a known key",
     **dict.fromkeys(("bool_parsing", "bool_type"), "is {input}, not true or false"),
-    "int_parsing_size": "is {input}, more than can be counted to",
+    "int_parsing_size": "is {input}, too large to count with",
     "string_too_long": "is a name of more than {max_length} characters",
     **dict.fromkeys(("float_parsing", "float_type"), "is {input}, not a number"),
     **dict.fromkeys(
@@ -46,12 +46,15 @@ WORDS = {
 def in_words(
     error: ValidationError, subject: str, root: type[BaseModel], place: tuple = ()
 ) -> ConfigurationError:
-    """Return the error that lists every fault of `subject`, which stands at `place` in a `root`."""
+    """Return the exception that lists all errors of `subject`, at the path `place` in `root`."""
     return list_faults(lines_of(error, root, place), subject)
 
 
 def lines_of(error: ValidationError, root: type[BaseModel], place: tuple = ()) -> list[str]:
-    """Return each fault in words, behind its path from `place` on, where all stands in a `root`."""
+    """Return one message per error, preceded by its path below `place`.
+
+    `root` is the model of the configuration to which the paths belong.
+    """
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
     return [  # a line of a user's file, which is quoted below an error, belongs to it
@@ -80,7 +83,7 @@ def _describe(fault: dict, root: type[BaseModel]) -> str:
 
 
 def _dotted(place: tuple) -> str:
-    """Return the path as the file has it: without the solver's tag, which pydantic inserts."""
+    """Return the dotted path as in the file, without the tag that pydantic inserts for solvers."""
     keys = [
         _printed(str(key))
         for before, key in zip(("", *place), place, strict=False)
@@ -90,7 +93,7 @@ def _dotted(place: tuple) -> str:
 
 
 def _printed(key: str) -> str:
-    """Return a key as a path shows it: in quotes where it could not be seen otherwise."""
+    """Return a key as printed in a path, in quotes if it would be invisible without."""
     key = key if len(key) <= LONGEST_SHOWN else f"{key[:LONGEST_SHOWN]}..."
     return key if key.isprintable() and key.strip() == key != "" else repr(key)
 
@@ -110,10 +113,10 @@ def _closest(word: str, known) -> str:
 
 
 def _keys_at(place: tuple, root: type[BaseModel]) -> list[str]:
-    """Return the keys that may stand at this place of the configuration.
+    """Return the allowed keys at a path of the configuration.
 
-    Where a value may be of several models, the tag that pydantic inserts says which it is. Names
-    of cases and numbers of items lead to no other model.
+    If a value may have several models, the tag that pydantic inserts selects one. Names of cases
+    and indices of lists do not change the model.
     """
     models = [root]
     for key in place[:-1]:
@@ -125,7 +128,7 @@ def _keys_at(place: tuple, root: type[BaseModel]) -> list[str]:
 
 
 def _models_in(annotation) -> list[type[BaseModel]]:
-    """Return the models that a type is made of: itself, or those of its parts."""
+    """Return the pydantic models in a type: itself, or those among its arguments."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
     return [model for argument in get_args(annotation) for model in _models_in(argument)]

@@ -59,7 +59,7 @@ class Sweep(Section):
         if twice:
             all_faults.append(("windows", f"two are so near that both are named {twice[0]}"))
         if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
-            all_faults.append(("draw", "takes windows that stand under windows only"))
+            all_faults.append(("draw", "may list only windows that are listed under windows"))
         if all_faults:
             raise faults(all_faults)
         return self
@@ -146,7 +146,8 @@ class Configuration(Section):
             for name in getattr(self, section):
                 first_name = seen.setdefault(name.lower(), name)
                 if first_name != name:
-                    text = f"and {first_name!r} differ in capitals alone, and so would their files"
+                    text = f"differs from {first_name!r} only in letter case, so their files may"
+                    text += " collide"
                     yield f"{section}.{name}", text
 
     def _excess_of_case(self, name: str) -> list[tuple[str, str]]:

@@ -58,7 +58,7 @@ def _require_number(value: Any, kind: str = "a number") -> Any:
     if isinstance(value, bool):
         raise fault(f"is {value}, not {kind}")
     if isinstance(value, int) and digits(value) > MOST_DIGITS + 3:
-        raise fault(f"is {excerpt_of(value)}, too many to be computed with")
+        raise fault(f"is {excerpt_of(value)}, too large to compute with")
     if isinstance(value, str):
         if not NUMBER.fullmatch(value.strip(" ")) or len(value) > LONGEST_SHOWN:
             raise fault(f"is {excerpt_of(value)}, not {kind}")
@@ -80,7 +80,7 @@ def as_whole(value: Any) -> Any:
 
 def _countable(value: int) -> int:
     if digits(value) > MOST_DIGITS:
-        raise fault(f"is {excerpt_of(value)}, more than can be counted to")
+        raise fault(f"is {excerpt_of(value)}, too large to count with")
     return value
 
 
@@ -93,7 +93,7 @@ def as_complex(value: Any) -> complex:
             raise TypeError
         number = complex(value)
     except OverflowError:
-        raise fault(f"is {excerpt_of(value)}, too many to be computed with") from None
+        raise fault(f"is {excerpt_of(value)}, too large to compute with") from None
     except (TypeError, ValueError):
         hint = (
             "; the imaginary unit is written j" if re.search(r"\di'?$", excerpt_of(value)) else ""
@@ -110,7 +110,7 @@ def _distinct(values: list) -> list:
     for value in values:
         if value in seen:
             text = list(value) if isinstance(value, tuple) else value
-            raise fault(f"the same value stands twice: {text}")
+            raise fault(f"the same value is given twice: {text}")
         seen.add(value)
     return values
 

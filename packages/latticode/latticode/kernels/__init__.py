@@ -1,7 +1,7 @@
-"""Compiled functions: how they are made and kept.
+"""Compiled functions and their disk cache.
 
-`compiled` makes them, `cache` keeps them on disk, and `sources` names them by their text. `simd`
-has vectors of eight doubles; `inside_numba` is all that uses private parts of numba.
+`compiled` has the decorators, `cache` the files on disk, and `sources` the hashes of code that name
+them. `simd` defines vectors of eight doubles. Only `inside_numba` uses private parts of numba.
 """
 
 DISABLED = "NUMBA_DISABLE_JIT is set, and kernels cannot run uncompiled: unset it"

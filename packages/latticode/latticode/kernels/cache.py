@@ -1,15 +1,14 @@
-"""Where compiled kernels are kept between processes, projects and runs of one user.
+"""The disk cache of compiled kernels, shared by all processes and projects of one user.
 
-Compiling takes longer than most runs, so machine code is kept. A file is named by all that its
-content follows from: the text of the kernel's module and of all that it imports, the versions and
-settings of the compiler, the processor, and the types of the arguments. It appears whole or not at
-all, and it begins with a hash of its name and the rest. So it cannot be stale, torn, or that of
-another kernel, wherever the project lies.
+Compiling takes longer than most runs, so machine code is cached. The name of a file contains a hash
+of everything that its content depends on: the text of the kernel's module and of its imports, the
+versions and settings of the compiler, the processor, and the types of the arguments. Files are
+written atomically and begin with a hash of their name and content, so that stale, incomplete or
+exchanged files are never loaded.
 
-The folder is that of the platform for caches (~/.cache/latticode on Linux). The environment
-variable LATTICODE_CACHE names another, or switches the cache off by `off`. Loading machine code
-runs it, so only a folder and files that belong to this user, and that nobody else can write, are
-used.
+The cache is in the platform's folder for caches (~/.cache/latticode on Linux). The environment
+variable LATTICODE_CACHE sets another folder, or disables the cache (`off`). Loaded machine code is
+executed, so the folder and its files must belong to this user and be writable by nobody else.
 """
 
 import hashlib
@@ -30,14 +29,14 @@ from .sources import digest_of_modules
 VARIABLE = "LATTICODE_CACHE"
 OFF = "off"
 UNUSED = 30 * 86400.0
-"""Seconds after which machine code of a text that nobody runs any more is removed."""
+"""Seconds without use after which machine code of an earlier version of a module is removed."""
 DIGEST = hashlib.sha256().digest_size
 DIGITS = 16
-"""Hexadecimal digits of a digest in the name of a folder or a file."""
+"""The number of hexadecimal digits of a hash in the name of a folder or file."""
 
 
 def kept_in() -> Path | None:
-    """Return the folder of all kernels, or None where the user switched it off."""
+    """Return the folder of the cache, or None if it is switched off or unsafe."""
     named = os.environ.get(VARIABLE, "").strip()
     if named.lower() == OFF:
         return None
@@ -48,7 +47,7 @@ def kept_in() -> Path | None:
 
 @cache
 def _trusted(folder: Path) -> Path | None:
-    """Return the folder, or None where others could have put code into it."""
+    """Return the folder, or None with a warning if other users could have written into it."""
     if _is_private(folder):
         return folder
     warnings.warn(
@@ -61,10 +60,10 @@ def _trusted(folder: Path) -> Path | None:
 
 
 def _is_private(place: Path | int) -> bool:
-    """Return whether only this user can have written a folder or an open file, or it is absent."""
+    """Return whether a folder or open file is absent, or writable by this user only."""
     try:
         status = os.stat(place)
-    except OSError:  # absent, or out of reach, which is reported when a kernel is to be kept
+    except OSError:  # absent or inaccessible; saving a kernel will report the latter
         return True
     return not hasattr(os, "geteuid") or (
         status.st_uid == os.geteuid() and not status.st_mode & 0o022
@@ -72,22 +71,24 @@ def _is_private(place: Path | int) -> bool:
 
 
 def keep_source(name: str, text: str) -> Path:
-    """Return the file of a generated module, whose text names its kernels; unwritten if none are
-    kept."""
+    """Return the path of a generated module in a folder named by the hash of its text.
+
+    The file is not written if the cache is switched off.
+    """
     root = kept_in()
     file = (root or Path("generated")) / "sources" / _digest(text) / name
     if root and (not file.exists() or file.read_text(encoding="utf-8") != text):
         try:
             _write(file, text.encode())
-        except OSError:  # kernels cannot be kept either, and those who keep them say so
+        except OSError:  # saving the first kernel will fail too, and warn
             file = Path(tempfile.mkdtemp(prefix="latticode-")) / name
             file.write_text(text, encoding="utf-8")
     return file
 
 
 def _write(file: Path, content: bytes) -> None:
-    """Write a file that appears whole or not at all, and that nobody else can write."""
-    # `mode` of a mkdir with parents is that of the last folder alone, whatever the umask gives them
+    """Write a file atomically, so that no other user can write it."""
+    # mkdir(parents=True) would apply `mode` to the last folder only
     absent = [folder for folder in file.parents if not folder.exists()]
     for folder in reversed(absent):
         folder.mkdir(mode=0o700, exist_ok=True)
@@ -101,24 +102,26 @@ def _write(file: Path, content: bytes) -> None:
 
 
 def folder_of(function: Callable, root: Path | None) -> Path | None:
-    """Return the folder below `root` for the module of a function, by its text and that of all that
-    it imports; None if there is no root."""
+    """Return the folder of a function's module below `root`; None if there is no root.
+
+    Its name contains a hash of the module, all its imports and the compiler.
+    """
     module = Path(function.__code__.co_filename).resolve()
     return root and root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
 
 
 class KernelFiles:
-    """The files that keep the machine code of one function, each for some types of arguments."""
+    """The cache files of one function, one for each combination of argument types."""
 
     def __init__(self, function: Callable, root: Path, ending: str):
-        """Keep the machine code of `function`, which is no closure, below the folder `root`."""
+        """Prepare the cache of `function`, which must not be a closure, below the folder `root`."""
         self._name, self._ending = function.__qualname__, ending
         self.folder = folder_of(function, root)
 
     def load(self, *key) -> bytes | None:
-        """Return what was saved by the types of arguments and the processor that are the `key`.
+        """Return the machine code saved under a `key` of argument types and processor.
 
-        None if there is nothing, or what is there is damaged or written by others.
+        Returns None if there is none, or if the file is damaged or writable by others.
         """
         file = self._file(key)
         try:
@@ -135,7 +138,7 @@ class KernelFiles:
         return hashlib.sha256(file.name.encode() + payload).digest()
 
     def save(self, payload: bytes, *key) -> None:
-        """Keep machine code. Where that is impossible the run goes on, with a warning."""
+        """Write machine code to the cache; if that fails, warn and continue."""
         file = self._file(key)
         try:
             if not self.folder.exists():
@@ -153,10 +156,9 @@ class KernelFiles:
         return self.folder / f"{self._name}-{_digest(*key)}{self._ending}"
 
     def _remove_unused(self) -> None:
-        """Remove what was compiled from former texts of this module, unless it was used of late.
+        """Remove machine code compiled from earlier versions of this module and unused for 30 days.
 
-        A user may name a folder that holds other things too, so only what has the names of ours is
-        removed.
+        The user's folder may contain other files, so only names of this cache are removed.
         """
         former = self.folder.name.rpartition("-")[0]
         ours = f"{former}-{'[0-9a-f]' * DIGITS}"
@@ -165,7 +167,7 @@ class KernelFiles:
                 for ending in ("kernel", "part"):
                     for file in folder.glob(f"*.{ending}"):
                         file.unlink(missing_ok=True)
-                with suppress(OSError):  # something else lies in it
+                with suppress(OSError):  # it contains other files
                     folder.rmdir()
 
 
@@ -174,8 +176,8 @@ def _digest(*texts) -> str:
 
 
 def _compiler() -> list[str]:
-    """Return the versions and the settings that machine code depends on."""
-    import llvmlite  # here, since a workflow asks for the folder alone
+    """Return the versions and settings of the compiler, on which machine code depends."""
+    import llvmlite  # imported here: a workflow needs only the name of the cache folder
     import numba
 
     settings = sorted(f"{k}={v}" for k, v in os.environ.items() if k.startswith("NUMBA_"))

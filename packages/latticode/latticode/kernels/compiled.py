@@ -1,16 +1,16 @@
-"""The decorators of every compiled function, and a cache that cannot be stale.
+"""Decorators that compile functions and cache their machine code.
 
-A `kernel` is compiled for plain values and kept on disk. What it calls may be other kernels, or
-functions that are not kept by themselves: `uncached` ones, `inlined_by_numba` and
-`inlined_by_llvm`. All of them become parts of the kernel, and none allocates memory.
+A `kernel` is compiled for numbers, arrays and named tuples, and cached on disk. It may call other
+kernels and functions that have no cache entry of their own: `uncached`, `inlined_by_numba` and
+`inlined_by_llvm`. All of them become subroutines of the kernel, and none allocates memory.
 
-Two ways. `inside_numba` compiles and keeps kernels faster than numba does, and rests on private
-parts of the versions TESTED. With any other version numba compiles and keeps them by itself.
+Two compilers. `inside_numba` compiles and caches kernels faster than numba does, but uses private
+parts of numba in the versions TESTED. With any other version, numba's public compiler is used.
 
-Names. Machine code calls other functions by their names, in which numba puts the number that a
-function has in its process. Two solvers that one builder made can so get one name, if two processes
-compiled and kept them, and a third that loads both would run one of them in place of the other
-(numba issue 10486). So functions that are not kept by themselves have a random number in the name.
+Names. Machine code calls functions by names that contain numba's number of the function in its
+process. Two solvers from one builder, cached by two processes, can thus get the same name, and a
+third process that loads both would run one of them in place of the other (numba issue 10486).
+Functions without a cache entry therefore have a random number in their names.
 
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
 *, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
@@ -32,13 +32,14 @@ if numba.config.DISABLE_JIT:
     raise RuntimeError(DISABLED)
 
 TESTED = tuple(f"0.{minor}" for minor in range(61, 69))
-"""Versions of numba whose private parts are those that `inside_numba` uses."""
+"""Versions of numba with which `inside_numba` was tested."""
 
 
 def _with_numba_alone(function: Callable, root: Path | None, **options) -> Callable:
-    """Return the compiled function, kept by numba's own cache in the folder of its module's text.
+    """Return the function compiled and cached by numba itself.
 
-    numba does not see that a function in another file has changed, but such a folder does.
+    The cache folder is named by a hash of the module and its imports, because numba does not notice
+    changes in other files.
     """
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder_of(function, root) or "")
     try:
@@ -59,27 +60,32 @@ else:
 
 
 def kernel(function: Callable) -> Callable:
-    """Compile a function of plain values and keep its code on disk."""
+    """Return the compiled function, whose machine code is cached on disk."""
     return _compiled(function, kept_in())
 
 
 def uncached(function: Callable) -> Callable:
-    """Compile a function that is built around given functions, such as a solver around its rates.
+    """Return the compiled closure, such as a solver built around its rates.
 
-    Its code is kept with the kernel that calls it: a closure cannot be named by its text.
+    Its code is cached with the kernel that calls it, because the text of a closure does not
+    identify it.
     """
     return _compiled(function)
 
 
 def inlined_by_numba(function: Callable) -> Callable:
-    """Put a function's statements in place of its call before compilation, so that a closure that
-    one kernel calls is not compiled a second time by itself."""
+    """Return a function whose statements replace its calls before compilation.
+
+    A closure with only one caller is then not compiled a second time.
+    """
     return _compiled(function, inline="always")
 
 
 def inlined_by_llvm(function: Callable) -> Callable:
-    """Put a function's instructions in place of its call after compilation: a call would spill
-    vectors from their registers into memory."""
+    """Return a function whose instructions replace its calls after compilation.
+
+    A real call would spill vectors from registers into memory.
+    """
     return _compiled(function, forceinline=True)
 
 
@@ -90,8 +96,8 @@ def _compiled(function: Callable, root: Path | None = None, **options) -> Callab
 
 
 @kernel
-def copy(source, target):
-    """Copy a state of (row, column) without the machinery of array expressions."""
+def copy(source, target) -> None:
+    """Copy a state (row, column); array expressions would take longer to compile."""
     for row in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[row, j] = source[row, j]

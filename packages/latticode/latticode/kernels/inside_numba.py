@@ -1,23 +1,22 @@
-"""All that this project does inside numba: kernels compiled as a whole, and kept by their content.
+"""Faster compilation with private parts of numba: kernels optimised once, cached by content.
 
-`compiled` uses this module for the versions of numba that it was tested with. With any other it
-uses what numba offers to all: the same bits, but twice the time to compile, and runs on short
-chains take up to twice as long too.
+`compiled` uses this module for the versions of numba with which it was tested. With any other
+version it uses numba's public compiler: results are bit-identical, but compilation and runs on
+short chains take up to twice as long.
 
-Why a kernel is compiled as a whole. numba compiles each function for itself: LLVM optimises its
-code together with that of all that it calls, and turns the result into machine code. So a function
-at the bottom is optimised again in each of its callers, and nobody runs the machine code of any but
-the outermost. Here a function that a kernel calls is a part. It is compiled to code that can be
-linked and no further, and the kernel is optimised once, together with all its parts. That takes
-half of the time.
+Why a kernel is optimised as one unit. numba optimises each function together with all functions
+that it calls, and generates machine code for it. An inner function is thus optimised again in each
+of its callers, although only the machine code of the outermost function is ever executed. Here, a
+function called by a kernel is a subroutine: it is compiled to linkable code only, and the kernel is
+optimised once, together with all its subroutines. This takes half the time.
 
-Why no references are counted. No kernel allocates memory. numba would all the same count up and
-down for every row of an array that a kernel looks at, which took half of a run on a short chain. A
-kernel that asks for memory is refused when it is compiled ("Only accept returning of array ...").
+Why references are not counted. No kernel allocates memory, but numba would count references to
+every row of an array, which took half of the run on a short chain. A kernel that allocates memory
+is rejected at compilation ("Only accept returning of array ...").
 
-Why numba's own cache is not used. It names what it keeps after the path and the time stamp of a
-source file: a copied project compiles everything again, and two processes that compile one function
-for two types of arguments at once may write both to the same file. `kernel_cache` keeps it instead.
+Why numba's own cache is not used. It identifies a function by the path and time stamp of its source
+file. A copied project compiles everything again, and two processes that compile one function for
+different argument types may write to the same file. `cache` stores the code instead.
 
 What this rests upon, all of it private to numba:
 - a dispatcher tells callers its types in `get_call_template` and the key of its code in
@@ -59,7 +58,7 @@ UNCALLED = {"no_cpython_wrapper": True}
 
 
 class SubroutineLibrary(JITCodeLibrary):
-    """Code that is linked into kernels, and is optimised there and not here."""
+    """Linkable code of a subroutine; it is optimised as part of the kernels that call it."""
 
     def _optimize_final_module(self) -> None:
         pass
@@ -70,12 +69,12 @@ class SubroutineLibrary(JITCodeLibrary):
         self._finalized = True
 
     def serialize_using_object_code(self) -> bytes:
-        """Return the code itself, as there is no machine code."""
+        """Return the linkable code, because there is no machine code."""
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod
     def of(cls, codegen, code: bytes) -> "SubroutineLibrary":
-        """Return the library that was kept as `code`."""
+        """Return the library restored from cached `code`."""
         library = cls(codegen, "part")
         library._final_module = binding.parse_bitcode(code)
         library._finalize_final_module()
@@ -83,7 +82,7 @@ class SubroutineLibrary(JITCodeLibrary):
 
 
 class SubroutineCompiler(Compiler):
-    """The stages of numba up to code that can be linked."""
+    """numba's compiler without its last stage: it stops at linkable code."""
 
     def __init__(self, typing_context, target_context, library, *more):
         library = library or SubroutineLibrary(target_context.codegen(), "part")
@@ -92,7 +91,7 @@ class SubroutineCompiler(Compiler):
 
 
 class KernelCache:
-    """The machine code of one function, in the form that a dispatcher asks for."""
+    """The cached machine code of one function, with the interface of numba's own cache."""
 
     ENDING = ".kernel"
 
@@ -101,34 +100,37 @@ class KernelCache:
 
     @property
     def cache_path(self) -> str:
-        """The folder of the machine code of this module."""
+        """The cache folder of the function's module."""
         return str(self._files.folder)
 
     def load_overload(self, signature, target_context) -> CompileResult | None:
-        """Return the machine code for these types of arguments, or None where there is none."""
+        """Return the cached result for a signature, or None if there is none."""
         target_context.refresh()
         magic = target_context.codegen().magic_tuple()
         cached = self._files.load(signature, *_named_tuples(signature), magic)
         try:
             return None if cached is None else self.restore(target_context, cached)
-        except Exception:  # whatever unpickling raises: this is nothing that this numba kept
+        except Exception:  # unpickling a file of another numba can raise anything
             return None
 
     @staticmethod
     def restore(target_context, cached: bytes) -> CompileResult:
-        """Return what `save_overload` kept."""
+        """Return the result that `save_overload` cached."""
         return CompileResult._rebuild(target_context, *pickle.loads(cached))
 
     def save_overload(self, signature, data: CompileResult) -> None:
-        """Keep machine code, unless it holds addresses of this process, as of a large array."""
+        """Cache a result, unless it contains addresses of this process, such as a large array's."""
         if not data.library.has_dynamic_globals:
             key = (signature, *_named_tuples(signature), data.codegen.magic_tuple())
             self._files.save(dumps(data._reduce()), *key)
 
 
 def _named_tuples(kinds) -> list[str]:
-    """Return what numba's words for types leave out of named tuples, at any depth: where the class
-    is defined, and its fields. Without them (x, y) and (y, x) of one name would share code."""
+    """Return the modules and field names of all named tuples among types, nested ones included.
+
+    numba's names of types omit them: two tuples of one name with the fields (x, y) and (y, x) would
+    share code.
+    """
     names = []
     for kind in kinds:
         if isinstance(kind, types.BaseNamedTuple):
@@ -141,7 +143,7 @@ def _named_tuples(kinds) -> list[str]:
 
 
 class SubroutineCache(KernelCache):
-    """The code of a part, kept as that of a kernel is."""
+    """The cached code of a subroutine."""
 
     ENDING = ".part"
 
@@ -168,18 +170,18 @@ class SubroutineCache(KernelCache):
 
 
 class CachedFunction(CPUDispatcher):
-    """A compiled function whose code may be kept in a folder, in the way of `CACHE`."""
+    """A compiled function whose code may be cached in a folder, by the class `CACHE`."""
 
     CACHE = KernelCache
     root = None
 
     def keep_in(self, root: Path) -> None:
-        """Keep code below the folder `root`, and take from it what is there."""
+        """Load code from the cache below the folder `root`, and save new code there."""
         self.root, self._cache = root, self.CACHE(self.py_func, root)
 
 
 class Subroutine(CachedFunction):
-    """A function as kernels call it."""
+    """A function that can be called by kernels only."""
 
     CACHE = SubroutineCache
 
@@ -187,14 +189,14 @@ class Subroutine(CachedFunction):
         super().__init__(function, locals, {**options, **UNCALLED}, SubroutineCompiler)
 
     def add_overload(self, cres: CompileResult) -> None:
-        """Let callers find the code by a key of its own: it has no address."""
+        """Register the code under its own key, because it has no address."""
         cres = cres._replace(entry_point=object())
         self.targetctx.insert_user_function(cres.entry_point, cres.fndesc, [cres.library])
         self.overloads[tuple(cres.signature.args)] = cres
 
 
 class Kernel(CachedFunction):
-    """A function as Python calls it; kernels that call it compile it as a part of theirs."""
+    """A function that Python can call; kernels that call it use its `subroutine`."""
 
     @cached_property
     def subroutine(self) -> Subroutine:
@@ -204,7 +206,7 @@ class Kernel(CachedFunction):
         return subroutine
 
     def get_call_template(self, args, kws):
-        """Let one part serve all values of its arguments: numba compiles one for each constant."""
+        """Use one subroutine for all argument values; numba would compile one per constant."""
         return self.subroutine.get_call_template([*map(types.unliteral, args)], kws)
 
     def get_overload(self, sig):
@@ -212,7 +214,7 @@ class Kernel(CachedFunction):
 
 
 def make_kernel(function: Callable, root: Path | None = None, **options) -> Kernel:
-    """Return the compiled function, whose code is kept below the folder `root` if there is one."""
+    """Return the compiled function; its code is cached below the folder `root`, if given."""
     kernel = Kernel(function, {}, {**OPTIONS, **options})
     if root:
         kernel.keep_in(root)

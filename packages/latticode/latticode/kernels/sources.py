@@ -1,6 +1,6 @@
-"""What a result comes from: the modules that a file imports, the processor and the versions.
+"""Provenance of a result: the modules that a file imports, the versions and the processor.
 
-This module needs the standard library only.
+This module uses the standard library only.
 """
 
 import ast
@@ -25,7 +25,7 @@ _PATH_KEY = attrgetter("parts")  # tuples compare five times as fast as paths, a
 
 
 def modules_of(*files: Path) -> list[Path]:
-    """Return the files and every module below ROOTS that they import, at any depth."""
+    """Return the files and all modules below ROOTS that they import, directly or indirectly."""
     modules, waiting = set(), list(files)
     while waiting:
         module = waiting.pop()
@@ -36,11 +36,11 @@ def modules_of(*files: Path) -> list[Path]:
 
 
 def attached_to(modules: list[Path]) -> list[Path]:
-    """Return the files beside `modules` that are read by them and are no modules, as templates are.
+    """Return the data files, such as templates, in the folders of `modules`.
 
-    A file that is named after a module beside it (section.html.j2, section.py) belongs to this
-    module alone, so that a job that computes does not depend on how a page looks. Any other file
-    belongs to its package. A package inside a package counts only if it is among `modules` itself.
+    A file named after a module in its folder (section.html.j2, section.py) counts only with this
+    module, so that computations do not depend on the layout of a page. Any other file counts with
+    its package. A subpackage counts only if it is among `modules` itself.
     """
     packages = [module.parent for module in modules if module.name == "__init__.py"]
     owners = {None, *modules}
@@ -50,7 +50,7 @@ def attached_to(modules: list[Path]) -> list[Path]:
 
 @cache
 def _data_files(folder: Path) -> list[tuple[Path, Path | None]]:
-    """Return the files of a package that are no modules, each with the module it is named after."""
+    """Return the data files of a package, each with the module it is named after, or None."""
     pairs = []
     for path in folder.iterdir():
         if path.is_dir():
@@ -70,7 +70,7 @@ def digest_of(file: Path) -> str:
 
 @cache
 def digest_of_modules(file: Path) -> str:
-    """Return one hash of a module and of all that it imports."""
+    """Return one hash of a module and all modules that it imports."""
     text = "".join(f"{digest_of(module)} {module.name}\n" for module in modules_of(file))
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -79,7 +79,7 @@ PACKAGES = (
     *("numpy", "numba", "llvmlite", "scipy", "python-flint", "xarray", "netCDF4"),
     *("matplotlib", "pillow", "fonttools"),
 )
-"""Packages whose versions decide numbers and pictures."""
+"""Packages whose versions affect numbers or pictures."""
 
 _LONG = '"' * 3 + r'(?:[^"\\]|\\.|"(?!""))*' + '"' * 3
 _SHORT = r'"(?:[^"\\\n]|\\.)*"|' + r"'(?:[^'\\\n]|\\.)*'"
@@ -90,10 +90,10 @@ _EMPTY = re.compile(r"\n\s*\n")
 
 @cache
 def digest_of_code(*files: Path) -> str:
-    """Return one hash of what runs where these files run, without comments and docstrings.
+    """Return one hash of all code that these files execute, without comments and docstrings.
 
-    It is of the files, of all modules that they import, of the templates and styles beside these,
-    and of the versions of PACKAGES.
+    It covers the files, all modules that they import, the data files of these modules, and the
+    versions of PACKAGES.
     """
     modules = modules_of(*files)
     module_digests = [f"{_digest_of_bare(path)} {path.name}" for path in modules]
@@ -116,14 +116,14 @@ def _digest_of_bare(module: Path) -> str:
 def strip_comments(text: str) -> str:
     """Return a module's text without comments, docstrings and empty lines.
 
-    Python's own parser would take half a second for all modules, in every call of a workflow.
+    Python's parser would take 0.5 s for all modules at every start of a workflow.
     """
     without = _NO_CODE.sub(lambda match: "" if match.lastgroup else match[0], text)
     return _EMPTY.sub("\n", f"\n{without}\n")
 
 
 _FOR_TYPE_CHECKERS = re.compile(r"^if TYPE_CHECKING:.*\n(?:(?: .*)?\n)+", re.MULTILINE)
-"""Imports that are never executed."""
+"""Blocks of imports for type checkers, which are never executed."""
 
 
 @cache
@@ -141,16 +141,16 @@ def _imports_of(file: Path) -> frozenset[Path]:
 
 
 def _packages_of(file: Path) -> tuple[str, ...]:
-    """Return the parts of the name of a module of ROOTS."""
+    """Return the components of the dotted name of a module below ROOTS."""
     home = max((root for root in ROOTS.values() if file.is_relative_to(root)), key=_PATH_KEY)
     return file.relative_to(home).parts
 
 
 def _tree_of(text: str) -> ast.AST:
-    """Return a tree with all imports of a module.
+    """Return a syntax tree with all imports of a module.
 
-    To parse nothing but the lines of imports is ten times faster, and every call of a workflow
-    does it for all modules. Where the word stands elsewhere too, everything is parsed.
+    Only lines with imports are parsed, which is ten times faster; every start of a workflow does it
+    for all modules. If the word occurs elsewhere too, the full text is parsed.
     """
     imports = _IMPORT.findall(f"\n{text}")
     same = len(imports) == len(_WORD.findall(text))
@@ -158,7 +158,7 @@ def _tree_of(text: str) -> ast.AST:
 
 
 def _statements(tree: ast.AST) -> Iterator[ast.AST]:
-    """Yield a tree and all statements in it: no import hides in an expression."""
+    """Yield a tree and all its statements; expressions cannot contain imports."""
     waiting = [tree]
     while waiting:
         node = waiting.pop()
@@ -168,7 +168,7 @@ def _statements(tree: ast.AST) -> Iterator[ast.AST]:
 
 
 def files_of_module(name: str) -> tuple[Path, ...]:
-    """Return the files that importing `name` executes: the module and its packages."""
+    """Return the files that `import name` executes: the module and its parent packages."""
     names = tuple(name.split("."))
     home = ROOTS.get(names[0])
     return _files_in(home, names) if home else ()
@@ -183,7 +183,7 @@ def _files_in(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
 
 
 def describe_machine() -> dict[str, str]:
-    """Return the processor's name and the versions that decide how long a run takes."""
+    """Return the processor's name and the versions that determine the speed of a run."""
     linux = Path("/proc/cpuinfo")
     cpuinfo = linux.read_text(encoding="utf-8") if linux.exists() else ""
     named = re.search(r"^model name\s*:\s*(.*\S)", cpuinfo, re.MULTILINE)

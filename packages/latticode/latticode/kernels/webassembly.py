@@ -1,7 +1,7 @@
-"""Kernels as WebAssembly: a browser runs the code that was compiled for this machine.
+"""Kernels as WebAssembly, so that a browser computes the same bits as this machine.
 
-numba writes a kernel as LLVM's intermediate code, and LLVM makes WebAssembly of it, whose
-operations are those of IEEE, unfused: so its bits are those of this machine.
+numba translates a kernel to LLVM's intermediate representation, and LLVM translates that to
+WebAssembly. Its arithmetic follows IEEE 754 without fused operations, so results are bit-identical.
 
 Pointers have 8 bytes in numba's code and 4 in WebAssembly. What lies on the stack therefore keeps
 the size that it has here: code that counts bytes from its start, or clears it, then stays inside.
@@ -33,15 +33,15 @@ NOT_CALLED = b"__linear_memory", b"__stack_pointer", b"__indirect_function_table
 
 
 class WebAssemblyError(RuntimeError):
-    """A kernel that cannot be made WebAssembly; the message says what stands in the way."""
+    """A kernel cannot be translated to WebAssembly; the message states the reason."""
 
 
 def webassembly(kernel, *arguments: Any) -> bytes:
-    """Return the module of a kernel for the types of `arguments`; its one function is `run`.
+    """Return the WebAssembly module of a kernel for the types of `arguments`; it exports `run`.
 
-    It takes the arguments as numba passes them: the address of the result, that of a place for
-    errors, then all numbers of the arguments, as the script of `loader` does. Raises
-    WebAssemblyError where numba's code rests on the size of pointers or counts references.
+    `run` has numba's calling convention: the address of the result, the address of the error
+    status, then all arguments, flattened to numbers; `loader` does this. Raises WebAssemblyError
+    if numba's code depends on the size of pointers or counts references.
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
@@ -66,12 +66,12 @@ def webassembly(kernel, *arguments: Any) -> bytes:
 
 
 def loader() -> str:
-    """Return the JavaScript whose function `loadKernel` makes a module callable."""
+    """Return the JavaScript source of `loadKernel`, which makes a module callable."""
     return Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 
 
 def _code_of(kernel, types: tuple) -> str:
-    """Return the intermediate code of a kernel for these types, and of all that it calls."""
+    """Return LLVM's intermediate code of a kernel for these types, with all functions it calls."""
     if not hasattr(kernel, "subroutine"):
         raise WebAssemblyError(
             f"code of numba {numba.__version__} counts references, which WebAssembly cannot: take"
@@ -84,7 +84,7 @@ def _code_of(kernel, types: tuple) -> str:
 
 
 def _for_small_pointers(code: str, layout: str) -> str:
-    """Return the code for 4 bytes a pointer, with all sizes on the stack as they are for 8."""
+    """Return the code for pointers of 4 bytes, with the stack layout of pointers of 8 bytes."""
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{layout}"', code)
     code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
     code = re.sub(r"alloca (\{.*\}|ptr)(?=[,\n])", _bytes_instead, code)
@@ -94,7 +94,7 @@ def _for_small_pointers(code: str, layout: str) -> str:
 
 
 def _bytes_instead(match: re.Match) -> str:
-    """Return an alloca of as many bytes as a structure of whole words, or a pointer, has here."""
+    """Return an alloca with the number of bytes that a structure or pointer has on this machine."""
     words = sum(
         int(repeated or 1)
         for repeated, _ in re.findall(r"(?:\[(\d+) x )?(ptr|i64|double)\b", match[1])
@@ -103,7 +103,7 @@ def _bytes_instead(match: re.Match) -> str:
 
 
 def _exported(module: bytes, place: int) -> bytes:
-    """Return an object file as a module that lets `run`, its function at `place`, be called."""
+    """Return an object file as a module that exports its function at index `place` as `run`."""
     sections, i = [], 8
     while i < len(module):
         # LLVM writes each size in 5 bytes, of 7 bits each (LEB128)

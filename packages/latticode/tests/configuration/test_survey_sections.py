@@ -48,7 +48,7 @@ def test_what_varies_together_is_the_last_axis():
         ({"axes": {"initial.2.0": [1]}}, "has no initial value: the sites 0, 1 do"),
         ({"axes": {"initial.0.1": [1]}}, r"in the fields 0..0"),
         ({"axes": {"c": []}}, "surveys.map.axes.c: is empty; give at least 1"),
-        ({"axes": {"c": [1, 1.0]}}, "the same value stands twice"),
+        ({"axes": {"c": [1, 1.0]}}, "the same value is given twice"),
         ({"axes": {"c": {"first": 0, "last": 1, "points": 1}}}, "it must be at least 2"),
         ({"axes": {"half_width": [0, 3]}}, "surveys.map.axes: at half_width = 0"),
         ({"axes": {"half_width": [1, 0, 3]}}, "surveys.map.axes: at half_width = 0"),

@@ -82,7 +82,7 @@ def test_less_is_kept_for_less_memory():
         ({"times": [0.03]}, "times: 0.03 is not a whole number of output steps of 0.025; the near"),
         ({"times": [1], "snapshot_step": 1}, "times: and snapshot_step both say when fields are"),
         ({"times": []}, "times: is empty; give at least 1"),
-        ({"times": [1, 1]}, "times: the same value stands twice: 1"),
+        ({"times": [1, 1]}, "times: the same value is given twice: 1"),
         ({"times": [-1]}, "times.0: is -1; it must be at least 0"),
         ({"keep": "stat"}, "keep: is 'stat'; it must be one of 'norms', 'moduli' or 'state'"),
     ],
