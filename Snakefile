@@ -1,6 +1,6 @@
 # The figures of Destyl, Nuiro, Pelinovsky and Poullet (2017), each from netCDF datasets.
-# `snakemake` makes everything, `snakemake fig5` one figure, and `snakemake --list-target-rules` says what
-# there is.
+# `snakemake` makes everything, `snakemake fig5` one figure, and `snakemake --list-target-rules` lists all
+# targets.
 from snakemake.utils import min_version
 
 min_version("9.20")
@@ -13,7 +13,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/base.smk"
 
 
-# Figures that a job draws with others, or for a longer study too, so that no rule has their name
+# Figures without a rule of their own: one job draws several of them, or its rule also serves a longer study
 MADE_TOGETHER = {
     "fig2": "Fig 2: norms against time, in the paper at Omega = 8, for small and large amplitudes",
     "fig2_spacetime": "Where the chain moves in the cases of fig2",
@@ -61,7 +61,7 @@ DATASETS = [
 ]
 
 
-# Results of long studies that the article quotes, and their copies beside it
+# Results of long studies that the article quotes, and their copies next to the article
 QUOTED = [
     *expand("tests/baseline/quoted/{name}.nc", name=["unbounded", "chaos", "breathers", "pendula"]),
     "tests/baseline/quoted/reproduction.json",
@@ -132,7 +132,7 @@ LONGER_STUDIES = {
     "fates": "The map of fates on a fine grid, which takes minutes",
     "over_the_top": "First passages of the pendula over the top, with many members for long",
 }
-OTHER_CHOICES = {  # what these print is measured again with other choices
+OTHER_CHOICES = {  # datasets in which the printed numbers are measured again with other choices
     "fates": datasets("long/breathers", "areas", "least_power"),
     "over_the_top": datasets("long/pendula", "varied"),
 }
@@ -209,7 +209,7 @@ onstart:
         REFUSALS.refuse_endless_requests()
 
 
-# Printed when Snakemake has ended, below its own last lines
+# The lines are printed below Snakemake's last ones
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
         report_comparison()

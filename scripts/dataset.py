@@ -1,4 +1,4 @@
-"""A Snakemake job that computes datasets: it calls a function, and writes what this returns."""
+"""A Snakemake job that calls a function, and writes the dataset or datasets that it returns."""
 
 from pendula.contract.log import Progress, run  # first: its hook logs an import that fails
 
@@ -20,14 +20,13 @@ from xarray import Dataset
 
 
 def compute(snakemake: Any) -> None:
-    """Write what the function that `params.call` names returns, or each dataset that it yields.
+    """Write the dataset that the function in `params.call` returns, or each one that it yields.
 
-    This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. Each
-    dataset records the arguments of the function as attributes, unless the function has recorded
-    them itself.
+    A dataset is an xarray.Dataset, or its variables and attributes as for `netcdf.write`. It
+    records the arguments of the function as attributes, unless the function does so itself.
 
-    A study may return `ManyRuns`. The job makes them all, or reads them from `input.chunks`; a job
-    with the wildcard `chunk`, such as ".parts/2-of-8", makes and writes every eighth of them.
+    A study may return `ManyRuns`. The job makes all runs, or reads them from `input.chunks`. A job
+    with the wildcard `chunk`, such as ".parts/2-of-8", makes and writes every eighth run.
     """
     function = function_of(snakemake.params.call)
     arguments = load_arguments(function, snakemake, KINDS)
@@ -44,7 +43,7 @@ def compute(snakemake: Any) -> None:
 def save_with_provenance(
     path: str, contents: Dataset | Contents, function: Callable, arguments: Arguments
 ) -> None:
-    """Write a dataset with attributes that say which function computed it, from what."""
+    """Write a dataset with its provenance: the function that computed it, and its inputs."""
     names = [name for names in arguments.sources.values() for name in names]
     if isinstance(contents, tuple):
         variables, attributes = contents
@@ -58,20 +57,20 @@ def save_with_provenance(
 
 
 def without_provenance(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return attributes without those on computation, which may be copied from another dataset."""
+    """Return attributes without provenance, which may be copied from another dataset."""
     of_others = (COMPUTED_BY, COMPUTED_FROM)
     return {key: value for key, value in attributes.items() if key not in of_others}
 
 
 def retained_of(runs: ManyRuns, files: Sequence[str] | None) -> dict[str, np.ndarray]:
-    """Return what is retained of all runs: read from files of chunks, or made if there are none."""
+    """Return all runs' results, read from the files of chunks if there are any, else computed."""
     if files:
         return join_chunks(map(arrays_in, files))
     return run_chunk(runs.problems, runs.retain, progress=Progress())
 
 
 def write_chunk(path: str, runs: ManyRuns, chunk: str) -> None:
-    """Make the runs of one chunk, such as ".parts/2-of-8", and write what is retained of them."""
+    """Make the runs of one chunk, such as ".parts/2-of-8", and write their results."""
     number, count = map(int, re.findall(r"\d+", chunk))
     retained = run_chunk(runs.problems, runs.retain, number - 1, count, Progress())
     variables = {
@@ -84,7 +83,7 @@ def write_chunk(path: str, runs: ManyRuns, chunk: str) -> None:
 
 
 def arrays_in(path: str) -> dict[str, np.ndarray]:
-    """Return what the dataset of a chunk holds, by name."""
+    """Return the arrays in the dataset of a chunk, by name."""
     return {str(name): array.values for name, array in read(path).data_vars.items()}
 
 

@@ -1,11 +1,11 @@
-# What jobs share. A rule of a study is one of these with its name, its inputs and what it calls. `made` is its
-# path below results/, from which its output and log are named. In these three base rules the pattern matches no
-# file name, so that none can be run as a target.
+# Base rules of all jobs. A rule of a study uses one of them, and adds its name, its inputs and its function. `made`
+# is its path below results/, from which its output and log are named. In these three base rules the pattern matches
+# no file name, so that none can be run as a target.
 #
-# Named inputs and parameters are the arguments of the function, which its annotations make datasets and problems
-# (scripts/pendula/contract/arguments.py). An input without a name, such as a kernel, is waited for. No arguments are
-# `call` (the function, with a hash of its code), `code` (a hash of the script), `unlike_paper` of a figure, and
-# among inputs `chunks`, into which the runs of a study are split.
+# Named inputs and parameters are the arguments of the function. Its annotations decide which of them are loaded as
+# datasets or problems (scripts/pendula/contract/arguments.py). The job waits for an input without a name, such as a
+# kernel. These are not arguments: `call` (the function, with a hash of its code), `code` (a hash of the script),
+# `unlike_paper` of a figure, and the input `chunks`, the files into which the runs of a study are split.
 
 
 rule job:

@@ -1,22 +1,22 @@
-# What the baseline holds: the files of a full run, the settings that they are of, and what is accepted.
+# The baseline: the files of a full run, their settings, and the files to accept.
 BASELINE = os.path.abspath(OPTIONS.baseline or f"{PROJECT}/tests/baseline")
 PAGE, VERDICT = "results/figure_diff/index.html", "results/figure_diff/verdict.json"
 
 
 def files_of_full_run():
-    """Return each file that a full run makes, but for logs and copies of committed files."""
+    """Return all files of a full run, without logs and copies of committed files."""
     parts = expand("results/claims/{part}.json", part=CLAIM_MODULES)
     copies = {path.replace("<results>", "results") for path in QUOTED_COPIES}
     return sorted({*rules.all.input, *parts} - copies)
 
 
 def without_limits(settings):
-    """Return the configuration without the limits of a run, which change no number."""
+    """Return the configuration without the section `limits`, which changes no number."""
     return json.loads(settings.model_dump_json(exclude={"limits"}))
 
 
 def baseline_unless_no_hooks(wildcards):
-    """Return the baseline; the hook at the end of the run reports what differs from it."""
+    """Return the folder of the baseline; differences are reported by a hook at the end of the run."""
     if workflow.execution_settings.no_hooks:
         stop("figure_diff fails at the end of a run: call it without --no-hooks")
     return BASELINE
@@ -24,7 +24,7 @@ def baseline_unless_no_hooks(wildcards):
 
 def files_to_accept(wildcards):
     """Return the files to accept, or stop before any job with the reason."""
-    from replication.figure_diff import acceptance  # here, since only accepting needs it
+    from replication.figure_diff import acceptance  # imported here: only accepting needs it
 
     try:
         names = [path.removeprefix("results/") for path in files_of_full_run()]
@@ -44,7 +44,7 @@ def files_to_accept(wildcards):
 
 def report_comparison():
     """Print one line for each file that differs from the baseline; exit with 1 if any of them fails."""
-    from latticode.datasets.json_files import load_json  # here, since few runs compare
+    from latticode.datasets.json_files import load_json  # imported here: few runs compare
 
     verdict = load_json(VERDICT)
     page = seen_from_outside(PAGE)

@@ -1,5 +1,5 @@
-# What the rules share: the validated configuration, and functions that give files, values and hashes.
-# They are in scripts/pendula/workflow, with tests.
+# Shared by all rules: the validated configuration, and functions for names of files, values and hashes. The
+# functions are in scripts/pendula/workflow, with tests.
 import atexit
 import gc
 import json
@@ -9,8 +9,7 @@ from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 
-# Python would search all objects for cycles when many are new, and again at exit. It would find few, and take
-# a third of a second.
+# Searching for reference cycles, during the run and at exit, would take 0.3 s and find few.
 gc.set_threshold(100_000)
 atexit.register(gc.freeze)
 
@@ -68,9 +67,9 @@ if workflow.deployment_settings.deployment_method:
 if "MPLBACKEND" in os.environ:
     os.environ.update(MPLBACKEND="agg")
 
-# Every case of the paper is integrated by these, the paper's own solvers first.
+# Solvers of every case of the paper; the first three are the paper's.
 ALL_SOLVERS = ["ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor"]
-COMPILED = [*ALL_SOLVERS, "ode45_real"]  # with ode45 as it is for real unknowns
+COMPILED = [*ALL_SOLVERS, "ode45_real"]  # ode45_real has the error norm of real unknowns
 
 given = workflow.config_settings
 try:
@@ -86,7 +85,9 @@ if workflow.is_main_process:
     for sentence in SETTINGS.long_runs():
         logger.info(sentence)
 
-DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
+DIFFERS = differences(
+    json.loads(SETTINGS.model_dump_json())
+)  # from the configuration that the claims are about
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
@@ -109,8 +110,8 @@ run_of = SETTINGS.run_of
 differs_of = partial(file_names.differs_of, DIFFERS)
 
 
-# The runs of a study are made in one job, or by `--set-scatter runs=200` in as many: they fill the cores here and
-# the nodes of a cluster. A chunk that exists is not made again, and their number changes no bit.
+# The runs of a study are one job, or 200 with `--set-scatter runs=200`, for the cores of this machine or the nodes
+# of a cluster. Existing chunks are reused, and the number of chunks changes no bit.
 scattergather:
     **file_names.chunks_of_surveys(SETTINGS.surveys, workflow.resource_settings.overwrite_scatter),
     runs=1,
@@ -138,20 +139,20 @@ logger.addHandler(ERRORS)
 
 
 def seen_from_outside(path):
-    """Return a path as it is for the user, who may have called Snakemake with --directory."""
+    """Return a path relative to the user's folder, which differs from the run's with --directory."""
     return os.path.join(workflow.overwrite_workdir or "", path)
 
 
 def failures_in_words():
-    """Return why jobs failed and which file says more, two lines for each."""
+    """Return two lines for each failed job: the reason, and the file with more."""
     causes = causes_of_failures(ERRORS.text)
     return "\n".join(f"{why}\n  (more in {seen_from_outside(log)})" for why, log in causes)
 
 
 def environment(name):
-    """Return a function that gives the file of a conda environment.
+    """Return an input function for the file of a conda environment.
 
-    Snakemake would take what is in braces in the path of the project for a wildcard.
+    Braces in the project's path are doubled, because Snakemake would read them as wildcards.
     """
     path = f"{PROJECT}/workflow/envs/{name}.yaml".replace("{", "{{").replace("}", "}}")
     return lambda wildcards: path

@@ -1,6 +1,6 @@
-# A run against the accepted baseline, which is tests/baseline unless --config baseline=FOLDER. Neither rule has an
-# output, so that each call runs it. Failures are reported at the end of the run: if the job failed, Snakemake
-# would add an error message about that job.
+# Comparison of a run with the baseline, which is tests/baseline unless --config baseline=FOLDER. Both rules have no
+# output, so that they always run. Failures are reported at the end of the run: if the job failed, Snakemake would
+# add an error message about that job.
 
 
 use rule job as figure_diff with:

@@ -1,5 +1,5 @@
-# Cases and sweeps of one's own: figures, checks, and a report, as for those of the paper. Their names
-# are free, so all lies in results/own.
+# Figures, checks and a report of a user's cases and sweeps, in results/own, where their names cannot collide with
+# the paper's.
 
 
 use rule dataset as own_checks with:

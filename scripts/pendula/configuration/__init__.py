@@ -1,1 +1,1 @@
-"""The validated configuration: what may stand in it, and its faults in words."""
+"""The validated configuration: its keys and allowed values, and messages on invalid ones."""

@@ -1,6 +1,6 @@
-"""A case of the paper's equations, and which values fit each other.
+"""The section of a case of the paper's equations, with checks of its values.
 
-A default is the value of the paper's cases, save for `solver` and `snapshot_step`.
+Defaults are the values of the paper's cases, except for `solver` and `snapshot_step`.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -37,10 +37,10 @@ CONSTANTS = ("omega", "epsilon", "gamma", "mu")
 
 
 class PaperCaseSection(cases.CaseSection):
-    """One initial-value problem of the paper's equations, and the solver that integrates it.
+    """An initial-value problem of the paper's equations, and the solver that integrates it.
 
-    The equations are (4) of the amplitudes, or with `model: pendula` Newton's equations (1), which
-    need `mu` and start from the angles and velocities that (3) makes of the amplitudes.
+    The equations are (4) of the amplitudes, or with `model: pendula` Newton's equations (1). These
+    need `mu`, and start from the angles and velocities of (3) at the initial amplitudes.
     """
 
     kind: ClassVar[type[PaperProblem]] = PaperProblem
@@ -125,7 +125,7 @@ class PaperCaseSection(cases.CaseSection):
         return obstacle, rate(constants, peak, self.mu)
 
     def problem(self, **changes) -> dict:
-        """Return the case as plain values of a Problem, some of them changed.
+        """Return the case as plain values of a `PaperProblem`, some of them changed.
 
         The constants come first, as in datasets.
         """
@@ -151,9 +151,9 @@ def takes_model(value: Any) -> bool:
 
 
 def of_its_kind(raw: dict) -> type[cases.CaseSection]:
-    """Return the kind of a case by its keys, a case of the paper's equations or of a model.
+    """Return the kind of a case by its keys: of the paper's equations, or of a user's model.
 
-    Raises the faults of constants of the paper beside a model.
+    Raises an error for each of the paper's constants that is given together with a model.
     """
     if not takes_model(raw.get("model")):
         return PaperCaseSection

@@ -1,4 +1,4 @@
-"""Cost of a run of the paper's equations, which are known better than by their trace."""
+"""Cost of a run of the paper's equations, estimated from their rates instead of a trace."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -23,7 +23,7 @@ OF_PENDULA = ORDINARY | {"mu": {"mu": 0.1}}
 
 
 def demand(problem: Mapping) -> Demand:
-    """Return what decides the cost of a problem of (4), or with `mu` of the pendula."""
+    """Return the values that determine the cost of a problem of (4), or of (1) if `mu` is given."""
     mu = problem.get("mu")
     return Demand(fastest_rate(problem), integrated_pairs(problem), clock_of(mu) if mu else 1.0)
 
@@ -66,9 +66,9 @@ def fastest_rate(problem: Mapping) -> float:
 
 
 def integrated_pairs(problem: Mapping) -> float:
-    """Return the pairs of pendula that are integrated: half of a chain if the data are even.
+    """Return the number of pairs that are integrated: half of a chain for even data.
 
-    Where A = B only one component is, which counts half.
+    If A = B only one component is integrated, so that a pair counts half.
     """
     initial, half_width = problem["initial"], problem["half_width"]
     even = all(initial.get(-site, (0, 0)) == pair for site, pair in initial.items())

@@ -1,4 +1,4 @@
-"""The whole configuration, with a section for each study, and what figures need of it."""
+"""The whole configuration, with a section for each study, and checks of what figures need."""
 
 from collections.abc import Iterator, Mapping
 
@@ -25,7 +25,7 @@ Sections = create_model(
 
 
 def load(raw: dict) -> PaperConfiguration:
-    """Return the validated configuration, or raise ConfigurationError with every fault."""
+    """Return the validated configuration; raises ConfigurationError with a list of all errors."""
     try:
         settings = Sections.model_validate(raw)
     except ValidationError as error:
@@ -69,7 +69,7 @@ def require(
 
 
 def _faults_of_figures(name: str, case: CaseSection) -> Iterator[str]:
-    """Yield why a case cannot replace one of the paper's, to which all studies belong."""
+    """Yield an error for each reason why a case cannot replace one of the paper's."""
     way_out = "give a case of another name"
     if case.model != AMPLITUDES:
         yield f"cases.{name}.model: the figures of the paper are of the amplitudes; {way_out}"
@@ -84,7 +84,7 @@ def _faults_of_figures(name: str, case: CaseSection) -> Iterator[str]:
 
 
 def _faults_of_short_chains(name: str, settings: PaperConfiguration) -> Iterator[str]:
-    """Yield why a case does not fit on the chains of studies that are shorter than its own."""
+    """Yield an error if a case has initial data beyond the shorter chains of a study."""
     reach = max(map(abs, settings.cases[name].data), default=0)
     shorter = settings.chaos.shorter_chains(settings, name) if settings.chaos else {}
     for key, half_width in shorter.items():
@@ -95,10 +95,10 @@ def _faults_of_short_chains(name: str, settings: PaperConfiguration) -> Iterator
 
 
 def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterator[str]:
-    """Yield a tolerance of ode45 at which its runs of the paper's cases may blow up.
+    """Yield an error for a tolerance of ode45 at which runs of the paper's cases may blow up.
 
-    The error of a step is up to `rtol` of the data. Once all of them together are as large as the
-    data, ode45 may add energy until its steps vanish: at 1.75 times the data it was seen to.
+    The relative error of a step is up to `rtol`. Once the errors add up to the size of the data,
+    ode45 may gain energy until its steps vanish: this was observed at 1.75 times the data.
     """
     runs = {}
     for case in names:
@@ -119,7 +119,7 @@ def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterato
 
 
 def _sum_of_errors(problem: dict, rtol: float) -> float:
-    """Return the errors of all steps of ode45, relative to the data."""
+    """Return the sum of the errors of all steps of ode45, relative to the data."""
     steps, _ = steps_of({**problem["solver"], "rtol": rtol}, problem, demand(problem))
     return steps * rtol
 

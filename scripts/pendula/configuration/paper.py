@@ -1,9 +1,9 @@
-"""The configuration that the claims are about: what each dataset rests on, and what differs.
+"""The configuration that the claims are about, and differences of a user's configuration from it.
 
-Users may edit every case. Sentences on the paper's figures are then no longer about what was run,
-and must not be judged by it. The file beside this module, paper.json, holds the cases, the sweeps
-and the studies' choices as this project reads the paper. It stays as it is when config/*.yaml are
-edited; `python docs/keep.py config` renews it, and a test fails where the committed files differ.
+Users may edit every case. Claims about the paper's figures are then not applicable. The file
+paper.json in this folder holds the cases, the sweeps and the studies' choices as this project reads
+the paper. Editing config/*.yaml does not change it; `python docs/keep.py config` renews it, and a
+test fails if the committed files differ.
 """
 
 import json
@@ -22,11 +22,11 @@ TOLERATED = Tolerated(
     at_most=frozenset({"tolerance"}),
     single=frozenset({"initial"}),
 )
-"""Keys that change no statement: other draws of a case, another look at it, longer studies; larger
-ensembles and grids; smaller tolerances."""
+"""Keys that change no statement: seeds, windows in figures, longer studies, larger ensembles and
+grids, and smaller tolerances."""
 
 DATA = ("model", "epsilon", "gamma", "omega", "initial")
-"""What of a case decides a solution on an infinite chain."""
+"""Keys of a case that determine a solution on an infinite chain."""
 
 
 @cache
@@ -36,9 +36,9 @@ def paper() -> dict[str, Any]:
 
 
 def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
-    """Return where a validated configuration, as plain values, differs from the paper's.
+    """Return the differences of a validated configuration, as plain values, from the paper's.
 
-    Cases and sweeps beside the paper's are no difference.
+    Additional cases and sweeps are no differences.
     """
     differences = find_differences(paper(), configuration, TOLERATED)
     return {".".join(place): _in_words(place, *pair) for place, pair in differences.items()}
@@ -73,7 +73,7 @@ def constants_differ(differs: Mapping[str, str], cases: Iterable[str]) -> bool:
     return any(f"cases.{case}.{key}" in differs for case in cases for key in constants)
 
 
-# --- What datasets rest on ------------------------------------------------------------------------
+# --- Dependencies of datasets ---------------------------------------------------------------------
 
 ALL_CASES = ("cases", "lyapunov", "members", "solvers", "trust", "remainder")
 """Datasets of all cases of the paper."""
@@ -81,10 +81,10 @@ ALL_CASES = ("cases", "lyapunov", "members", "solvers", "trust", "remainder")
 
 @cache
 def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """Return the parts of the configuration that decide a dataset, as dotted paths.
+    """Return the keys of the configuration that a dataset depends on, as dotted paths.
 
-    All of a case decides what is computed on its chain. `on` leaves of a dataset of many cases and
-    sweeps these alone.
+    A dataset depends on all keys of a case that is integrated on its chain. `on` restricts a
+    dataset of many cases and sweeps to these.
     """
     folder, _, name_in_folder = name.partition("/")
     stem, _, solver = name_in_folder.partition(".")
@@ -109,7 +109,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
 
 
 def _swept(sweeps: Iterable[str]) -> tuple[str, ...]:
-    """Return what sweeps rest on; those of a user are none of the paper's."""
+    """Return the keys that the paper's sweeps depend on; a user's sweeps are left out."""
     known = [sweep for sweep in sweeps if sweep in paper()["sweeps"]]
     cases = [paper()["sweeps"][sweep]["case"] for sweep in known]
     return (*(f"sweeps.{sweep}" for sweep in known), *(f"cases.{case}" for case in cases))
@@ -120,7 +120,7 @@ def _unbounded(cases: Iterable[str]) -> tuple[str, ...]:
 
 
 def _sections(folder: str, stem: str) -> list[str]:
-    """Return the sections of the configuration that decide a dataset of a study, its own last."""
+    """Return the sections that a dataset of a study depends on, the study's own last."""
     if stem in ("solvers", "trust"):
         return ["solvers"]
     if stem == "second_solver":
@@ -143,17 +143,17 @@ def _at(path: str) -> Any:
 
 
 def from_paper(words: Mapping[str, str]) -> Differences:
-    """Return differences from the paper, given in words by path, with what rests on them."""
+    """Return differences from the paper, in words by path, with the dependencies of datasets."""
     return Differences(words, rests_on)
 
 
 def concerning(
     differs: Mapping[str, str], names: Iterable[str], on: Iterable[str] = ()
 ) -> dict[str, str]:
-    """Return the differences that the datasets called `names` rest on."""
+    """Return the differences that affect the datasets called `names`."""
     return from_paper(differs).concerning(names, on)
 
 
 def reason(differs: Mapping[str, str], names: Iterable[str], on: Iterable[str] = ()) -> str:
-    """Return why datasets are not about the paper's cases; an empty text where they are."""
+    """Return why datasets are not of the paper's cases; an empty text if they are."""
     return from_paper(differs).reason(names, on)

@@ -1,4 +1,4 @@
-"""Many runs of a study: whether a solver can integrate them, and their cost together."""
+"""Checks of the many runs of a study: whether a solver can integrate them, and their total cost."""
 
 from collections.abc import Iterator, Mapping
 from math import sqrt
@@ -30,7 +30,7 @@ class Runs(NamedTuple):
     size: float = 0.0
 
     def faults(self) -> Iterator[tuple[str, str]]:
-        """Yield the first key because of which a run cannot be integrated to its end, and why."""
+        """Yield the first key that prevents the integration of a run to its end, and the reason."""
         for problem in self.problems:
             if fault := fault_of(problem):
                 yield self.many if fault[0] == "end_time" else self.tolerance, fault[1]
@@ -51,13 +51,13 @@ class Runs(NamedTuple):
 
 
 def enlarged(problem: Mapping, factor: float) -> dict:
-    """Return a problem with data so many times as large."""
+    """Return a problem with its initial data multiplied by a factor."""
     initial = problem["initial"].items()
     return {**problem, "initial": {site: tuple(factor * z for z in data) for site, data in initial}}
 
 
 def fault_of(problem: Mapping) -> Obstacle | None:
-    """Return the key because of which no solver can integrate a problem to its end, and why."""
+    """Return the key that prevents the integration of a problem to its end, and the reason."""
     amplitudes = [z for data in problem["initial"].values() for z in data]
     peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
     constants, solver = Constants.of(problem), problem["solver"]

@@ -1,4 +1,4 @@
-"""The configuration of cases and sweeps, with what the paper's studies need of it."""
+"""The configuration of cases and sweeps, with checks for the paper's studies."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, ClassVar
@@ -18,7 +18,7 @@ from .runs import Runs
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
 AS_A_STUDY = 10.0
-"""All runs of a study together may take this many times as long as one run may."""
+"""Limit on the total cost of a study's runs, in units of the limit on one run."""
 
 
 class PaperConfiguration(schema.Configuration):
@@ -36,7 +36,7 @@ class PaperConfiguration(schema.Configuration):
     }
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
-        """Yield each of `names`, which stand at `key`, that is no case or sweep of (4)."""
+        """Yield an error for each of `names`, listed at `key`, that is no case or sweep of (4)."""
         yield from super().absent(section, key, names)
         for name in names:
             if name in getattr(self, section):
@@ -45,7 +45,7 @@ class PaperConfiguration(schema.Configuration):
                     yield from self._not_amplitudes(key, case)
 
     def _not_amplitudes(self, key: str, name: str) -> Faults:
-        """Yield the fault of a case of other equations where only (4) has a meaning."""
+        """Yield an error for a case that is not of (4) where only (4) makes sense."""
         if self.cases[name].model != AMPLITUDES:
             text = f"case {name!r} is of {self.cases[name].equations}"
             yield key, f"{text}, and this is about the amplitude equations"
@@ -57,7 +57,7 @@ class PaperConfiguration(schema.Configuration):
         return "the run and its checks", self.cases[name].cost_with_checks
 
     def run_of(self, case: str, tolerance: float, solver: str = "taylor", **changes) -> dict:
-        """Return a case as a study runs it, as plain values of a Problem."""
+        """Return a case as a study runs it, as plain values of a `PaperProblem`."""
         controls = {"name": solver, "rtol": tolerance, "atol": tolerance}
         return {**self.problem(case), "solver": controls, "snapshot_every": 0, **changes}
 
@@ -83,7 +83,7 @@ class PaperConfiguration(schema.Configuration):
         return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in coupled})
 
     def faults_of_runs(self, runs: Runs) -> Faults:
-        """Yield the key of runs of a study that no solver can integrate, or that cost too much."""
+        """Yield an error for runs of a study that no solver can integrate or that cost too much."""
         if faults := list(runs.faults()):
             yield from faults
             return
@@ -95,7 +95,7 @@ class PaperConfiguration(schema.Configuration):
         yield from faults
 
     def long_runs(self) -> list[str]:
-        """Return a sentence on each run that will last for minutes, those of studies together."""
+        """Return a sentence on each case and each study whose runs will take minutes."""
         sections = {name: getattr(self, name) for name in type(self).model_fields}
         totals = {
             f"{name}.{runs.many}: its runs together take": runs.total()
@@ -109,7 +109,7 @@ class PaperConfiguration(schema.Configuration):
         return [*super().long_runs(), *(f"{label} {total}" for label, total in long.items())]
 
     def excess(self, key: str, costs: list[Cost], times: float = 1.0) -> Faults:
-        """Yield `key` and why, if the runs of a study, each made `times` times, cost too much."""
+        """Yield `key` and the reason if a study's runs, each made `times` times, cost too much."""
         total = cost.total(costs)._replace(memory=max((each.memory for each in costs), default=0.0))
         total = total._replace(seconds=times * total.seconds)
         limits = self.limits.model_dump()

@@ -1,1 +1,1 @@
-"""What every job does: load the arguments of a function by its annotations, call it, keep a log."""
+"""Tasks of every job: load arguments by the annotations of a function, call it, and write a log."""

@@ -11,8 +11,8 @@ argument, and the annotation in the function's signature decides what the functi
 | a mapping to these | paths, or values by name | a dictionary, of datasets by their stems |
 | anything else | a path or plain values | the same |
 
-An input without a name is waited for and is no argument. None and an empty list of files are left
-out where the function has a default.
+The job waits for an input without a name, which is no argument. None and an empty list of files
+are omitted if the function has a default.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -26,13 +26,12 @@ from typing import Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 from pendula.sources import SCRIPTS
 
 OF_THE_JOB = ("call", "code", "chunks", "unlike_paper")
-"""Names in a rule that are not arguments: the function, a hash of the script, the files of chunks
-into which a study of many runs is split, and for figures where the configuration differs from the
-paper's."""
+"""Names in a rule that are not arguments: the function, a hash of the script, the files of a
+study's chunks, and, for figures, the differences of the configuration from the paper's."""
 
 
 class RuleError(Exception):
-    """A rule and the function that it calls do not fit each other."""
+    """The names in a rule are not the parameters of the function that it calls."""
 
 
 class Arguments(NamedTuple):
@@ -62,8 +61,8 @@ def gather_for(draw: Callable) -> Callable:
 def load_arguments(function: Callable, job: Any, kinds: Mapping[type, Callable]) -> Arguments:
     """Return the arguments of `function` from the named inputs, outputs and parameters of a job.
 
-    `kinds` gives for a type of annotation what makes it of a path or of plain values. Outputs are
-    arguments where they have names. Raises RuleError if a name is unknown, missing or given twice.
+    `kinds` maps types of annotations to functions that load them from a path or from plain values.
+    Named outputs are arguments too. Raises RuleError if a name is unknown, missing or given twice.
     """
     rule_values = _named(function, job)
     hints = get_type_hints(function)

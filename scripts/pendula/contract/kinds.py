@@ -1,4 +1,4 @@
-"""What makes the arguments of a function that computes, by the annotations of its parameters."""
+"""Functions that load the arguments of a job, by the annotations of its function."""
 
 from latticode.datasets.netcdf import read
 from latticode.simulation import problem
@@ -7,7 +7,7 @@ from xarray import Dataset
 from pendula.problem import PaperProblem
 
 KINDS = {Dataset: read, PaperProblem: PaperProblem.of, problem.Problem: PaperProblem.of}
-"""By type: a dataset is read from its path, and a problem is made of plain values.
+"""By type: a dataset is read from its path, and a problem is made from plain values.
 
-Rules give problems of the paper's equations or of a user's model, so that the paper's class makes
-them of the library's annotation too."""
+The library's `Problem` is loaded by `PaperProblem` too, because plain values of the paper's
+equations name their model."""

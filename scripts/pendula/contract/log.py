@@ -15,7 +15,7 @@ from typing import Any, TextIO
 
 STARTED = time.monotonic()
 FAILED = "failed: "
-"""How the reason of a failure begins in a log, above its traceback."""
+"""The beginning of the reason of a failure in a log, above the traceback."""
 
 
 def log_uncaught(
@@ -34,9 +34,9 @@ sys.excepthook = log_uncaught
 
 from replication.logs import last_line  # noqa: E402, after the hook
 
-# At exit Python would search a million objects for cycles, which takes a fifth of a second in every
-# job. While a job runs it would search whenever some hundred objects are new: a compiler makes
-# millions of them, and few are in cycles.
+# At exit Python would search a million objects for reference cycles, which takes 0.2 s in every
+# job. While a job runs it would search after every few hundred new objects; a compiler creates
+# millions, few of them in cycles.
 atexit.register(gc.freeze)
 gc.set_threshold(100_000)
 
@@ -45,13 +45,13 @@ SECONDS_BETWEEN_STEPS = 5.0
 STEPS = 20
 """Number of times that a job of many runs logs how many are done."""
 WORTH_SHOWING = 10.0
-"""Seconds that must be left for a job to log how many they are."""
+"""Remaining time is logged if it is at least this, in s."""
 NO_LOG = os.EX_IOERR
 """Exit status of a job that failed and could not write the reason to its log."""
 INTERRUPTED = 130
 """Exit status of a job that Ctrl-C ended, as shells give it."""
 PACKAGES = ("pendula", "latticode", "replication")
-"""Packages whose errors are sentences that need no name of a class before them."""
+"""Packages whose error messages are logged without the name of the class."""
 
 
 class _Output:

@@ -1,1 +1,1 @@
-"""Jobs that call the general rooms of `replication` with what these must know of the paper."""
+"""Jobs that call the general functions of `replication` with data of the paper."""

@@ -20,7 +20,7 @@ TRUST = Trust(
     time="tau",
     steps=("tau", "snapshot", "snapshot_tau"),
 )
-"""The errors of Taylor's method, which are roundings alone, against the references."""
+"""The errors of the Taylor method against the references; they are rounding errors alone."""
 
 
 def compare_results(
@@ -32,7 +32,7 @@ def compare_results(
     html: str,
     verdict: str,
 ) -> None:
-    """Compare files of a run in the folder `made` with a baseline, and write what was found."""
+    """Compare files of a run in the folder `made` with a baseline, and write page and verdict."""
     comparison_page.compare_results(
         results, made, baseline, configuration, any_bits, html, verdict, TRUST
     )

@@ -10,8 +10,8 @@ from pendula.studies import modules_with_prefix
 def all_claims(*prefixes: str) -> tuple[Claim, ...]:
     """Return the claims of all studies, in the order of the paper's sections.
 
-    Those alone of modules whose names start with `prefixes`, such as "theory/claims" and
-    "paper/claims_norms", if these are given. Raises ValueError if no module has such a name.
+    With `prefixes`, such as "theory/claims" and "paper/claims_norms", only the claims of modules
+    whose names start so. Raises ValueError if a prefix fits no module.
     """
     modules = []
     for prefix in prefixes or ("claims",):

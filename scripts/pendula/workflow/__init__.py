@@ -1,4 +1,4 @@
-"""What the rules share: names of files, values for jobs, hashes of code, and what is refused.
+"""Functions of the rules: names of files, values for jobs, hashes of code, and checks before a run.
 
-Snakemake alone imports this room, and no job does.
+Only Snakemake imports this package; jobs do not.
 """

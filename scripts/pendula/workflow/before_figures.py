@@ -1,4 +1,4 @@
-"""Does once what each job that draws would do at its first picture; see before_jobs.py."""
+"""Preparation for jobs that draw, done once in the process that they are forked from."""
 
 import io
 
@@ -7,9 +7,9 @@ from latticode.drawing import style
 
 @style.styled
 def draw_something() -> None:
-    """Draw a picture that nobody sees: it loads fonts, the grammar of formulas and both backends.
+    """Draw a picture that is discarded, to load fonts, the grammar of formulas and both backends.
 
-    Formulas of the figures would not help: matplotlib reads each anew for each picture.
+    The figures' own formulas would not help: matplotlib parses them again for each picture.
     """
     figure = style.new_figure(1.0, 1.0)
     figure.add_subplot(yscale="log", xlabel=r"$\tau$")

@@ -1,12 +1,12 @@
-"""Does once what each job would do at its first use of a library; jobs are forks of what did it.
+"""First uses of libraries, done once in the process that jobs are forked from.
 
-The process that jobs are forked from imports this: see profiles/default/profile.yaml.
+That process imports this module: see profiles/default/profile.yaml.
 """
 
 import numba
 import xarray
 
-import pendula.studies.paper.compile_solver  # noqa: F401, what the first jobs do
+import pendula.studies.paper.compile_solver  # noqa: F401, the first jobs need it
 
-numba.njit("float64(float64)")(lambda x: x)  # numba gathers the functions that it knows
+numba.njit("float64(float64)")(lambda x: x)  # numba builds its tables of known functions
 xarray.backends.list_engines()

@@ -1,7 +1,7 @@
-"""Hashes of the code and of the files that jobs rest on, as parameters of their rules.
+"""Hashes of the code and the files that jobs depend on, as parameters of their rules.
 
-Snakemake does not see a change in a module that a script imports. So a rule has a hash of all code
-that its function imports among its parameters.
+Snakemake does not notice changes in modules that a script imports. Each rule therefore has a
+parameter with a hash of all code that its function imports.
 """
 
 from collections.abc import Iterable
@@ -22,10 +22,10 @@ def script_digest(name: str) -> str:
 
 
 def function(name: str, *, modules: Iterable[str] = (), also: Iterable[str] = ()) -> list[str]:
-    """Return the dotted name of a function, and a hash of all code that it rests on.
+    """Return the dotted name of a function, and a hash of all code that it depends on.
 
-    `modules` are others that it imports by their names, and `also` is more that reruns the job if
-    it changes, such as versions of packages.
+    `modules` are further modules that it imports by name. `also` are further values whose change
+    reruns the job, such as versions of packages.
     """
     names = [name.rpartition(".")[0], *modules]
     files = tuple(file for module in names for file in files_of_module(module))
@@ -34,7 +34,7 @@ def function(name: str, *, modules: Iterable[str] = (), also: Iterable[str] = ()
 
 
 def code_of_jobs() -> list[str]:
-    """Return the paths, in the project, of all modules that the functions of rules rest on."""
+    """Return the paths, in the project, of all modules that the functions of rules depend on."""
     modules = {module for files in _called for module in modules_of(*files)}
     return sorted(module.relative_to(PROJECT).as_posix() for module in modules)
 
@@ -42,6 +42,6 @@ def code_of_jobs() -> list[str]:
 def committed(path: str) -> dict[str, str]:
     """Return a file of the project as a parameter: its path in the project, and a digest.
 
-    As an input it would have another path in each copy of the project, and the job would run again.
+    As an input its path would differ between copies of the project, and the job would run again.
     """
     return {COMMITTED: path, "sha256": digest_of(PROJECT / path)}

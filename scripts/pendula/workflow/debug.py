@@ -40,7 +40,7 @@ def keep_job():
             pickle.dump((absent, job.rule.name, str(job.rule.script), *places), file)
 atexit.register(keep_job)
 """
-"""A workflow that plans a job, and pickles its values at the end."""
+"""A workflow that plans a job, and pickles the job's values when Snakemake exits."""
 
 
 class Job(NamedTuple):
@@ -52,9 +52,9 @@ class Job(NamedTuple):
     draw: Callable | None = None
 
     def call(self) -> Any:
-        """Return what the function returns; all runs of a study are made here.
+        """Return the result of the function, with all runs of a study, or the drawn figure.
 
-        A figure is drawn and returned. No file is written, but by functions that do so themselves.
+        Files are written only by functions that write their files themselves.
         """
         result = self.function(**self.arguments)
         if isinstance(result, ManyRuns):
@@ -80,7 +80,7 @@ def job(target: str, *options: str) -> Job:
 
 
 def _planned(target: str, options: tuple[str, ...]) -> tuple:
-    """Return of a planned job which inputs are absent, its rule and script, and what it gives."""
+    """Return absent inputs, rule, script, inputs, params and outputs of a planned job."""
     with TemporaryDirectory() as folder:
         file, snakefile = Path(folder, "job"), Path(folder, "Snakefile")
         values = {"snakefile": str(SCRIPTS.parent / "Snakefile"), "target": target}

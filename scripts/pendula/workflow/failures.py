@@ -1,4 +1,4 @@
-"""Why jobs failed, from their logs, or else from Slurm, or from the signal that ended them."""
+"""Reasons of failed jobs, from their logs, from Slurm, or from the signal that ended them."""
 
 import logging
 import os
@@ -12,9 +12,9 @@ from snakemake.logging import DefaultFormatter
 FAILED_JOB = (
     r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:(?:\1 +|sbatch: |For fur).*\n)*))"
 )
-"""An error in Snakemake's log with its details, which are indented more, as jobs of a group are.
+"""An error in Snakemake's log with its details, which are indented further, as in groups of jobs.
 
-Of what sbatch prints, only the first line is indented."""
+Only the first line of sbatch's output is indented."""
 REASON_IN_LOG = r"(?ms)^failed: (.*?)\nTraceback"
 """The reason in the log of a job, see pendula/contract/log.py."""
 REASON_OF_SLURM = r"(?m)^.*?((?:srun|slurmstepd\S*|sbatch): error: .*|\w+(?:Error|Exception): .*)$"
@@ -25,7 +25,7 @@ SLURM_STATE_HINTS = {
     "CANCELLED": "scancel, or the limit of the partition",
     "NODE_FAIL": "its node was lost: run the same command again",
 }
-"""What a state of Slurm means, and what to do."""
+"""Meanings of Slurm's states, with hints."""
 SIGNAL = r"died with <Signals\.\w+: (\d+)>|returned non-zero exit status (1[3-5]\d)\b"
 """Snakemake's message on a script that a signal ended, or on its shell, which adds 128."""
 SIGNAL_HINTS = {
@@ -33,7 +33,7 @@ SIGNAL_HINTS = {
     signal.SIGTERM: ": a person or the machine ended it: run the same command again",
     signal.SIGSEGV: ": a library crashed: run the same command again, and report it if it recurs",
 }
-"""What a signal may mean, and what to do."""
+"""Possible meanings of signals, with hints."""
 STATUS_OF_NO_LOG = rf"\bexit status {os.EX_IOERR}\b"
 NO_LOG = (
     "its log could not be written, so that its reason is above alone (is the disk full?): make "

@@ -1,4 +1,4 @@
-"""Names of the files that rules make and take."""
+"""Names of the inputs and outputs of rules."""
 
 from collections.abc import Callable, Iterable, Mapping
 from math import prod
@@ -34,13 +34,13 @@ def figure_files(*stems: str) -> list[str]:
 
 
 def kernels(*solvers: str) -> list[str]:
-    """Return the records of compiled solvers that a job waits for; "auto" takes one of two."""
+    """Return the records of compiled solvers that a job waits for; "auto" means two solvers."""
     pairs = [["taylor", "dop853"] if solver == "auto" else [solver] for solver in solvers]
     return [f"<results>/kernels/{name}.txt" for pair in pairs for name in pair]
 
 
 def kernels_for(problem: Mapping, *solvers: str) -> list[str]:
-    """Return the records that a run of this problem waits for, by its own solver or by `solvers`.
+    """Return the records of compiled solvers for a problem, of its own solver or of `solvers`.
 
     Solvers of other equations than (4) are compiled by the first job that needs them.
     """
@@ -48,12 +48,12 @@ def kernels_for(problem: Mapping, *solvers: str) -> list[str]:
 
 
 def any_of(names: Iterable[str]) -> str:
-    """Return a regular expression that matches these names alone, and nothing if there are none."""
+    """Return a regular expression that matches only these names; without names it never matches."""
     return "|".join(names) or "(?!)"
 
 
 CHUNK = r"(\.parts/\d+-of-\d+)?"
-"""What stands behind the name of a study in the name of one of its chunks."""
+"""The ending of a chunk's name after the name of its study."""
 
 
 def chunks_of(gather: Any, pattern: str, process: str = "runs") -> Callable:
@@ -80,7 +80,7 @@ def chunks_in(chunk: str) -> int:
 
 
 CHUNKS_OF_A_SURVEY = 8
-"""Number of chunks of a survey that gives none: their jobs fill the cores of most machines."""
+"""Default number of chunks of a survey, enough jobs for the cores of most machines."""
 
 
 def chunks_of_surveys(surveys: Mapping[str, Any], overwritten: Mapping[str, int]) -> dict[str, int]:
@@ -101,7 +101,7 @@ def process_of_survey(name: str) -> str:
 
 
 def runs_by(settings: PaperConfiguration, solver: str) -> list[str]:
-    """Return the trajectories of all cases of the paper by a solver, most cases' own."""
+    """Return the trajectories of all the paper's cases by a solver; for most it is the default."""
 
     def run_by(case: str) -> str:
         is_own_solver = settings.problem(case)["solver"] == settings.problem(case, solver)["solver"]

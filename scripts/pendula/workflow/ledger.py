@@ -1,4 +1,4 @@
-"""The parts of the ledger: which modules of claims each has, and which datasets decide them."""
+"""The parts of the ledger, with their modules of claims and the datasets that decide them."""
 
 import json
 import os
@@ -16,7 +16,7 @@ CLAIMS = "claims"
 
 
 def parts_of_ledger() -> dict[str, list[str]]:
-    """Return by part the beginnings of the names of its modules of claims, as in "theory/claims".
+    """Return the prefixes of the modules of claims in each part, such as "theory/claims".
 
     Each study with claims is a part, but for `paper`, which has two: its claims on the figures, and
     all others. So each module of a study whose name begins with "claims" is in a part.
@@ -32,7 +32,7 @@ def parts_of_ledger() -> dict[str, list[str]]:
 
 
 def modules_of(beginnings: list[str]) -> list[str]:
-    """Return the dotted names of all modules of claims whose names begin so."""
+    """Return the dotted names of all modules of claims with these prefixes."""
     paths = (path for beginning in beginnings for path in files_with_prefix(beginning))
     return [f"pendula.studies.{path.parent.name}.{path.stem}" for path in paths]
 
@@ -40,15 +40,15 @@ def modules_of(beginnings: list[str]) -> list[str]:
 def datasets_of_claims(modules: list[str], digest: str) -> list[str]:
     """Return the names of all datasets that the claims of these modules read.
 
-    To import the claims takes longer than to read all rules, so the names are kept in the folder
-    of compiled kernels, by the digest of the modules' code.
+    Importing the claims takes longer than reading all rules, so the names are cached in the folder
+    of compiled kernels, under the digest of the modules' code.
     """
     folder = kept_in()
     cache_file = folder and folder / CLAIMS / f"{digest[:32]}.json"
     if cache_file:
         with suppress(OSError, ValueError):
             return json.loads(cache_file.read_text(encoding="utf-8"))
-    # imported here: the claims import all that they compute with
+    # imported here: claims import slow libraries
     from replication.ledger.verdicts import needed
 
     from pendula.jobs.decide import all_claims
@@ -61,7 +61,7 @@ def datasets_of_claims(modules: list[str], digest: str) -> list[str]:
 
 
 def _write_whole(path: Path, text: str) -> None:
-    """Write a file that no other process sees half written."""
+    """Write a file atomically, so that no other process reads an incomplete one."""
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     partial = path.with_suffix(f".{os.getpid()}")
     partial.write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What stops a call of Snakemake before its first job, each with its reason and the way out."""
+"""Checks that stop Snakemake before its first job, with the reason and the way out."""
 
 import os
 import sys
@@ -19,9 +19,9 @@ BYTES_OF_METADATA = 100_000
 
 
 class Refusals:
-    """Refuses calls of a workflow: each method logs a reason and ends the process with status 1."""
+    """Checks of a call of a workflow; each logs the reason and exits with status 1 if it fails."""
 
-    def __init__(self, workflow: Any):
+    def __init__(self, workflow: Any) -> None:
         self.workflow = workflow
 
     def stop(self, reason: Any) -> NoReturn:
@@ -35,7 +35,7 @@ class Refusals:
         raise SystemExit(1)
 
     def stopping(self, function: Callable) -> Callable:
-        """Return a function that stops with the reason where `function` finds a user's error."""
+        """Return `function`, with the workflow stopped by any ConfigurationError that it raises."""
 
         @wraps(function)
         def checked(*arguments: Any, **settings: Any) -> Any:
@@ -56,7 +56,7 @@ class Refusals:
             )
 
     def refuse_storage(self) -> None:
-        """Stop for a default storage, where Snakemake 9.27 applies no pathvars of single rules."""
+        """Stop if a default storage is set, for which Snakemake 9.27 ignores pathvars of rules."""
         if provider := self.workflow.storage_settings.default_storage_provider:
             self.stop(
                 f"--default-storage-provider {provider} does not work here, since Snakemake does "
@@ -106,7 +106,7 @@ class Refusals:
 
 
 def read_only_folders(files: Iterable[str]) -> list[Path]:
-    """Return the existing folders, nearest to each of `files`, in which nobody may write."""
+    """Return the read-only folders among the nearest existing ones above each of `files`."""
     parents = {Path(file).absolute().parent for file in files}
     existing = {
         next(folder for folder in (parent, *parent.parents) if folder.exists())

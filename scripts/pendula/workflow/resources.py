@@ -1,4 +1,4 @@
-"""What a job requests from a cluster: memory and time, from the estimate of its cost."""
+"""Memory and time that a job requests from a cluster, from the estimate of its cost."""
 
 import math
 from collections.abc import Callable
@@ -7,11 +7,11 @@ from typing import Any
 from latticode.configuration.cost import Cost
 
 START_MB, START_MINUTES = 1000, 15
-"""Memory and time that Python, imports and a compilation take."""
+"""Memory in MB and time in minutes for Python, imports and a compilation."""
 SAFETY = 5
 """Estimates are within a factor of three, and a node may be slower."""
 SHORT, HOUR = Cost(0.0, 0.0), Cost(3600 / SAFETY, 0.0)
-"""Costs at which a job requests no more than the start, and an hour more."""
+"""Costs of jobs that request only the start, and an hour more."""
 
 
 def cost_of_study(wildcards: Any) -> Cost:

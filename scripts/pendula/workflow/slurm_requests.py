@@ -1,4 +1,4 @@
-"""Requests that Slurm would keep in its queue for ever: of more time than a partition allows."""
+"""Requests of more time than a Slurm partition allows, which would stay in the queue for ever."""
 
 import subprocess
 from collections.abc import Iterable
@@ -30,7 +30,7 @@ def requests_above_limits(requests: Iterable[Request], sinfo_output: str) -> lis
 
 
 def partitions_of_slurm() -> str:
-    """Return what sinfo prints; nothing where it fails, since sbatch then reports why."""
+    """Return the output of sinfo, empty if it fails, since sbatch then reports the reason."""
     return subprocess.run(SINFO, capture_output=True, text=True, check=False).stdout
 
 

@@ -1,4 +1,4 @@
-"""The configuration as plain values, which the parameters of rules are."""
+"""The configuration as plain values, for the parameters of rules."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -18,12 +18,12 @@ def values_of(section: Section, *names: str) -> dict[str, Any]:
 
 
 def section_of_size(section: Section, wildcards: Any) -> Section:
-    """Return what a section says of the longer study, if the wildcard `size` asks for it."""
+    """Return the settings of the longer study if the wildcard `size` is set, else of the usual."""
     return section.long if wildcards.size else getattr(section, "short", section)
 
 
 def by_size(section: Section, *names: str) -> dict[str, Callable]:
-    """Return a function of the wildcards for each setting, since a longer study has others."""
+    """Return a function of the wildcards for each setting, as longer studies have others."""
 
     def of_size(name: str) -> Callable:
         return lambda wildcards: values_of(section_of_size(section, wildcards), name)[name]
