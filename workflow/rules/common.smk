@@ -85,9 +85,8 @@ if workflow.is_main_process:
     for sentence in SETTINGS.long_runs():
         logger.info(sentence)
 
-DIFFERS = differences(
-    json.loads(SETTINGS.model_dump_json())
-)  # from the configuration that the claims are about
+# Differences from the configuration that the claims are about
+DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SURVEYS = list(SETTINGS.surveys)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]

@@ -1,4 +1,4 @@
-"""What runs in the page of the article: Figs 2 to 4 beside their datasets, and maps of fates."""
+"""Interactive figures of the article's page: Figs 2 to 4 with their datasets, and maps of fates."""
 
 import base64
 import json
@@ -26,7 +26,7 @@ FIGURES = {2: "fig2", 3: "fig3", 4: "fig4"}
 FATES = "figure-8"
 BREATHERS = next(name for name in LONG_STUDIES if name.endswith("breathers"))
 STEP = 0.1
-"""Time between two points of a curve that is only looked at."""
+"""Time in tau between two points of a curve that is only displayed."""
 FULL_SCALE = np.iinfo(np.uint16).max
 NORMS = ("linf", "l2")
 BLOCK = '<script type="{}" id="{}">{}</script>'
@@ -36,7 +36,7 @@ IN_A_BYTE = 4
 
 
 def gather_live_parts(results: Results, live: str, references: list[str]) -> LiveParts:
-    """Return what the page of the article runs, with the solver and the cases of the page `live`.
+    """Return the interactive parts of the article's page, with solver and cases of the page `live`.
 
     `references` are the trajectories in multiprecision of these cases.
     """
@@ -63,7 +63,7 @@ def gather_live_parts(results: Results, live: str, references: list[str]) -> Liv
 
 
 def layers_of(reference: xr.Dataset, members: xr.Dataset) -> dict[str, Any]:
-    """Return the curves of a case that are only looked at: its reference and its ensemble."""
+    """Return the curves of a case that are only displayed: its reference and its ensemble."""
     end_time = float(members["tau"][-1])
     stride = round(STEP / float(reference["tau"][1] - reference["tau"][0]))
     curves = reference.sel(tau=slice(0, end_time)).isel(tau=slice(None, None, stride))
@@ -103,7 +103,7 @@ def _packed(fates: np.ndarray) -> str:
 
 
 def _curve(values: np.ndarray) -> dict[str, Any]:
-    """Return a curve in 16 bits a number, which no eye distinguishes from more."""
+    """Return a curve with 16 bits per number, enough for a screen."""
     largest = float(values.max())
     scaled = np.rint(FULL_SCALE * values / (largest or 1.0)).astype("<u2")
     return {"largest": largest, "values": base64.b64encode(scaled.tobytes()).decode()}

@@ -1,4 +1,4 @@
-"""The long studies that the article quotes, and what makes them again."""
+"""The long studies that the article quotes, and the commands that repeat them."""
 
 from replication.article.quoted import FOLDER, LongStudies, LongStudy
 

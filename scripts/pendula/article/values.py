@@ -25,11 +25,11 @@ from .long_studies import PROOFS, SPEED, TIMES, UNBOUNDED
 
 FRONTS = "unbounded/fronts"
 UPWARD = 1.05
-"""By so much a bound grows before two of its digits are printed: they are then no smaller."""
+"""Relative increase of a bound before it is rounded to two digits, so that it stays a bound."""
 
 
 def gather(results: Results) -> dict[str, Any]:
-    """Return all that the template names: functions of `Numbers`, and numbers made of several."""
+    """Return all names of the template: functions of `Numbers`, and numbers made from several."""
     numbers = Numbers(results)
     compared, study = results["checks/solvers"], results[UNBOUNDED]
     diverging = int(np.isfinite(compared["second_divergence"][:, 0]).sum())
@@ -77,7 +77,7 @@ def times_as_long(speed: xr.Dataset, *peers: str) -> Printed:
 
 
 def wins_of_taylor(speed: xr.Dataset) -> Printed:
-    """Return in how many cases the Taylor method takes the least time at equal error."""
+    """Return the number of cases in which the Taylor method is fastest at equal error."""
     best = speed["best_seconds"].dropna("solver", how="all").dropna("case", how="all")
     wins = int((best.idxmin("solver") == "taylor").sum())
     text = f"{'all' if wins == best.sizes['case'] else f'{wins} of'} {best.sizes['case']} cases"
@@ -96,7 +96,7 @@ def least_between(fronts: xr.Dataset) -> float:
 
 
 def grown(numbers: Numbers) -> Printed:
-    """Return of how many runs from other initial conditions the norm grows."""
+    """Return the number of runs from other initial conditions whose norm grows."""
     share, runs = (numbers.measured("unbounded_starts", key) for key in ("share", "runs"))
     return Printed(f"{share * runs:.0f}", Source(claim="unbounded_starts"))
 
@@ -138,7 +138,7 @@ def largest_bound(results: Results) -> Printed:
 
 
 def upward(bound: float) -> str:
-    """Return two digits of a bound that are no smaller than it."""
+    """Return a bound rounded up to two digits."""
     return number(UPWARD * float(bound), 2)
 
 

@@ -40,9 +40,9 @@ def write_article(
 ) -> None:
     """Write the three files of the article, and `quoted`, copies of `committed_results` beside it.
 
-    `differs` says where the configuration is not the
-    paper's: then there is a notice in place of the article, which is on the paper's cases. `live`
-    is the live page, whose solver runs below figures, beside `references` in multiprecision.
+    `differs` holds the differences of the configuration from the paper's. If there are any, a
+    notice replaces the article, which is about the paper's cases. `live` is the live page, whose
+    solver runs below figures, and `references` are the trajectories in multiprecision.
     """
     copy_quoted(committed_results, quoted)
     results = Results([*datasets, *pictures, ledger, *quoted], html, differs=differs)

@@ -9,9 +9,9 @@ from pendula.sources import SCRIPTS
 def pack_results(
     results: list[str], made_by: list[str], archive: str, checksum: str, configuration: dict
 ) -> None:
-    """Write the archive of the project with `results`, and beside it its checksum.
+    """Write the archive of the project with `results`, and a file with its checksum.
 
-    `made_by` names the code that made the results, `configuration` is what they were made with.
+    `made_by` lists the code that made the results with the `configuration`.
     """
     project = pack.Project(SCRIPTS.parent, "pendula", __version__)
     pack.pack_results(project, results, made_by, archive, checksum, configuration)

@@ -18,9 +18,9 @@ P. Poullet, <a href="https://doi.org/10.1016/j.physleta.2017.10.021">Physics Let
 def write_report(
     datasets: list[str], figures: list[str], ledger: str, differs: dict[str, str], html: str
 ) -> None:
-    """Write the page `html` on the files of a run, which lie beside it in folders.
+    """Write the page `html` on the files of a run, which are in folders next to it.
 
-    `figures` are the paths of their datasets, each beside its picture. `differs` says where the
-    configuration is not the paper's.
+    `figures` are the paths of their datasets, each next to its picture. `differs` holds the
+    differences of the configuration from the paper's.
     """
     document.write_report(PAPER, datasets, figures, ledger, differs, html)

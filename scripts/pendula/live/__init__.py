@@ -1,1 +1,1 @@
-"""The page that integrates the cases of the paper in a browser; nothing else rests on it."""
+"""The page that integrates the cases of the paper in a browser."""

@@ -1,10 +1,10 @@
-"""Five experiments for a class, two minutes each: a question, and what one should see."""
+"""Five experiments for a class, two minutes each, with a question and the expected observation."""
 
 from typing import NamedTuple
 
 
 class Experiment(NamedTuple):
-    """What the page sets (`link`, as in its address), what it asks, and what the run shows."""
+    """The settings of the page (`link`, as in its address), a question, and what the run shows."""
 
     title: str
     link: str

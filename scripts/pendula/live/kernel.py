@@ -1,4 +1,4 @@
-"""The page's solver: ode45 on (4) that keeps the whole state at every output, not moduli alone.
+"""The page's solver: ode45 on (4), which stores the full state at every output, not only moduli.
 
 The page then shows any time of a run without integrating again.
 
@@ -20,12 +20,12 @@ from latticode.simulation.observables import blank_record, observe_fields
 from pendula.models.amplitudes import AmplitudeChain, energy_with_scratch, rates
 
 ANY_PROCESSOR = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
-"""Variables that have numba compile for the features that all processors of a family share."""
+"""Environment variables with which numba compiles for all processors of a family."""
 
 
 @kernel
 def observe_states(chain, y, i, record):
-    """Keep the norms, the energy and all amplitudes of the state `y` at output `i`."""
+    """Store the norms, the energy and all amplitudes of the state `y` as output `i`."""
     observe_fields(chain, y, i, record)
     record.conserved[0, i] = energy_with_scratch(chain, y, record.scratch)
 
@@ -50,10 +50,10 @@ def compile_to_webassembly() -> bytes:
 
 
 def compile_for_any_processor() -> bytes:
-    """Return the WebAssembly that processors of all makes compile, byte by byte.
+    """Return the WebAssembly of the solver, with the same bytes on processors of all makes.
 
-    numba orders operations for one processor, which it chooses once in a process: so this starts a
-    Python of its own. Raises WebAssemblyError with the reason where that fails.
+    numba orders operations for one processor, chosen once per process. This function therefore
+    starts a separate Python process. Raises WebAssemblyError with the reason if that fails.
     """
     variables = os.environ | ANY_PROCESSOR | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     command = [sys.executable, "-m", __name__]

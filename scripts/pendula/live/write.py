@@ -1,6 +1,6 @@
 """The page on which a reader runs the cases of Figs 2 to 4, and compares the bits with these runs.
 
-A mark is a hash of all that a run keeps at one output time. `runs.js` makes the same of its own
+A mark is a hash of all values of a run at an output time. `runs.js` computes the marks of its own
 run, and the page reports the first time at which a bit differs.
 """
 
@@ -30,12 +30,12 @@ from .kernel import ODE45, compile_for_any_processor
 THIS_FOLDER = Path(__file__).parent
 SCRIPTS = "runs.js", "panels.js", "pictures.js", "words.js", "chart.js", "live.js"
 DATA = '<script type="application/json" id="data"'
-"""How the element begins that holds the page's data."""
+"""The opening tag of the element with the page's data."""
 LEVELS = 255
-"""The largest of the growth rates as the page has them."""
+"""The integer for the largest growth rate on the page."""
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
-"""Of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), which takes words here, not bytes. Any
-change of one word changes it."""
+"""Constants of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), here of words instead of bytes.
+Any change of one word changes the hash."""
 
 
 def write_live(runs: list[str], trust: str, chart: str, html: str) -> None:
@@ -100,7 +100,7 @@ def hash_outputs(run: xr.Dataset) -> np.ndarray:
 
 
 def _describe_solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what the page holds of its solver, with the controls of a trajectory's attributes."""
+    """Return the data of the page's solver, with the controls in a trajectory's attributes."""
     controls = {name: float(attributes[f"solver_{name}"]) for name in ODE45.controls}
     return {
         "code": _encode(compile_for_any_processor()),
@@ -111,7 +111,7 @@ def _describe_solver(attributes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _describe_case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
-    """Return what the page holds of a case; a time of `None` is not known."""
+    """Return the data of a case on the page; `None` is an unknown time."""
     attributes = run.attrs
     a, b = read_initial(attributes["initial"])[0]
     settings = {key: float(attributes[key]) for key in ("omega", "gamma", "epsilon", "end_time")}

@@ -59,7 +59,7 @@ class AmplitudeEquations(PaperEquations):
 
     @property
     def names(self) -> ResultNames:
-        """What datasets call the results."""
+        """Names and units of the results in datasets."""
         return ResultNames(
             ("A", "B"),
             title="Norms and energy",

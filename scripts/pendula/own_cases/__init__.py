@@ -1,5 +1,5 @@
-"""Checks, figures and a page for the cases and sweeps that a user brings.
+"""Checks, figures and a report for a user's cases and sweeps.
 
-This room stands above the studies and uses them, since a user has the questions of the studies:
-until when a run can be trusted, and what the theorems state about the case.
+This package imports functions of the studies: the horizon of trust of a run, and the theorems for
+its case.
 """

@@ -1,4 +1,4 @@
-"""What the checks of a user's case say, as questions with answers in words."""
+"""The checks of a user's case as questions and answers."""
 
 import numpy as np
 import xarray as xr
@@ -9,15 +9,14 @@ from replication.words import number, percent
 
 from pendula.problem import PENDULA
 
-# ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
-# more than this.
+# ASSUME: a bound is violated if the norms exceed it by more than their error and by more than this.
 SLACK = 1e-6
 TOO_LARGE = "broken: the errors of the run are too large"
 Answers = list[tuple[str, str]]
 
 
 def answer_questions(checks: xr.Dataset, moves: bool) -> Answers:
-    """Return questions and answers on a case; `moves` says whether any site does."""
+    """Return questions and answers on a case; `moves` is False if all sites stay at rest."""
     if checks.attrs.get("model") == PENDULA:
         specific, at_rest = _answer_for_pendula, []
     elif "model_text" in checks.attrs:
@@ -72,7 +71,7 @@ def _answer_for_model(checks: xr.Dataset) -> Answers:
 
 
 def describe_localised_state(checks: xr.Dataset) -> str:
-    """Return what the localised state of a model is like, or why there is none."""
+    """Return a description of the localised state of a model, or the reason why there is none."""
     if reason := checks.attrs.get("breather_refusal"):
         return f"none: {reason}"
     frequency, growth = (float(checks[f"breather_{name}"]) for name in ("frequency", "growth"))
@@ -89,7 +88,7 @@ def _answer_chaos(checks: xr.Dataset) -> tuple[str, str]:
 
 
 def _answer_lemma_1(checks: xr.Dataset) -> Answers:
-    """Return whether the chain at rest is stable, and of which chain the statements are."""
+    """Return whether the chain at rest is stable, and the chains to which the statements apply."""
     stable = {True: "unstable", False: "no growing mode"}
     rows = [
         ("Lemma 1, infinite chain at rest", stable[bool(checks["infinite_rate"] > 0)]),

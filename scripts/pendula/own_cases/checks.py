@@ -1,9 +1,9 @@
-"""Checks of a user's case: those of any run, and what the paper states about it.
+"""Checks of a user's case: those of any run, and the paper's statements about the case.
 
-Of the amplitudes these are Lemma 1 for the chain at rest, and the growth of Lemma 2 and Theorems 1
-to 3 for the trajectory. Of pendula the amplitude equations (4) are solved from the same data
-instead, and what the expansion (3) makes of them at the end is compared with the angles there. A
-pendulum that passes the top has left the range of (3) for good.
+For amplitudes these are Lemma 1 for the chain at rest, and the growth of Lemma 2 and Theorems 1 to
+3 for the trajectory. For pendula, the amplitude equations (4) are solved from the same data, and
+the angles of the expansion (3) at the end are compared with the run's. A pendulum that passes the
+top has left the range of (3) for good.
 """
 
 from collections.abc import Mapping
@@ -23,11 +23,11 @@ from pendula.studies.theory.bounds import NUMBERS, case_numbers
 
 TITLE = "A case beside the paper's statements"
 READ_VARIABLES: Mapping[str, tuple[str, ...]] = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
-"""What the statements read of a run beside its norms."""
+"""Variables of a run, besides its norms, that the checks read."""
 
 
 def compare_with_bounds(run: xr.Dataset) -> dict:
-    """Return the trajectory's numbers beside its bounds, and the theorem that covers it."""
+    """Return ratios of the trajectory to its bounds, and the theorem that applies to it."""
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no ratios
         numbers = case_numbers(run)
         margin = growth_margin(run["tau"].values, run["l2"].values, float(run.attrs["gamma"]))
@@ -52,7 +52,7 @@ def measure_rest(problem: PaperProblem) -> dict:
 
 
 def compare_with_statements(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
-    """Return what the paper states about a case, beside its trajectory."""
+    """Return the paper's statements about a case, compared with its trajectory."""
     return xr.Dataset.from_dict(
         table(TITLE, {}, **compare_with_bounds(run), **measure_rest(problem))
     )
@@ -95,7 +95,7 @@ def compare_with_expansion(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset
 def check_run(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
     """Return all checks of a case as one dataset, with the attributes of the case.
 
-    `run` is the trajectory that `simulate` made of `problem`.
+    `run` is the trajectory of `problem` by `simulate`.
     """
     if problem.model.name == PENDULA:
         return merged(run, run_again(problem, run), compare_with_expansion(problem, run))

@@ -29,12 +29,12 @@ SWING_CAPTION = (
 
 
 def naming_of(data: xr.Dataset) -> Naming:
-    """Return how titles write the constants; pendula start from amplitudes."""
+    """Return the constants as titles print them; pendula start from amplitudes."""
     return Naming(SYMBOLS, ("A", "B") if data.attrs.get("model") == PENDULA else ())
 
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
-    """Return the norms of a trajectory, beside the second run that its checks hold."""
+    """Return the norms of a trajectory, and of the second run in its checks."""
     drawn, attributes = runs.gather_norms(run, checks), run.attrs
     if attributes.get("model") != PENDULA:
         return drawn

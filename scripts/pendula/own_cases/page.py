@@ -1,4 +1,4 @@
-"""The report on a user's cases and sweeps: figures, what the checks say, and all datasets."""
+"""The report on a user's cases and sweeps: figures, results of the checks, and all datasets."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ def write_report(
 ) -> None:
     """Write the page `html` on `cases`, and on `sweeps` and `surveys` with the case of each.
 
-    Their `files` lie below its folder.
+    Their `files` are below the folder of the page.
     """
     folder, written = Path(html).parent, set(files)
     sections = [_case(name, folder, written) for name in cases]
@@ -35,12 +35,12 @@ def write_report(
 
 
 def write_table(data: str, table: str) -> None:
-    """Write the norms of a dataset, or what a survey kept, as CSV."""
+    """Write the norms of a dataset, or the quantities of a survey, as CSV."""
     save(table, read(data))
 
 
 def _table(path: str, folder: Path) -> list[str]:
-    """Return a line that leads to the table of a dataset, where there is one."""
+    """Return a line with a link to the table of a dataset, empty if there is none."""
     link = f"own/tables/{Path(path).with_suffix('.csv')}"
     line = Markup('The numbers as CSV: <a href="{0}">{0}</a>').format(link)
     return [line] if (folder / link).exists() else []

@@ -1,21 +1,21 @@
-"""Which files belong to the project: those that git tracks, or those that an archive listed."""
+"""The files of the project: those that git tracks, or those in the manifest of an archive."""
 
 import subprocess
 from pathlib import Path
 
 MANIFEST = "manifest-sha256.txt"
 METADATA = ("ro-crate-metadata.json", "configuration.yaml", MANIFEST)
-"""Files that an archive holds beside the project and its results; packing makes them anew."""
+"""Files that packing adds to the project and its results."""
 
 
 class ArchiveError(Exception):
-    """The project cannot be packed; the message says why, and what to do."""
+    """The project cannot be packed; the message has the reason and the way out."""
 
 
 def code_files(project: Path) -> list[str]:
-    """Return the files that git tracks or, in an unpacked archive, those that it listed.
+    """Return the files that git tracks or, in an unpacked archive, those in its manifest.
 
-    Raise ArchiveError if neither is known, or if a file is missing.
+    Raises ArchiveError if there is neither, or if a file is missing.
     """
     names = _tracked(project) if (project / ".git").exists() else _unpacked(project)
     if absent := [name for name in names if not (project / name).is_file()]:

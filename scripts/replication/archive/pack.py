@@ -1,8 +1,8 @@
-"""Pack the project and its results into one file to deposit, which is a Workflow RO-Crate 1.0.
+"""Archive of the project and its results for a repository, as a Workflow RO-Crate 1.0.
 
-The bytes of the archive depend on its members only, so that two people who pack the same files can
-compare one checksum. The library rocrate writes the time of the run where it is given no date, and
-random identifiers: so the root gets the date of the release, and each entity its identifier.
+The bytes of the archive depend only on its members, so that everyone who packs the same files gets
+the same checksum. By default the library rocrate writes the current time and random identifiers.
+The root therefore gets the date of the release, and each entity an identifier.
 """
 
 import gzip
@@ -32,7 +32,7 @@ FORMATS |= {".html": "text/html", ".md": "text/markdown", ".json": "application/
 
 
 class AliasFreeDumper(yaml.SafeDumper):
-    """Writes what occurs twice in a configuration twice, so that people can edit it."""
+    """A YAML writer without aliases: repeated values are written again, so that users can edit."""
 
     def ignore_aliases(self, data: object) -> bool:
         return True
@@ -54,11 +54,11 @@ def pack_results(
     checksum: str,
     configuration: dict,
 ) -> None:
-    """Write the archive of the project with `results`, and beside it its checksum.
+    """Write the archive of the project with `results`, and a file with its checksum.
 
-    `made_by` names the code that made the results, `configuration` is what they were made with.
+    `made_by` lists the code that made the results with the `configuration`.
     """
-    code = code_files(project.folder)  # first, for it names what is missing
+    code = code_files(project.folder)  # first, because it reports missing files
     if left := sorted(set(made_by) - set(code)):
         raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
     members = {name: project.folder / name for name in code} | {
@@ -81,8 +81,8 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
     data[MANIFEST] = "".join(lines).encode()
     with (
         open(archive, "wb") as raw,
-        # The compressed bytes also depend on the version of zlib, the files in them do not. Level 9
-        # would take twice the time for two thousandths of the size.
+        # The compressed bytes depend on the version of zlib, the files do not. Level 9 would take
+        # twice the time to save 0.2 % of the size.
         gzip.GzipFile("", "wb", 6, raw, mtime=PACKED_TIME) as zipped,
         tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
     ):
@@ -99,9 +99,9 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
 
 
 def describe(project: Project, members: dict[str, Path]) -> dict:
-    """Return ro-crate-metadata.json: the workflow, whom to cite, and each result.
+    """Return ro-crate-metadata.json: the workflow, its authors and citation, and each result.
 
-    Facts come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
+    The data come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
     """
     cited = yaml.safe_load((project.folder / "CITATION.cff").read_text("utf-8"))
     pinned = (project.folder / "environment.txt").read_text("utf-8")
@@ -145,7 +145,7 @@ def describe(project: Project, members: dict[str, Path]) -> dict:
 
 
 def _facts_of(name: str, members: dict[str, Path]) -> dict:
-    """Return facts on a result: of a dataset its title, of a figure the dataset that it shows."""
+    """Return the metadata of a result: the title of a dataset, the dataset of a figure."""
     path, data = members[name], Path(name).with_suffix(".nc").as_posix()
     facts = {"name": path.name, "encodingFormat": FORMATS.get(path.suffix, "text/plain")}
     if path.suffix == ".nc":

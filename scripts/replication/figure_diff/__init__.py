@@ -1,4 +1,4 @@
-"""Compares what a run made with the accepted baseline, and takes a run as the new baseline."""
+"""Comparison of the files of a run with the accepted baseline, and acceptance of a new baseline."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Status(StrEnum):
-    """What is found of a file; a person must look at the first ones first."""
+    """Results of the comparison of a file, the most serious first."""
 
     DIFFERENT, DAMAGED, MISSING, EXTRA = "different", "damaged", "missing", "extra"
     BEYOND, WITHIN, IDENTICAL = "beyond comparison", "within the tolerance", "identical"
@@ -19,7 +19,7 @@ class Status(StrEnum):
 
 
 class FileResult(NamedTuple):
-    """The finding for one file, which `name` gives by its path below results/."""
+    """The status of a file and its reason; `name` is the path below results/."""
 
     name: str
     status: Status
@@ -27,20 +27,20 @@ class FileResult(NamedTuple):
 
 
 class ComparisonResult(NamedTuple):
-    """What was found of all files, and in words by which measure they were judged."""
+    """The results of all files, and a sentence on the measure by which they were judged."""
 
     judged: str
     findings: Sequence[FileResult]
 
     @property
     def counts(self) -> dict[Status, int]:
-        """Return how many files have each status that occurs."""
+        """Return the number of files by status."""
         counted = Counter(found.status for found in self.findings)
         return {status: counted[status] for status in Status if counted[status]}
 
     @property
     def faults(self) -> int:
-        """Return how many files fail the comparison."""
+        """Return the number of files that fail the comparison."""
         return sum(found.status.is_fault for found in self.findings)
 
     @property

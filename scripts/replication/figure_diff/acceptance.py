@@ -1,4 +1,4 @@
-"""Takes a run, or some of its files, as the new baseline: a copy, which `git diff` shows."""
+"""Acceptance of a run, or of some of its files, as the new baseline: a copy under git."""
 
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
@@ -35,14 +35,14 @@ WAY_OUT = (
 
 
 class AcceptanceError(ValueError):
-    """Nothing was accepted; the message says why, and what to do."""
+    """Nothing was accepted; the message has the reason and the way out."""
 
     def __init__(self, why: object):
         super().__init__(f"nothing is accepted: {why}")
 
 
 def check(now: Mapping, accepted: Mapping, owner: str, way_out: str) -> None:
-    """Raise AcceptanceError unless a configuration or an environment is the wanted one."""
+    """Raise AcceptanceError unless a configuration or an environment equals the required one."""
     if differences := unlike_settings(accepted, now):
         listed = "; ".join(
             [*differences[:3], *([f"and {len(differences) - 3} more"] if differences[3:] else [])]
@@ -51,9 +51,9 @@ def check(now: Mapping, accepted: Mapping, owner: str, way_out: str) -> None:
 
 
 def choose(words: Sequence[str], names: Iterable[str]) -> list[str]:
-    """Return the files that words name: paths with or without ending, or figures; * is a wildcard.
+    """Return the files for words: paths with or without ending, or names of figures, with * too.
 
-    Raises AcceptanceError for a word that names nothing.
+    Raises AcceptanceError for a word that fits no file.
     """
     stems = {name: name.rpartition(".")[0] for name in sorted(names)}
     forms = {n: {n, stem, stem.removeprefix(FIGURES)} for n, stem in stems.items()}
@@ -111,7 +111,7 @@ def accept(
 def _require_declarations(
     contents: Mapping[str, bytes | xr.Dataset], configuration: Mapping[str, Any]
 ) -> None:
-    """Raise AcceptanceError for a variable that nobody could compare with the accepted one."""
+    """Raise AcceptanceError for a variable without the attributes that a comparison needs."""
     chaos = Chaos({}, cases=cases_of(configuration))
     for name, content in contents.items():
         if isinstance(content, xr.Dataset) and (unknown := chaos.undeclared(name, content)):
@@ -119,7 +119,7 @@ def _require_declarations(
 
 
 def _read(name: str, path: Path) -> bytes | xr.Dataset:
-    """Return what a file holds; raises DatasetError or AcceptanceError if it is damaged."""
+    """Return the content of a file; raises DatasetError or AcceptanceError if it is damaged."""
     if name.endswith(".nc"):
         data = read(path)
         if fault := fault_of_form(path, data):
@@ -137,7 +137,7 @@ def _read(name: str, path: Path) -> bytes | xr.Dataset:
 
 
 def _take(name: str, content: bytes | xr.Dataset, path: Path, copy: Path) -> str | dict[str, Any]:
-    """Keep what the file at `path` holds if the baseline keeps it, and return its hashes."""
+    """Store the content of a file if the baseline stores such files, and return its hashes."""
     if isinstance(content, bytes):
         if is_kept(name):
             with complete_or_absent(copy) as partial:
@@ -152,6 +152,6 @@ def _take(name: str, content: bytes | xr.Dataset, path: Path, copy: Path) -> str
 def accept_results(
     results: list[str], words: list[str], baseline: str, configuration: dict, made: str
 ) -> None:
-    """Put files of a run in the folder `made`, or those that `words` name, into `baseline`."""
+    """Accept into `baseline` the files of the run in the folder `made`, or those for `words`."""
     names = [Path(path).relative_to(made).as_posix() for path in results]
     print(accept(names, Path(made), Path(baseline), configuration, words))

@@ -1,8 +1,8 @@
-"""The accepted results in tests/baseline: what they hold, and how a run is compared with them.
+"""The accepted results in tests/baseline, and the comparison of a run with them.
 
-A file with the accepted hash is identical. In the environment that made the baseline any other is a
-fault, because the same code gives the same bits on every processor of a family. Elsewhere, or where
-any bits are asked for, it is compared with what the baseline keeps.
+A file with the accepted hash is identical. In the environment that made the baseline every other
+hash is an error, because the same code gives the same bits on every processor of a family. In other
+environments, or with bits=any, the file is compared with the stored copy.
 """
 
 import platform
@@ -35,15 +35,15 @@ RECORD = "hashes.json"
 """The environment and the configuration of the baseline, and the hashes of its files."""
 
 FILE_NAMES = re.compile(r"(?:[a-z_]+/)*(?!hashes\.json)[\w.]*\w\.(?:nc|json|md|html|yaml|png|pdf)")
-"""Names of the files of a run: below the folder of the results, in folders of words."""
+"""Pattern of the names of a run's files, paths below the folder of the results."""
 
 FIGURES, PICTURES = "figures/", (".png", ".pdf")
-"""The folder where each dataset has two pictures and a description of them beside it."""
+"""The folder of figures, each with a dataset, two pictures and a description."""
 
 
 @cache
 def environment() -> dict[str, dict[str, str]]:
-    """Return what decides the bits of data, and of drawings: versions, the family of processors."""
+    """Return the versions and the processor family that determine the bits of data and drawings."""
     zlibs = f"{zlib.ZLIB_RUNTIME_VERSION}, {features.version('zlib')}"
     drawing = {"freetype": ft2font.__freetype_version__, "zlib": zlibs}
     packages = {name: version(name) for name in ("numpy", "scipy", "numba", "llvmlite")}
@@ -54,8 +54,8 @@ def environment() -> dict[str, dict[str, str]]:
 def recorded(folder: Path) -> dict[str, Any]:
     """Return the record of a baseline, empty if there is none.
 
-    Raises DatasetError if it is damaged, or names what no run makes or what is not in `folder`: all
-    that it names is read, and removed once it is no longer made.
+    Raises DatasetError if it is damaged, or lists a file that no run makes or that lies outside
+    `folder`, since listed files are read, and deleted once they are obsolete.
     """
     if not (folder / RECORD).exists():
         return {"environment": {}, "configuration": {}, "files": {}}
@@ -68,12 +68,12 @@ def recorded(folder: Path) -> dict[str, Any]:
 
 
 def is_kept(name: str) -> bool:
-    """Return whether the baseline keeps a file: no PDF and no report."""
+    """Return whether the baseline stores a copy of a file; of PDFs and pages it has only hashes."""
     return not name.endswith((".pdf", ".html"))
 
 
 def fault_of_kept(name: str, accepted: Mapping[str, Any], folder: Path) -> str:
-    """Return the fault of the copy of a file in the baseline, or an empty text."""
+    """Return what is wrong with a file's copy in the baseline; empty if nothing is."""
     if name not in accepted or not (folder / name).exists():
         return "is missing"
     record = accepted[name]
@@ -90,10 +90,10 @@ def compare(
     trust: Trust | None = None,
     any_bits: bool = False,
 ) -> ComparisonResult:
-    """Return a finding for each file of `names` below `results` or in the baseline alone.
+    """Return the result for each file in `names`, below `results`, or in the baseline only.
 
-    `trust` names the dataset that says until when chaotic cases are known. With `any_bits` numbers
-    have a tolerance.
+    `trust` describes the dataset with the horizons of trust. With `any_bits` numbers have a
+    tolerance.
     """
     try:
         record = recorded(folder)
@@ -122,7 +122,7 @@ def compare(
 
 
 class Comparison:
-    """A run beside its baseline, and what was found of each file."""
+    """The comparison of a run with its baseline, with the results so far."""
 
     def __init__(self, record: Mapping, made: Path, folder: Path, trust: Trust | None = None):
         self.accepted, self.made, self.folder = record["files"], made, folder
@@ -136,13 +136,13 @@ class Comparison:
         self.found: dict[str, FileResult] = {}
 
     def look_at_all(self, names: set[str]) -> list[FileResult]:
-        """Return the findings; datasets come first, since they decide about texts and pictures."""
+        """Return the results; datasets come first, since texts and pictures depend on them."""
         for name in sorted(names | self.accepted.keys(), key=place):
             self.look_at(name, name in names)
         return list(self.found.values())
 
     def look_at(self, name: str, is_made: bool = True) -> FileResult:
-        """Return the finding for one file, and keep it for those that follow."""
+        """Return the result for a file, and store it for files that depend on it."""
         self.found[name] = FileResult(name, *self._judge(name, is_made))
         return self.found[name]
 
@@ -186,7 +186,7 @@ class Comparison:
     def _without_content(
         self, name: str, new_hashes: list[str], accepted: list[str], follows_chaos: bool
     ) -> tuple[Status, str]:
-        """Return the status of a file of which the baseline keeps hashes alone (`hash_of`)."""
+        """Return the status of a file of which the baseline has only hashes (see `hash_of`)."""
         reason = "is not the accepted one, of which the baseline keeps the hash alone"
         if len(new_hashes) == 1:  # a PDF
             may_be = follows_chaos or not self.same_drawing
@@ -204,7 +204,7 @@ class Comparison:
         return result.status if result else Status.MISSING
 
     def strictly(self, result: FileResult, any_bits: bool) -> FileResult:
-        """Return the finding as a fault where only the accepted bits are right."""
+        """Return the result, as a failure if only the accepted bits are correct."""
         if result.status not in (Status.WITHIN, Status.BEYOND):
             return result
         strict = self.same_data and not any_bits
@@ -219,12 +219,12 @@ class Comparison:
 
 
 def place(name: str) -> tuple[bool, ...]:
-    """Return by what a file is sorted: each kind after those that it follows."""
+    """Return the sorting key of a file: files come after those that they depend on."""
     return name.endswith(PICTURES), not name.endswith(".nc"), name.startswith(FIGURES)
 
 
 def unlike_settings(was: Any, now: Any, place: str = "") -> list[str]:
-    """Return in words how two configurations differ, each entry by its dotted path."""
+    """Return a phrase for each difference of two configurations, with its dotted path."""
     if isinstance(was, Mapping) and isinstance(now, Mapping):
         differences = []
         for key in dict.fromkeys([*was, *now]):

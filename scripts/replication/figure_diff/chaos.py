@@ -1,9 +1,9 @@
-"""Which numbers rest on chaos, and how far they may be off in a right run.
+"""Chaotic numbers, and their allowed errors in a correct run.
 
-The accepted run says it: a run whose only errors are roundings leaves the reference by a part of
-full scale (`Trust`). Those of any right run are smaller than that over MARGIN. The horizon of trust
-is the time at which this reaches the tolerance; a case without one is regular. From then on a
-number is the less known the later it is, until nothing of it is.
+The accepted run has the error of a run with rounding errors alone, relative to full scale, as a
+function of time (`Trust`). A correct run may have this error over MARGIN. The horizon of trust is
+the time at which it reaches the tolerance; a case without a horizon is regular. After the horizon
+the allowed error grows with time, until any value is allowed.
 """
 
 import re
@@ -20,10 +20,10 @@ from replication.variables import ALONG, ALWAYS, BY_CASE, CHAOS, NO, YES
 from .hashes import are_words
 
 TOLERANCE = 1e-6
-"""How far a number may be off, as a part of the largest: single precision alone gives 6e-8."""
+"""Allowed error of a number relative to the largest; single precision alone has 6e-8."""
 
 ROUNDING = 1e-8
-"""A variable with nothing larger holds errors of rounding, of which no digit can be compared."""
+"""A variable whose values are all smaller holds rounding errors, whose digits are arbitrary."""
 
 MARGIN = 0.001
 """Other solvers round ten times as often as that run, or more, and roundings add up."""
@@ -49,12 +49,12 @@ class Trust(NamedTuple):
 
 
 class Chaos(NamedTuple):
-    """What is known of chaos in the accepted run."""
+    """The horizons of trust and the allowed errors of the accepted run."""
 
     horizons: Mapping[str, float]
     """The horizon of trust of each chaotic case, and -inf for each sweep over one, by name."""
     errors: Mapping[str, tuple[np.ndarray, np.ndarray]] = {}
-    """By the name of a chaotic case, times, and what a right run may be off until each of them."""
+    """By chaotic case: times, and the allowed error of a correct run until each of them."""
     cases: Mapping[str, Mapping[str, Any]] = {}
     """The parameters of each case of the configuration, and none for a sweep, by name."""
     time: str = "time"
@@ -79,7 +79,7 @@ class Chaos(NamedTuple):
         return self._of_cases(variable, data, name.removesuffix(".nc"), chaos == ALWAYS)
 
     def undeclared(self, name: str, data: xr.Dataset) -> list[str]:
-        """Return the variables of which nobody knows whether they rest on chaos.
+        """Return the variables that are not declared chaotic or regular.
 
         They have no attribute, and the dataset is of no case of the configuration.
         """
@@ -128,7 +128,7 @@ class Chaos(NamedTuple):
         return freedom
 
     def _until(self, case: str, times: np.ndarray | float) -> np.ndarray:
-        """Return how far the numbers of a case may be off at these times."""
+        """Return the allowed errors of the numbers of a case at these times."""
         tau, error = self.errors.get(case, (np.zeros(1), np.full(1, np.inf)))
         at = np.searchsorted(tau, times).clip(max=len(tau) - 1)
         return np.where(np.asarray(times) < self.horizons[case], 0.0, error[at])
@@ -148,7 +148,7 @@ def cases_of(configuration: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
 
 
 def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | None) -> Chaos:
-    """Return what the baseline in `folder`, of this configuration, says of chaos.
+    """Return the chaos of the baseline in `folder`, which is of this configuration.
 
     The section `cases` of the configuration holds parameters by name, `sweeps` the case of each.
     """
@@ -165,7 +165,7 @@ def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | N
 
 
 def _growing_errors(folder: Path, trust: Trust) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """Yield each case, its times, and how far right runs may be off until each of them."""
+    """Yield each case with its times, and the allowed errors until each of them."""
     data = read(folder / trust.dataset)
     difference = data[trust.variable].sel(trust.labels).transpose("case", trust.time)
     grown = np.maximum.accumulate(difference.fillna(0.0).values, axis=1) / MARGIN

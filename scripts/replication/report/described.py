@@ -1,4 +1,4 @@
-"""What files of a run say of themselves: captions of figures, and contents of datasets."""
+"""Captions of figures and contents of datasets, from the attributes of a run's files."""
 
 import re
 import struct
@@ -12,15 +12,15 @@ from latticode.datasets.netcdf import readable
 from replication.words import number
 
 WORDS = 300
-"""The page shows the beginning of a longer attribute, such as a model's text."""
+"""Longer attributes, such as a model's text, are cut off on the page."""
 SIZE_OF_PNG = slice(16, 24)
-"""The bytes that hold width and height."""
+"""The bytes of a PNG with its width and height."""
 SHARED = {"Conventions", "version", "history"}
 """Attributes that are the same in every dataset of a run."""
 
 
 class DescribedFigure(NamedTuple):
-    """A figure; `stem` is where its files are, seen from the page, without their endings."""
+    """A figure; `stem` is the path of its files relative to the page, without their endings."""
 
     stem: str
     caption: str
@@ -40,7 +40,7 @@ class DescribedFigure(NamedTuple):
 
 
 class DescribedVariable(NamedTuple):
-    """A variable of a dataset in words."""
+    """The description of a variable of a dataset."""
 
     name: str
     meaning: str
@@ -49,7 +49,7 @@ class DescribedVariable(NamedTuple):
 
 
 class DescribedDataset(NamedTuple):
-    """A dataset in words; `link` is where it is, seen from the page."""
+    """The description of a dataset; `link` is its path relative to the page."""
 
     link: str
     title: str
@@ -58,7 +58,7 @@ class DescribedDataset(NamedTuple):
 
 
 def figure(path: Path, page: Path) -> DescribedFigure:
-    """Return the figure whose dataset is at `path`, beside its picture, for a page in `page`."""
+    """Return the figure with the dataset at `path`, for a page in the folder `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
         caption = data.caption
     with path.with_suffix(".png").open("rb") as picture:
@@ -68,7 +68,7 @@ def figure(path: Path, page: Path) -> DescribedFigure:
 
 
 def dataset(path: Path, page: Path) -> DescribedDataset:
-    """Return what the dataset at `path` says, for a page in the folder `page`."""
+    """Return the description of the dataset at `path`, for a page in the folder `page`."""
     with readable(path), netCDF4.Dataset(path) as data:
         raw_attributes = {name: value for name, value in vars(data).items() if name not in SHARED}
         variables = [_variable(variable) for variable in data.variables.values()]

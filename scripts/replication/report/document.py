@@ -20,7 +20,7 @@ from .described import DescribedDataset, DescribedFigure, dataset, figure
 from .page import FOLDER, render, script_of_report
 
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
-"""Claims with these verdicts are folded; readers look for the others first."""
+"""Claims with these verdicts are folded, because readers look for the others first."""
 PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2")
 
 
@@ -66,10 +66,10 @@ def write_report(
     differs: Mapping[str, str],
     html: str,
 ) -> None:
-    """Write the page `html` on the files of a run, which lie beside it in folders.
+    """Write the page `html` on the files of a run, which are in folders next to it.
 
-    `figures` are the paths of their datasets, each beside its picture. `differs` says where the
-    configuration is not the paper's.
+    `figures` are the paths of their datasets, each next to its picture. `differs` holds the
+    differences of the configuration from the paper's.
     """
     folder, rows = Path(html).parent, load_json(ledger)["rows"]
     described = {Path(path).stem: figure(Path(path), folder) for path in figures}
