@@ -17,7 +17,10 @@ ALLOWED = {
     ("localised/breathers.py", "@"): "what is found is rounded before it is stored",
     ("equations/model.py", "**"): "a bound of the rates, from which the cost is estimated",
     ("equations/model.py", "@"): "the same",
-    ("configuration/cost.py", "**"): "what a run will take is an estimate that is told to people",
+    ("equations/graph.py", "@"): "values that NumPy computes for the same bound; runs sum in order",
+    ("equations/symbols.py", "**"): "a number to the power of a parameter, which the graph writes",
+    ("integrators/method.py", "**"): "how long a run will take, an estimate for people",
+    ("integrators/methods/crank_nicolson.py", "**"): "the same",
     ("numerics/elementary.py", "**"): "powers of Decimal, by its own arithmetic",
 }
 """What a module may use, with the reason."""
