@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import xarray as xr
 from latticode.datasets.netcdf import read
 
 
@@ -16,12 +17,14 @@ class Results:
     `differs` holds the differences of the configuration from the paper's, in words by path.
     """
 
-    def __init__(self, files: Iterable[str], page: str, differs: Mapping[str, str] | None = None):
+    def __init__(
+        self, files: Iterable[str], page: str, differs: Mapping[str, str] | None = None
+    ) -> None:
         self.differs = differs or {}
         self._paths = {link_to(path, page): Path(path) for path in files}
         self._read = {}
 
-    def __getitem__(self, name: str):
+    def __getitem__(self, name: str) -> xr.Dataset:
         """Return a dataset such as "checks/lyapunov"."""
         if name not in self._read:
             self._read[name] = read(self.path(f"{name}.nc"))

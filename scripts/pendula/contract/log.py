@@ -57,7 +57,7 @@ PACKAGES = ("pendula", "latticode", "replication")
 class _Output:
     """Standard output and error of a job: the screen, and a log, which may fail on a full disk."""
 
-    def __init__(self, screen: TextIO, path: str):
+    def __init__(self, screen: TextIO, path: str) -> None:
         self.screen, self.file = screen, None
         with suppress(OSError):
             self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115, closed by `close`
@@ -129,7 +129,7 @@ def run(body: Callable[[Any], None], snakemake: Any) -> None:
 class Progress:
     """Logs how many runs of a study are done, and the time that is left."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.start = time.monotonic()
 
     def __call__(self, done: int, count: int) -> None:

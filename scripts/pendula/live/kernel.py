@@ -24,7 +24,7 @@ ANY_PROCESSOR = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
 
 
 @kernel
-def observe_states(chain, y, i, record):
+def observe_states(chain: AmplitudeChain, y: np.ndarray, i: int, record: ObservableRecord) -> None:
     """Store the norms, the energy and all amplitudes of the state `y` as output `i`."""
     observe_fields(chain, y, i, record)
     record.conserved[0, i] = energy_with_scratch(chain, y, record.scratch)

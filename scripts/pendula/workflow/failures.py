@@ -46,7 +46,7 @@ NO_REASON = "no reason found: its log may be lost, or the system killed it (out 
 class Errors(logging.Handler):
     """Collects Snakemake's errors, which `--quiet` or a full disk may keep out of its own log."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__(logging.ERROR)
         self.setFormatter(DefaultFormatter())
         self.text = ""

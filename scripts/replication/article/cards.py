@@ -92,7 +92,7 @@ def functions_of(cards: Iterable[Card]) -> list[Code]:
 class Cards:
     """The sources of what the article prints, in the order in which it does."""
 
-    def __init__(self, results: Results, long_studies: LongStudies):
+    def __init__(self, results: Results, long_studies: LongStudies) -> None:
         self.results, self.long_studies = results, long_studies
         self._printed: dict[str, list[Printed]] = {}
         self._claims = {row["name"]: row for row in load(results)}

@@ -42,7 +42,7 @@ FUNCTIONS = (
 class Numbers:
     """Numbers of a run: `of` datasets, or measured for claims (`n`), also in per cent."""
 
-    def __init__(self, results: Results):
+    def __init__(self, results: Results) -> None:
         self.results, self.rows = results, load(results)
         self._claims = {row["name"]: row for row in self.rows}
 

@@ -37,7 +37,7 @@ WAY_OUT = (
 class AcceptanceError(ValueError):
     """Nothing was accepted; the message has the reason and the way out."""
 
-    def __init__(self, why: object):
+    def __init__(self, why: object) -> None:
         super().__init__(f"nothing is accepted: {why}")
 
 

@@ -124,7 +124,9 @@ def compare(
 class Comparison:
     """The comparison of a run with its baseline, with the results so far."""
 
-    def __init__(self, record: Mapping, made: Path, folder: Path, trust: Trust | None = None):
+    def __init__(
+        self, record: Mapping, made: Path, folder: Path, trust: Trust | None = None
+    ) -> None:
         self.accepted, self.made, self.folder = record["files"], made, folder
         was, now = record["environment"], environment()
         self.same_data, self.same_drawing = was.get("data") == now["data"], was == now

@@ -45,7 +45,7 @@ class Limit(Criterion):
 
     sign: str
 
-    def __init__(self, limit: SupportsFloat, *names: str, label: str = ""):
+    def __init__(self, limit: SupportsFloat, *names: str, label: str = "") -> None:
         self.limit, self.names, self.label = float(limit), names, label
 
     def is_within(self, value: float) -> bool:
@@ -121,7 +121,7 @@ class WithinFactor(Below):
 class Near(Limit):
     """Each number differs from `target` by no more than the limit."""
 
-    def __init__(self, target: float, limit: SupportsFloat, *names: str, label: str = ""):
+    def __init__(self, target: float, limit: SupportsFloat, *names: str, label: str = "") -> None:
         super().__init__(limit, *names, label=label)
         self.target = float(target)
 
@@ -140,7 +140,7 @@ class Near(Limit):
 class AllOf(Criterion):
     """Several criteria; every single one must hold."""
 
-    def __init__(self, *criteria: Criterion):
+    def __init__(self, *criteria: Criterion) -> None:
         self.names = tuple(
             dict.fromkeys(name for criterion in criteria for name in criterion.names)
         )

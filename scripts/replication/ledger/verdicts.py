@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from replication.differences import NO_DIFFERENCES, Differences
 
@@ -41,7 +42,7 @@ def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
 
-    def replace(name: str, wrong: Wrong):
+    def replace(name: str, wrong: Wrong) -> Any:
         if isinstance(wrong, str):
             return sources[wrong]
         if isinstance(wrong, tuple):
