@@ -51,10 +51,7 @@ def in_words(
 
 
 def lines_of(error: ValidationError, root: type[BaseModel], place: tuple = ()) -> list[str]:
-    """Return one message per error, preceded by its path below `place`.
-
-    `root` is the model of the configuration to which the paths belong.
-    """
+    """Return one message per error, each with its path below `place` in the model `root`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
     return [  # a line of a user's file, which is quoted below an error, belongs to it

@@ -100,10 +100,7 @@ or the opposite end (of opposite sign if antiperiodic); MIRROR is site 0 of half
 
 
 def kind_of(boundary: str) -> int:
-    """Return the number under which kernels know the ends named `boundary`.
-
-    Raises ValueError for ends that no kernel implements.
-    """
+    """Return the number of these ends in kernels; raises ValueError if no kernel has them."""
     kinds = {
         (None, 1.0): DIRICHLET,
         ((0, -1), 1.0): FREE,

@@ -256,8 +256,7 @@ def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) 
 def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
     """Return the leaves of the nodes and the function from leaf values to node values.
 
-    The function is compiled from source code, because walking the graph would take most of the
-    time of repeated evaluations.
+    It is compiled from source: walking the graph would dominate repeated evaluations.
     """
     order = in_order(nodes)
     names = {entry: f"v{i}" for i, entry in enumerate(order)}

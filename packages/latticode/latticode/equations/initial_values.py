@@ -88,10 +88,7 @@ class InitialValueProblem:
         return cls(**{**values, "initial": initial, "model": model})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values; `initial` is {site: (A, B)} of the moving sites.
-
-        The model is stored as its graph: jobs need not run the user's code.
-        """
+        """Return the problem as plain values, with its data by site and its model as a graph."""
         counted = {} if self.site_count is None else {"site_count": self.site_count}
         return {
             "half_width": self.half_width,

@@ -36,8 +36,6 @@ ARRAYS = (
 )
 LONGEST_SHIFT = 7
 """The largest distance in sites to a neighbour: it must lie in the next vector of eight sites."""
-
-
 BRANCH = (
     "a comparison or a branch uses a symbol, which has no value yet; write max(a, b), "
     "where(x > 0, a, b), abs(x) or sign(x) of latticode"

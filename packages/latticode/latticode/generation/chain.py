@@ -14,13 +14,15 @@ A `chain` is what a model takes for its parameters, with the kinds of its two en
 `right`.
 """
 
+from collections.abc import Callable
+
 from latticode.equations.ends import ANTIPERIODIC, FREE, MIRROR, PERIODIC
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import LANES, vector_views
 
 
 @kernel
-def close(chain, y):
+def close(chain, y) -> None:
     """Fill the ghost columns of `y` with what the ends of the chain see.
 
     A site next to a free end sees its own value, so that its bond vanishes. A mirror stands at
@@ -47,7 +49,7 @@ def close(chain, y):
 
 
 @kernel
-def seen_at(chain, site, sites):
+def seen_at(chain, site, sites) -> int:
     """Return the site, counted from 0, whose value stands at `site`; -1 where one at rest does."""
     if 0 <= site < sites:
         return site
@@ -60,14 +62,14 @@ def seen_at(chain, site, sites):
 
 
 @kernel
-def sign_at(chain, site, sites):
+def sign_at(chain, site, sites) -> float:
     """Return the factor of the value that stands at `site`, counted from 0."""
     outside = site < 0 or site >= sites
     return -1.0 if outside and chain.left == ANTIPERIODIC else 1.0
 
 
 @kernel
-def widen(chain, y, wide):
+def widen(chain, y, wide) -> None:
     """Write the rows of `y` into `wide`, which has more ghost columns, and fill these."""
     sites = y.shape[1] - 2
     reach = (wide.shape[1] - sites) // 2
@@ -79,7 +81,7 @@ def widen(chain, y, wide):
 
 
 @kernel
-def unfold(chain, y, wide):
+def unfold(chain, y, wide) -> None:
     """Write the rows of `y`, which may be half of an even chain, into `wide`.
 
     This has all sites of the chain and as many more at each end, which are filled.
@@ -93,7 +95,7 @@ def unfold(chain, y, wide):
 
 
 @inlined_by_llvm
-def sum_from_middle(terms):
+def sum_from_middle(terms) -> float:
     """Return the sum of a row (column,) of the whole chain, from its middle outwards.
 
     The sites n and -n come together, so that even data and their reflection have the same bits.
@@ -106,18 +108,18 @@ def sum_from_middle(terms):
 
 
 @inlined_by_llvm
-def modulus2(y, re, j):
+def modulus2(y, re, j) -> float:
     """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
     return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
 
 
 @kernel
-def can_be_tiled(chain):
+def can_be_tiled(chain) -> bool:
     """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""
     return chain.left != PERIODIC and chain.left != ANTIPERIODIC
 
 
-def at_every_site(rule, rows=2):
+def at_every_site(rule, rows=2) -> Callable:
     """Return the function that applies `rule(chain, states, re, j, dy)` to all sites.
 
     It goes through both components, or takes so many `rows` at once, a vector of sites at a time

@@ -118,7 +118,7 @@ def load_series(model: Model) -> ModuleType:
     )
 
 
-def load_rule(rates: tuple[Node, ...], *states: str):
+def load_rule(rates: tuple[Node, ...], *states: str) -> Callable:
     """Return the function (system, states, re, j, dy) that writes the rates at one site.
 
     See `rate_rules.rule_text`.

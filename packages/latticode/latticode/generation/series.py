@@ -8,6 +8,8 @@ neighbours are summed as in the right-hand sides, and so half of an even chain h
 whole.
 """
 
+from collections.abc import Callable
+
 from latticode.equations.ends import ANTIPERIODIC, PERIODIC
 from latticode.integrators.taylor import (
     BLOCK_SIZE,
@@ -31,13 +33,13 @@ from .chain import seen_at, sign_at
 
 
 @inlined_by_llvm
-def place_of(chain, series, site):
+def place_of(chain, series, site) -> int:
     """Return where from the start of an order a site lies that stands for `site`; -1 if at rest."""
     at = seen_at(chain, site, (series.blocks - 1) * LANES + series.sites_in_last)
     return at // LANES * BLOCK_SIZE + at % LANES if at >= 0 else -1
 
 
-def close_ends(reach):
+def close_ends(reach) -> Callable:
     """Return what fills ghosts and padding of an order where equations look `reach` sites far."""
 
     @inlined_by_llvm
@@ -75,7 +77,7 @@ def close_ends(reach):
 
 
 @inlined_by_llvm
-def sides_of(series, k, component, block):
+def sides_of(series, k, component, block) -> tuple[int, int, int]:
     """Return where a block begins at order `k`, and where the blocks, or ghosts, beside it do."""
     u = block_start(series, component, block) + k * ORDER_STRIDE
     ghosts = ghosts_start(series, component)
@@ -92,7 +94,7 @@ GROUP = 8
 """Blocks that take an order together: with those that lag behind them they fit into the cache."""
 
 
-def in_waves(write_next_order, reach, everywhere=False):
+def in_waves(write_next_order, reach, everywhere=False) -> Callable:
     """Return the function that continues a series, given the rule for one order of some blocks.
 
     write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 of the

@@ -65,7 +65,7 @@ class Couplings(NamedTuple):
 
 
 @kernel
-def multiply_by_matrix(couplings, matrix, factors, products, first):
+def multiply_by_matrix(couplings, matrix, factors, products, first) -> None:
     """Write a matrix times the flat `factors` into `products`, whose sites begin at `first`."""
     sites = couplings.starts.shape[1] - 1
     if couplings.dense.shape[1] == sites and couplings.dense.shape[0] > matrix:
@@ -130,7 +130,7 @@ def _reduced(x):
 
 
 @inlined_by_llvm
-def sine_and_cosine(x):
+def sine_and_cosine(x) -> tuple:
     """Return sin x and cos x with errors of some 1e-16, for angles of up to thousands of turns."""
     s, c, odd, sign = _reduced(x)
     even = 1.0 - odd * odd
@@ -158,7 +158,7 @@ def exponential(x):
 
 
 @inlined_by_llvm
-def logarithm_and_inverse(x):
+def logarithm_and_inverse(x) -> tuple:
     """Return log(x), with an error of some 1e-16, and 1 / x, for normal x > 0; else NaN."""
     k = whole_exponent(x)
     half = _nearest_integer(0.5 * k)
@@ -174,7 +174,7 @@ def logarithm_and_inverse(x):
 
 
 @inlined_by_llvm
-def root_and_inverse(x):
+def root_and_inverse(x) -> tuple:
     """Return the square root of x and its inverse."""
     root = square_root(x)
     return root, 1.0 / root

@@ -71,10 +71,7 @@ def _is_private(place: Path | int) -> bool:
 
 
 def keep_source(name: str, text: str) -> Path:
-    """Return the path of a generated module in a folder named by the hash of its text.
-
-    The file is not written if the cache is switched off.
-    """
+    """Return the path of a generated module, named by its text; not written without a cache."""
     root = kept_in()
     file = (root or Path("generated")) / "sources" / _digest(text) / name
     if root and (not file.exists() or file.read_text(encoding="utf-8") != text):
@@ -102,10 +99,7 @@ def _write(file: Path, content: bytes) -> None:
 
 
 def folder_of(function: Callable, root: Path | None) -> Path | None:
-    """Return the folder of a function's module below `root`; None if there is no root.
-
-    Its name contains a hash of the module, all its imports and the compiler.
-    """
+    """Return the folder of a module, named by a hash of its code, imports and the compiler."""
     module = Path(function.__code__.co_filename).resolve()
     return root and root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
 

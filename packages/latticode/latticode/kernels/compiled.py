@@ -65,27 +65,20 @@ def kernel(function: Callable) -> Callable:
 
 
 def uncached(function: Callable) -> Callable:
-    """Return the compiled closure, such as a solver built around its rates.
+    """Return a compiled closure, such as a solver built around its rates.
 
-    Its code is cached with the kernel that calls it, because the text of a closure does not
-    identify it.
+    It is cached with the kernel that calls it, because its text does not identify a closure.
     """
     return _compiled(function)
 
 
 def inlined_by_numba(function: Callable) -> Callable:
-    """Return a function whose statements replace its calls before compilation.
-
-    A closure with only one caller is then not compiled a second time.
-    """
+    """Return a function inlined before compilation: its only caller need not compile it twice."""
     return _compiled(function, inline="always")
 
 
 def inlined_by_llvm(function: Callable) -> Callable:
-    """Return a function whose instructions replace its calls after compilation.
-
-    A real call would spill vectors from registers into memory.
-    """
+    """Return a function inlined after compilation: a call would spill vectors into memory."""
     return _compiled(function, forceinline=True)
 
 

@@ -38,6 +38,7 @@ changed order of operations.
 """
 
 import operator
+from collections.abc import Callable
 
 import numpy as np
 from llvmlite import ir
@@ -84,17 +85,17 @@ class VectorModel(models.PrimitiveModel):
         super().__init__(manager, fe_type, VECTOR)
 
 
-def constant(kind, values):
+def constant(kind, values) -> ir.Constant:
     return ir.Constant(ir.VectorType(kind, LANES), list(values))
 
 
-def address_in_array(context, builder, array_type, array, index):
+def address_in_array(context, builder, array_type, array, index) -> ir.Value:
     """Return the address of the vector that starts at the flat `index` of an array."""
     data = cgutils.create_struct_proxy(array_type)(context, builder, array).data
     return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
 
 
-def repeat(builder, number):
+def repeat(builder, number) -> ir.Value:
     """Return the vector that holds a number, or a whole number, in all lanes."""
     nothing = ir.Constant(ir.VectorType(number.type, LANES), ir.Undefined)
     first_lane = builder.insert_element(nothing, number, LANE(0))
@@ -102,7 +103,7 @@ def repeat(builder, number):
 
 
 @intrinsic
-def fill(typing_context, number):
+def fill(typing_context, number) -> tuple:
     """Return the number in all lanes."""
 
     def generate(context, builder, signature, arguments):
@@ -112,7 +113,7 @@ def fill(typing_context, number):
 
 
 @intrinsic
-def load(typing_context, array, index):
+def load(typing_context, array, index) -> tuple:
     """Return LANES numbers of a contiguous array from the flat `index` on; nothing is checked."""
 
     def generate(context, builder, signature, arguments):
@@ -123,7 +124,7 @@ def load(typing_context, array, index):
 
 
 @intrinsic
-def store(typing_context, array, index, value):
+def store(typing_context, array, index, value) -> tuple:
     """Write LANES numbers into a contiguous array from the flat `index` on; nothing is checked."""
 
     def generate(context, builder, signature, arguments):
@@ -138,7 +139,7 @@ def store(typing_context, array, index, value):
 # --- Arithmetic, lane by lane -------------------------------------------------------------------
 
 
-def define_operator(symbol, instruction):
+def define_operator(symbol, instruction) -> None:
     """Define an operator of two vectors, or of a vector and a number, by an instruction of LLVM."""
 
     @type_callable(symbol)
@@ -169,16 +170,16 @@ define_operator(operator.truediv, "fdiv")
 
 
 @type_callable(operator.neg)
-def type_of_negative(context):
+def type_of_negative(context) -> Callable:
     return lambda value: vector if value == vector else None
 
 
 @lower_builtin(operator.neg, vector)
-def negate(context, builder, signature, arguments):
+def negate(context, builder, signature, arguments) -> ir.Value:
     return builder.fneg(arguments[0])
 
 
-def of_either(generated):
+def of_either(generated) -> Callable:
     """Return a function of a vector or of one number, lane by lane, by instructions of LLVM.
 
     generated(builder, value, wide) writes them, where wide(one) is a constant of as many lanes.
@@ -202,7 +203,7 @@ def of_either(generated):
     return function
 
 
-def call_llvm(builder, name, value):
+def call_llvm(builder, name, value) -> ir.Value:
     """Return a function of LLVM of a vector or of one number."""
     suffix = "v8f64" if value.type == VECTOR else "f64"
     kind = ir.FunctionType(value.type, [value.type])
@@ -211,13 +212,13 @@ def call_llvm(builder, name, value):
 
 
 @of_either
-def square_root(builder, value, wide):
+def square_root(builder, value, wide) -> ir.Value:
     """Return the square root, which is rounded alike everywhere; NaN below zero."""
     return call_llvm(builder, "sqrt", value)
 
 
 @of_either
-def power_of_two(builder, value, wide):
+def power_of_two(builder, value, wide) -> ir.Value:
     """Return 2^k of a whole number k, as if k were within -1022..1023."""
     double = ir.DoubleType()
     for limit, compare in ((double(1023.0), ">"), (double(-1022.0), "<")):
@@ -230,7 +231,7 @@ def power_of_two(builder, value, wide):
 
 
 @of_either
-def whole_exponent(builder, value, wide):
+def whole_exponent(builder, value, wide) -> ir.Value:
     """Return the k of x = m 2^k with m from sqrt(1/2) to sqrt(2), for normal x > 0."""
     integer_type = BITS if value.type == VECTOR else INT64
     bits = builder.bitcast(value, integer_type)
@@ -240,7 +241,7 @@ def whole_exponent(builder, value, wide):
 
 
 @intrinsic
-def select_positive(typing_context, condition, if_positive, otherwise):
+def select_positive(typing_context, condition, if_positive, otherwise) -> tuple:
     """Return `if_positive` where the condition is positive, `otherwise` elsewhere, by lane.
 
     Each is a vector or a number; the result is a vector where one of them is.
@@ -268,7 +269,7 @@ TINY = 1e-150
 
 
 @intrinsic
-def zero_below(typing_context, level, value):
+def zero_below(typing_context, level, value) -> tuple:
     """Return a number, or a vector lane by lane, with zero where its size is below `level`.
 
     NaN stays.
@@ -290,7 +291,7 @@ def zero_below(typing_context, level, value):
 # --- What passes between the lanes --------------------------------------------------------------
 
 
-def define_shift(first):
+def define_shift(first) -> Callable:
     """Return the function that takes LANES lanes in a row, from `first` on, of two vectors."""
 
     @intrinsic
@@ -310,7 +311,7 @@ left_neighbours = define_shift(LANES - 1)
 
 
 @intrinsic
-def keep_lanes(typing_context, value, count, replacement):
+def keep_lanes(typing_context, value, count, replacement) -> tuple:
     """Return the first `count` lanes of a vector, and the number `replacement` in the rest."""
 
     def generate(context, builder, signature, arguments):
@@ -324,17 +325,17 @@ def keep_lanes(typing_context, value, count, replacement):
 # --- The largest absolute value -----------------------------------------------------------------
 
 
-def magnitudes(builder, value):
+def magnitudes(builder, value) -> ir.Value:
     """Return the bits of a vector of doubles without their signs."""
     return builder.and_(builder.bitcast(value, BITS), constant(INT64, [MAGNITUDE] * LANES))
 
 
-def larger_bits(builder, a, b):
+def larger_bits(builder, a, b) -> ir.Value:
     return builder.select(builder.icmp_signed(">", a, b), a, b)
 
 
 @intrinsic
-def larger_magnitude(typing_context, first, second):
+def larger_magnitude(typing_context, first, second) -> tuple:
     """Return in each lane the larger of two absolute values; NaN is larger than infinity."""
 
     def generate(context, builder, signature, arguments):
@@ -345,7 +346,7 @@ def larger_magnitude(typing_context, first, second):
 
 
 @intrinsic
-def largest_lane(typing_context, value):
+def largest_lane(typing_context, value) -> tuple:
     """Return the largest absolute value among the lanes; NaN is larger than infinity."""
 
     def generate(context, builder, signature, arguments):
@@ -359,7 +360,7 @@ def largest_lane(typing_context, value):
 
 
 @kernel
-def largest_magnitude(values):
+def largest_magnitude(values) -> float:
     """Return the largest absolute value of an array; NaN is larger than infinity.
 
     LLVM vectorises this loop by itself, since integer comparisons may be reordered. `values` is
@@ -374,7 +375,7 @@ def largest_magnitude(values):
 
 
 @kernel
-def largest_in_rows(scratch, rows):
+def largest_in_rows(scratch, rows) -> float:
     """Return the largest absolute value in the first `rows` rows of a state, but for its ghosts.
 
     The ghost columns of those rows are set to zero, and the first element is overwritten.
@@ -407,7 +408,7 @@ class VectorViewModel(models.StructModel):
         super().__init__(manager, fe_type, members)
 
 
-def view_of(context, builder, array_type, state):
+def view_of(context, builder, array_type, state) -> ir.Value:
     array = cgutils.create_struct_proxy(array_type)(context, builder, state)
     view = cgutils.create_struct_proxy(view_type)(context, builder)
     view.data, view.shape = array.data, array.shape
@@ -415,7 +416,7 @@ def view_of(context, builder, array_type, state):
 
 
 @intrinsic
-def vector_views(typing_context, states):
+def vector_views(typing_context, states) -> tuple:
     """Return views of a tuple of contiguous (row, column) states; nothing is checked on access."""
 
     def generate(context, builder, signature, arguments):
@@ -428,7 +429,7 @@ def vector_views(typing_context, states):
 
 
 @intrinsic
-def shape_of(typing_context, view):
+def shape_of(typing_context, view) -> tuple:
     def generate(context, builder, signature, arguments):
         return cgutils.create_struct_proxy(view_type)(context, builder, arguments[0]).shape
 
@@ -436,22 +437,22 @@ def shape_of(typing_context, view):
 
 
 @overload_attribute(VectorView, "shape")
-def shape(view):
+def shape(view) -> Callable:
     """Let `view.shape` be the shape of the state."""
     return lambda view: shape_of(view)
 
 
 @type_callable(operator.getitem)
-def type_of_read(context):
+def type_of_read(context) -> Callable:
     return lambda view, index: vector if view == view_type else None
 
 
 @type_callable(operator.setitem)
-def type_of_write(context):
+def type_of_write(context) -> Callable:
     return lambda view, index, value: types.void if view == view_type else None
 
 
-def address_in_view(context, builder, view, index):
+def address_in_view(context, builder, view, index) -> ir.Value:
     """Return the address of the vector that starts at (row, column) of a view."""
     view = cgutils.create_struct_proxy(view_type)(context, builder, view)
     row, column = (builder.extract_value(index, i) for i in range(2))
@@ -461,12 +462,12 @@ def address_in_view(context, builder, view, index):
 
 
 @lower_builtin(operator.getitem, VectorView, types.UniTuple)
-def read_vector(context, builder, signature, arguments):
+def read_vector(context, builder, signature, arguments) -> ir.Value:
     return builder.load(address_in_view(context, builder, *arguments), align=8)
 
 
 @lower_builtin(operator.setitem, VectorView, types.UniTuple, Vector)
-def write_vector(context, builder, signature, arguments):
+def write_vector(context, builder, signature, arguments) -> ir.Value:
     view, index, value = arguments
     builder.store(value, address_in_view(context, builder, view, index), align=8)
     return context.get_dummy_value()

@@ -149,8 +149,7 @@ def _packages_of(file: Path) -> tuple[str, ...]:
 def _tree_of(text: str) -> ast.AST:
     """Return a syntax tree with all imports of a module.
 
-    Only lines with imports are parsed, which is ten times faster; every start of a workflow does it
-    for all modules. If the word occurs elsewhere too, the full text is parsed.
+    Only lines with imports are parsed (ten times faster), unless the word occurs elsewhere too.
     """
     imports = _IMPORT.findall(f"\n{text}")
     same = len(imports) == len(_WORD.findall(text))
