@@ -15,7 +15,7 @@ from latticode.integrators.methods import METHODS
 from latticode.kernels.compiled import kernel
 from latticode.kernels.webassembly import WebAssemblyError, webassembly
 from latticode.simulation.lattice import aligned
-from latticode.simulation.observables import blank_record, observe_fields
+from latticode.simulation.observables import ObservableRecord, blank_record, observe_fields
 
 from pendula.models.amplitudes import AmplitudeChain, energy_with_scratch, rates
 
