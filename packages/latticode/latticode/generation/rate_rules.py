@@ -25,7 +25,7 @@ def rates(system, y, dy):
     write_rates(system, ({states},), dy)
 """
 """The rates of a state. A call of each stage would pass the system, which is a kilobyte of values,
-and takes a step of dop853 on a short chain three times as long."""
+and took runs by dop853 on short chains two to four times as long."""
 TANGENT_RATES = """
 write_tangent_rates = at_every_site(tangent_rates_at_site, {rows})
 @kernel
