@@ -42,9 +42,11 @@ def energy(sign=-1):
 
 def model(sign=-1) -> Model:
     return Model(
-        fields=("A", "B"), parameters={"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}, i_dt=i_dt,
+        fields=("A", "B"),
+        parameters={"epsilon": 1.0, "gamma": 1.0, "omega": -4.0},
+        i_dt=i_dt,
         conserved=energy(sign),
-    )  # fmt: skip
+    )
 
 
 DIMERS = model()
@@ -72,9 +74,12 @@ def rates(pairs, y, dy):
 def dimers(initial=((0, (1.0, 0.1)),), **changes) -> Problem:
     """Return a problem of DIMERS from data {site: (A, B)}."""
     values = {
-        "half_width": 8, "boundary": "dirichlet", "end_time": 4.0, "output_step": 0.25,
+        "half_width": 8,
+        "boundary": "dirichlet",
+        "end_time": 4.0,
+        "output_step": 0.25,
         "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
-    }  # fmt: skip
+    }
     return Problem(model=DIMERS, initial=on_sites(dict(initial)), **values).changed(**changes)
 
 
@@ -85,9 +90,11 @@ def chain(z, numbers=PAPER, boundary="dirichlet", solver="dop853", **changes) ->
     """
     values = {
         "parameters": dict(zip(DIMERS.parameters, map(float, numbers), strict=True)),
-        "half_width": z.shape[1] // 2, "end_time": 1.0, "output_step": 0.25,
+        "half_width": z.shape[1] // 2,
+        "end_time": 1.0,
+        "output_step": 0.25,
         "solver": SOLVERS[solver] if isinstance(solver, str) else solver,
-    }  # fmt: skip
+    }
     return Problem(model=DIMERS, boundary=boundary, initial=z, **values).changed(**changes)
 
 

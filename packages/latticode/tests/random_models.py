@@ -67,10 +67,12 @@ class Grammar:
     def __init__(self, rng, fields, complex_fields, driven, disordered):
         self.rng, self.fields, self.complex_fields = rng, fields, complex_fields
         self.numbers = [
-            "p.g", *["p.V"] * disordered, *["cos(p.w * p.t + 0.3)", "exp(-p.t)"] * driven,
+            "p.g",
+            *["p.V"] * disordered,
+            *["cos(p.w * p.t + 0.3)", "exp(-p.t)"] * driven,
             *["1 / (1 + p.t ** 2)", "sin(p.t * p.t)"] * driven,
             *["sin(p.V * p.t)"] * (driven and disordered),
-        ]  # fmt: skip
+        ]
 
     def one_of(self, *choices):
         return choices[self.rng.integers(len(choices))]

@@ -29,16 +29,18 @@ class Rooms:
     def between(self) -> list[tuple[Path, Path]]:
         """Return the imports from one room to another, without those of and from the package."""
         return [
-            pair for pair in self.imports()
+            pair
+            for pair in self.imports()
             if Path("__init__.py") not in pair and pair[0].parts[0] != pair[1].parts[0]
-        ]  # fmt: skip
+        ]
 
     def upwards(self) -> list[tuple[str, str]]:
         """Return the imports from a room that is above."""
         return [
-            (str(module), str(other)) for module, other in self.between()
+            (str(module), str(other))
+            for module, other in self.between()
             if self.storey_of(other) < self.storey_of(module)
-        ]  # fmt: skip
+        ]
 
     def lines(self, modules) -> int:
         return sum(len((self.package / one).read_text().splitlines()) for one in modules)

@@ -13,9 +13,13 @@ CUBIC = Model(
 )
 STILL = Case(model=CUBIC, initial={3: [1.5]}, half_width=6, end_time=10)
 CHAOTIC = Case(
-    model=CUBIC, parameters={"c": 1}, half_width=2, boundary="periodic", end_time=60,
+    model=CUBIC,
+    parameters={"c": 1},
+    half_width=2,
+    boundary="periodic",
+    end_time=60,
     initial={-1: [1.5], 0: ["2j"], 1: [-1.1]},
-)  # fmt: skip
+)
 
 
 @pytest.fixture(scope="module")

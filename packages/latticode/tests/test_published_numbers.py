@@ -176,8 +176,9 @@ def test_fermi_pasta_ulam_and_tsingou_find_their_recurrence():
     given = {"alpha": 0.25, "mode": mode / 4}
     model = Model(fields="x", parameters=given, d2_dt2=d2_dt2, conserved=first_mode)
     initial = {n: [mode[n + 15]] for n in range(-15, 16)}
-    run = simulate(Case(model=model, half_width=15, initial=initial, end_time=9500,
-                        output_step=0.5))  # fmt: skip
+    run = simulate(
+        Case(model=model, half_width=15, initial=initial, end_time=9500, output_step=0.5)
+    )
     periods, energy, least, early = recurrence(run["tau"].values, *run["conserved"].values)
     assert energy > 0.97 and least < 0.1 and early < 1.03
     published, finer = (leapfrog(8**-0.5 / part, 0.25, 10200)[0] for part in (1, 2))
@@ -255,8 +256,14 @@ def test_forty_sites_of_lorenz_1996_have_the_exponent_1_67():
 
     model = Model(fields=tuple("abcdefgh"), parameters={"F": 8.0}, i_dt=rate(ring))
     initial = {n: [8 + 0.01 * (n == 0), *[8] * 7] for n in range(-2, 3)}
-    case = Case(model=model, half_width=2, boundary="periodic", initial=initial, end_time=2000,
-                output_step=0.5)  # fmt: skip
+    case = Case(
+        model=model,
+        half_width=2,
+        boundary="periodic",
+        initial=initial,
+        end_time=2000,
+        output_step=0.5,
+    )
     value, error, chaotic = exponent_of(case)
     assert chaotic and error < 0.03 and abs(value - 1.67) < 3.5 * error
 

@@ -46,10 +46,15 @@ def test_nothing_is_imported_from_a_program_that_uses_the_library():
 def test_a_folder_can_be_seen_at_one_glance():
     folders = {module.parent for module in MODULES}
     entries = {
-        folder: len({other.relative_to(folder).parts[0] for other in MODULES
-                     if other.is_relative_to(folder) and other.name != "__init__.py"})
+        folder: len(
+            {
+                other.relative_to(folder).parts[0]
+                for other in MODULES
+                if other.is_relative_to(folder) and other.name != "__init__.py"
+            }
+        )
         for folder in folders
-    }  # fmt: skip
+    }
     assert {str(folder): n for folder, n in entries.items() if n > MOST_ENTRIES} == {}
 
 

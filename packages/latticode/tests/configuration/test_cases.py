@@ -246,8 +246,12 @@ def test_equations_that_are_other_ones_each_time_are_refused_in_a_notebook(kind)
     assert "draw them before and give them as a parameter" in str(error.value)
     densities = {"P": IMPURE[kind]}
     with pytest.raises(ModelError, match="gives other equations each time"):
-        Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u),
-              conserved=lambda p, u: {"P": densities["P"](p, abs2(u))})  # fmt: skip
+        Model(
+            fields="u",
+            parameters={},
+            i_dt=lambda p, u: lap(u),
+            conserved=lambda p, u: {"P": densities["P"](p, abs2(u))},
+        )
 
 
 def test_a_file_and_a_notebook_refuse_a_draw_in_the_equations_alike(write):

@@ -24,8 +24,10 @@ def test_a_survey_is_read_with_its_grids_and_whole_numbers():
     settings = loaded(axes=axes, members={"count": 3, "size": 0.1, "seed": 1}, keep=["exponent"])
     plan = settings.surveys["map"].plan
     assert plan.axes == {
-        "c": [0.0, 0.25, 0.5, 0.75, 1.0], "half_width": [2, 4], "initial.1.0": [1j]
-    }  # fmt: skip
+        "c": [0.0, 0.25, 0.5, 0.75, 1.0],
+        "half_width": [2, 4],
+        "initial.1.0": [1j],
+    }
     assert plan.shape == (5, 2, 1, 3)
     assert settings.plain_survey("map")["members"]["count"] == 3
     whole, part = settings.cost_of_survey("map"), settings.cost_of_survey("map", 10)

@@ -82,5 +82,7 @@ def test_what_follows_an_underscore_is_an_index():
 def test_names_of_one_letter_are_written_as_before():
     assert doctest.testmod(style).failed == 0
     assert [style.symbol("A"), style.symbol("A", "n"), style.symbol("A", "{0}")] == [
-        "A", "A_n", "A_{0}"
-    ]  # fmt: skip
+        "A",
+        "A_n",
+        "A_{0}",
+    ]

@@ -28,8 +28,9 @@ def final(i_dt, **parameters):
 
 def solved(slope):
     start = START[0] + 1j * START[1]
-    run = solve_ivp(lambda t, u: -1j * slope(u), (0, END), start, method="DOP853",
-                    rtol=1e-12, atol=1e-13)  # fmt: skip
+    run = solve_ivp(
+        lambda t, u: -1j * slope(u), (0, END), start, method="DOP853", rtol=1e-12, atol=1e-13
+    )
     return run.y[:, -1]
 
 

@@ -27,9 +27,14 @@ def largest_error(rates, boundary, solver, half_width=5):
     sites = 2 * half_width + 1
     start = np.random.default_rng(1).normal(size=(2, sites, 2)) @ (0.4, 0.4j)
     given = Problem(
-        model=model, half_width=half_width, boundary=boundary, initial=start, end_time=1.0,
-        output_step=1.0, solver={"name": solver, "rtol": 1e-12, "atol": 1e-12},
-    )  # fmt: skip
+        model=model,
+        half_width=half_width,
+        boundary=boundary,
+        initial=start,
+        end_time=1.0,
+        output_step=1.0,
+        solver={"name": solver, "rtol": 1e-12, "atol": 1e-12},
+    )
     expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 1.0)
     return np.abs(simulate(given).final.ravel() - expected).max()
 

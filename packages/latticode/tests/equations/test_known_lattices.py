@@ -31,43 +31,65 @@ def plain_zigzag(t, u, v, r, s):
 
 FIRST = {
     "Ablowitz-Ladik, damped": (
-        "u", {"g": 0.1}, "periodic", {0: [1], 1: [0.3j]},
+        "u",
+        {"g": 0.1},
+        "periodic",
+        {0: [1], 1: [0.3j]},
         lambda p, u: -(1 + abs2(u)) * (u.right + u.left) - 1j * p.g * u,
         lambda t, u, r, s: -(1 + abs(u) ** 2) * (r[0] + s[0]) - 0.1j * u,
     ),
     "saturable": (
-        "u", {"b": 2.0}, "free", {0: [1.5], 1: [0.3j]},
+        "u",
+        {"b": 2.0},
+        "free",
+        {0: [1.5], 1: [0.3j]},
         lambda p, u: lap(u) - p.b * u / (1 + abs2(u)),
         lambda t, u, r, s: r[0] + s[0] - 2 * u - 2 * u / (1 + abs(u) ** 2),
     ),
     "Ginzburg-Landau with a root": (
-        "u", {"m": 0.5, "b": 0.7}, "periodic", {0: [0.7], -2: [0.2 - 0.1j]},
+        "u",
+        {"m": 0.5, "b": 0.7},
+        "periodic",
+        {0: [0.7], -2: [0.2 - 0.1j]},
         lambda p, u: (1 + 0.2j) * lap(u) + 1j * p.m * u + (1 - 1j * p.b) * sqrt(1 + abs2(u)) * u,
-        lambda t, u, r, s: (1 + 0.2j) * (r[0] + s[0] - 2 * u) + 0.5j * u
-        + (1 - 0.7j) * np.sqrt(1 + abs(u) ** 2) * u,
+        lambda t, u, r, s: (
+            (1 + 0.2j) * (r[0] + s[0] - 2 * u)
+            + 0.5j * u
+            + (1 - 0.7j) * np.sqrt(1 + abs(u) ** 2) * u
+        ),
     ),
     "a zigzag ladder with gain and loss": (
-        ("u", "v"), {"k": 0.5, "g": 0.1}, "dirichlet", {0: [1.2, 0.1j], 1: [0.2, 0.3]},
-        zigzag, plain_zigzag,
+        ("u", "v"),
+        {"k": 0.5, "g": 0.1},
+        "dirichlet",
+        {0: [1.2, 0.1j], 1: [0.2, 0.3]},
+        zigzag,
+        plain_zigzag,
     ),
-}  # fmt: skip
+}
 SECOND = {
     "sine-Gordon, damped and driven": (
-        {"a": 0.2, "f": 0.4, "w": 0.9}, "free", {0: [2 + 1j]},
+        {"a": 0.2, "f": 0.4, "w": 0.9},
+        "free",
+        {0: [2 + 1j]},
         lambda p, x, v: lap(x) - sin(x) - p.a * v + p.f * cos(p.w * p.t),
         lambda t, x, v, r, s: r + s - 2 * x - np.sin(x) - 0.2 * v + 0.4 * np.cos(0.9 * t),
     ),
     "rotors, damped, with a torque at each site": (
-        {"g": 0.05, "torque": DRAWN}, "free", {0: [1 + 2j], 1: [-1]},
+        {"g": 0.05, "torque": DRAWN},
+        "free",
+        {0: [1 + 2j], 1: [-1]},
         lambda p, x, v: sin(x.right - x) + sin(x.left - x) - p.g * v + p.torque,
         lambda t, x, v, r, s: np.sin(r - x) + np.sin(s - x) - 0.05 * v + DRAWN,
     ),
     "compressed spheres": (
-        {"d": 0.5}, "periodic", {0: [0.1 + 0.1j]},
+        {"d": 0.5},
+        "periodic",
+        {0: [0.1 + 0.1j]},
         lambda p, x: (p.d + x.left - x) ** 1.5 - (p.d + x - x.right) ** 1.5,
         lambda t, x, v, r, s: (0.5 + s - x) ** 1.5 - (0.5 + x - r) ** 1.5,
     ),
-}  # fmt: skip
+}
 
 
 def start_of(initial, fields):
@@ -81,8 +103,16 @@ def agrees(model, boundary, initial, slope, start):
     """Compare a run with SciPy, whose state has the shape of `start`: two parts of each field."""
     case = Case(model=model, half_width=M, boundary=boundary, initial=initial, end_time=END)
     found = simulate(case)["final"].values
-    solved = solve_ivp(lambda t, y: np.ravel(slope(t, y.reshape(start.shape))), (0, END),
-                       start.ravel(), **TIGHT).y[:, -1].reshape(start.shape)  # fmt: skip
+    solved = (
+        solve_ivp(
+            lambda t, y: np.ravel(slope(t, y.reshape(start.shape))),
+            (0, END),
+            start.ravel(),
+            **TIGHT,
+        )
+        .y[:, -1]
+        .reshape(start.shape)
+    )
     expected = np.stack([solved.real, solved.imag]) if np.iscomplexobj(solved) else solved
     np.testing.assert_allclose(found, expected.reshape(found.shape), rtol=0, atol=1e-11)
 

@@ -21,8 +21,10 @@ def test_solvers_follow_random_models_in_plain_python(tmp_path):
     run = subprocess.run(
         [sys.executable, plain_kernels.__file__, "0", str(MODELS)],
         env={**os.environ, "LATTICODE_CACHE": str(tmp_path)},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert run.stdout == f"{MODELS} models are judged\n", run.stdout + run.stderr
 
 

@@ -12,40 +12,75 @@ SITES = 13
 PLACES = np.linspace(0.3, 1.4, SITES)
 FIRST = {
     "saturation, quotients, real powers, exponential and logarithm": (
-        lambda p, u: lap(u) / (4.0 + conj(u)) + abs2(u) / (1 + abs2(u)) * u
-        + (0.1 + abs2(u)) ** 0.7 * u - (abs2(u) + 1.5) ** -2 * u
-        + exp(-abs2(u)) * u + log(abs2(u) + 2) * u,
-        lambda t, u, r, s: (r + s - 2 * u) / (4 + u.conj()) + abs(u) ** 2 / (1 + abs(u) ** 2) * u
-        + (0.1 + abs(u) ** 2) ** 0.7 * u - (abs(u) ** 2 + 1.5) ** -2 * u
-        + np.exp(-abs(u) ** 2) * u + np.log(abs(u) ** 2 + 2) * u,
+        lambda p, u: (
+            lap(u) / (4.0 + conj(u))
+            + abs2(u) / (1 + abs2(u)) * u
+            + (0.1 + abs2(u)) ** 0.7 * u
+            - (abs2(u) + 1.5) ** -2 * u
+            + exp(-abs2(u)) * u
+            + log(abs2(u) + 2) * u
+        ),
+        lambda t, u, r, s: (
+            (r + s - 2 * u) / (4 + u.conj())
+            + abs(u) ** 2 / (1 + abs(u) ** 2) * u
+            + (0.1 + abs(u) ** 2) ** 0.7 * u
+            - (abs(u) ** 2 + 1.5) ** -2 * u
+            + np.exp(-(abs(u) ** 2)) * u
+            + np.log(abs(u) ** 2 + 2) * u
+        ),
     ),
     "a Peierls phase, phases by site, a chirp and a decay": (
-        lambda p, u: exp(1j * p.a) * u.right + exp(-1j * p.a) * u.left
-        + sin(2.0 * p.t + p.b) * u + sin(p.t * p.t) * u + exp(-p.t) * u,
-        lambda t, u, r, s: np.exp(0.7j) * r + np.exp(-0.7j) * s
-        + (np.sin(2 * t + PLACES) + np.sin(t * t) + np.exp(-t)) * u,
+        lambda p, u: (
+            exp(1j * p.a) * u.right
+            + exp(-1j * p.a) * u.left
+            + sin(2.0 * p.t + p.b) * u
+            + sin(p.t * p.t) * u
+            + exp(-p.t) * u
+        ),
+        lambda t, u, r, s: (
+            np.exp(0.7j) * r
+            + np.exp(-0.7j) * s
+            + (np.sin(2 * t + PLACES) + np.sin(t * t) + np.exp(-t)) * u
+        ),
     ),
-}  # fmt: skip
+}
 SECOND = {
     "Toda and Lennard-Jones": (
-        lambda p, x: exp(x.left - x) - exp(x - x.right)
-        + (3 + x - x.left) ** -7 - (3 + x.right - x) ** -7,
-        lambda t, x, v, r, s, vr, vs: np.exp(s - x) - np.exp(x - r)
-        + (3 + x - s) ** -7 - (3 + r - x) ** -7,
+        lambda p, x: (
+            exp(x.left - x) - exp(x - x.right) + (3 + x - x.left) ** -7 - (3 + x.right - x) ** -7
+        ),
+        lambda t, x, v, r, s, vr, vs: (
+            np.exp(s - x) - np.exp(x - r) + (3 + x - s) ** -7 - (3 + r - x) ** -7
+        ),
     ),
     "forces of parameters and of clocks alone, and a quotient of them": (
-        lambda p, x, v: 0.5 * p.k - 0.3 * cos(p.k) - sqrt(2 + cos(p.k * p.t)) + lap(x) - v
-        - p.k / (2 + x * x),
-        lambda t, x, v, r, s, vr, vs: 0.35 - 0.3 * np.cos(0.7) - np.sqrt(2 + np.cos(0.7 * t))
-        + (r + s - 2 * x) - v - 0.7 / (2 + x * x),
+        lambda p, x, v: (
+            0.5 * p.k - 0.3 * cos(p.k) - sqrt(2 + cos(p.k * p.t)) + lap(x) - v - p.k / (2 + x * x)
+        ),
+        lambda t, x, v, r, s, vr, vs: (
+            0.35
+            - 0.3 * np.cos(0.7)
+            - np.sqrt(2 + np.cos(0.7 * t))
+            + (r + s - 2 * x)
+            - v
+            - 0.7 / (2 + x * x)
+        ),
     ),
     "relativistic, damped, with friction between neighbours, and driven": (
-        lambda p, x, v: (1 - 0.05 * v * v) * sqrt(1 - 0.05 * v * v) * (lap(x) - x) - 0.2 * v
-        + 0.1 * lap(v) + 0.3 * np.cos(1.3 * p.t),
-        lambda t, x, v, r, s, vr, vs: (1 - 0.05 * v**2) ** 1.5 * (r + s - 3 * x) - 0.2 * v
-        + 0.1 * (vr + vs - 2 * v) + 0.3 * np.cos(1.3 * t),
+        lambda p, x, v: (
+            (1 - 0.05 * v * v) * sqrt(1 - 0.05 * v * v) * (lap(x) - x)
+            - 0.2 * v
+            + 0.1 * lap(v)
+            + 0.3 * np.cos(1.3 * p.t)
+        ),
+        lambda t, x, v, r, s, vr, vs: (
+            (1 - 0.05 * v**2) ** 1.5 * (r + s - 3 * x)
+            - 0.2 * v
+            + 0.1 * (vr + vs - 2 * v)
+            + 0.3 * np.cos(1.3 * t)
+        ),
     ),
-}  # fmt: skip
+}
 
 
 def sides(values, boundary):
@@ -89,9 +124,10 @@ def test_forces_and_velocities_equal_scipy(name, boundary):
 
 def test_rates_of_parameters_alone_move_fields_steadily():
     model = Model(
-        fields=("u", "v"), parameters={"k": 0.7},
+        fields=("u", "v"),
+        parameters={"k": 0.7},
         i_dt=lambda p, u, v: (-0.5j * p.k, 0.4 * p.k * sin(p.k)),
-    )  # fmt: skip
+    )
     initial = np.random.default_rng(5).normal(size=(2, SITES)) + 0j
     found = simulate(problem(model, initial, "free")).final
     rates = np.array([[-0.35], [-0.28j * np.sin(0.7)]])
@@ -126,9 +162,10 @@ def test_a_function_with_another_number_of_values_says_which():
 
 def test_phases_of_first_order_equal_scipy():
     phases = Model(
-        fields="u", parameters={"w": PLACES},
+        fields="u",
+        parameters={"w": PLACES},
         i_dt=lambda p, u: 1j * (p.w + sin(u.right.real - u.real) + sin(u.left.real - u.real)),
-    )  # fmt: skip
+    )
     initial = np.random.default_rng(5).normal(size=(1, SITES)) + 0j
 
     def slope(t, u):

@@ -16,10 +16,16 @@ TIGHT = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
 def problem(model, initial, boundary, solver="taylor", end_time=1.0, **parameters):
     """Return the problem of a traced model on as many sites as `initial` (field, site) has."""
     return Problem(
-        half_width=initial.shape[1] // 2, boundary=boundary, initial=initial,
-        end_time=end_time, output_step=0.25, model=model, parameters=parameters,
-        solver={"name": solver, "rtol": 1e-13, "atol": 1e-13, "step": 0.01}, snapshot_every=1,
-    )  # fmt: skip
+        half_width=initial.shape[1] // 2,
+        boundary=boundary,
+        initial=initial,
+        end_time=end_time,
+        output_step=0.25,
+        model=model,
+        parameters=parameters,
+        solver={"name": solver, "rtol": 1e-13, "atol": 1e-13, "step": 0.01},
+        snapshot_every=1,
+    )
 
 
 def beside(values, by, boundary):

@@ -77,9 +77,14 @@ def main(file: str, *without: str) -> None:
             for solver in RUNS[name]:
                 parameters = {"force": force} if name == "driven" else {}
                 case = Case(
-                    model=model, parameters=parameters, half_width=half_width, initial=sites,
-                    end_time=4.0, output_step=1.0, solver={"name": solver, **CONTROLS[solver]},
-                )  # fmt: skip
+                    model=model,
+                    parameters=parameters,
+                    half_width=half_width,
+                    initial=sites,
+                    end_time=4.0,
+                    output_step=1.0,
+                    solver={"name": solver, **CONTROLS[solver]},
+                )
                 run = simulate(case.kind.of(case.problem()))
                 norms = np.concatenate([run.linf, run.l2])
                 results[f"{name}.{start}.{solver}.norms"] = norms

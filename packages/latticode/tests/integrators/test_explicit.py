@@ -26,8 +26,12 @@ def published_run(name, z, times, numbers, boundary, rtol):
     if name == "taylor":
         return plain.taylor(
             lambda u, order: power_series(u, numbers, boundary, order),
-            z, times, rtol, 1e-2 * rtol, ORDER,
-        )  # fmt: skip
+            z,
+            times,
+            rtol,
+            1e-2 * rtol,
+            ORDER,
+        )
     return getattr(plain, name)(lambda u: slope(u, numbers, boundary), z, times, rtol, 1e-2 * rtol)
 
 

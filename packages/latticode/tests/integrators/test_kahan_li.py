@@ -21,19 +21,29 @@ def chain(x):
 
 PAIRS = Model(fields=("x", "y"), parameters={"drive": 0.1}, d2_dt2=lambda p, x, y: pairs(p, x, y))
 STILL = Model(
-    fields="x", parameters={}, d2_dt2=lambda p, x: chain(x),
+    fields="x",
+    parameters={},
+    d2_dt2=lambda p, x: chain(x),
     conserved=lambda p, x, v: {
         "H": 0.5 * v * v + 1.0 - np.cos(x) + 0.05 * (x.right - x) * (x.right - x)
     },
-)  # fmt: skip
+)
 
 
 def run(model, initial, end_time, outputs, solver, **parameters):
     data = on_sites(initial, len(model.fields))
-    return simulate(Problem(
-        model=model, parameters=parameters, half_width=2, boundary="dirichlet", initial=data,
-        end_time=end_time, output_step=end_time / outputs, solver=solver,
-    ))  # fmt: skip
+    return simulate(
+        Problem(
+            model=model,
+            parameters=parameters,
+            half_width=2,
+            boundary="dirichlet",
+            initial=data,
+            end_time=end_time,
+            output_step=end_time / outputs,
+            solver=solver,
+        )
+    )
 
 
 def by_steps_of(step):

@@ -73,9 +73,12 @@ def test_a_run_from_data_of_1e_120_is_that_from_data_of_1_on_a_linear_chain():
 
     def final(size):
         case = Case(
-            model=model, half_width=20, initial={0: [size]}, end_time=3,
+            model=model,
+            half_width=20,
+            initial={0: [size]},
+            end_time=3,
             solver={"name": "taylor", "rtol": 1e-12, "atol": 1e-12 * size},
-        )  # fmt: skip
+        )
         return simulate(case.kind.of(case.problem())).final
 
     np.testing.assert_array_equal(final(scale), scale * final(1.0))

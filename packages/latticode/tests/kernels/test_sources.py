@@ -101,8 +101,14 @@ def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monke
     (page / "__init__.py").write_text("from mine import other\n")
 
     def digest():
-        for first in (sources.digest_of_code, sources._digest_of_bare, sources.digest_of,
-                    sources._versions, sources._imports_of, sources._data_files):  # fmt: skip
+        for first in (
+            sources.digest_of_code,
+            sources._digest_of_bare,
+            sources.digest_of,
+            sources._versions,
+            sources._imports_of,
+            sources._data_files,
+        ):
             first.cache_clear()
         return sources.digest_of_code(page / "__init__.py")
 

@@ -26,9 +26,10 @@ COUPLED = Model(
     ],
 )
 FAR = Model(
-    fields="u", parameters={"J": 0.3},
+    fields="u",
+    parameters={"J": 0.3},
     i_dt=lambda p, u: lap(u) + p.J * (shift(u, 2) + shift(u, -2)) * abs2(u) - u,
-)  # fmt: skip
+)
 
 
 def problem(model, data, half_width=10, boundary="dirichlet", site=0):
@@ -36,9 +37,14 @@ def problem(model, data, half_width=10, boundary="dirichlet", site=0):
     initial = np.zeros((len(model.fields), 2 * abs(site) + 1), complex)
     initial[:, abs(site) + site] = data
     return Problem(
-        model=model, half_width=half_width, boundary=boundary, initial=initial, end_time=1.0,
-        output_step=1.0, solver={"name": "taylor", "rtol": 1e-13, "atol": 1e-13},
-    )  # fmt: skip
+        model=model,
+        half_width=half_width,
+        boundary=boundary,
+        initial=initial,
+        end_time=1.0,
+        output_step=1.0,
+        solver={"name": "taylor", "rtol": 1e-13, "atol": 1e-13},
+    )
 
 
 # --- The matrix -----------------------------------------------------------------------------------
@@ -137,10 +143,13 @@ def test_exponents_are_those_of_the_whole_matrix(turned):
 
 def test_multipliers_are_those_of_integrations_over_a_period():
     gain = Model(
-        fields=("u", "v"), parameters={},
-        i_dt=lambda p, u, v: (0.3 * lap(u) + v + 0.4j * u + abs2(u) * u,
-                              0.3 * lap(v) + u - 0.4j * v + abs2(v) * v),
-    )  # fmt: skip
+        fields=("u", "v"),
+        parameters={},
+        i_dt=lambda p, u, v: (
+            0.3 * lap(u) + v + 0.4j * u + abs2(u) * u,
+            0.3 * lap(v) + u - 0.4j * v + abs2(v) * v,
+        ),
+    )
     case = problem(gain, [1.5, 1.5], half_width=1)
     state = find_state(case)
     computed = exponents(case, state)
@@ -149,8 +158,10 @@ def test_multipliers_are_those_of_integrations_over_a_period():
     long = case.changed(end_time=period, output_step=period)
     changes = 1e-5 * np.concatenate([np.eye(6), 1j * np.eye(6)]).reshape(12, 2, 3)
     phi = components[:, 0] + 1j * components[:, 1]
-    pairs = [[simulate(long.changed(initial=phi + s * first)).final for s in (1, -1)]
-             for first in changes]  # fmt: skip
+    pairs = [
+        [simulate(long.changed(initial=phi + s * first)).final for s in (1, -1)]
+        for first in changes
+    ]
     difference = [(first - second).ravel() / 2e-5 for first, second in pairs]
     measured = np.linalg.eigvals([np.concatenate([first.real, first.imag]) for first in difference])
     expected = np.exp(period * computed)
@@ -162,19 +173,34 @@ def test_multipliers_are_those_of_integrations_over_a_period():
     ("model", "data", "reason"),
     [
         (CUBIC, [0], "the chain is at rest"),
-        (Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - np.cos(p.t) * x), [1],
-         "depend on the time"),
-        (Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + 0.1), [1],
-         "rest does not solve the equations"),
-        (Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u - 0.1j * u), [1],
-         "its power would decay, at the rate 0.2"),
-        (Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u + 0.1j * u), [1],
-         "its power would grow, at the rate 0.2"),
-        (Model(fields="x", parameters={}, d2_dt2=lambda p, x: 0.2 * lap(x) - np.sin(x)), [6.2],
-         "it ends at 0.6"),
+        (
+            Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - np.cos(p.t) * x),
+            [1],
+            "depend on the time",
+        ),
+        (
+            Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + 0.1),
+            [1],
+            "rest does not solve the equations",
+        ),
+        (
+            Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u - 0.1j * u),
+            [1],
+            "its power would decay, at the rate 0.2",
+        ),
+        (
+            Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u + 0.1j * u),
+            [1],
+            "its power would grow, at the rate 0.2",
+        ),
+        (
+            Model(fields="x", parameters={}, d2_dt2=lambda p, x: 0.2 * lap(x) - np.sin(x)),
+            [6.2],
+            "it ends at 0.6",
+        ),
         (Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - 1 * x), [1], "none near"),
     ],
-)  # fmt: skip
+)
 def test_where_there_is_no_state_the_reason_is_told(model, data, reason):
     with pytest.raises(NoStateError, match=reason):
         find_state(problem(model, data))

@@ -19,17 +19,20 @@ COUPLED = Model(
     ],
 )
 FAR = Model(
-    fields="u", parameters={"J": 0.3},
+    fields="u",
+    parameters={"J": 0.3},
     i_dt=lambda p, u: lap(u) + p.J * (shift(u, 2) + shift(u, -2)) * abs2(u),
-)  # fmt: skip
+)
 DISORDERED = Model(
-    fields="u", parameters={"V": lambda n: np.cos(3.0 * n)},
+    fields="u",
+    parameters={"V": lambda n: np.cos(3.0 * n)},
     i_dt=lambda p, u: lap(u) + p.V * u - abs2(u) * u,
-)  # fmt: skip
+)
 DRIVEN = Model(
-    fields="x", parameters={},
+    fields="x",
+    parameters={},
     d2_dt2=lambda p, x, v: 0.4 * lap(x) - (1 + sin(3 * p.t)) * sin(x) - 0.1 * v,
-)  # fmt: skip
+)
 each_model = pytest.mark.parametrize(
     "model", [COUPLED, FAR, DISORDERED, DRIVEN], ids=["coupled", "far", "disordered", "driven"]
 )
@@ -41,9 +44,14 @@ def chain(model, half_width=4, boundary="dirichlet", end_time=1.3, even=False):
         2 * half_width + 1, np.random.default_rng(1), even, fields=len(model.fields)
     )
     return Problem(
-        model=model, half_width=half_width, boundary=boundary, initial=drawn, end_time=end_time,
-        output_step=end_time, solver={"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
-    )  # fmt: skip
+        model=model,
+        half_width=half_width,
+        boundary=boundary,
+        initial=drawn,
+        end_time=end_time,
+        output_step=end_time,
+        solver={"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
+    )
 
 
 def state_of(problem, final):

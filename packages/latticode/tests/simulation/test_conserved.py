@@ -17,10 +17,15 @@ def bonds(p, u):
 
 def run(model, initial, boundary, cut=None, every=0, end_time=2.0):
     given = Problem(
-        model=model, half_width=initial.shape[1] // 2, boundary=boundary, initial=initial,
-        end_time=end_time, output_step=0.25, snapshot_every=every,
+        model=model,
+        half_width=initial.shape[1] // 2,
+        boundary=boundary,
+        initial=initial,
+        end_time=end_time,
+        output_step=0.25,
+        snapshot_every=every,
         solver={"name": "taylor", "rtol": 1e-13, "atol": 1e-13},
-    )  # fmt: skip
+    )
     return given, simulate(given, cut)
 
 
@@ -35,9 +40,11 @@ def random(fields, sites, even=False):
 def test_sums_are_those_of_numpy_at_every_output(boundary, sites):
     weights = np.cos(np.arange(sites))
     model = Model(
-        fields="u", parameters={"k": 0.3, "w": lambda n: np.cos(n + sites // 2)},
-        i_dt=lambda p, u: lap(u) + p.w * u, conserved=bonds,
-    )  # fmt: skip
+        fields="u",
+        parameters={"k": 0.3, "w": lambda n: np.cos(n + sites // 2)},
+        i_dt=lambda p, u: lap(u) + p.w * u,
+        conserved=bonds,
+    )
     _, found = run(model, random(1, sites), boundary, every=1)
     u = found.state[0, 0] + 1j * found.state[1, 0]  # (site, snapshot)
     mode = {"dirichlet": "constant", "free": "symmetric"}.get(boundary, "wrap")
@@ -68,11 +75,13 @@ def test_the_energy_with_the_drive_of_the_other_sign_is_not_conserved():
 
 def test_the_energy_of_real_fields_is_kept_with_their_velocities():
     model = Model(
-        fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - x * x * x,
+        fields="x",
+        parameters={},
+        d2_dt2=lambda p, x: lap(x) - x * x * x,
         conserved=lambda p, x, v: {
             "H": 0.5 * v * v + 0.5 * (x.right - x) * (x.right - x) + 0.25 * x * x * x * x
         },
-    )  # fmt: skip
+    )
     _, found = run(model, random(1, 11).real.astype(complex), "free")
     np.testing.assert_allclose(found.conserved["H"], found.conserved["H"][0], rtol=1e-11)
 

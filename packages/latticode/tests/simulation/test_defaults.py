@@ -12,9 +12,10 @@ DRAG = Model(
     fields="x", parameters={"k": 1.0}, d2_dt2=lambda p, x, v: p.k * lap(x) - sqrt(v * v) * v
 )
 SINGULAR = Model(  # a root that vanishes at rest, though it is not one of squares alone
-    fields="u", parameters={"k": 1.0},
+    fields="u",
+    parameters={"k": 1.0},
     i_dt=lambda p, u: p.k * lap(u) + sqrt(1 - (1 - abs2(u))) * u,
-)  # fmt: skip
+)
 ROOTS = Model(fields="u", parameters={"k": 1.0}, i_dt=lambda p, u: p.k * lap(u) + sqrt(abs2(u)) * u)
 SMOOTH = Model(fields="u", parameters={"k": 1.0}, i_dt=lambda p, u: p.k * lap(u) + abs2(u) * u)
 NO_SERIES, AT_REST = "which has no power series at 0", "taylor stopped at t = 0: the state is no"
@@ -66,9 +67,14 @@ def test_a_force_with_a_kink_is_not_left_to_a_series_that_passes_over_it():
     run = simulate(case_of(drag, half_width=1, initial=data, end_time=6))
     assert run.attrs["solver"] == "dop853"
     exact = solve_ivp(
-        lambda t, y: [y[1], -y[0] - abs(y[1]) * y[1]], (0, 6), [1, 0.5], method="DOP853",
-        rtol=1e-13, atol=1e-13, max_step=0.01,
-    ).y[:, -1]  # fmt: skip
+        lambda t, y: [y[1], -y[0] - abs(y[1]) * y[1]],
+        (0, 6),
+        [1, 0.5],
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-13,
+        max_step=0.01,
+    ).y[:, -1]
     np.testing.assert_allclose(run["final"].values[:, 0, 1], exact, atol=1e-11)
 
 

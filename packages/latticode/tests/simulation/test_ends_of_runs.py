@@ -25,10 +25,18 @@ LONG = Model(fields="u", parameters={"c": 0.7}, i_dt=far, conserved=lambda p, u:
 
 
 def on_a_ring(model, z, boundary, solver="taylor"):
-    return simulate(Problem(
-        model=model, half_width=z.shape[1] // 2, boundary=boundary, initial=z, end_time=3.0,
-        output_step=1.0, solver=SOLVERS[solver], snapshot_every=1,
-    ))  # fmt: skip
+    return simulate(
+        Problem(
+            model=model,
+            half_width=z.shape[1] // 2,
+            boundary=boundary,
+            initial=z,
+            end_time=3.0,
+            output_step=1.0,
+            solver=SOLVERS[solver],
+            snapshot_every=1,
+        )
+    )
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

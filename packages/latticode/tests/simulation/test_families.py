@@ -64,9 +64,10 @@ class WithoutTaylor(TracedEquations):
 
 
 PHASES = Model(
-    fields="u", parameters={"w": lambda n: 0.1 * n},
+    fields="u",
+    parameters={"w": lambda n: 0.1 * n},
     i_dt=lambda p, u: 1j * (p.w + sin(u.right.real - u.real) + sin(u.left.real - u.real)),
-)  # fmt: skip
+)
 CHAIN = Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - sin(x))
 DRAG = Model(fields="x", parameters={}, d2_dt2=lambda p, x, v: lap(x) - sin(x) - sqrt(v * v) * v)
 
@@ -101,8 +102,9 @@ def test_the_stated_error_bounds_that_of_functions_of_neighbours_next_to_ends(ra
     model = Model(fields=("a", "b"), parameters={}, i_dt=traced(text)["i_dt"], text=text)
     start = np.random.default_rng(1).normal(size=(2, 11, 2)) @ (0.4, 0.4j)
     solver = {"name": "auto", "error": 1e-8}
-    given = problem(model=model, half_width=5, boundary=boundary, initial=start, end_time=5.0,
-                    solver=solver)  # fmt: skip
+    given = problem(
+        model=model, half_width=5, boundary=boundary, initial=start, end_time=5.0, solver=solver
+    )
     run = simulation.simulate(given)
     expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 5.0)
     error = np.abs(run.final.ravel() - expected).max() / run.linf.max()

@@ -29,13 +29,23 @@ def test_ordinary_runs_meet_no_obstacle(name, size):
 REST = {"size": 0.0, "numbers": (0.0, 0.0, 0.1), "step": 2.0**-20}  # exact in doubles
 LOOSE = {"rtol": 1e-40, "atol": 1e-14}
 REFUSED = [
-    ("crank_nicolson", {"step": 49e-9}, {"step": 50e-9},
-     "the run takes 1e+09 steps, more than 1e+09"),
-    ("crank_nicolson", REST | {"span": (1e9 + 1.0) * 2.0**-20}, REST | {"span": 1e9 * 2.0**-20},
-     "the step is too short"),
+    (
+        "crank_nicolson",
+        {"step": 49e-9},
+        {"step": 50e-9},
+        "the run takes 1e+09 steps, more than 1e+09",
+    ),
+    (
+        "crank_nicolson",
+        REST | {"span": (1e9 + 1.0) * 2.0**-20},
+        REST | {"span": 1e9 * 2.0**-20},
+        "the step is too short",
+    ),
     *(("crank_nicolson", {"step": step}, {}, "must be positive") for step in (0.0, -0.1, np.nan)),
-    *((name, {"rtol": 1e-17, "atol": 1e-18}, LOOSE, "below the rounding")
-      for name in ("taylor", "dop853", "ode45")),
+    *(
+        (name, {"rtol": 1e-17, "atol": 1e-18}, LOOSE, "below the rounding")
+        for name in ("taylor", "dop853", "ode45")
+    ),
     ("dop853", {"rtol": np.nan}, {"rtol": 1e-15, "atol": 1e-15}, "not both numbers"),
     ("dop853", {"atol": -0.5, "rtol": 1.0}, {"atol": 0.5, "rtol": 1.0}, "not both numbers"),
     ("ode45", {"rtol": 0.0}, {"rtol": 1e-9}, "ode45 must be positive"),
@@ -45,7 +55,7 @@ REFUSED = [
     ("dop853", {"size": 1e5}, {"size": 1e3}, "radians"),
     ("dop853", {"size": 1e200}, {}, "overflow"),
     ("dop853", {"size": np.inf}, {}, "not finite"),
-]  # fmt: skip
+]
 """Of each solver what it cannot take, what it just can, and what is said of the first."""
 
 
