@@ -109,7 +109,9 @@ def test_what_a_killed_process_left_goes_and_that_of_a_living_one_stays(tmp_path
     with complete_or_absent(tmp_path / "a.nc") as partial:
         partial.touch()
     assert {path.name for path in tmp_path.iterdir()} == {
-        *("a.nc", f".{os.getppid()}.a.nc", ".mine.a.nc")
+        "a.nc",
+        f".{os.getppid()}.a.nc",
+        ".mine.a.nc",
     }
 
 

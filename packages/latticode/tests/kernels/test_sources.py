@@ -22,9 +22,12 @@ def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
 @pytest.mark.parametrize(
     "statement",
     [
-        *("import mine.drawing.style", "from mine.drawing import style"),
-        *("from mine.drawing.style import styled", "from ..drawing import style"),
-        *("from ..drawing.style import styled", "def later():\n    from ..drawing import style"),
+        "import mine.drawing.style",
+        "from mine.drawing import style",
+        "from mine.drawing.style import styled",
+        "from ..drawing import style",
+        "from ..drawing.style import styled",
+        "def later():\n    from ..drawing import style",
     ],
 )
 def test_a_record_follows_every_kind_of_import(tmp_path, monkeypatch, statement):
