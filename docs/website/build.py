@@ -1,0 +1,80 @@
+"""Build the site of the project's pages and of the library's API reference.
+
+Run as `python docs/website/build.py [project]`, with the packages of requirements.txt beside this
+file. The site is written to build/site/html, and opens from a disk. A link or an anchor that leads
+nowhere is an error.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from latex2mathml.converter import convert
+
+CONFIGURATION = Path("docs/website/mkdocs.yml")
+PAGES = Path("build/site/pages")
+CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
+FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$]+)\$", re.DOTALL)
+LINK = re.compile(r"\[((?:[^][]|\[[^]]*\])*)\]\(([^)#\s]+)\)")
+
+
+def linked_pages(project: Path) -> list[str]:
+    """Return the pages that the navigation of the site names."""
+    text = (project / CONFIGURATION).read_text("utf-8")
+    return re.findall(r"^ +- (\S+\.md)$", text, re.MULTILINE)
+
+
+def outside_code(pattern: re.Pattern, replacement, text: str) -> str:
+    """Return a page in which a pattern is replaced wherever it is not in code."""
+    pieces = CODE.split(text)  # text and code in turn
+    pieces[::2] = [pattern.sub(replacement, piece) for piece in pieces[::2]]
+    return "".join(pieces)
+
+
+def formula_in_mathml(formula: re.Match) -> str:
+    """Return a formula as browsers draw it without a script.
+
+    A line that began with its tag would be a paragraph of its own: a span can be in a sentence.
+    """
+    if formula[1]:
+        return f"<div>{convert(formula[1], display='block')}</div>"
+    return f"<span>{convert(formula[2])}</span>"
+
+
+def collect_page(project: Path, page: str) -> None:
+    """Copy a page to where MkDocs reads it, with the pictures and files to which it links.
+
+    A link to a folder becomes plain text, because a site has no page of a folder.
+    """
+    source = project / page
+
+    def collect_target(link: re.Match) -> str:
+        target = Path(os.path.normpath(source.parent / link[2]))
+        if target.is_dir():
+            return link[1]
+        if target.is_file() and target.suffix != ".md":
+            copied = project / PAGES / target.relative_to(project)
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(target, copied)
+        return link[0]
+
+    text = outside_code(LINK, collect_target, source.read_text("utf-8"))
+    collected = project / PAGES / page
+    collected.parent.mkdir(parents=True, exist_ok=True)
+    collected.write_text(outside_code(FORMULA, formula_in_mathml, text), "utf-8")
+
+
+def build_site(project: Path) -> int:
+    """Collect the pages of a project, run MkDocs on them and return its exit code."""
+    shutil.rmtree(project / PAGES.parent, ignore_errors=True)
+    for page in linked_pages(project):
+        collect_page(project, page)
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--config-file", CONFIGURATION]
+    return subprocess.run(command, cwd=project).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(build_site(Path(*sys.argv[1:2] or [Path(__file__).parents[2]]).resolve()))
