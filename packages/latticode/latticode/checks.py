@@ -1,11 +1,10 @@
-"""Checks of a run: how far it is true, and whether its motion is chaotic.
+"""Checks of a run: its error, whether its motion is chaotic, and a localised state nearby.
 
-First the problem is run again by a method of another family at tight tolerances. What the two runs
-are apart, in the fields at all sites and in their norms, is the error of the worse run. If the
-first was made by the default solver at its default tolerances, that is the error of double
-precision. Then a random tangent vector is carried along:
-its growth says whether the motion is chaotic, and when the digits of double precision end. Last a
-localised state is looked for, with its stability.
+A method of another family runs the problem again at tight tolerances. The difference of the two
+runs, in the norms and in the fields at all sites, is the error of the worse run. If the first run
+used the default solver with its default tolerances, this is the error of double precision. The
+growth of a random tangent vector then shows whether the motion is chaotic, and when rounding errors
+become visible. Last comes the localised state near the initial data, with its stability.
 """
 
 from collections.abc import Collection, Mapping
@@ -45,14 +44,14 @@ from latticode.simulation.simulate import simulate
 
 TITLE = "A run and its checks"
 UNSTABLE_REST = "unstable_rest"
-"""The attribute with a sentence on sites that rest at an unstable point."""
+"""The attribute with a warning about sites that rest at an unstable point."""
 
 
 def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> dict:
-    """Return the controls of a method of another family than `name`, for data up to `peak`.
+    """Return the solver, of another family than `name`, that checks a run of amplitude `peak`.
 
-    `known` are the methods that take the equations. Data smaller than 1 need a smaller absolute
-    tolerance, as far as its square does not vanish.
+    `known` are the methods that integrate the equations. Data below 1 get a smaller absolute
+    tolerance, but at least SMALLEST_ERROR.
     """
     judge = other_family(name, known)
     rtol = METHODS[judge].tightest
@@ -61,10 +60,10 @@ def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> d
 
 
 def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return the second run's norms and its difference from `run`; all are NaN if it was refused.
+    """Return the norms of a second run and its difference from `run`; NaN if it is impossible.
 
-    `run` is the trajectory that `simulate` made of `problem`, by any solver. Its dataset holds no
-    phases on the way: so its solver runs again too, and keeps the fields at the snapshots.
+    `run` is the stored trajectory of `problem` by any solver. It may lack the phases before the end
+    time, so its own solver runs again too and keeps the fields at the snapshots.
     """
     peak, known = float(modulus(problem.initial).max()), set(problem.equations.methods)
     solver = choose_solver(str(run.attrs["solver"]), peak, known)
@@ -89,7 +88,7 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 
 
 def solver_of(attributes: Mapping) -> dict:
-    """Return the solver that the attributes of a run name, with its controls."""
+    """Return the solver of a run, with its controls, from the attributes of its dataset."""
     start = "solver_"
     keys = [key for key in attributes if key.startswith(start)]
     controls = {key.removeprefix(start): attributes[key] for key in keys}
@@ -97,7 +96,7 @@ def solver_of(attributes: Mapping) -> dict:
 
 
 def _final_of(run: xr.Dataset, final: np.ndarray) -> np.ndarray:
-    """Return the fields at the end that a run holds, or else those of the same run made again."""
+    """Return the stored fields at the end of a run, or `final` if none are stored."""
     if "final" not in run:
         return final
     real_and_imaginary = run["final"].transpose("part", "component", "site").values
@@ -110,7 +109,7 @@ def _compared(
     norm_difference: xr.DataArray,
     agreement: Agreement | None,
 ) -> xr.Dataset:
-    """Return the norms of the second run, and what the runs are apart in norms and in fields."""
+    """Return the norms of the second run, and the differences of both in norms and in fields."""
     data = at_times(second_norms, run["tau"]).drop_attrs(deep=False)
     data = data.rename({norm: f"second_{norm}" for norm in NORMS})
     for norm in NORMS:
@@ -154,14 +153,14 @@ def follow(problem: Problem) -> TangentGrowth:
 
 
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
-    """Return the rate at which tangent vectors grow, whether that is chaos, and when digits end."""
+    """Return the growth rate of a tangent vector, the test for chaos, and the end of digits."""
     try:
         growth = follow(problem)
     except IntegrationError as error:
         return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
     tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size
     middle = tau[-1] / 2
-    with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
+    with np.errstate(divide="ignore", invalid="ignore"):  # at rest the size is zero
         relative = log_growth - log(size)
         late = relative[-1] - relative[np.searchsorted(tau, middle)]
         amplified = amplification(tau, log_growth, size)
@@ -193,12 +192,12 @@ LOCALISED = 0.01
 
 
 def check_breather(problem: Problem) -> xr.Dataset:
-    """Return a localised state with its exponents, or as an attribute why there is none.
+    """Return a localised state with its exponents, or the reason for none as an attribute.
 
-    The multipliers are those over a period, or over a unit of tau where the state is steady.
+    Floquet multipliers are over one period, or over one unit of tau for a steady state.
     """
     try:
-        with np.errstate(all="ignore"):  # Newton's method may run away, and is then stopped
+        with np.errstate(all="ignore"):  # Newton's method may diverge, which it detects
             state = find_state(problem)
     except NoStateError as error:
         return xr.Dataset(attrs={"breather_refusal": str(error)})
@@ -248,7 +247,7 @@ def _real_and_imaginary(values: np.ndarray) -> np.ndarray:
 
 
 def check_conserved(run: xr.Dataset) -> xr.Dataset:
-    """Return by how much each conserved quantity drifts, relative to its largest size."""
+    """Return the largest drift of each conserved quantity, relative to its largest magnitude."""
     if "conserved" not in run:
         return xr.Dataset()
     values = run["conserved"].values
@@ -262,7 +261,7 @@ def check_conserved(run: xr.Dataset) -> xr.Dataset:
 
 
 def check_rest(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return as an attribute a sentence on sites that rest at an unstable point, if there are."""
+    """Return a warning about sites at rest at an unstable point, if any, as an attribute."""
     sentence = describe_unstable_rest(problem, run["modulus"].values) if "modulus" in run else ""
     return xr.Dataset(attrs={UNSTABLE_REST: sentence} if sentence else {})
 
@@ -270,7 +269,7 @@ def check_rest(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return all checks of a run as one dataset, with the attributes of the run.
 
-    `run` is the trajectory that `simulate` made of `problem`.
+    `run` is the stored trajectory of `problem`.
     """
     second_run, growth = run_again(problem, run), measure_sensitivity(problem)
     other_checks = check_conserved(run), check_rest(problem, run), check_breather(problem)

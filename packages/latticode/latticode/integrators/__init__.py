@@ -1,24 +1,24 @@
-"""Time integrators: one file a method, one calling convention. None knows a model.
+"""Time integrators with a common calling convention, each in its own file and free of any model.
 
     build(rates, observe) -> solve
     solve(system, y, times, controls, work, record, stop) -> Outcome
 
-`rates(system, y, dy)` is the right-hand side (`crank_nicolson.build_conserving` takes its mean over
-a step, Taylor the rule of a power series), `observe(system, y, i, record)` reduces the state at
-output i. `work` holds as many arrays of the size of `y` as the module's WORK says. `y` holds pairs
-of rows (real and imaginary parts) with one ghost column at each side; it starts as the initial
-state and ends as the final one. `times` are those of the outputs, from the start on. Nothing is
-allocated in the step loop. Another thread may raise the flag `stop`, an array of one boolean: the
-loop reads it at every step and ends (see latticode.simulation.interrupts).
+`rates(system, y, dy)` is the right-hand side. `crank_nicolson.build_conserving` takes its mean over
+a step instead, and `taylor.build` the rule of a power series. `observe(system, y, i, record)`
+stores the observables of output i. `y` (row, column) is the initial state and is overwritten by the
+final one; two rows hold the real and imaginary parts of a field, with a ghost column at each end.
+`work` holds WORK arrays of the size of `y`. `times` are the start and the output times. Nothing is
+allocated in the step loop. `stop` is an array of one boolean, which another thread may set: the
+loop reads it at every step and then ends (see latticode.simulation.interrupts).
 
-A system may depend on time. `build` of the methods that can follow one takes `at_time(system, t)`,
-which returns the system as it is at the time t and is asked before every call of `rates`, or once a
-step for a power series. Rounding lets t + h miss the time that a step of h reaches. Only what
-depends on time can tell, and there steps are rounded so that t + h is exact.
+For equations that depend on time, `build` takes `at_time(system, t)`, which returns the system at
+time t. It is called before every call of `rates`, or once per step for a power series. In floating
+point t + h - t may differ from h; with `at_time` the step is rounded to t + h - t, because the
+equations would notice the difference.
 
-Every explicit method measures errors by the largest component and takes the same steps whether a
-solution that is even in n is given whole or by half. Its loop counts outputs by `i`, and steps to
-`t_new`, past one output or several, which it interpolates.
+Every explicit method measures errors by the largest component. It therefore takes the same steps on
+half of a chain that is even in n. Its loop steps to `t_new`, which may pass several outputs `i`,
+and interpolates those.
 """
 
 from typing import NamedTuple
@@ -32,17 +32,17 @@ FAULTS = {
     NO_CONTRACTION: "the fixed-point iteration did not contract even at the smallest step",
     INTERRUPTED: "it was interrupted",
 }
-"""What a status other than DONE means, in words."""
+"""Messages for the statuses other than DONE."""
 
 SMALLEST_PART = 1e-10
-"""A step shorter than this part of the run is refused."""
+"""Shortest step that is allowed, as a fraction of the length of the run."""
 
 
 class Outcome(NamedTuple):
-    """Status, the time reached, and counts of the work done."""
+    """How a run ended: its status, the time reached, and the numbers of steps and evaluations."""
 
     status: int
     time: float
-    steps: int  # taken
-    rejected: int  # tried in vain; for a fixed-point iteration how often a step was halved
-    evaluations: int  # of the right-hand side; of the orders of a series for Taylor
+    steps: int  # accepted steps
+    rejected: int  # rejected steps; for a fixed-point iteration the number of halvings
+    evaluations: int  # of the right-hand side; for Taylor of the orders of the series

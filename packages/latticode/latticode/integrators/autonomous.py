@@ -1,9 +1,11 @@
-"""What a system that does not depend on time gives an integrator that asks for its time."""
+"""The `at_time` of autonomous equations, as integrators call it."""
+
+from typing import Any
 
 from latticode.kernels.compiled import kernel
 
 
 @kernel
-def at_any_time(system, t):
-    """Return the system itself: the `at_time` of what does not depend on time."""
+def at_any_time(system: Any, t: float) -> Any:
+    """Return the system itself, which is the same at every time t."""
     return system

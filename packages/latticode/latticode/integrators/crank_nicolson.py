@@ -1,18 +1,21 @@
-"""Crank-Nicolson, solved by fixed-point iteration: the paper's second solver, and a variant of it.
+"""Crank-Nicolson schemes solved by fixed-point iteration: the trapezoidal rule, and a variant.
 
-`build` is the trapezoidal rule, new = old + h/2 (F(old) + F(new)): Crank and Nicolson (Proc. Camb.
-Phil. Soc. 43 (1947) 50) average the right-hand side over the two ends of a step. It does not keep
-the quartic energy (8).
+`build` is the trapezoidal rule, new = old + h/2 (F(old) + F(new)), by Crank and Nicolson (Proc.
+Camb. Phil. Soc. 43 (1947) 50). It does not conserve the quartic energy (8).
 
-`build_conserving` is the variant that conserves the energy up to the tolerance of the iteration:
+`build_conserving` conserves the energy up to the tolerance of the iteration:
 new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
-(J. Comput. Phys. 44 (1981) 277). It shows what of the second solver's difference to the first is
-the drift of its energy, and what is the error of its phase.
+(J. Comput. Phys. 44 (1981) 277). Comparing the two separates the effects of energy drift and phase
+error.
 
 Both are of second order and symmetric in time.
 """
-# ASSUME: the paper says "a Crank-Nicholson scheme with the fixed-point iteration method" and no
-# more. It is read as the trapezoidal rule, the scheme of Crank and Nicolson's own paper.
+# ASSUME: the paper only writes "a Crank-Nicholson scheme with the fixed-point iteration method". We
+# take the trapezoidal rule, the scheme of the paper by Crank and Nicolson.
+
+from collections.abc import Callable
+
+import numpy as np
 
 from latticode.kernels.compiled import uncached
 
@@ -21,30 +24,30 @@ from .fixed_point import WORK as WORK
 
 
 @uncached
-def advance(old, h, slope, new):
-    """Set new = old + h slope, ghosts left alone."""
+def advance(old: np.ndarray, h: float, slope: np.ndarray, new: np.ndarray) -> None:
+    """Set new = old + h slope, except in the ghost columns."""
     for row in range(old.shape[0]):
         for j in range(1, old.shape[1] - 1):
             new[row, j] = old[row, j] + h * slope[row, j]
 
 
 @uncached
-def reflect(old, base):
-    """Set base = 2 old - base, ghosts left alone."""
+def reflect(old: np.ndarray, base: np.ndarray) -> None:
+    """Set base = 2 old - base, except in the ghost columns."""
     for row in range(old.shape[0]):
         for j in range(1, old.shape[1] - 1):
             base[row, j] = 2.0 * old[row, j] - base[row, j]
 
 
-def build(rates, observe):
-    """Return the solver of y' = rates by the trapezoidal rule; see the package."""
+def build(rates: Callable, observe: Callable) -> Callable:
+    """Return the solver of y' = rates by the trapezoidal rule; the package gives its arguments."""
 
     @uncached
     def begin(system, old, h, follows, base):
-        """Half a step of the explicit Euler method; half a step of the implicit one remains.
+        """Return base = old + h/2 F(old), the factor h/2, and the number of evaluations.
 
-        The step before ended where old = base + h/2 F(old) for its own base, so that the new one,
-        old + h/2 F(old), needs no right-hand side.
+        After a step of the same length old = base + h/2 F(old) with the previous base. The new
+        base is then 2 old - base, without an evaluation.
         """
         if follows:
             reflect(old, base)
@@ -60,11 +63,11 @@ def build(rates, observe):
     return fixed_point.build(begin, slope, observe)
 
 
-def build_conserving(mean_rates, observe):
+def build_conserving(mean_rates: Callable, observe: Callable) -> Callable:
     """Return the solver of y' = rates by the scheme of Delfour, Fortin and Payre.
 
-    `mean_rates(system, old, new, middle, dy)` writes the mean of the rates over a step into `dy`,
-    and may use `middle` as it likes.
+    `mean_rates(system, old, new, middle, dy)` writes the mean of the rates over a step into `dy`;
+    `middle` is scratch memory.
     """
 
     @uncached

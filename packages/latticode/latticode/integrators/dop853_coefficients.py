@@ -2,8 +2,8 @@
 
 Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I,
 2nd edition (Springer, 1993), section II.5, and the program dop853.f that goes with it. The tests
-compare every number with an independent copy and measure the order. Each row gives its weights by
-the stages that they multiply; those that are zero are left out.
+compare every number with an independent copy and measure the order. Each row maps the number of a
+stage to its weight; zero weights are omitted.
 """
 
 import numpy as np
@@ -60,14 +60,14 @@ STAGES = {
         15: -9.15095847217987,
     },
 }
-"""The arguments of stages 2 to 16. That of stage 13 is the solution itself, and those of the stages
-14 to 16 are for the interpolant only."""
+"""Weights of the arguments of stages 2 to 16. Stage 13 is evaluated at the solution; stages 14 to
+16 are needed only for the interpolant."""
 NODES = np.array([
     np.nan, 0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274, 0.2816496580927726,
     1 / 3, 0.25, 4 / 13, 0.6512820512820513, 0.6, 0.8571428571428571, 1.0, 1.0, 0.1, 0.2, 7 / 9,
 ])
-"""The part of the step at which each stage stands, by its number."""
-# the errors of the orders five and three
+"""Time of each stage as a fraction of the step, by the number of the stage."""
+# weights of the error estimates of orders five and three
 E5 = {
     1: 0.01312004499419488, 6: -1.2251564463762044, 7: -0.4957589496572502, 8: 1.6643771824549864,
     9: -0.35032884874997366, 10: 0.3341791187130175, 11: 0.08192320648511571,
@@ -78,7 +78,7 @@ E3 = {
     9: -0.4226823213237919, 10: -0.1521609496625161, 11: 0.20136540080403034,
     12: 0.02265179219836082,
 }
-# the rows of the interpolant
+# weights of the interpolant
 D4 = {
     1: -8.428938276109013, 6: 0.5667149535193777, 7: -3.0689499459498917, 8: 2.38466765651207,
     9: 2.117034582445028, 10: -0.871391583777973, 11: 2.2404374302607883, 12: 0.6315787787694688,

@@ -1,31 +1,31 @@
-"""The contract of a time integrator: one object that says all that the library needs to know of it.
+"""The interface of a time integrator: one object with all that the library needs to know about it.
 
-A `Method` has a name and a label, the controls that a user may set, the models that it takes, what
-a step costs, and the kernels that make a run. Configuration, checks, `auto`, estimates of costs,
-figures and generated kernels read these. Files in `methods` define one method each.
+A `Method` has a name and a label, the controls that a user may set, the models that it integrates,
+the cost of a step, and its kernels. Configuration, checks, `auto`, cost estimates, figures and
+generated kernels read these. Each file in `methods` defines one method.
 
-Such a file is read with the configuration, before any run starts. So numba, which takes a tenth of
-a second to load, is imported inside `build` or in the module that `kernels` returns.
+Such a file is imported with the configuration, before any run starts. numba takes 0.1 s to load and
+is therefore imported only in `build` or in the module that `kernels` returns.
 """
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 from latticode.equations.model import Model
 
 COARSEST = 0.1
-"""Largest tolerance of a step's error: the estimate of that error holds for small errors only."""
+"""Largest tolerance of a step. Error estimates hold only for small errors."""
 SMALLEST_ERROR = 1e-150
-"""The square of a smaller error vanishes, and with it the step control of methods that square."""
+"""Smallest tolerance of methods that square errors: the squares of smaller ones underflow."""
 
 Obstacle = tuple[str, str]
-"""The key of a case because of which it cannot be integrated, and the reason."""
+"""A key of a case and the reason why its value prevents the integration."""
 
 
 class Control(NamedTuple):
-    """A positive number that controls a method: its default, and the values that it may have."""
+    """A positive number that controls a method: its default and its allowed range."""
 
     default: float
     at_least: float | None = None
@@ -35,15 +35,15 @@ class Control(NamedTuple):
 
 
 class Demand(NamedTuple):
-    """What decides the cost of a problem besides its method and its times."""
+    """Properties of a problem that determine its cost, besides its method and times."""
 
-    rate: float  # the fastest at which the data turn, per unit of time
-    pairs: float  # of fields that are integrated
-    clock: float = 1.0  # units of the equations' own time in one of the problem
+    rate: float  # fastest phase rate, in radians per unit of time
+    pairs: float  # number of row pairs (fields times sites) that are integrated
+    clock: float = 1.0  # units of the kernels' time per unit of the problem's time
 
 
 class Cost(Protocol):
-    """How many steps a method takes and what each costs; measured, so estimates are within 3."""
+    """An estimate of the cost of a run, within a factor of 3 of measured times."""
 
     pair_bytes: float
 
@@ -53,7 +53,7 @@ class Cost(Protocol):
         """Return the steps of a run, and the evaluations of a scheme solved by iteration."""
 
     def seconds(self, steps: float, evaluations: float, pairs: float) -> float:
-        """Return the seconds that so many steps take for so many pairs of fields."""
+        """Return the seconds for these numbers of steps, evaluations and row pairs."""
 
 
 class AdaptiveCost(NamedTuple):
@@ -61,14 +61,14 @@ class AdaptiveCost(NamedTuple):
 
     per_angle: float
     order: float
-    step_seconds: float  # a step, whatever the chain
-    pair_seconds: float  # a step and a pair of fields
-    pair_bytes: float  # of the state and the work arrays, a pair
+    step_seconds: float  # per step, for any chain
+    pair_seconds: float  # per step and row pair
+    pair_bytes: float  # of the state and the work arrays, per row pair
 
     def steps(
         self, controls: Mapping[str, Any], demand: Demand, span: float, output_step: float
     ) -> tuple[float, float]:
-        """Return the steps of a run by the angle through which its data turn."""
+        """Return the number of steps, from the angle by which phases advance during the run."""
         tolerance = max(controls["rtol"], 1e-17) ** (-1.0 / self.order)
         return max(1.0, self.per_angle * demand.rate * span * tolerance), 0.0
 
@@ -78,7 +78,7 @@ class AdaptiveCost(NamedTuple):
 
 
 class FixedStepCost(NamedTuple):
-    """Equal steps between two outputs, none longer than the control `step`."""
+    """Cost of equal steps between two outputs, none longer than the control `step`."""
 
     step_seconds: float
     pair_seconds: float
@@ -87,7 +87,7 @@ class FixedStepCost(NamedTuple):
     def steps(
         self, controls: Mapping[str, Any], demand: Demand, span: float, output_step: float
     ) -> tuple[float, float]:
-        """Return the steps of a run in the time of the equations."""
+        """Return the number of steps of a run; `step` is in units of the kernels' time."""
         longest = min(controls["step"], output_step * demand.clock)
         return span * demand.clock / longest, 0.0
 
@@ -97,13 +97,14 @@ class FixedStepCost(NamedTuple):
 
 
 class Method:
-    """A time integrator. A subclass sets what differs, in one file of `methods`.
+    """A time integrator. Each subclass is defined in a file of `methods`.
 
-    `name` is what users write, `label` what figures print, `order` the order of its error in the
-    step. `controls` are those of `solve`, in its order. `tightest` is the relative tolerance at
-    which the method checks runs of others; None for one without error control. `look` is its colour
-    and its marker in figures. `rule` names what `build` takes of the equations: "rates", the
-    right-hand side, or "continue_series", the rule of their power series.
+    `name` is the name in configurations, `label` the one in figures, and `order` the order of the
+    global error in the step. `controls` are those of `solve`, in the same order. `tightest` is the
+    relative tolerance at which the method checks runs of other methods; None without error control.
+    `look` is its colour and marker in figures. `rule` names the function of the equations that
+    `build` takes: "rates", the right-hand side, or "continue_series", the rule of their power
+    series.
     """
 
     name: ClassVar[str]
@@ -114,12 +115,12 @@ class Method:
     rule: ClassVar[str] = "rates"
     tightest: ClassVar[float | None] = None
     step_divides_outputs: ClassVar[bool] = False
-    """Whether its `step` must divide the time between two outputs."""
+    """Whether the control `step` must divide the time between two outputs."""
     continues_exactly: ClassVar[bool] = False
-    """Whether a run that starts where another ended has the bits of one run: steps end at outputs,
-    and begin with nothing but the state."""
+    """Whether a run continued from its final state has the bits of a single run. Steps then end
+    at outputs and depend only on the state."""
     takes_tiles: ClassVar[bool] = False
-    """Whether `build` takes `can_be_tiled` and `system_of_tile`: see `dop853`."""
+    """Whether `build` takes the arguments `can_be_tiled` and `system_of_tile` (see `dop853`)."""
     look: ClassVar[tuple[str, str] | None] = None
 
     def integrates(self, model: Model) -> bool:
@@ -129,27 +130,27 @@ class Method:
     def find_obstacle(
         self, controls: Mapping[str, Any], peak: float, span: float, rate: float
     ) -> Obstacle | None:
-        """Return why this method cannot integrate data of the size `peak`, None if it can.
+        """Return why this method cannot integrate data of amplitude `peak`, None if it can.
 
-        `span` is the length of the run and `rate` how fast the data turn, in the equations' time.
+        `span` is the length of the run and `rate` the phase rate of the data, in the kernels' time.
         """
         return None
 
     def kernels(self) -> ModuleType:
         """Return the module with `build` and `WORK`, as the package `integrators` describes them.
 
-        It is the method's own file unless a subclass imports another one here.
+        By default this is the file that defines the method.
         """
         return sys.modules[type(self).__module__]
 
-    def build(self, rule, observe, **more):
-        """Return the function `solve` of a model's `rule` and `observe`.
+    def build(self, rule: Callable, observe: Callable, **more: Any) -> Callable:
+        """Return the function `solve` for a model's `rule` and `observe`.
 
-        `more` is `at_time` where the equations depend on the time, and for a method that
-        `takes_tiles` what it needs for them.
+        `more` holds `at_time` if the equations depend on time, and `can_be_tiled` and
+        `system_of_tile` for a method that `takes_tiles`.
         """
         return self.kernels().build(rule, observe, **more)
 
     def work_arrays(self, sites: int, in_tiles: bool) -> int:
-        """Return how many arrays of the size of a state a run on so many sites needs."""
+        """Return how many work arrays of the size of a state a run on `sites` sites needs."""
         return self.kernels().WORK

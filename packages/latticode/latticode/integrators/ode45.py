@@ -1,25 +1,24 @@
 """MATLAB's ode45: the Dormand-Prince 5(4) pair under ode45's own step control.
 
-The paper used ode45, and another control of the same pair makes another run: SciPy's RK45 drifts
-ten times as much in energy at the same tolerances. So every choice here is MATLAB's. The pair is
-from Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19; the error norm, the initial step and
+The paper used ode45, and the results depend on the step control: at the same tolerances the energy
+drift of SciPy's RK45 is ten times larger. All choices below are therefore MATLAB's. The pair is
+from Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19. The error norm, the initial step and
 the step control follow Shampine and Reichelt, The MATLAB ODE Suite, SIAM J. Sci. Comput. 18 (1997)
-1; outputs between steps come from the pair's quartic interpolant.
+1. Outputs between steps use the quartic interpolant of the pair.
 
-# ASSUME: the paper's unknowns are MATLAB complex numbers, so that the error of a component is the
-# modulus of a complex number, relative to the larger modulus at the two ends of the step. MATLAB's
-# users as often take real and imaginary parts as unknowns, each with an error of its own: that is
-# the solver ode45_real, and checks/solvers.nc holds the drift of the energy by both.
+# ASSUME: the paper's unknowns are MATLAB complex numbers. The error of a component is then the
+# modulus of a complex number, relative to the larger modulus at the two ends of the step. Users of
+# MATLAB often take real and imaginary parts as separate unknowns with separate errors. This is the
+# solver ode45_real; checks/solvers.nc contains the energy drift of both.
 
-From top to bottom: the stages, the error, the interpolant, the choice of the first step, and the
-loop. `y` is the state before a step, `w` the state after it or the argument of a stage, `k[s - 1]`
-the slope of stage s; the slope of the last stage is the first of the next step.
+In all kernels `y` is the state before a step, `w` the state after it or the argument of a stage,
+and `k[s - 1]` the slope of stage s. The slope of the last stage is the first of the next step.
 
-MATLAB takes powers of 1/5 from the C library. Their last bits differ between machines, and a
-chaotic run takes another path for it. Here fifth roots are made of + - * / and are the same
-everywhere.
+MATLAB computes powers of 1/5 with the C library. Their last bits differ between machines, which
+changes the course of a chaotic run. Here fifth roots use only + - * / and are the same everywhere.
 """
 
+from collections.abc import Callable
 from math import sqrt
 
 import numpy as np
@@ -33,8 +32,10 @@ from .autonomous import at_any_time
 from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
 from .weighted_sums import table, write_sum
 
+Array = np.ndarray
+
 WORK = 9
-"""Work arrays of the size of a state."""
+"""Number of work arrays of the size of a state."""
 fifth_root = uncached(elementary.fifth_root)
 # weights b of the fifth-order solution minus those of the fourth-order solution
 E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
@@ -51,26 +52,26 @@ ROWS = table(
     },
     8,
 )
-"""The weights of the arguments of stages 2 to 7, by the stages that they multiply."""
+"""Weights of the arguments of stages 2 to 7; each row maps the number of a stage to its weight."""
 NODES = np.array([np.nan, 0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
-"""The part of the step at which each stage stands, by its number."""
+"""Time of each stage as a fraction of the step, by the number of the stage."""
 
 
 @kernel
-def combine(stage, y, h, k, w):
-    """Write the argument of stage 2 to 7 into `w`; that of stage 7 is the fifth-order solution.
+def combine(stage: int, y: Array, h: float, k: Array, w: Array) -> None:
+    """Write the argument of a stage from 2 to 7 into `w`; that of stage 7 is the solution.
 
-    `y` and `w` are flat, `k[stage - 1]` holds the slopes found so far.
+    `y` and `w` are flat; `k` (stage, number) holds the slopes of the earlier stages.
     """
     write_sum(ROWS, stage, y, h, k, w)
 
 
 @kernel
-def relative_error(y, w, k, threshold, scratch):
-    """Return the largest error of a complex component, over h, as ode45 measures it.
+def relative_error(y: Array, w: Array, k: Array, threshold: float, scratch: Array) -> float:
+    """Return the largest relative error of a complex component in ode45's norm, divided by h.
 
-    It is relative to the larger modulus at the two ends of the step, but at least to `threshold`;
-    it is NaN or infinite where the step overflowed. Squares are compared, one root is taken.
+    The error is relative to the larger modulus at the two ends of the step, or to `threshold` if
+    that is larger. It is NaN or infinite if the step overflowed.
     """
     floor = threshold * threshold
     k1, k3, k4, k5, k6, k7 = k[0], k[2], k[3], k[4], k[5], k[6]
@@ -78,10 +79,8 @@ def relative_error(y, w, k, threshold, scratch):
         im = re + 1
         for row in (re, im):
             for j in range(1, y.shape[1] - 1):
-                scratch[row, j] = (
-                    E1 * k1[row, j] + E3 * k3[row, j] + E4 * k4[row, j]
-                    + E5 * k5[row, j] + E6 * k6[row, j] + E7 * k7[row, j]
-                )  # fmt: skip
+                error = E1 * k1[row, j] + E3 * k3[row, j] + E4 * k4[row, j]
+                scratch[row, j] = error + E5 * k5[row, j] + E6 * k6[row, j] + E7 * k7[row, j]
         for j in range(1, y.shape[1] - 1):
             size2 = max(square_modulus(y, re, j), square_modulus(w, re, j))
             scratch[re // 2, j] = square_modulus(scratch, re, j) / max(size2, floor)
@@ -89,21 +88,21 @@ def relative_error(y, w, k, threshold, scratch):
 
 
 @kernel
-def relative_error_of_reals(y, w, k, threshold, scratch):
-    """Return the same where real and imaginary parts are unknowns of their own."""
+def relative_error_of_reals(
+    y: Array, w: Array, k: Array, threshold: float, scratch: Array
+) -> float:
+    """Return the largest relative error, divided by h, of real and imaginary parts as unknowns."""
     for row in range(y.shape[0]):
         for j in range(1, y.shape[1] - 1):
-            error = (
-                E1 * k[0, row, j] + E3 * k[2, row, j] + E4 * k[3, row, j]
-                + E5 * k[4, row, j] + E6 * k[5, row, j] + E7 * k[6, row, j]
-            )  # fmt: skip
+            error = E1 * k[0, row, j] + E3 * k[2, row, j] + E4 * k[3, row, j]
+            error = error + E5 * k[4, row, j] + E6 * k[5, row, j] + E7 * k[6, row, j]
             size = max(max(abs(y[row, j]), abs(w[row, j])), threshold)
             scratch[row, j] = error / size
     return largest_in_rows(scratch, y.shape[0])
 
 
 @kernel
-def interpolate(s, y, h, k, out):
+def interpolate(s: float, y: Array, h: float, k: Array, out: Array) -> None:
     """Write the quartic interpolant at the fraction `s` of the step from `y` into `out`."""
     s2, s3, s4 = s * s, s * s * s, s * s * s * s
     b1 = s - 183 / 64 * s2 + 37 / 12 * s3 - 145 / 128 * s4
@@ -120,8 +119,8 @@ def interpolate(s, y, h, k, out):
 
 
 @kernel
-def relative_rate(y, slope, threshold):
-    """Return the largest rate of a complex component, relative to it or to `threshold`."""
+def relative_rate(y: Array, slope: Array, threshold: float) -> float:
+    """Return the largest rate of a complex component, relative to its modulus or `threshold`."""
     rate2 = 0.0
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
@@ -132,8 +131,8 @@ def relative_rate(y, slope, threshold):
 
 
 @kernel
-def relative_rate_of_reals(y, slope, threshold):
-    """Return the same where real and imaginary parts are unknowns of their own."""
+def relative_rate_of_reals(y: Array, slope: Array, threshold: float) -> float:
+    """Return the largest relative rate of real and imaginary parts as separate unknowns."""
     rate = 0.0
     for row in range(y.shape[0]):
         for j in range(1, y.shape[1] - 1):
@@ -142,22 +141,24 @@ def relative_rate_of_reals(y, slope, threshold):
 
 
 @kernel
-def initial_step(rate, rtol, longest):
+def initial_step(rate: float, rtol: float, longest: float) -> float:
     """Return ode45's first step: 0.8 rtol^(1/5) over the largest relative rate, or `longest`."""
     rate /= 0.8 * fifth_root(rtol)
     return 1.0 / rate if longest * rate > 1.0 else longest
 
 
 @kernel
-def spacing(t):
-    """Return the shortest step that MATLAB allows at time t: 16 eps(t)."""
+def spacing(t: float) -> float:
+    """Return the shortest step that MATLAB allows at time t, 16 eps(t)."""
     return 16.0 * np.spacing(max(abs(t), 2.0**-1022))
 
 
-def build(rates, observe, at_time=at_any_time, of_reals=False):
-    """Return the solver of y' = rates; see the package for its arguments.
+def build(
+    rates: Callable, observe: Callable, at_time: Callable = at_any_time, of_reals: bool = False
+) -> Callable:
+    """Return the solver of y' = rates; the package describes its arguments.
 
-    `of_reals` makes each row of the state a real unknown; else two rows are a complex one.
+    With `of_reals` each row of the state is a real unknown, otherwise two rows are a complex one.
     """
     driven = at_time is not at_any_time
     measure = relative_error_of_reals if of_reals else relative_error
@@ -175,14 +176,14 @@ def build(rates, observe, at_time=at_any_time, of_reals=False):
         rates(at_time(system, t), y, k[0])
         rate = rate_of(y, k[0], threshold)
         h = initial_step(rate, rtol, min(longest, times[1] - times[0]))
-        i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
+        i = np.int64(0)  # numba types a literal 0 separately and would compile `observe` twice
         observe(system, y, i, record)
         i += 1
         steps, rejected, evaluations = 0, 0, 1
         while i < times.size:
             shortest = spacing(t)
             h = min(longest, max(shortest, h))
-            if 1.1 * h >= end - t:  # lengthen the last step rather than leave a short one
+            if 1.1 * h >= end - t:  # lengthen the last step instead of adding a very short one
                 h = end - t
             elif not h > refused:  # also where h is NaN
                 return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
@@ -204,7 +205,7 @@ def build(rates, observe, at_time=at_any_time, of_reals=False):
                 if not h > shortest:
                     status = STEP_TOO_SMALL if error < np.inf else NOT_FINITE
                     return Outcome(status, t, steps, rejected, evaluations)
-                # the first failure takes the error for its guide, each further one halves the step
+                # the first rejection uses the error estimate, each further one halves the step
                 shrink = 0.5 if failed else max(0.1, 0.8 * fifth_root(rtol / error))
                 h = max(shortest, h * shrink)
                 rejected += 1

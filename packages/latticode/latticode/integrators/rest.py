@@ -1,33 +1,35 @@
-"""What counts as rest: numbers so small that no run computes with them.
+"""Thresholds below which numbers in a state are set to zero, to avoid slow subnormal arithmetic.
 
-Where motion has yet to arrive, the fields fall off to 1e-150 and less, and their squares and cubes
-are subnormal numbers or vanish. Many processors take each of these by microcode, and a long chain
-with one excited site would take several times as long for them. So every solver sets numbers in a
-state that are below `rest_level` to zero, and products of fields take factors below TINY as zero.
+Ahead of a front the fields fall off to 1e-150 and below, and their squares and cubes are subnormal
+or vanish. Many processors handle subnormal numbers in microcode, which would slow down a long chain
+with one excited site several times. Every solver therefore sets numbers in a state that are below
+`rest_level` to zero, and products of fields treat factors below TINY as zero.
 
-A product of such factors is too small to change the last bit of a linear term. What is set to zero
-in a state is missing in its neighbours, by less than their last bits. Like any change of last bits
-it can turn a rounding of a larger neighbour after a while, and that of the next one.
+Products of such factors are too small to change the last bit of a linear term. Numbers set to zero
+change neighbouring sites by less than a last bit. Like any such change, this may eventually change
+the rounding at a larger neighbour.
 
-Numbers are compared, and no mode of the processor is switched: WebAssembly has none, aarch64 and
-x86 flush at different places, and results are to have the same bits everywhere.
+Numbers are compared instead of switching the processor to flush subnormals: WebAssembly has no such
+mode, and aarch64 and x86 flush at different stages. The results must have the same bits everywhere.
 """
+
+import numpy as np
 
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import TINY, zero_below
 
 OF_SERIES, OF_STAGES = 1e-130, 1e-250
-"""The least numbers in states. A power series multiplies its coefficients as they are; in stages of
-a step factors are compared with TINY, and what sums make of states is still a normal number."""
+"""Smallest numbers in states of power series and of stages. Series multiply their coefficients
+without a check; the rates in stages compare factors with TINY, so that smaller numbers are safe."""
 RESOLVED = 1e-60
-"""Of smaller data, numbers count down to this part of the largest of them."""
+"""Threshold relative to the largest number, for data so small that it is below the other."""
 
 
 @kernel
-def rest_level(y, level):
-    """Return the size below which numbers are rest in a run that starts from the state `y`.
+def rest_level(y: np.ndarray, level: float) -> float:
+    """Return the threshold below which numbers become zero in a run from the state `y`.
 
-    It is `level` or, for tiny data, less.
+    It is `level`, or RESOLVED times the largest number in `y` if that is smaller.
     """
     largest = 0.0
     for row in range(y.shape[0]):
@@ -37,18 +39,18 @@ def rest_level(y, level):
 
 
 @kernel
-def set_to_rest(y, level):
-    """Set to zero the numbers of a state (row, column) that are smaller than `level`."""
+def set_to_rest(y: np.ndarray, level: float) -> None:
+    """Set the numbers of a state (row, column) below `level` to zero."""
     for row in range(y.shape[0]):
         for j in range(y.shape[1]):
             y[row, j] = zero_below(level, y[row, j])
 
 
 @inlined_by_llvm
-def square_modulus(y, re, j):
-    """Return the square modulus of the component whose real parts are the row `re` of a state.
+def square_modulus(y: np.ndarray, re: int, j: int) -> float:
+    """Return the squared modulus at column `j` of the component with real parts in row `re`.
 
-    Parts below TINY count as zero, which no tolerance sees: their squares would be subnormal.
+    Real and imaginary parts below TINY count as zero, because their squares would be subnormal.
     """
     real, imaginary = zero_below(TINY, y[re, j]), zero_below(TINY, y[re + 1, j])
     return real * real + imaginary * imaginary

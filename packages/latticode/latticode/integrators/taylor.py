@@ -1,25 +1,25 @@
-"""The Taylor method: each step sums the power series of the solution, as far as its terms allow.
+"""The Taylor method: each step sums the power series of the solution in time.
 
-The system gives a rule that continues a power series in time: from the coefficients of order 0,
-which are the state, it writes those of the orders 1 to ORDER. What stands here is where the
-coefficients lie in memory, their sums, the step that they allow, and the loop. No step is ever
-rejected, and outputs between steps are sums of the same series.
+The equations provide a rule that writes the coefficients of orders 1 to ORDER from those of order
+0, the state. This module has the memory layout of the coefficients, their sums, the step control
+and the loop. No step is ever rejected, and outputs between steps are sums of the same series.
 
-Layout. Sites go LANES to a block, a `Vector` (see latticode.kernels.simd). A block holds, order
-after order, the real parts of its sites, their imaginary parts, and a number a site for the rule,
-which keeps |A|^2 / 2 there. All coefficients of a block lie side by side: each is at a fixed
-distance from the start of the block, and a short chain fits into the fastest cache. Behind all
-blocks lie the ghosts, what each component sees beyond its two ends, for the order that is at work,
-and behind them what a rule needs beside that (`work_arrays`, `spare_start`).
+Layout: LANES sites form a block, a `Vector` (see latticode.kernels.simd). For each order, a block
+holds the real parts of its sites, their imaginary parts, and one number per site for the rule,
+which stores |A|^2 / 2 there. All coefficients of a block are adjacent, so that each is at a fixed
+distance from the start of the block and a short chain fits into the L1 cache. After the blocks come
+the ghosts, the values beyond the two ends of each component at the current order. Last comes
+additional memory for the rule (`work_arrays`, `spare_start`).
 
-Step control. Jorba and Zou, Experimental Mathematics 14 (2005) 99: the last two
-coefficients give the step at which their terms fall below the tolerance. They are measured by the
-largest modulus of a component, so that half of an even chain takes the same steps as the whole.
-Roots are taken by square roots alone, whose bits are the same on every processor.
+Step control: Jorba and Zou, Experimental Mathematics 14 (2005) 99. The last two coefficients give
+the step at which their terms equal the tolerance. They are measured by the largest modulus of a
+component, so that half of an even chain takes the same steps as the whole chain. Roots are computed
+by square roots, which have the same bits on every processor.
 """
 
+from collections.abc import Callable
 from math import sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -38,72 +38,74 @@ from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outc
 from .autonomous import at_any_time
 from .rest import OF_SERIES, rest_level
 
+Array = np.ndarray
+
 # --- A power series in memory -------------------------------------------------------------------
 
 ORDER = 16
-"""Order of the method: the highest exponent of time in the series."""
+"""Order of the method, the highest power of time in the series."""
 X, Y, EXTRA = 0, LANES, 2 * LANES
-"""Where real parts, imaginary parts and the rule's own numbers lie in a coefficient of a block."""
+"""Offsets of real parts, imaginary parts and the rule's numbers within a coefficient of a block."""
 ORDER_STRIDE = 3 * LANES
-"""Numbers from one order of a block to the next."""
+"""Distance in memory from one order of a block to the next, in numbers."""
 BLOCK_SIZE = (ORDER + 1) * ORDER_STRIDE
-"""Numbers from one block to the next."""
+"""Distance in memory from one block to the next, in numbers."""
 LEFT, RIGHT = 0, ORDER_STRIDE
-"""Where the ghosts to the left and to the right of a component lie, each laid out as one order."""
+"""Offsets of the left and right ghosts of a component, each with the layout of one order."""
 GHOSTS_SIZE = 2 * ORDER_STRIDE
 _SMALLEST_COMPONENT = 2 * 3  # numbers of a component of one site: two rows of a site and two ghosts
 
 
 def work_arrays(more: int) -> int:
-    """Return how many work arrays of the size of a state hold a series, and `more` numbers a block.
+    """Return how many work arrays hold a series with `more` additional numbers per block.
 
-    That is enough for a single site, whose block is mostly padding.
+    They have the size of a state, and suffice for a single site, whose block is mostly padding.
     """
     return -(-(BLOCK_SIZE + GHOSTS_SIZE + more) // _SMALLEST_COMPONENT)
 
 
 WORK = work_arrays(0)
-"""Work arrays of the size of a state."""
+"""Number of work arrays of the size of a state."""
 
 
 class PowerSeries(NamedTuple):
-    """Power series of a state of (row, column), whose rows are Re and Im of each component."""
+    """Power series of a state (row, column) with rows Re and Im of each component."""
 
-    memory: np.ndarray  # flat: component, block, order, part, lane; then the ghosts
+    memory: Array  # flat: component, block, order, part, lane; then the ghosts
     components: int
     blocks: int  # of one component
-    sites_in_last: int  # lanes of a component's last block that are sites, the rest is padding
+    sites_in_last: int  # lanes with sites in a component's last block; the others are padding
 
 
 @inlined_by_llvm
-def lay_out(work, y):
-    """Return a series of states like `y` in the memory of `work`."""
+def lay_out(work: Array, y: Array) -> PowerSeries:
+    """Return a series for states of the shape of `y`, in the memory of `work`."""
     sites = y.shape[1] - 2
     blocks = (sites + LANES - 1) // LANES
     return PowerSeries(work.reshape(-1), y.shape[0] // 2, blocks, sites - (blocks - 1) * LANES)
 
 
 @inlined_by_llvm
-def block_start(series, component, block):
-    """Return where in memory a block begins."""
+def block_start(series: PowerSeries, component: int, block: int) -> int:
+    """Return the index in memory at which a block begins."""
     return (component * series.blocks + block) * BLOCK_SIZE
 
 
 @inlined_by_llvm
-def ghosts_start(series, component):
-    """Return where in memory the ghosts of a component begin."""
+def ghosts_start(series: PowerSeries, component: int) -> int:
+    """Return the index in memory at which the ghosts of a component begin."""
     return series.components * series.blocks * BLOCK_SIZE + component * GHOSTS_SIZE
 
 
 @inlined_by_llvm
-def spare_start(series):
-    """Return where in memory begins what a rule that asked for more numbers may use as it likes."""
+def spare_start(series: PowerSeries) -> int:
+    """Return the index at which the additional memory of the rule begins (see `work_arrays`)."""
     return ghosts_start(series, series.components)
 
 
 @kernel
-def write_state(y, series):
-    """Let the series begin with the state `y`; padding begins with zero."""
+def write_state(y: Array, series: PowerSeries) -> None:
+    """Write the state `y` into order 0 of the series, and zeros into its padding."""
     for row in range(y.shape[0]):
         for b in range(series.blocks):
             place = block_start(series, row // 2, b) + row % 2 * LANES
@@ -116,11 +118,11 @@ def write_state(y, series):
 
 
 @inlined_by_llvm
-def sum_at(m, i, h):
-    """Return the sum over all orders, at the time `h`, of the part of a block that begins at `i`.
+def sum_at(m: Array, i: int, h: float) -> Any:
+    """Return the sum of the series at time `h`, for the vector of a block that begins at `i`.
 
-    Horner's rule in h^4: four orders at a time do not wait for one another, as those of Horner's
-    rule in h would.
+    It uses Horner's rule in h^4: within each group of four orders the operations are independent,
+    unlike those of Horner's rule in h.
     """
     h2 = h * h
     h3, h4 = h2 * h, h2 * h2
@@ -133,10 +135,10 @@ def sum_at(m, i, h):
 
 
 @inlined_by_llvm
-def advance(series, h, threshold):
-    """Replace order 0 by the sum of the series at the time `h`, the state after the step.
+def advance(series: PowerSeries, h: float, threshold: float) -> None:
+    """Replace order 0 by the sum of the series at time `h`, the state after the step.
 
-    Numbers below `threshold` become zero.
+    Numbers below `threshold` are set to zero.
     """
     m = series.memory
     for block in range(series.components * series.blocks):
@@ -146,10 +148,10 @@ def advance(series, h, threshold):
 
 
 @kernel
-def evaluate(series, h, y):
-    """Write the sum of the series at the time `h` into the state `y`."""
-    # a vector cannot be written site by site: that of the last block goes by way of the ghosts,
-    # which are written anew before they are read
+def evaluate(series: PowerSeries, h: float, y: Array) -> None:
+    """Write the sum of the series at time `h` into the state `y`."""
+    # The lanes of a vector cannot be stored separately. The last block, which may have padding, is
+    # copied through the memory of the ghosts; they are rewritten before they are read again.
     m, spare = series.memory, ghosts_start(series, 0)
     for row in range(y.shape[0]):
         start, column = row % 2 * LANES, row * y.shape[1] + 1
@@ -165,16 +167,16 @@ def evaluate(series, h, y):
 # --- Step control -------------------------------------------------------------------------------
 
 SQUARES = 1e-280
-"""Below this size squares lose digits or vanish."""
+"""Squares below this value lose digits or vanish."""
 
 
 @kernel
-def largest_modulus(series, k):
-    """Return the largest modulus of a component in order `k`, NaN where there is one.
+def largest_modulus(series: PowerSeries, k: int) -> float:
+    """Return the largest modulus of a component in order `k`, NaN if a coefficient is NaN.
 
-    Where the squares vanish, it returns the largest real or imaginary part instead, which is as
-    good for a step and never zero by underflow. Padding does not matter: it repeats what sites hold
-    (see `close` of the system's rule).
+    If the squares underflow, it returns the largest real or imaginary part instead, which is good
+    enough for the step. Padding is included, because it repeats the values of sites (see `close` of
+    the rule).
     """
     m, square, magnitude = series.memory, fill(0.0), fill(0.0)
     for block in range(series.components * series.blocks):
@@ -187,17 +189,17 @@ def largest_modulus(series, k):
 
 
 @kernel
-def sixteenth_root(x):
-    """Return x^(1/16) by square roots, whose bits are the same on every machine (not so pow)."""
+def sixteenth_root(x: float) -> float:
+    """Return x^(1/16) by square roots, which have the same bits on every machine, unlike pow."""
     return sqrt(sqrt(sqrt(sqrt(x))))
 
 
 @kernel
-def fifteenth_root(x):
-    """Return x^(1/15) to four digits, from 1/15 = 1/16 + 1/16^2 + 1/16^3 + ...
+def fifteenth_root(x: float) -> float:
+    """Return x^(1/15) to four digits, by 1/15 = 1/16 + 1/16^2 + 1/16^3 + ...
 
-    Every root is the sixteenth of the one before; of x^(1/4096), which is close to 1, the rest of
-    the series is taken as a rational function that agrees with the fifteenth root to second order.
+    The first three factors are successive sixteenth roots. The last of these, x^(1/4096), is close
+    to 1. The remaining factor is its fifteenth root, by a rational function of second order.
     """
     if not x < np.inf:
         return x
@@ -209,11 +211,12 @@ def fifteenth_root(x):
 
 
 @kernel
-def step_of_earlier_orders(series, tolerance):
-    """Return a step where the last two terms vanish, as in a series of t^4 alone.
+def step_of_earlier_orders(series: PowerSeries, tolerance: float) -> float:
+    """Return the step if the last two coefficients vanish, as in a series in t^4.
 
-    It is that of the highest order above ORDER / 2 that does not, infinite where there is none. The
-    eighth root is shorter than that of such an order where the tolerance is below the coefficient.
+    It follows from the highest order above ORDER / 2 with a coefficient that is not zero, and is
+    infinite if there is none. The eighth root is used for every such order: it gives the shorter
+    step if the tolerance is below the coefficient.
     """
     for k in range(ORDER - 2, ORDER // 2, -1):
         coefficient = largest_modulus(series, k)
@@ -224,8 +227,8 @@ def step_of_earlier_orders(series, tolerance):
 
 
 @kernel
-def allowed_step(series, rtol, atol):
-    """Return the step at which the last two terms equal the tolerance; NaN where they overflow."""
+def allowed_step(series: PowerSeries, rtol: float, atol: float) -> float:
+    """Return the step at which the last two terms equal the tolerance, NaN if they overflow."""
     size = largest_modulus(series, 0)
     last_but_one, last = largest_modulus(series, ORDER - 1), largest_modulus(series, ORDER)
     if not last + last_but_one < np.inf:
@@ -236,11 +239,13 @@ def allowed_step(series, rtol, atol):
     return min(sixteenth_root(tolerance / last), fifteenth_root(tolerance / last_but_one))
 
 
-def build(continue_series, observe, at_time=at_any_time):
-    """Return the solver of the system whose rule `continue_series(system, series)` is given.
+def build(
+    continue_series: Callable, observe: Callable, at_time: Callable = at_any_time
+) -> Callable:
+    """Return the solver of the equations with the rule `continue_series(system, series)`.
 
-    The rule writes the coefficients of the orders 1 to ORDER from those of order 0. The solver is
-    called as the package says, which also says what `at_time` is.
+    The rule writes the coefficients of orders 1 to ORDER from those of order 0. The package
+    describes the other arguments, and those of the solver.
     """
     driven = at_time is not at_any_time
 
@@ -250,7 +255,7 @@ def build(continue_series, observe, at_time=at_any_time):
         t, end = times[0], times[-1]
         series = lay_out(work, y)
         shortest, threshold = SMALLEST_PART * (end - t), rest_level(y, OF_SERIES)
-        i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
+        i = np.int64(0)  # numba types a literal 0 separately and would compile `observe` twice
         observe(system, y, i, record)
         i += 1
         steps = 0
@@ -264,7 +269,7 @@ def build(continue_series, observe, at_time=at_any_time):
             if not h > shortest:  # also where h is NaN
                 status = STEP_TOO_SMALL if h <= shortest else NOT_FINITE
                 return Outcome(status, t, steps, 0, ORDER * steps)
-            if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
+            if h * (1.0 + 1e-9) >= end - t:  # avoid a last step of the size of a rounding error
                 h = end - t
             t_new = end if h == end - t else t + h
             if driven:

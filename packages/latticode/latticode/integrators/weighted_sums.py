@@ -1,33 +1,35 @@
 """Weighted sums of slopes: the arguments of stages, error estimates and interpolants.
 
-Each sum goes from its first term to its last, so its bits are those of the formula written out.
-Four vectors of numbers are summed side by side, since each addition waits for the one before it.
-The weights lie in a table and not in the code: of each formula that is written out, LLVM makes a
-loop of its own, which asks of every array that is read whether it overlaps the one that is written.
+Each sum is computed from its first term to its last and has the bits of the formula written out.
+Four vectors are summed in parallel, because each addition must wait for the previous one. The
+weights are in a table: formulas written out would each be compiled into a loop that first tests
+whether the output overlaps any of its inputs.
 """
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import LANES, load, store
 
+Array = np.ndarray
+
 STRIP = 4 * LANES
-"""Numbers that are summed at once."""
+"""How many entries of a vector are summed in parallel."""
 
 
 class WeightTable(NamedTuple):
-    """Rows of weights that are not zero, and of the stages whose slopes they multiply, from 0."""
+    """The nonzero weights of each row, with the indices (from 0) of the slopes they multiply."""
 
-    weights: np.ndarray  # (row, term)
-    stages: np.ndarray  # (row, term)
-    terms: np.ndarray  # (row,), how many terms a row has
+    weights: Array  # (row, term)
+    stages: Array  # (row, term)
+    terms: Array  # (row,), number of terms
 
 
 def table(rows: Mapping[int, Mapping[int, float]], count: int) -> WeightTable:
-    """Return `count` rows, given as weights by stage, which are counted from 1 as in formulae."""
+    """Return a table of `count` rows from mappings of stages, numbered from 1, to weights."""
     longest = max(map(len, rows.values()))
     weight_table = WeightTable(
         np.zeros((count, longest)), np.zeros((count, longest), np.int64), np.zeros(count, np.int64)
@@ -40,7 +42,7 @@ def table(rows: Mapping[int, Mapping[int, float]], count: int) -> WeightTable:
 
 
 @inlined_by_llvm
-def sum_of_vectors(k, weights, stages, size, i):
+def sum_of_vectors(k: Array, weights: Array, stages: Array, size: int, i: int) -> Any:
     total = weights[0] * load(k, stages[0] * size + i)
     for term in range(1, weights.size):
         total = total + weights[term] * load(k, stages[term] * size + i)
@@ -48,7 +50,9 @@ def sum_of_vectors(k, weights, stages, size, i):
 
 
 @inlined_by_llvm
-def sums_of_a_strip(k, weights, stages, size, i):
+def sums_of_a_strip(
+    k: Array, weights: Array, stages: Array, size: int, i: int
+) -> tuple[Any, Any, Any, Any]:
     w, p = weights[0], stages[0] * size + i
     a, b = w * load(k, p), w * load(k, p + LANES)
     c, d = w * load(k, p + 2 * LANES), w * load(k, p + 3 * LANES)
@@ -60,15 +64,15 @@ def sums_of_a_strip(k, weights, stages, size, i):
 
 
 @inlined_by_llvm
-def put(y, h, total, out, i):
+def put(y: Array, h: float, total: Any, out: Array, i: int) -> None:
     store(out, i, load(y, i) + h * total if y.size > 0 else h * total)
 
 
 @kernel
-def write_sum(rows, row, y, h, k, out):
-    """Write y + h times the sum of a row's weights times slopes into `out`, which is another array.
+def write_sum(rows: WeightTable, row: int, y: Array, h: float, k: Array, out: Array) -> None:
+    """Write y + h sum_s weight_s k_s into `out`, with the weights of a row of the table.
 
-    `k` is (stage, number), all arrays are contiguous; an empty `y` adds nothing.
+    `k` (stage, number), `y` and `out` (number,) are contiguous and separate; an empty `y` is zero.
     """
     size, terms = out.size, rows.terms[row]
     weights, stages = rows.weights[row, :terms], rows.stages[row, :terms]
@@ -87,7 +91,7 @@ def write_sum(rows, row, y, h, k, out):
         put(y, h, c, out, i + 2 * LANES)
         put(y, h, d, out, i + 3 * LANES)
         i += STRIP
-    while i < size:  # the last vector overlaps the one before, and writes the same bits again
+    while i < size:  # the last vector may overlap the one before and rewrite the same bits
         j = min(i, size - LANES)
         put(y, h, sum_of_vectors(k, weights, stages, size, j), out, j)
         i += LANES

@@ -1,1 +1,1 @@
-"""States that stay at their place, and what becomes of small perturbations of them."""
+"""Localised states and their stability; tangent vectors, Lyapunov exponents and sections."""

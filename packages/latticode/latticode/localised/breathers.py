@@ -1,22 +1,22 @@
-"""A localised state of a traced model, steady or turning, and its stability.
+"""Localised states of a traced model, steady or rotating in phase, and their stability.
 
-Where the equations do not change as all fields turn by one phase, a state u_n(tau) = phi_n
-exp(-i lambda tau) with the power of the data is looked for:
+If the equations have a global phase symmetry, the state is u_n(tau) = phi_n exp(-i lambda tau) with
+the power P of the initial data:
 
     F(phi) + i lambda phi = nu phi,    |phi|^2 = P,
 
-F the rates of the model. The unknown nu must come out as zero: elsewhere the state would grow or
-decay. In other models a steady state F(phi) = 0 is looked for. The coupling of the sites is turned
-on in steps from zero, where the state lies on the one site at which the data are largest, and each
-step is solved by Newton's method (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
+where F are the rates of the model. The unknown nu must vanish, otherwise the state would grow or
+decay. Other models have a steady state, F(phi) = 0. Without coupling the state occupies the site
+with the largest initial data. It is followed as the coupling is turned on in steps, each solved by
+Newton's method (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
 
-In the frame that turns with the state, a perturbation grows as exp(mu tau) with the eigenvalues mu
-of the derivative of F + i lambda; exp(2 pi mu / abs(lambda)) is its Floquet multiplier.
+In the frame that rotates with the state, perturbations grow as exp(mu tau) with the eigenvalues mu
+of the derivative of F + i lambda. Floquet multipliers are exp(2 pi mu / abs(lambda)).
 
-A state that is even in n is found on the sites 0..M, and its even and its odd perturbations apart.
-Where first parts (real parts, or values) change second parts alone and the other way round, as in
-reversible equations about a real state, squares of mu are the eigenvalues of a matrix of half the
-size. LAPACK solves: what is published must be rounded to the digits that it has.
+A state that is even in n is computed on the sites 0..M. Its even and odd perturbations then have
+separate matrices. If real parts (or values) drive only imaginary parts (or rates) and vice versa,
+as in reversible equations around a real state, mu^2 are the eigenvalues of a matrix of half the
+size. LAPACK's last digits depend on the machine, so published results must be rounded.
 """
 
 from typing import NamedTuple
@@ -30,45 +30,46 @@ from latticode.simulation.traced import TracedEquations
 from .linearised import EVEN, ODD, linearise
 
 MOST_UNKNOWNS = 1000
-"""The eigenvalues of a larger matrix take a minute and more."""
+"""The eigenvalues of a larger matrix take more than a minute."""
 TOLERANCE, ITERATIONS = 1e-13, 30
-"""Largest rate that is left, relative to the largest slope times the largest value."""
+"""Of Newton's method: the largest remaining rate over largest slope times largest value; steps."""
 FIRST_STEP, SMALLEST_STEP, LARGEST_CHANGE = 1 / 8, 1 / 4096, 0.2
-"""Of the coupling; and of a state in one such step, relative to its largest value: a larger change
-may lead to another family."""
+"""First and smallest step of the coupling; largest change of a state in one step, relative to its
+largest value. A larger change may lead to a different family of states."""
 DAMPING = 1e-12
-"""Of the squares of slopes: those below are none."""
+"""Damping of Newton's method (Levenberg), relative to the largest squared slope."""
 NOISE = 1e-5
-"""Exponents are known to the root of rounding where two of them meet, as those of a phase do."""
+"""Accuracy of exponents: double ones, as of a phase, are accurate to the root of rounding."""
 
 
 class NoStateError(ArithmeticError):
-    """There is no localised state to be found; the message says why."""
+    """No localised state was found; the message gives the reason."""
 
 
 class LocalisedState(NamedTuple):
-    """A state phi that turns as exp(-i frequency tau), or is steady, as a flat real state x.
+    """A localised state phi as a flat real array x, rotating as exp(-i frequency tau) or steady.
 
-    That is by row, the real and imaginary parts of each field or its value and its rate, and site.
+    x is (row, site), flattened: the rows are the real and imaginary parts of each field, or its
+    value and its rate.
     """
 
     x: np.ndarray
     frequency: float = 0.0
-    growth: float = 0.0  # nu of the module's text
-    even: bool = False  # x has the sites 0..M
+    growth: float = 0.0  # nu of the equation above
+    even: bool = False  # whether x has only the sites 0..M
 
     @property
     def parity(self) -> int | None:
-        """What `linearise` takes for it."""
+        """EVEN for a state on the sites 0..M, else None: the `parity` of `linearise`."""
         return EVEN if self.even else None
 
     def components(self, problem: Problem) -> np.ndarray:
-        """Return the state on the whole chain, (field, part, site)."""
+        """Return the state on the sites -M..M, (field, part, site)."""
         fields = self.x.reshape(len(problem.model.fields), 2, -1)
         return np.concatenate([fields[..., :0:-1], fields], axis=2) if self.even else fields
 
     def weights(self, problem: Problem) -> np.ndarray:
-        """Return how many sites of the chain each number of x stands for."""
+        """Return how many sites of the whole chain each entry of x represents."""
         count = 2 * len(problem.model.fields)
         sites = np.full(self.x.size // count, 2.0 if self.even else 1.0)
         sites[0] = 1.0
@@ -76,29 +77,29 @@ class LocalisedState(NamedTuple):
 
 
 def flat(fields: np.ndarray, even: bool = False) -> np.ndarray:
-    """Return complex fields (field, site) as a flat real state; of `even` ones the sites 0..M."""
+    """Return complex fields (field, site) as a flat real state; of the sites 0..M if `even`."""
     half = fields[:, fields.shape[1] // 2 :] if even else fields
     return np.stack([half.real, half.imag], axis=1).ravel()
 
 
 def widened(problem: Problem, state: LocalisedState) -> LocalisedState:
-    """Return the start on a longer chain that an even state on a shorter one gives."""
+    """Return an even state padded with zeros to the longer chain of `problem`, to start from."""
     rows = state.x.reshape(2 * len(problem.model.fields), -1)
     more = problem.half_width + 1 - rows.shape[1]
     return state._replace(x=np.pad(rows, [(0, 0), (0, more)]).ravel())
 
 
 def turning(problem: Problem, size: int) -> np.ndarray:
-    """Return the matrix that multiplies all fields of a flat state of this size by i."""
+    """Return the matrix that multiplies all fields of a flat state with `size` entries by i."""
     fields = len(problem.model.fields)
     one_field = np.kron([[0.0, -1.0], [1.0, 0.0]], np.eye(size // (2 * fields)))
     return np.kron(np.eye(fields), one_field)
 
 
 def can_turn(problem: Problem) -> bool:
-    """Return whether the equations stay the same as all fields turn by one phase.
+    """Return whether the equations have a global phase symmetry.
 
-    Random fields decide: a polynomial that vanishes there vanishes everywhere.
+    It is tested at one random state, where rates without the symmetry almost surely break it.
     """
     if problem.model.real:
         return False
@@ -112,9 +113,10 @@ def can_turn(problem: Problem) -> bool:
 def newton(
     problem: Problem, state: LocalisedState, power: float | None, coupling: float = 1.0
 ) -> LocalisedState:
-    """Return the state that Newton's method finds: of a `power`, or steady if it is None.
+    """Return the state to which Newton's method converges from `state`.
 
-    Raises NoStateError where it finds none.
+    It has the given `power`, or is steady if that is None. `coupling` is the fraction of the full
+    coupling between sites. Raises NoStateError if the method does not converge.
     """
     turn, weights, least = turning(problem, state.x.size), state.weights(problem), np.inf
     for _ in range(ITERATIONS):
@@ -129,7 +131,7 @@ def newton(
         left = np.abs(rates).max() / scale if scale > 0.0 else np.inf
         if not np.isfinite(left):
             break
-        if left <= TOLERANCE and left >= 0.5 * least:  # converged, and rounding is reached
+        if left <= TOLERANCE and left >= 0.5 * least:  # converged, and no longer improving
             return state
         least = min(left, least)
         change = least_change(matrix, rates)
@@ -141,10 +143,10 @@ def newton(
 
 
 def least_change(matrix: np.ndarray, rates: np.ndarray) -> np.ndarray:
-    """Return the step that solves matrix @ step = -rates, along no direction that this leaves free.
+    """Return the least-squares solution of matrix @ step = -rates with the smallest norm.
 
-    Such are a phase, and the place of a state that can slide (K. Levenberg, Quart. Appl. Math. 2
-    (1944) 164).
+    The damping selects it (K. Levenberg, Quart. Appl. Math. 2 (1944) 164). The equations leave
+    some directions free: the phase, and the position of a state that can be shifted.
     """
     normal = matrix.T @ matrix
     normal[np.diag_indices_from(normal)] += DAMPING * np.abs(normal).max()
@@ -152,33 +154,35 @@ def least_change(matrix: np.ndarray, rates: np.ndarray) -> np.ndarray:
 
 
 def find_state(problem: Problem) -> LocalisedState:
-    """Return the localised state that continues the data at their largest site.
+    """Return the localised state at the site with the largest initial data, at full coupling.
 
-    Raises NoStateError, with the reason, where there is none.
+    Raises NoStateError with the reason if there is none.
     """
     data, even = problem.amplitudes, TracedEquations(problem).find_reduction().even
     if problem.model.driven:
-        raise NoStateError("the equations depend on the time")
+        raise NoStateError("the equations depend on time")
     if problem.model.matrices:
-        raise NoStateError("a matrix couples the sites, and none is looked for there")
+        raise NoStateError("models with a coupling matrix are not supported")
     if not data.any():
         raise NoStateError("the chain is at rest")
     if flat(data, even).size > MOST_UNKNOWNS:
         most = MOST_UNKNOWNS // (2 * len(data))
         raise NoStateError(f"the chain has {problem.sites} sites; give at most {most}")
     if linearise(problem, flat(0.0 * data))[0].any():
-        raise NoStateError("rest does not solve the equations, so that no state decays to it")
+        raise NoStateError("rest does not solve the equations, so that no state can decay to it")
     try:
         state, power = uncoupled(problem, even)
     except NoStateError:
-        raise NoStateError("an uncoupled site has none near the data; try others") from None
+        raise NoStateError(
+            "no such state of a single uncoupled site near the data; change them"
+        ) from None
     return coupled(problem, state, power)
 
 
 def uncoupled(problem: Problem, even: bool) -> tuple[LocalisedState, float | None]:
-    """Return the state of the site where the data are largest, and its power if it turns.
+    """Return the state without coupling at the site with the largest data, and its power or None.
 
-    It starts from the data there, made larger to have the power of all.
+    Newton's method starts from the data at this site, scaled to the power of the whole chain.
     """
     data = problem.amplitudes
     sizes = np.sum(square_modulus(data), axis=0)
@@ -194,7 +198,7 @@ def uncoupled(problem: Problem, even: bool) -> tuple[LocalisedState, float | Non
 
 
 def coupled(problem: Problem, state: LocalisedState, power: float | None) -> LocalisedState:
-    """Return the state of the full coupling that continues one without any."""
+    """Return the state at full coupling, followed from `state` at zero; else raise NoStateError."""
     reached, step = 0.0, FIRST_STEP
     while reached < 1.0:
         target = min(1.0, reached + step)
@@ -208,7 +212,7 @@ def coupled(problem: Problem, state: LocalisedState, power: float | None) -> Loc
         elif step > SMALLEST_STEP:
             step *= 0.5
         else:
-            raise NoStateError(f"it ends at {reached:.3g} of the coupling")
+            raise NoStateError(f"continuation fails at {reached:.3g} of the coupling")
     if abs(state.growth) > NOISE:
         change = "grow" if state.growth > 0.0 else "decay"
         raise NoStateError(f"its power would {change}, at the rate {2.0 * abs(state.growth):.3g}")
@@ -216,12 +220,12 @@ def coupled(problem: Problem, state: LocalisedState, power: float | None) -> Loc
 
 
 def exponents(problem: Problem, state: LocalisedState) -> np.ndarray:
-    """Return the eigenvalues mu of perturbations in the frame of a state, complex, sorted."""
+    """Return the exponents mu of perturbations, complex, sorted, per unit of tau, to 9 decimals."""
     rates = []
     for parity in (EVEN, ODD) if state.even else (None,):
         matrix = linearise(problem, state.x, parity=parity)[1]
         matrix += state.frequency * turning(problem, len(matrix))
-        if problem.model.form == "dt":  # the second row of a field is zero and no perturbation
+        if problem.model.form == "dt":  # the second row of a field is always zero
             rates.append(np.linalg.eigvals(_values_alone(matrix, len(problem.model.fields))))
         else:
             rates.append(_eigenvalues(matrix, len(problem.model.fields)))
@@ -233,7 +237,7 @@ def exponents(problem: Problem, state: LocalisedState) -> np.ndarray:
 
 
 def _values_alone(matrix: np.ndarray, fields: int) -> np.ndarray:
-    """Return the rows and columns of a matrix that are those of the fields' first parts."""
+    """Return the submatrix of the fields' values, without the rows and columns of their rates."""
     half = len(matrix) // 2
     blocks = matrix.reshape(fields, 2, half // fields, fields, 2, half // fields)
     return blocks[:, 0, :, :, 0].reshape(half, half)

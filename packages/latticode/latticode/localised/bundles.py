@@ -1,14 +1,18 @@
-"""Tangent vectors carried along with a solution, and made orthonormal again after spans of time.
+"""Kernels that integrate tangent vectors with a solution and orthonormalise them at intervals.
 
-A tangent vector is a small perturbation of the data, to first order. Orthonormal vectors do not
-all turn to the fastest direction, and lengths that are taken at each span do not overflow
+A tangent vector is a small perturbation of a solution, to first order. Without orthonormalisation
+all vectors would align with the fastest growing direction, and their lengths would overflow
 (Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9).
 
-A bundle is an array of states stacked by rows: first a solution, then its tangent vectors, all with
-the ghost columns and the ends of one chain.
+A bundle is an array (row, column) of stacked states: first the solution, then its tangent vectors.
+Each has the ghost columns of the chain.
 """
 
+from collections.abc import Callable
 from math import sqrt
+from typing import Any
+
+import numpy as np
 
 from latticode.equations.ends import MIRROR
 from latticode.integrators import DONE, dop853
@@ -17,8 +21,8 @@ from latticode.kernels.compiled import inlined_by_numba, kernel
 
 
 @kernel
-def inner(chain, u, v):
-    """Return the scalar product of two states over the whole chain, also where half is kept."""
+def inner(chain: Any, u: np.ndarray, v: np.ndarray) -> float:
+    """Return the scalar product of two states over the whole chain, of which they may hold half."""
     total = 0.0
     for row in range(u.shape[0]):
         for j in range(1, u.shape[1] - 1):
@@ -32,27 +36,27 @@ def inner(chain, u, v):
 
 
 @kernel
-def subtract(u, factor, v):
-    """Take `factor` times `v` from `u`."""
+def subtract(u: np.ndarray, factor: float, v: np.ndarray) -> None:
+    """Subtract `factor` times `v` from `u`, in place."""
     for row in range(u.shape[0]):
         for j in range(1, u.shape[1] - 1):
             u[row, j] -= factor * v[row, j]
 
 
 @kernel
-def scale(u, factor):
-    """Multiply `u` by `factor`."""
+def scale(u: np.ndarray, factor: float) -> None:
+    """Multiply `u` by `factor`, in place."""
     for row in range(u.shape[0]):
         for j in range(1, u.shape[1] - 1):
             u[row, j] *= factor
 
 
 @kernel
-def orthonormalise(chain, bundle, lengths):
-    """Make the tangent vectors in `bundle` orthonormal; write their `lengths` (vector,).
+def orthonormalise(chain: Any, bundle: np.ndarray, lengths: np.ndarray) -> None:
+    """Orthonormalise the tangent vectors in `bundle`, and write their `lengths` (vector,).
 
-    This is the modified Gram-Schmidt method: the first vector keeps its direction, and each other
-    one loses its components along those before it.
+    This is the modified Gram-Schmidt method: the first vector keeps its direction, and the
+    components along earlier vectors are subtracted from each later vector.
     """
     rows = bundle.shape[0] // (1 + lengths.size)
     for k in range(lengths.size):
@@ -67,22 +71,23 @@ def orthonormalise(chain, bundle, lengths):
 
 
 @kernel
-def size_of_solution(chain, bundle, count):
+def size_of_solution(chain: Any, bundle: np.ndarray, count: int) -> float:
     """Return the l2 norm of the solution in a bundle of `count` tangent vectors."""
     y = bundle[: bundle.shape[0] // (1 + count)]
     return sqrt(inner(chain, y, y))
 
 
 @kernel
-def observe_nothing(chain, bundle, i, record):
-    """Keep nothing: the bundle at the end of each span of time has all that is wanted."""
+def observe_nothing(chain: Any, bundle: np.ndarray, i: int, record: Any) -> None:
+    """Record nothing: only the bundle at the end of each interval is needed."""
 
 
-def build(bundle_rates, at_time=at_any_time):
-    """Return what carries a bundle from each of `times` to the next.
+def build(bundle_rates: Callable, at_time: Callable = at_any_time) -> Callable:
+    """Return the kernel that integrates a bundle over the intervals between successive `times`.
 
-    It writes `lengths` (span, vector) and `sizes` (span,) of the solution, and returns the status
-    of the solver. Where nothing depends on the time, all spans are as the first.
+    After each interval it writes the `lengths` (interval, vector) of the tangent vectors and the l2
+    norm of the solution into `sizes` (interval,). It returns the status of the solver. Autonomous
+    equations (no `at_time`) start every interval at times[0]; all intervals must be equally long.
     """
     solve = dop853.build(bundle_rates, observe_nothing, at_time=at_time)
     driven = at_time is not at_any_time

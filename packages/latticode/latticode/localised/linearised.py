@@ -1,4 +1,4 @@
-"""The linear equations of a small perturbation of a state, as a matrix."""
+"""The linearised equations of small perturbations of a state, as a matrix."""
 
 from functools import cache, lru_cache
 
@@ -16,20 +16,20 @@ EVEN, ODD = 1, -1
 def linearise(
     problem: Problem, state: np.ndarray, coupling: float = 1.0, parity: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rates of a state at time 0, and the matrix of their derivatives.
+    """Return the rates of a state at time 0, and their Jacobian matrix.
 
-    `state` and rates are flat: by row, which are the real and imaginary parts of each field or its
-    value and its rate, and then by site. Where a `parity` is given, the state is even and has the
-    sites 0..M; the matrix is that of EVEN perturbations, or of ODD ones, on the sites 1..M. A
-    `coupling` below 1 replaces a neighbour's value by its mean with the site's own, where it has
-    this weight: at 0 sites are independent.
+    `state` and rates are (row, site), flattened: the rows are the real and imaginary parts of each
+    field, or its value and its rate. With a `parity` the state is even and has the sites 0..M; the
+    matrix is then that of EVEN perturbations on the sites 0..M, or of ODD ones on the sites 1..M.
+    With a `coupling` c each neighbour's value v is replaced by c v + (1 - c) u, where u is the
+    value at the site itself: at c = 0 the sites are independent.
     """
     model, values = problem.model, problem.parameter_values
     places = places_seen(model.reach, problem.boundary, problem.sites, parity)
     state_rows = state.reshape(len(model.rates), -1)
     rows, sites = state_rows.shape
 
-    def value(leaf):
+    def value(leaf: Node) -> float | np.ndarray:
         if leaf.operation in ("number", "time"):
             return leaf.operands[0] if leaf.operands else 0.0
         by = leaf.operands[-1]
@@ -55,7 +55,7 @@ def linearise(
     seen, _, sign = places[:, model.reach + by[:, None] + sites_of_rows]
     line = (row[:, None] * sites + sites_of_rows) * rows + column[:, None]
 
-    def placed(at, slopes):
+    def placed(at: np.ndarray, slopes: np.ndarray) -> np.ndarray:
         index = (line * sites + at).astype(int)
         return np.bincount(index.ravel(), slopes.ravel(), minlength=(rows * sites) ** 2)
 
@@ -69,9 +69,10 @@ def linearise(
 
 @lru_cache
 def places_seen(reach: int, boundary: str, sites: int, parity: int | None) -> np.ndarray:
-    """Return which site stands at each one, from the first but `reach` to the last and `reach`.
+    """Return the index of the site whose value is read at each place, and two factors, (3, place).
 
-    Below it stand its factor in the state, 0 where a site is at rest, and that in a perturbation.
+    The places are the sites with `reach` more beyond each end. The factors multiply the value in
+    the state and in a perturbation; they are 0 at places that the boundary keeps at rest.
     """
     ends, half_width = ends_of(boundary), sites // 2
     seen = np.pad(np.arange(sites) + 1, reach, PADDING[ends.sees]) - 1
@@ -87,9 +88,10 @@ def places_seen(reach: int, boundary: str, sites: int, parity: int | None) -> np
 
 @cache
 def _slopes(model: Model) -> tuple[np.ndarray, tuple[Node, ...]]:
-    """Return which rates change with which fields, and the rates with these derivatives.
+    """Return the indices of all derivatives, (3, derivative), and the expressions to evaluate.
 
-    The former are rows of rates, rows of fields and shifts of these, (3, derivative).
+    The indices are the row of the rate, the row of the field, and the shift of the field in sites.
+    The expressions are the rates, followed by the derivatives.
     """
     entries, nodes = [], [*model.rates]
     for leaf in leaves_in(model.rates, "field"):

@@ -1,7 +1,7 @@
-"""Sites that stay at rest at an unstable point, as those that nobody excites and nothing reaches.
+"""Detection of sites that stay at rest at an unstable point, such as unexcited, uncoupled ones.
 
-Perturbations of such a site grow although nothing moves there. So an exponent of the whole chain,
-which is that of what grows fastest, may be theirs instead of the motion's.
+Perturbations of such a site grow although nothing moves there. The Lyapunov exponent of the whole
+chain is the largest growth rate, so it may belong to such a site instead of the motion.
 """
 
 import numpy as np
@@ -12,17 +12,18 @@ from .breathers import MOST_UNKNOWNS, flat
 from .linearised import linearise
 
 MOST_NAMED = 4
-"""A sentence with more sites is hard to read."""
+"""Number of sites that a message lists by number."""
 PRESENT = 1e-6
-"""Smallest value of a growing perturbation at a site that takes part in it, of its largest."""
+"""Smallest amplitude at a site that counts as part of a growing mode, relative to its largest."""
 
 
 def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the sites at rest where perturbations grow in the run, and their largest rate.
+    """Return the sites at rest where perturbations grow, and the largest growth rate.
 
     A site is at rest if it `is_constant` (site,) during the run and its rates vanish at the start.
-    Its perturbations are linear, with all other sites fixed, and count if they grow by more than a
-    factor of e. If the equations have no derivative there, no site is returned.
+    Its perturbations are linearised with all other sites fixed. They count if they grow by more
+    than a factor of e during the run. If the equations have no derivative there, the array of sites
+    is empty.
     """
     with np.errstate(all="ignore"):
         rates, matrix = linearise(problem, flat(problem.amplitudes))
@@ -41,11 +42,11 @@ def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarra
 
 
 def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
-    """Return a sentence on sites that stay at rest at an unstable point; "" if there are none.
+    """Return a warning about sites that stay at rest at an unstable point; "" if there are none.
 
-    `moduli` (component, site, snapshot) are those of a run: at rest they stay what they are.
-    Equations that depend on the time are left out, and chains too long for their eigenvalues, as
-    for localised states.
+    `moduli` (component, site, snapshot) are those of a run; at rest they are constant. Equations
+    that depend on time, models with a coupling matrix and chains with more than MOST_UNKNOWNS
+    unknowns are not tested.
     """
     unknowns = len(problem.model.rates) * problem.sites
     is_constant = (moduli == moduli[:, :, :1]).all(axis=(0, 2))

@@ -1,7 +1,7 @@
-"""Sections of a motion: the times and states at which a function of the fields crosses zero.
+"""Poincare sections: the times and states at which a function of the fields crosses zero.
 
-A crossing shows between two outputs. It is located by runs from the first of them, so that the
-state is that of the solver's own power series, or of dop853, and no interpolation between outputs.
+A crossing is detected by a change of sign between two outputs. It is located by short runs from the
+first of them, so that its error is that of the solver and not of an interpolation.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,11 +17,11 @@ from latticode.simulation.traced import moved
 from .linearised import places_seen
 
 DIRECTIONS = {"up": (1.0,), "down": (-1.0,), "both": (1.0, -1.0)}
-"""The signs of the slope of a crossing, by the name of a direction."""
+"""The signs of the slope at a crossing, by the name of a direction."""
 OUTPUTS_AT_ONCE = 500
-"""The states of so many outputs are held in memory."""
+"""Number of outputs whose states are held in memory at a time."""
 MOST_STEPS = 200
-"""Of the search for a root: a bisection after each third step ends it sooner."""
+"""Maximum number of steps of the root search; bisecting every third step needs far fewer."""
 
 
 class Crossings(NamedTuple):
@@ -34,8 +34,8 @@ class Crossings(NamedTuple):
 def find_crossings(problem: Problem, when: Node, site: int, direction: str) -> Crossings:
     """Return the times and states at which an expression of the fields crosses zero at a site.
 
-    Of two crossings between the same two outputs nothing is seen. Raises IntegrationError as
-    `simulate` does.
+    Two crossings between the same two outputs are missed. `direction` is a key of DIRECTIONS.
+    Raises IntegrationError as `simulate` does.
     """
     value = _value_at(problem, when, problem.site_numbers.index(site))
     signs = DIRECTIONS[direction]
@@ -51,7 +51,7 @@ def find_crossings(problem: Problem, when: Node, site: int, direction: str) -> C
 
 
 def _output_pairs(problem: Problem) -> Iterator[tuple[float, np.ndarray, float, np.ndarray]]:
-    """Yield the times and states (part, component, site) of each two outputs in a row."""
+    """Yield times and states (part, component, site) of each pair of successive outputs."""
     times, fields = problem.times, problem.amplitudes
     for first in range(0, len(times) - 1, OUTPUTS_AT_ONCE):
         last = min(first + OUTPUTS_AT_ONCE, len(times) - 1)
@@ -67,7 +67,7 @@ def _output_pairs(problem: Problem) -> Iterator[tuple[float, np.ndarray, float, 
 def _locate(
     problem: Problem, value: Callable[[np.ndarray, float], float], bracket: tuple[Any, ...]
 ) -> tuple[float, np.ndarray]:
-    """Return the time and the state of the crossing between two outputs."""
+    """Return the time and the state (part, component, site) of the crossing between two outputs."""
     start, before, end, after = bracket
     known = {start: before, end: after}
 
@@ -86,12 +86,12 @@ def _locate(
 
 
 def _complex(state: np.ndarray) -> np.ndarray:
-    """Return a state (part, component, site) as the data of a problem, (component, site)."""
+    """Return a state (part, component, site) as complex initial data, (component, site)."""
     return state[0] + 1j * state[1] if len(state) > 1 else state[0] + 0j
 
 
 def _value_at(problem: Problem, when: Node, column: int) -> Callable[[np.ndarray, float], float]:
-    """Return the function of a state (part, component, site) and the time that `when` is."""
+    """Return the function that evaluates `when` at a site, for a state (part, component, site)."""
     parameters, reach = problem.parameter_values, max(1, when.reach)
     seen, factor, _ = places_seen(reach, problem.boundary, problem.sites, None)
     seen = seen.astype(int)
@@ -117,17 +117,17 @@ def _value_at(problem: Problem, when: Node, column: int) -> Callable[[np.ndarray
 
 
 def find_root(value: Callable[[float], float], start: float, end: float) -> float:
-    """Return where a function whose sign changes between two times is zero, to the last digits.
+    """Return the root of a function that changes sign between two times, to rounding.
 
-    This is the rule of false position, in which an end that stays counts half (Illinois), with a
-    bisection after each third step.
+    This is the Illinois method: false position that halves the value at an end point retained
+    twice, with a bisection at every third step.
     """
     low, high = value(start), value(end)
     for step in range(1, MOST_STEPS):
         middle = (start * high - end * low) / (high - low)
         if step % 3 == 0 or not start < middle < end:
             middle = 0.5 * (start + end)
-        if not start < middle < end:  # no number lies between them
+        if not start < middle < end:  # no double lies between them
             break
         at_middle = value(middle)
         if at_middle == 0.0:

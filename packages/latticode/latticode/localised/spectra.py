@@ -1,4 +1,4 @@
-"""The Lyapunov exponents of a motion, from the growth of tangent vectors that stay orthonormal.
+"""The Lyapunov spectrum of a motion, from the growth of orthonormalised tangent vectors.
 
 G. Benettin, L. Galgani, A. Giorgilli and J.-M. Strelcyn, Meccanica 15 (1980) 9.
 """
@@ -25,7 +25,7 @@ class Spectrum(NamedTuple):
 
 
 def count_directions(problem: Problem) -> int:
-    """Return how many independent perturbations a problem has: real numbers that may change."""
+    """Return the dimension of phase space: the number of real unknowns of a problem."""
     model = problem.model
     rows = 1 if model.form == "dt" else 2
     fixed = len(model.without_imaginary_parts) if model.form == "i_dt" else 0
@@ -33,14 +33,14 @@ def count_directions(problem: Problem) -> int:
 
 
 def measure_spectrum(problem: Problem, count: int) -> Spectrum:
-    """Return the `count` largest exponents of a problem, each with its error.
+    """Return the `count` largest Lyapunov exponents of a problem with their standard errors.
 
-    Raises IntegrationError where dop853 gives up.
+    Raises IntegrationError if dop853 cannot finish the run.
     """
     rng, fields = np.random.default_rng(SEED), problem.model.fields
     drawn = [random_tangent(problem.sites, rng, fields=len(fields)) for _ in range(count)]
     tangents = np.array(drawn)
-    # an imaginary part that no equation reads or changes is no direction of the motion
+    # an imaginary part that the equations neither read nor change is not a degree of freedom
     fixed = [fields.index(name) for name in problem.model.without_imaginary_parts]
     tangents[:, fixed] = tangents[:, fixed].real
     step = min(STEP, problem.span / FEWEST_STEPS)

@@ -1,10 +1,11 @@
-"""How small perturbations of a solution grow, of any traced model: the way to Lyapunov exponents.
+"""Growth of small perturbations of a solution of any traced model, for Lyapunov exponents.
 
-Solution and tangent vectors are integrated together, by the derivative of the traced equations (see
-`bundles`).
+Solution and tangent vectors are integrated together, with the derivative of the traced equations
+(see `bundles`).
 """
 
 from functools import cache
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -25,8 +26,8 @@ from latticode.simulation.traced import make_system
 from .bundles import orthonormalise, size_of_solution
 
 STEP = 0.25
-"""Units of tau between orthonormalisations: on the paper's chains nothing grows by more than a
-factor of e in one."""
+"""Time between orthonormalisations. On the paper's chains no perturbation grows by more than a
+factor of e per unit of tau."""
 TOLERANCE = 1e-9
 CARRY = """
 from {home} import bundles
@@ -38,16 +39,16 @@ def carry(system, bundle, times, controls, work, record, lengths, sizes, stop):
 
 
 class TangentGrowth(NamedTuple):
-    """How tangent vectors have grown; logarithms are natural ones."""
+    """Growth of tangent vectors, as natural logarithms."""
 
     tau: np.ndarray  # (time,)
-    log_growth: np.ndarray  # (vector, time), logarithm of the growth since tau = 0
-    size: np.ndarray  # (time,), l2 norm of the solution itself
+    log_growth: np.ndarray  # (vector, time), relative to the length at the start
+    size: np.ndarray  # (time,), l2 norm of the solution
 
 
 @cache
-def kernels_of_tangents(model: Model, site_dependent: frozenset[str]):
-    """Return the generated module that carries solutions of a model with tangent vectors."""
+def kernels_of_tangents(model: Model, site_dependent: frozenset[str]) -> ModuleType:
+    """Return the generated module whose `carry` integrates solutions with tangent vectors."""
     carry = CARRY.format(home=__name__.rpartition(".")[0], time=", at_time" if model.driven else "")
     return load_text(tangents_module_text(model.tangent(), site_dependent) + carry)
 
@@ -55,7 +56,7 @@ def kernels_of_tangents(model: Model, site_dependent: frozenset[str]):
 def random_tangent(
     sites: int, rng: np.random.Generator, even: bool = False, fields: int = 2
 ) -> np.ndarray:
-    """Return complex Gaussian fields (field, N), even in n to the last bit if that is wanted."""
+    """Return complex Gaussian fields (field, site), exactly even in n if `even`."""
     z = complex_normal(rng, (fields, sites))
     return z + z[:, ::-1] if even else z
 
@@ -68,11 +69,12 @@ def grow(
     step: float = STEP,
     tolerance: float = TOLERANCE,
 ) -> TangentGrowth:
-    """Carry `tangents` (vector, field, N), perturbations of a problem's data, with its solution.
+    """Return the growth of `tangents` (vector, field, site), perturbations of a problem's data.
 
-    They must be linearly independent; their imaginary parts are those of the fields, or rates of
-    real ones. `even` integrates half of a chain on which all are even. Raises IntegrationError
-    where dop853 gives up.
+    They must be linearly independent. Their imaginary parts perturb those of complex fields, or the
+    rates of real fields. With `even` only half of the chain is integrated; solution and tangent
+    vectors must then be even. `end_time` and `step`, the time between orthonormalisations, are
+    relative to the start. Raises IntegrationError if dop853 cannot finish the run.
     """
     cut, count = Reduction(even, synchronised=False), len(tangents)
     if problem.model.form == "dt":  # the second row of a field is zero
@@ -93,5 +95,7 @@ def grow(
     workspace = (tolerance, tolerance), aligned((dop853.WORK, *bundle.shape)), np.empty(0)
     status = interruptible(carry, system, bundle, times, *workspace, lengths[1:], sizes[1:])
     if status != DONE:
-        raise IntegrationError(f"the motion could not be followed: {FAULTS[status]}")
+        raise IntegrationError(
+            f"dop853 stopped while integrating tangent vectors: {FAULTS[status]}"
+        )
     return TangentGrowth(tau, log(lengths).cumsum(axis=0).T, sizes)

@@ -54,10 +54,7 @@ def mean_limits(values: ArrayLike, confidence: float = CONFIDENCE) -> Confidence
 def difference_limits(
     first: ArrayLike, second: ArrayLike, confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return mean(first) - mean(second), both (member,), with Welch's confidence interval.
-
-    The two groups may have different variances and sizes; both need at least two members.
-    """
+    """Return mean(first) - mean(second), both (member,), with Welch's confidence interval."""
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     variances = [values.var(ddof=1) / len(values) for values in (first, second)]
     difference, error, off = first.mean() - second.mean(), sqrt(sum(variances)), 0.0
@@ -70,9 +67,8 @@ def difference_limits(
 def chance_inside(most: int, draws: int, members: int) -> float:
     """Return the probability that at most `most` of `draws` lie in the range of `members` values.
 
-    All `draws` + `members` values are independent and have the same continuous distribution. The
-    result does not depend on it: it counts the orders of all values in which enough of the draws
-    come before the smallest or after the largest member. Rounded to three digits.
+    All values are independent and have one continuous distribution, which does not matter: counted
+    are their orders with enough draws before the first or after the last member. Three digits.
     """
     total = special.gammaln(np.array([draws + members + 1.0, members + 1.0, draws + 1.0]))
     outside = np.arange(draws - most, draws + 1.0)
@@ -84,10 +80,7 @@ def chance_inside(most: int, draws: int, members: int) -> float:
 
 
 def chance_of_counts(least: int, members: int, share: float) -> float:
-    """Return the probability of at least `least` successes among `members` independent trials.
-
-    Each trial succeeds with probability `share`. Rounded to three digits.
-    """
+    """Return the probability of >= `least` successes in `members` trials of probability `share`."""
     return float(f"{special.bdtrc(least - 1.0, members, share):.3g}")
 
 

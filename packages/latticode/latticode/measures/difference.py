@@ -102,10 +102,7 @@ def difference(first: "xr.Dataset", second: "xr.Dataset") -> "xr.DataArray":
 
 
 def at_times(trajectory: "xr.Dataset", tau: "xr.DataArray") -> "xr.Dataset":
-    """Return the norms of a trajectory at these times, NaN at times that it lacks.
-
-    Times count as equal if they differ by less than 1e-9.
-    """
+    """Return the norms at the times `tau`, matched to 1e-9; NaN at times without norms."""
     return trajectory[list(NORMS)].reindex(tau=tau, method="nearest", tolerance=1e-9)
 
 

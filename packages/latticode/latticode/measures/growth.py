@@ -63,10 +63,9 @@ def is_chaotic(
 def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
     """Return the logarithm of the factor by which a steady relative error has grown, (time,).
 
-    Errors arise at a constant relative rate: at each time s in proportion to `size`(s), the l2 norm
-    of the solution. Until tau they grow by exp(log_growth(tau) - log_growth(s)). The result is the
-    logarithm of the relative error at tau for a rate of 1 per unit of tau. All arguments are
-    (time,).
+    Errors arise at a relative rate of 1 per unit of tau: at each time s in proportion to `size`(s),
+    the l2 norm of the solution. Until tau they grow by exp(log_growth(tau) - log_growth(s)). All
+    arguments are (time,). The result is the logarithm of the relative error at tau.
     """
     log_weights = log(size[1:] * np.diff(tau)) - log_growth[1:]
     peak = np.maximum.accumulate(log_weights)
@@ -79,8 +78,5 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
 
 
 def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
-    """Return the first tau at which `error` per unit of tau has grown to VISIBLE, else infinity.
-
-    `log_amplification` (time,) is the result of `amplification`.
-    """
+    """Return the first tau at which `error` per unit of tau has grown to VISIBLE, else infinity."""
     return first_above(tau, log_amplification, log(VISIBLE / error))

@@ -24,10 +24,7 @@ def complex_normal(rng: np.random.Generator, shape: int | tuple[int, ...]) -> np
 def uniform(
     rng: np.random.Generator, low: float, high: float, size: int | tuple[int, ...] | None = None
 ) -> np.ndarray | float:
-    """Return uniform numbers in [low, high) of shape `size`; one number if it is None.
-
-    `rng.uniform` is not used: some processors fuse its multiplication and addition.
-    """
+    """Return uniform numbers in [low, high); `rng.uniform` is fused on some processors."""
     return low + (high - low) * rng.random(size)
 
 

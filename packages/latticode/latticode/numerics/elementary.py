@@ -269,10 +269,7 @@ def square_root(z: Complex) -> Complex:
 
 
 def modulus(z: Complex) -> Real:
-    """Return abs(z), with an error of 1 ulp.
-
-    z is scaled by a power of two, because its squares could overflow or vanish.
-    """
+    """Return abs(z), with an error of 1 ulp; scaled by a power of two against overflow."""
     z = np.asarray(z)
     largest = np.maximum(np.abs(z.real), np.abs(z.imag))
     k = np.frexp(np.where(np.isfinite(largest), largest, 1.0))[1]

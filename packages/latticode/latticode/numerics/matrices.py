@@ -8,8 +8,5 @@ import numpy as np
 
 
 def times(matrix: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Return `matrix` (..., m, n) times the vectors `x` (..., n), shape (..., m).
-
-    At least one of them must be real: a product of complex numbers may be fused.
-    """
+    """Return `matrix` (..., m, n) times vectors `x` (..., n), (..., m); one of them is real."""
     return np.sum(matrix * x[..., None, :], axis=-1)

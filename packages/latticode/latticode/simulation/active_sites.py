@@ -1,12 +1,11 @@
-"""Runs on an infinite chain: only the sites in motion, 0..W of even data, otherwise -W..W.
+"""Runs on an infinite chain that integrate only the sites in motion, -W..W, or 0..W of even data.
 
 W grows by a block when a site near an end exceeds `rest_threshold` times the largest amplitude. For
-a short run 1e-20 is small enough. But a front that is pulled by the growth of its leading edge is
-slower if the edge is cut off (Brunet and Derrida, Phys. Rev. E 56 (1997) 2597), so long runs use
-1e-150, about the smallest number whose square is a normal double.
+short runs 1e-20 is small enough. A pulled front, driven by its leading edge, slows down if the edge
+is cut off (Brunet and Derrida, Phys. Rev. E 56 (1997) 2597). Long runs therefore use 1e-150, about
+the smallest number whose square is a normal double.
 
-A run is divided into intervals, between which sites are added. Each interval starts from the state
-at the end of the one before.
+A run is divided into time intervals. Sites are added only between them.
 """
 
 from collections.abc import Iterator
@@ -25,28 +24,28 @@ from .problem import Problem
 from .traced import TracedEquations
 
 BLOCK, GUARD = 64, 32
-"""W grows by the first number of sites, and the last sites, as many as the second, must be at rest
-when an interval starts: no front may cross GUARD sites within an interval."""
+"""Number of sites by which W grows, and number of sites at an end that must be at rest when an
+interval starts. No front may cross GUARD sites within an interval."""
 INTERVAL = 2.0
-"""The length of an interval in time, unless a run gives another."""
+"""Default length of an interval, in units of time."""
 
 
 class Interval(NamedTuple):
-    """What a run has at the end of an interval."""
+    """Outputs and final state of one interval of a run."""
 
-    times: np.ndarray  # (time,), the outputs, both ends included
+    times: np.ndarray  # (time,), output times, both ends included
     record: ObservableRecord  # its snapshots hold the state at every output
-    state: np.ndarray  # (row, 1 + site + 1) with ghosts; changes in place are integrated on
+    state: np.ndarray  # (row, 1 + site + 1) with ghosts; the run continues with it, even if changed
     right_half: np.ndarray  # (row, site), the sites 0..W of the state
 
 
 def integrate_intervals(
     problem: Problem, rest_threshold: float, length: float = INTERVAL
 ) -> Iterator[Interval]:
-    """Integrate a problem on an infinite chain; yield each interval when its end is reached.
+    """Integrate a problem on an infinite chain; yield the intervals one after another.
 
-    `rest_threshold` is relative to the largest amplitude. The kernels follow from the trace of the
-    model. Raises IntegrationError if the solver gives up.
+    `rest_threshold` is relative to the largest amplitude. The kernels are those of the traced
+    model. Raises IntegrationError if the solver cannot finish an interval.
     """
     even = _is_even(problem.initial)
     runs = _Runs(problem, even)
@@ -64,7 +63,7 @@ def integrate_intervals(
 
 
 def widen(state: np.ndarray, rest_threshold: float, even: bool = True) -> np.ndarray:
-    """Return the state with a block of sites added at an end that is no longer at rest."""
+    """Return the state, with a block of sites added at each end if one is no longer at rest."""
     power = (state[:, 1:-1] * state[:, 1:-1]).sum(axis=0)
     at_ends = power[-GUARD:].max() if even else max(power[:GUARD].max(), power[-GUARD:].max())
     if not at_ends > rest_threshold * rest_threshold * power.max():
@@ -73,7 +72,7 @@ def widen(state: np.ndarray, rest_threshold: float, even: bool = True) -> np.nda
 
 
 def width_of(state: np.ndarray, even: bool) -> int:
-    """Return W, the last site of a state with two ghost sites, (row, 1 + site + 1)."""
+    """Return W, the number of the last site of a state (row, 1 + site + 1) with two ghosts."""
     return state.shape[1] - 3 if even else (state.shape[1] - 3) // 2
 
 
@@ -84,8 +83,8 @@ def _is_even(initial: np.ndarray) -> bool:
 class _Runs:
     """Runs of one problem on growing numbers of sites.
 
-    Work arrays are allocated once for each number of sites: allocating them for every interval
-    takes a tenth of its time.
+    Work arrays are allocated once per number of sites, because allocating them for every interval
+    would take 10 % of its time.
     """
 
     def __init__(self, problem: Problem, even: bool):
@@ -94,7 +93,7 @@ class _Runs:
         self.prepared: tuple[CompiledMethod, Any, np.ndarray]
 
     def advance(self, state: np.ndarray, times: np.ndarray) -> ObservableRecord:
-        """Integrate `state` in place over `times` and return what was observed."""
+        """Integrate `state` in place over `times` and return its observables."""
         if state.shape[1] != self.columns:
             self._prepare(state)
         compiled, system, work = self.prepared

@@ -1,8 +1,7 @@
-"""How a problem is integrated, and what its results are called: the base class of all equations.
+"""The base class of equations: the kernels of a problem, and the names of its results.
 
-All of it follows from the trace of a model (`traced.TracedEquations`). A program whose kernels know
-more than the trace of their model says so in a class of its own, which its problems name: see
-`Problem.equations`.
+`traced.TracedEquations` derives all of them from the trace of a model. A program with specialised
+kernels defines a subclass of its own, and a subclass of `Problem` whose `equations` return it.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -19,18 +18,18 @@ from .observables import ObservableRecord, blank_record
 
 
 class IntegrationError(RuntimeError):
-    """A run that could not reach its end time with the digits that were asked for."""
+    """A run that cannot reach its end time with the requested accuracy."""
 
 
 class GaveUpError(IntegrationError):
-    """A run whose solver could not go on: its state was not finite, or its steps were too short."""
+    """A run that its solver stopped, because the state is not finite or the steps are too short."""
 
 
 class CompiledMethod(NamedTuple):
-    """A method with the equations of a model: one compiled run.
+    """A method compiled with the equations of a model.
 
-    `work` is the number of work arrays where it depends on the model. `in_tiles` says that the
-    kernels let a chain go in tiles.
+    `work` is the number of work arrays, if it depends on the model. `in_tiles` is true if the
+    kernels can divide a chain into tiles.
     """
 
     method: Method
@@ -38,54 +37,53 @@ class CompiledMethod(NamedTuple):
     work: int = 0
     in_tiles: bool = False
 
-    def work_for(self, system, y: np.ndarray) -> np.ndarray:
-        """Return the work arrays for a state (row, 1 + site) of a `system`."""
+    def work_for(self, system: Any, y: np.ndarray) -> np.ndarray:
+        """Return the work arrays, (array, row, column), for a state `y` of a `system`."""
         tiled = self.in_tiles and self.method.takes_tiles and can_be_tiled.py_func(system)
         count = self.work or self.method.work_arrays(y.shape[1] - 2, tiled)
         return aligned((count, *y.shape))
 
     def controls_of(self, solver: Mapping[str, Any], atol_scale: float = 1.0) -> tuple[float, ...]:
-        """Return the controls as kernels take them; `atol_scale` is what a tolerance of 1 means."""
+        """Return the kernels' controls, with the absolute tolerance times `atol_scale`."""
         scales = {"atol": atol_scale}
         return tuple(float(solver[key]) * scales.get(key, 1.0) for key in self.method.controls)
 
 
 class ResultNames(NamedTuple):
-    """What datasets call the results of a run; an empty text leaves the name to the registry."""
+    """Names of results in datasets; an empty text keeps the default long name of the variable."""
 
     components: tuple[str, ...]
-    parts: tuple[str, ...] = ("re", "im")  # rows of a component, but for one that is zero
+    parts: tuple[str, ...] = ("re", "im")  # rows of a component, without one that is always zero
     title: str = "Norms"
     units: str = "1"  # of the fields
-    norms: str = ""  # ", of ...", behind the long names of norms
+    norms: str = ""  # ", of ...", appended to the long names of norms
     component: str = "field"
     modulus: str = ""
     part: str = ""
     final: str = ""
     state: str = ""
-    quantities: tuple[str, ...] = ()  # conserved, finite, and variables of their own
+    quantities: tuple[str, ...] = ()  # conserved quantities stored as separate variables
     time: str = "t"
 
 
 class Equations:
-    """One problem as `simulate` integrates it. A subclass gives what differs from these defaults.
+    """The equations of one problem, as `simulate` integrates them.
 
-    Names and units come first and need no kernels; what comes below compiles them when a run
-    starts. Methods that take a `cut`, a `Reduction`, see to the part of the chain that is
-    integrated.
+    Subclasses override these defaults. The first group of methods needs no kernels; the second
+    group compiles them. A `cut` is the `Reduction` of the chain that is integrated.
     """
 
     stores_final = True
-    """Whether the dataset of a run has the state at its end."""
+    """Whether the dataset of a run contains the final state."""
 
-    def __init__(self, problem: InitialValueProblem):
+    def __init__(self, problem: InitialValueProblem) -> None:
         self.problem = problem
 
-    # --- Names, units, and what is known before a run
+    # --- Names, units and bounds, known before a run
 
     @property
     def names(self) -> ResultNames:
-        """What datasets call the results."""
+        """The names of the results in datasets."""
         raise NotImplementedError
 
     @property
@@ -94,27 +92,27 @@ class Equations:
         raise NotImplementedError
 
     def describe(self) -> dict[str, Any]:
-        """Return the attributes of a dataset that say which equations were solved."""
+        """Return the attributes of a dataset that describe the equations."""
         raise NotImplementedError
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds of the rates at which data of this size turn or grow, by their key."""
+        """Return bounds of the rates at amplitude `peak`, by the key they depend on."""
         raise NotImplementedError
 
     @property
     def clock(self) -> float:
-        """How many units of the kernels' time make one of the problem's."""
+        """Units of the kernels' time per unit of the problem's time."""
         return 1.0
 
     @property
     def atol_scale(self) -> float:
-        """The absolute tolerance of the kernels that a tolerance of 1 means."""
+        """Absolute tolerance of the kernels for an absolute tolerance of 1 of the problem."""
         return 1.0
 
-    # --- What a run needs
+    # --- Arguments and results of the kernels
 
     def find_reduction(self) -> Reduction:
-        """Return the smallest part of the chain that has the bits of the whole."""
+        """Return the smallest part of the chain whose run has the bits of the whole chain's."""
         return find_reduction(self.problem.amplitudes)
 
     def compiled(self, name: str) -> CompiledMethod:
@@ -122,28 +120,28 @@ class Equations:
         raise NotImplementedError
 
     def system(self, cut: Reduction) -> Any:
-        """Return the parameters of the kernels."""
+        """Return the argument `system` of the kernels, with all parameters."""
         raise NotImplementedError
 
     def start(self, cut: Reduction) -> np.ndarray:
-        """Return the state at the start, (row, 1 + site) with ghosts."""
+        """Return the initial state, (row, 1 + site + 1) with ghosts."""
         return pack(self.problem.amplitudes, cut)
 
     @property
     def times(self) -> np.ndarray:
-        """The output times in the time of the kernels."""
+        """The output times, (time,), in units of the kernels' time."""
         return self.problem.times
 
     def time_of_problem(self, time: float) -> float:
-        """Return a time of the kernels in the time of the problem."""
+        """Return a time of the kernels in units of the problem's time."""
         return time
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool
     ) -> ObservableRecord:
-        """Return empty arrays for what is observed at so many times."""
+        """Return uninitialised arrays for the observables at `times` outputs."""
         return blank_record(components, sites, times, every, parts=2)
 
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-        """Return what a `Trajectory` holds of the whole chain, from record and final state."""
+        """Return fields of a `Trajectory` on the whole chain, from record and final state `y`."""
         raise NotImplementedError

@@ -1,8 +1,8 @@
-"""Refuses a run before it starts if it could not end, or if its digits would be noise.
+"""Checks before a run, which reject one that could not end or whose result would be noise.
 
-The configuration asks before any job starts, and the simulation asks again, since problems reach it
-from elsewhere too. The solvers themselves report what shows only during a run: a state that
-overflows, or a step that shrinks to nothing.
+The configuration checks before any job starts. `simulate` checks again, because not all problems
+come from a configuration. The solvers report errors that appear only during a run: a state that
+overflows, or a step that becomes too short.
 """
 
 from collections.abc import Mapping
@@ -15,11 +15,11 @@ from latticode.integrators.method import Obstacle
 from latticode.integrators.methods import METHODS
 
 MOST_STEPS = 1e9
-"""More steps are refused: the run would take hours or never end."""
+"""Maximum number of steps of a run: more would take hours."""
 ROUNDING = 1e-16
-"""No solver resolves a smaller part of the data."""
+"""Smallest tolerance relative to the data: below it rounding errors dominate."""
 SMALLEST_DATA = 1e-153
-"""The squares of smaller amplitudes, and with them norms and energy, lose digits or vanish."""
+"""Smallest amplitude: the squares of smaller ones, in norms and energy, lose digits or vanish."""
 
 
 def find_fault(
@@ -30,10 +30,10 @@ def find_fault(
     solver: Mapping,
     clock: float = 1.0,
 ) -> Obstacle | None:
-    """Return the key that keeps data of the size `peak` from being followed for a time `span`.
+    """Return the key and the reason why a run of length `span` is impossible, else None.
 
-    `values` are constants by their keys, `rates` bounds of the relative rates at which such data
-    turn or grow, by the key that makes them; the solver counts `clock` units of its time in one.
+    `peak` is the largest initial amplitude, `values` are constants by key, and `rates` bounds of
+    relative rates by the key they depend on. `clock` is the solver's time per unit of time.
     """
     obstacle = (
         _find_in_data(values, peak, span, rates)
@@ -47,7 +47,7 @@ def find_fault(
 
 
 def rates_of(model: Model, parameters: Mapping, peak: float) -> dict[str, float]:
-    """Return bounds of the rates at which data of the size `peak` turn or grow under a model."""
+    """Return bounds of the relative rates of a model at amplitude `peak`, by key."""
     linear = model.rate(parameters, 0.0)
     return {"parameters": linear, "initial": model.rate(parameters, peak) - linear}
 

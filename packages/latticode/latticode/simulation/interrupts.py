@@ -31,7 +31,7 @@ import numpy as np
 class Interrupted(KeyboardInterrupt):
     """Work that Ctrl-C ended. Python and Jupyter show it as one line, without a traceback."""
 
-    def __init__(self, *words: str):
+    def __init__(self, *words: str) -> None:
         super().__init__(*words)
         if sys.excepthook is sys.__excepthook__:
             sys.excepthook = _show_in_a_line
@@ -57,7 +57,7 @@ PATIENCE = 0.5
 class _Worker:
     """A thread that does one run after another."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.runs, self.ends = SimpleQueue(), SimpleQueue()
         # A daemon thread, so that the interpreter can leave while that thread still compiles.
         threading.Thread(target=self._work, daemon=True).start()
@@ -83,7 +83,7 @@ class _Watch:
 
     CAUGHT_UP = b"\xff"  # no number of a signal
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.stop: np.ndarray | None = None
         self._reads, self._written = socket.socketpair()
         self._written.setblocking(False)
@@ -127,7 +127,7 @@ if hasattr(os, "register_at_fork"):  # Windows has no forks
     os.register_at_fork(after_in_child=_forget_threads)
 
 
-def interruptible(run: Callable, *arguments) -> Any:
+def interruptible(run: Callable, *arguments: Any) -> Any:
     """Return run(*arguments, stop), a run that ends when the flag `stop` is raised.
 
     `stop` is an array of one boolean; `run` releases the GIL and reads the flag at every step, or

@@ -1,7 +1,8 @@
-"""What a run keeps at each output time: norms, what is conserved, and the chain on request."""
+"""Observables at each output time: norms, conserved quantities, and snapshots of the chain."""
 
+from collections.abc import Callable
 from math import sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from latticode.kernels.simd import largest_magnitude
 
 
 class ObservableRecord(NamedTuple):
-    """The arrays that a run fills while it integrates; `every` = 0 keeps no snapshots."""
+    """Arrays that a run fills; it stores no snapshots if `every` is 0."""
 
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
@@ -19,16 +20,16 @@ class ObservableRecord(NamedTuple):
     snapshots: np.ndarray
     every: int
     scratch: np.ndarray  # (component, column), two rows at least
-    conserved: np.ndarray  # (quantity, time), empty if no run asks for it
+    conserved: np.ndarray  # (quantity, time), empty unless requested
 
 
 def blank_record(
     components: int, sites: int, times: int, every: int, quantities: int = 0, parts: int = 0
 ) -> ObservableRecord:
-    """Return empty arrays for a run of `times` outputs, with snapshots at each `every`-th of them.
+    """Return uninitialised arrays for `times` outputs, with a snapshot at every `every`-th of them.
 
-    Snapshots are moduli, or states of so many `parts`. Conserved `quantities` may take half of the
-    time of an output; a run whose norms alone are wanted asks for none.
+    Snapshots hold moduli if `parts` is 0, otherwise states. Conserved `quantities` may take half of
+    the time of an output; runs that need only norms have none.
     """
     count = (times - 1) // every + 1 if every else 0
     moduli_shape = (components, sites, count)
@@ -43,11 +44,11 @@ def blank_record(
 
 
 @inlined_by_llvm
-def sums_over_chain(chain, a, b):
+def sums_over_chain(chain: Any, a: np.ndarray, b: np.ndarray) -> tuple[float, float]:
     """Return the sums of two rows (column,) over the sites of the whole chain.
 
-    They go from the centre outwards in pairs of sites, so that half a chain gives the bits of the
-    whole, and side by side, since each addition waits for the one before it.
+    They add pairs of sites from the centre outwards, so that half of an even chain gives the same
+    bits. Both sums run in parallel, because each addition must wait for the previous one.
     """
     mirrored = chain.left == MIRROR
     reach = a.size - 3 if mirrored else (a.size - 3) // 2
@@ -60,13 +61,13 @@ def sums_over_chain(chain, a, b):
         for n in range(1, reach + 1):
             right, left = centre + n, centre - n
             of_a, of_b = of_a + (a[right] + a[left]), of_b + (b[right] + b[left])
-        if a.size % 2 == 0:  # of an even number of sites the last has no partner
+        if a.size % 2 == 0:  # an even number of sites leaves the last one without a partner
             of_a, of_b = of_a + a[a.size - 2], of_b + b[a.size - 2]
     return of_a, of_b
 
 
-def norms_by(square):
-    """Return the function that writes the norms of a state; square(y, row, j) is |A_n|^2."""
+def norms_by(square: Callable) -> Callable:
+    """Return the kernel that writes the norms of a state, from square(y, row, j) = |A_n|^2."""
 
     @inlined_by_llvm
     def write_norms(chain, y, i, record):
@@ -76,7 +77,7 @@ def norms_by(square):
             for j in range(1, y.shape[1] - 1):
                 squares[k, j] = square(y, 2 * k, j)
         for row in range(0, last + 1, 2):
-            next_row = min(row + 1, last)  # the same one twice where there is no other
+            next_row = min(row + 1, last)  # a single component is summed twice
             sum_of_one, sum_of_other = sums_over_chain(chain, squares[row], squares[next_row])
             record.l2[row, i], record.l2[next_row, i] = sqrt(sum_of_one), sqrt(sum_of_other)
         for k in range(last + 1):
@@ -85,8 +86,8 @@ def norms_by(square):
     return write_norms
 
 
-def observer(square, keep_site):
-    """Return what keeps norms, and snapshots by keep_site(y, component, column, snapshot, kept)."""
+def observer(square: Callable, keep_site: Callable) -> Callable:
+    """Return the kernel that stores norms, and snapshots by keep_site(y, k, j, snapshot, array)."""
     write_norms = norms_by(square)
 
     @uncached
@@ -102,8 +103,8 @@ def observer(square, keep_site):
 
 
 @inlined_by_llvm
-def keep_modulus(y, k, j, snapshot, snapshots):
-    """Keep the modulus, or both parts where `snapshots` has room for them."""
+def keep_modulus(y: np.ndarray, k: int, j: int, snapshot: int, snapshots: np.ndarray) -> None:
+    """Store the modulus of a component, or both its parts if `snapshots` has four dimensions."""
     if snapshots.ndim == 4:  # numba compiles one of the two
         for row in range(2):
             snapshots[row, k, j - 1, snapshot] = y[2 * k + row, j]
@@ -112,13 +113,13 @@ def keep_modulus(y, k, j, snapshot, snapshots):
 
 
 @inlined_by_llvm
-def keep_parts(y, k, j, snapshot, snapshots):
+def keep_parts(y: np.ndarray, k: int, j: int, snapshot: int, snapshots: np.ndarray) -> None:
     for row in range(2):
         snapshots[row, k, j - 1, snapshot] = y[2 * k + row, j]
 
 
 @inlined_by_llvm
-def square_of_angle(y, row, j):
+def square_of_angle(y: np.ndarray, row: int, j: int) -> float:
     return y[row, j] * y[row, j]
 
 

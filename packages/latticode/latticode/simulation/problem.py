@@ -1,4 +1,4 @@
-"""A problem that knows how it is integrated: the values of `initial_values`, and its equations."""
+"""An initial-value problem together with the equations that integrate it."""
 
 from functools import cached_property
 
@@ -6,14 +6,16 @@ from latticode.equations.initial_values import InitialValueProblem
 
 
 class Problem(InitialValueProblem):
-    """One initial-value problem, integrated by what follows from the trace of its model.
+    """One initial-value problem of a traced model.
 
-    A program whose kernels know more than the trace has a subclass with other `equations`.
+    A program with specialised kernels defines a subclass with other `equations`.
     """
 
     @cached_property
     def equations(self):
         """The `Equations` that integrate the problem and name its results; nothing is compiled."""
-        from .traced import TracedEquations  # here: a configuration makes problems without kernels
+        from .traced import (
+            TracedEquations,
+        )  # imported here: configurations make problems without kernels
 
         return TracedEquations(self)

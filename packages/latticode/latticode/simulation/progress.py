@@ -1,7 +1,7 @@
-"""A bar for work of more than two seconds, in a terminal or a notebook and never in a file.
+"""A progress bar for work of more than two seconds, in a terminal or a notebook.
 
-A thread looks twice a second how far the work is. What is at work pays nothing for it: a run fills
-its array of norms anyway, and a survey its table of runs.
+A thread checks the progress twice a second. The work itself does nothing for it: the thread counts
+the norms that a run has written, or the runs in the table of a survey.
 """
 
 import os
@@ -17,14 +17,14 @@ import numpy as np
 from .interrupts import Interrupted
 
 DELAY, LOOK = 2.0, 0.5
-"""Seconds of work before a bar is shown, and between two looks at the work."""
+"""Seconds of work before a bar appears, and between two checks of the progress."""
 OF_RUNS = "{desc}: {n_fmt} of {total_fmt} runs |{bar}| {elapsed}<{remaining}"
 OF_TIME = "{desc}: {percentage:3.0f}% |{bar}| {elapsed}<{remaining}"
 COMPILING = "{desc} {elapsed}"
 
 
 class _Work:
-    """What is at work: how much of it is done, of how much, and its bar if there is one."""
+    """Work in progress: how much of it is done, its total, and its bar if it is shown."""
 
     def __init__(self, name: str, runs: Sized | None, total: int):
         self.name, self.runs = name, runs
@@ -33,13 +33,13 @@ class _Work:
         self.restart(name, (lambda: len(runs)) if runs is not None else None, total)
 
     def restart(self, label: str, done: Callable[[], int] | None, total: int) -> None:
-        """Begin to count anew, such as the outputs of the next run of several."""
+        """Restart the count, for example for the outputs of the next run."""
         self.label, self.done, self.total = label, done, total
         self.since, self.first = monotonic(), done() if done else 0
         self.close()
 
     def look(self) -> None:
-        """Draw how far the work is, if it has lasted long enough."""
+        """Draw the bar if the work has lasted longer than DELAY."""
         with self.lock:
             if self.is_over or monotonic() - self.begun < DELAY:
                 return
@@ -54,7 +54,7 @@ class _Work:
         if self.bar is not None and self.bar.desc != label:
             self.close()
         if self.bar is None:
-            from tqdm.auto import tqdm  # here: most work is over before it needs a bar
+            from tqdm.auto import tqdm  # imported here: most work ends before it needs a bar
 
             self.bar = tqdm(
                 desc=label,
@@ -70,26 +70,26 @@ class _Work:
         self.bar.refresh()
 
     def close(self) -> None:
-        """Take the bar away."""
+        """Remove the bar."""
         if self.bar is not None:
             self.bar.close()
             self.bar = None
 
     def end(self) -> None:
-        """Take the bar away, and let no other thread draw it again."""
+        """Remove the bar, and prevent the other thread from drawing it again."""
         with self.lock:
             self.is_over = True
             self.close()
 
 
 class _Compilations:
-    """Counts the compilations of numba that are under way."""
+    """Counter of the numba compilations in progress."""
 
     def __init__(self):
         self.running, self.is_listening = 0, False
 
     def listen(self) -> None:
-        """Begin to count, if that is not done yet."""
+        """Register with numba, unless this is done already."""
         if not self.is_listening:
             from numba.core import event
 
@@ -110,7 +110,7 @@ compilations = _Compilations()
 _at_work: list[_Work] = []
 """The work whose progress is shown, if there is any."""
 _threads: list[threading.Thread] = []
-"""The thread that looks at the work, once there was any."""
+"""The thread that draws the bars, after the first work has started."""
 
 if hasattr(os, "register_at_fork"):  # Windows has no forks
     os.register_at_fork(after_in_child=lambda: (_at_work.clear(), _threads.clear()))
@@ -118,10 +118,10 @@ if hasattr(os, "register_at_fork"):  # Windows has no forks
 
 @contextmanager
 def show_progress(name: str, runs: Sized | None = None, total: int = 1) -> Iterator[None]:
-    """Show how far the work of the block is, after two seconds, and end it in a line on Ctrl-C.
+    """Show the progress of the work in the block after two seconds.
 
-    `runs` fills with the `total` runs of a survey; other work is a run, or some one after another,
-    which call `follow`. Raises Interrupted on Ctrl-C.
+    `runs` is a container to which a survey adds its `total` runs. Without it, each run in the block
+    calls `follow`. Raises Interrupted, which prints a single line, on Ctrl-C.
     """
     work = None
     if not _at_work and is_visible():
@@ -144,7 +144,7 @@ def show_progress(name: str, runs: Sized | None = None, total: int = 1) -> Itera
 
 
 def follow(outputs: np.ndarray, label: str) -> None:
-    """Count as done what a run has written of its outputs, (time,), if its progress is shown."""
+    """Show the progress of a run by the entries of `outputs` (time,) that it has written."""
     for work in _at_work:
         if work.runs is None:
             outputs.fill(np.nan)
@@ -154,7 +154,7 @@ def follow(outputs: np.ndarray, label: str) -> None:
 
 
 def is_visible() -> bool:
-    """Return whether somebody would see a bar: in a terminal or a notebook, not in a file."""
+    """Return whether stderr is a terminal, or the program runs in a notebook."""
     shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
     if shell is not None and "IPKernelApp" in shell.config:
         return True

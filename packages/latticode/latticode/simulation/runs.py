@@ -1,8 +1,8 @@
-"""Many runs in parts: what is made, a part of it, and all parts joined.
+"""Many runs divided into chunks: one chunk, all chunks joined, and all runs on several cores.
 
-What is kept of a run is reduced as soon as the run is over, so that the memory of many is that of
-their results. A part is every so many-th run, so that parts take alike long, and results have the
-same bits in any number of parts.
+Each run is reduced to its results as soon as it ends, to save memory. With n chunks, chunk k has
+every n-th run from run k on, so that all chunks take about equally long. The results have the same
+bits for any number of chunks.
 """
 
 import threading
@@ -17,11 +17,11 @@ from .problem import Problem
 from .progress import show_progress
 
 Make = Callable[[Problem], Mapping[str, Any]]
-"""What makes the run of a problem and returns what is kept of it, by name."""
+"""A function that runs a problem and returns the retained results by name."""
 Retained = dict[int, Mapping[str, Any]]
-"""What is kept of runs, by the number of the run."""
+"""Retained results by the number of the run."""
 Run = Callable[[Sequence[Problem], Make], dict[str, np.ndarray]]
-"""What makes the runs of problems, such as `run_all`, and returns what is kept, each (run, ...)."""
+"""A function such as `run_all`: it returns the retained results by name, each (run, ...)."""
 
 
 def run_chunk(
@@ -32,16 +32,18 @@ def run_chunk(
     progress: Callable[[int, int], None] = lambda done, count: None,
     retained: Retained | None = None,
 ) -> dict[str, np.ndarray]:
-    """Return what is kept of every `chunks`-th run from number `chunk` on, each (run, ...).
+    """Return the results of every `chunks`-th run from number `chunk` on, each (run, ...).
 
-    `progress` is called with the number of runs that are done, and of all in the part. Runs that
-    are in `retained` are not made again, and what is kept of the others is added to it. Where what
-    is kept has not the same shape of all runs, NaN fill it up.
+    `progress` is called with the numbers of finished runs and of all runs in the chunk. Runs in
+    `retained` are not repeated; the results of all others are added to it. Results of different
+    shapes are padded with NaN.
     """
     numbers = range(chunk, len(problems), chunks)
     retained = {} if retained is None else retained
 
-    def make_all(stop: np.ndarray) -> None:  # all in one thread: handing over takes time
+    def make_all(
+        stop: np.ndarray,
+    ) -> None:  # in one call, because each hand-over to a thread takes time
         for done, number in enumerate(numbers, 1):
             if number not in retained:
                 retained[number] = make(problems[number])
@@ -52,18 +54,18 @@ def run_chunk(
 
 
 def table_of(runs: Sequence[Mapping[str, Any]]) -> dict[str, np.ndarray]:
-    """Return what is kept of runs by name, each (run, ...)."""
+    """Return the results of runs by name, each as one array (run, ...)."""
     names = dict.fromkeys(name for run in runs for name in run)
     return {name: stack([run[name] for run in runs if name in run]) for name in names}
 
 
 def join_chunks(chunks: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
-    """Return what all parts hold in the order of the runs, each (run, ...)."""
+    """Return the results of all chunks in the order of the runs, each (run, ...)."""
     chunks, tables = list(chunks), {}
     for name in chunks[0]:
         values = [
             chunk[name] for chunk in chunks if name in chunk
-        ]  # more parts than runs: no values
+        ]  # a chunk without runs has no values
         rank, kind = max(array.ndim for array in values), np.result_type(*values)
         values = [array.reshape(array.shape + (1,) * (rank - array.ndim)) for array in values]
         shape = np.max([array.shape[1:] for array in values], axis=0).astype(int)
@@ -78,10 +80,10 @@ def join_chunks(chunks: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndar
 def run_all(
     problems: Sequence[Problem], make: Make, cores: int = 1, retained: Retained | None = None
 ) -> dict[str, np.ndarray]:
-    """Return what is kept of all runs, each (run, ...), made in a part for each core.
+    """Return the results of all runs, each (run, ...), computed in one thread per core.
 
-    Kernels run beside each other in threads. Ctrl-C ends all of them; `retained` then has the runs
-    that are done, and those that it has at the start are not made again.
+    Ctrl-C ends all threads; `retained` then has the results of the finished runs. Runs that it
+    contains at the start are not repeated.
     """
     ended = threading.Event()
 
@@ -92,22 +94,22 @@ def run_all(
     chunks = max(1, min(cores, len(problems)))
     with ThreadPoolExecutor(chunks) as pool:
         shared = chunks, go_on, retained
-        try:  # from the first part on, which runs while others are handed over
+        try:  # includes `submit`, because the first chunk is running by then
             futures = [pool.submit(run_chunk, problems, make, n, *shared) for n in range(chunks)]
             over, _ = wait(futures, return_when=FIRST_EXCEPTION)
         finally:
             ended.set()
-        for future in over:  # raise the error of the part that failed, not that of parts it ended
+        for future in over:  # raise the error of the chunk that failed, not of those it stopped
             future.result()
         return join_chunks([future.result() for future in futures])
 
 
 class ManyRuns(NamedTuple):
-    """A study of many runs: their problems, what is retained of each, and what all of them give.
+    """A study of many runs: their problems, the results of each, and the result of the study.
 
-    `retain` makes the run of a problem and returns what is retained of it, by name. `conclude`
-    takes this of all runs, each (run, ...), and returns the result of the study. A workflow can
-    thus make the runs in any number of jobs.
+    `retain` runs a problem and returns its results by name. `conclude` takes the results of all
+    runs, each (run, ...), and returns the result of the study. A workflow can thus divide the runs
+    among any number of jobs.
     """
 
     problems: Sequence[Problem]
@@ -115,16 +117,16 @@ class ManyRuns(NamedTuple):
     conclude: Callable[[dict[str, np.ndarray]], Any]
 
     def make(self, run: Run = run_all) -> Any:
-        """Return the result of the study, its runs made by `run`."""
+        """Return the result of the study; `run` executes the runs."""
         return self.conclude(run(self.problems, self.retain))
 
 
 def run_until_interrupted(
     problems: Sequence[Problem], make: Make, cores: int, retained: Retained
 ) -> dict[str, np.ndarray]:
-    """Return what `run_all` returns; after Ctrl-C what is kept of the runs that are done.
+    """Return the results of `run_all`; after Ctrl-C with NaN for the runs that are not finished.
 
-    The others then have NaN. Shows progress. Raises Interrupted where no run is done.
+    Shows progress. Raises Interrupted if no run is finished.
     """
     try:
         with show_progress("survey", retained, len(problems)):
@@ -132,17 +134,17 @@ def run_until_interrupted(
     except Interrupted:
         if not retained:
             raise
-        done = dict(retained)  # a thread may still end its run
+        done = dict(retained)  # a copy: a thread may still finish its run
         absent = {name: nothing_like(value) for name, value in done[min(done)].items()}
         return table_of([done.get(number, absent) for number in range(len(problems))])
 
 
 UNFINISHED = "unfinished: the survey was interrupted before this run"
-"""The text of a run that was not made."""
+"""The text stored for a run that was not finished."""
 
 
 def nothing_like(value: Any) -> np.ndarray:
-    """Return what stands in place of a value of a run that was not made: NaN, or a text."""
+    """Return the placeholder, NaN or a text, for a result of a run that was not finished."""
     values = np.asarray(value)
     if values.dtype.kind == "U":
         return np.array(UNFINISHED)
@@ -150,11 +152,11 @@ def nothing_like(value: Any) -> np.ndarray:
 
 
 def reshape_runs(table: Mapping[str, np.ndarray], shape: Sequence[int]) -> dict[str, np.ndarray]:
-    """Return what is kept of runs (run, ...) with as many dimensions in place of the first."""
+    """Return results (run, ...) with the runs arranged in `shape`, each (*shape, ...)."""
     return {name: values.reshape(*shape, *values.shape[1:]) for name, values in table.items()}
 
 
 def stack(values: Sequence[Any]) -> np.ndarray:
-    """Return values of runs as one array (run, ...), with NaN behind those of smaller shapes."""
+    """Return values of runs as one array (run, ...); smaller ones are padded with NaN."""
     arrays = [np.asarray(array) for array in values]
     return join_chunks([{"": array[None]} for array in arrays])[""]

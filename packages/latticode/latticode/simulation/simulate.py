@@ -1,4 +1,4 @@
-"""From a problem to its trajectory: by one run, or by runs of two families that must agree."""
+"""The trajectory of a problem, by one run or by two methods of different families that agree."""
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -31,26 +31,26 @@ SINGULAR = (
     ": a divisor, or the argument of a logarithm, a root or a power, is zero or negative at some"
     " site"
 )
-"""Why a state that was finite at the start is so no longer."""
+"""Likely reason why the rates are not finite at the start."""
 
 
 JUMPS = "; where a rate jumps, as by sign or where, give larger tolerances, such as 1e-8"
-"""What a user may do where a step across a jump would be shorter than rounding allows."""
+"""Advice if a step across a discontinuity would become too short."""
 NEEDS_NO_SERIES = "; dop853 needs no power series, and may go on"
-"""What a user may do where a power series ends, as that of |u| where u passes zero."""
+"""Advice if the solution has no power series at some time, as |u| at a zero of u."""
 
 
 class Trajectory(NamedTuple):
-    """The solution of a problem, whatever part of it was integrated; the sites are -M..M.
+    """The solution of a problem on the whole chain.
 
-    Components are the fields of the model. The norms of real fields are those of their values.
+    Components are the fields of the model. Norms of real fields are those of their values.
     """
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
-    final: np.ndarray  # at the end time: complex (component, site); real fields as snapshots are
+    final: np.ndarray  # at the end time: complex (component, site), or real as `state`
     outcome: Outcome
     solver: dict[str, Any]  # {"name": ..., **controls} of the run
     snapshot_tau: np.ndarray = np.empty(0)
@@ -58,19 +58,19 @@ class Trajectory(NamedTuple):
     state: np.ndarray | None = None
     """The parts of each field at the snapshots, (part, component, site, snapshot)."""
     conserved: Mapping[str, np.ndarray] = MappingProxyType({})
-    """What the model conserves, each (time,)."""
+    """Conserved quantities of the model by name, each (time,)."""
 
 
 def simulate(
     problem: Problem, reduction: Reduction | None = None, conserved: bool = True
 ) -> Trajectory:
-    """Integrate a problem and reduce it to observables at its output times.
+    """Return the trajectory of a problem, with observables at its output times.
 
-    `reduction` says how much of the chain is integrated; by default it is the least that the exact
-    symmetries of the data allow. Without `conserved` no conserved quantity is computed.
-    The solver is one of those that take the model, or {"name": "auto", "error": ...}. Where
-    `taylor` is the solver only by default and gives up, `dop853` makes the run. Raises
-    IntegrationError where the run would not end, the solver gives up, or the result is not finite.
+    `reduction` is the part of the chain that is integrated, by default the smallest that the exact
+    symmetries allow. With `conserved` the conserved quantities are computed. The solver is one that
+    integrates the model, or {"name": "auto", "error": ...}. If the default solver `taylor` stops
+    early, `dop853` repeats the run. Raises IntegrationError if the run would not end, the solver
+    stops early, or the result is not finite.
     """
     if problem.snapshots_at:
         return chosen_snapshots(
@@ -89,7 +89,7 @@ def simulate(
         try:
             return _simulate_once(problem.changed(solver=controls), reduction, conserved)
         except IntegrationError:
-            raise error from None  # the motion itself ends there
+            raise error from None  # dop853 stops too, so taylor is not the cause
 
 
 def _simulate_once(problem: Problem, reduction: Reduction | None, conserved: bool) -> Trajectory:
@@ -109,7 +109,7 @@ def _simulate_once(problem: Problem, reduction: Reduction | None, conserved: boo
 
 
 def remark_on_start(problem: Problem) -> str:
-    """Return a sentence on a run that starts late and has other bits than one run; else nothing."""
+    """Return a remark if a run starts late and is not bit-identical to one from time 0, else ""."""
     same = [name for name in problem.equations.methods if NAMED[name].continues_exactly]
     if not problem.start_time or problem.solver["name"] in same:
         return ""
@@ -123,7 +123,7 @@ def remark_on_start(problem: Problem) -> str:
 def integrate(
     equations: Equations, cut: Reduction, conserved: bool = True
 ) -> tuple[Any, np.ndarray, Outcome]:
-    """Return the observables of the part that `cut` leaves, its final state, and the outcome.
+    """Return the observables, the final state and the outcome of a run of the part `cut`.
 
     Raises IntegrationError as `simulate` does.
     """
@@ -157,7 +157,7 @@ def integrate(
 
 
 def _gave_up(problem: Problem, time: float, outcome: Outcome) -> IntegrationError:
-    """Return the error of a run that its solver did not bring to its end."""
+    """Return the error of a run that its solver stopped before the end."""
     at_start = outcome.status == NOT_FINITE and time == problem.start_time
     why = f"{FAULTS[outcome.status]}{SINGULAR * at_start}"
     if outcome.status == STEP_TOO_SMALL and switches(problem.model.rates):
@@ -172,8 +172,8 @@ def _gave_up(problem: Problem, time: float, outcome: Outcome) -> IntegrationErro
 def find_obstacle(equations: Equations) -> str | None:
     """Return why a problem cannot be integrated, or None if it can."""
     problem = equations.problem
-    re_im = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary ones
-    peak = float(np.abs(re_im).max(initial=0.0))  # NaN where there is one
+    re_im = np.ascontiguousarray(problem.initial).view(float)  # real and imaginary parts
+    peak = float(np.abs(re_im).max(initial=0.0))  # NaN if one is NaN
     numbers = {k: v for k, v in problem.parameters.items() if isinstance(v, int | float)}
     rates, span = equations.rates(peak), float(problem.span)
     obstacle = find_fault(numbers, rates, peak, span, problem.solver, equations.clock)
@@ -185,29 +185,29 @@ def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
     return IntegrationError(f"{name} stopped at {symbol} = {time:.6g}: {reason}")
 
 
-# --- A run to an error ----------------------------------------------------------------------------
+# --- A run to a requested error -------------------------------------------------------------------
 
 SNAPSHOTS = 20
-"""The fields of two runs are compared at least so many times, if the problem names no number."""
+"""Least number of times at which fields are compared, if the problem has no snapshots."""
 MARGIN = 2.0
-"""Two families do not err alike: the larger of their errors is at most so many times what they are
-apart."""
+"""Bound of the larger error of two methods over their difference: errors of different families
+hardly cancel."""
 SELF_AGREEMENT = 0.1
-"""A method agrees with itself where a finer tolerance moves it by less than this part of what two
-methods are apart."""
+"""A method agrees with itself if a finer tolerance changes its result by less than this fraction of
+the difference of two methods."""
 
 
 def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) -> Trajectory:
     """Return the trajectory of a problem whose solver is {"name": "auto", "error": ...}.
 
-    No tolerance promises an error, least of all where the motion is chaotic, and no method sees a
-    fault of its own. So two families run the problem, at finer tolerances until what they are apart
-    is within the error. If each of them agrees with itself and not with the other, one is wrong,
-    and a third method decides which.
+    A tolerance does not bound the error at the end, least of all in chaotic motion, and no method
+    detects its own mistakes. Two methods of different families therefore run the problem at finer
+    and finer tolerances until their difference is within the error. If each agrees with itself but
+    not with the other, one is wrong, and a third method decides which.
 
-    `make` runs a problem by a solver with a name. The controls of the trajectory say which method
-    made it, which error was asked for and which was estimated, and by which method. Raises
-    IntegrationError where the families do not agree to the error.
+    `make` runs a problem by a named solver. The controls of the trajectory include its method, the
+    requested and the estimated error, and the method that confirmed it. Raises IntegrationError if
+    the methods do not agree within the error.
     """
     every = problem.snapshot_every or max(1, (len(problem.times) - 1) // SNAPSHOTS)
     runs = _Runs(problem.changed(snapshot_every=every), problem.solver["error"], make)
@@ -219,12 +219,12 @@ def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) 
             raise
         trajectory = runs.agreeing(
             [name for name in methods if name != "taylor"]
-        )  # its series ended
+        )  # the solution has no power series at some time
     return trajectory if problem.snapshot_every else without_snapshots(trajectory)
 
 
 class _Runs(NamedTuple):
-    """Runs of one problem by several methods, whose fields are kept at the same times."""
+    """Runs of one problem by several methods, with snapshots at the same times."""
 
     problem: Problem
     error: float
@@ -241,11 +241,11 @@ class _Runs(NamedTuple):
         return self.make(self.problem.changed(solver=solver))
 
     def compared(self, first: Trajectory, second: Trajectory) -> Agreement:
-        """Return how far two trajectories are apart."""
+        """Return the differences of two trajectories."""
         return compare(first, second)
 
     def agreeing(self, methods: Sequence[str]) -> Trajectory:
-        """Return the run of the first of these methods that agrees with one of the second."""
+        """Return a run that agrees within the error with one by a method of another family."""
         names = pair_of(methods)
         tolerance, before = first_tolerance(self.error, angle_of(self.problem)), None
         while True:
@@ -267,7 +267,7 @@ class _Runs(NamedTuple):
         )
 
     def accepted(self, first: Trajectory, second: Trajectory, **more: str) -> Trajectory:
-        """Return the first of two trajectories, whose controls say how far it is true."""
+        """Return the first of two trajectories, with the estimated error among its controls."""
         estimate = MARGIN * self.compared(first, second).largest
         errors = {"requested_error": self.error, "estimated_error": estimate}
         solver = {**first.solver, **errors, "agrees_with": second.solver["name"], **more}
@@ -276,7 +276,7 @@ class _Runs(NamedTuple):
     def supported(
         self, pair: tuple[Trajectory, ...], between: Agreement, third: str | None
     ) -> Trajectory:
-        """Return which of two trajectories a third method supports.
+        """Return the one of two trajectories that agrees with a run by a third method.
 
         Each of the two methods agrees with itself and not with the other, so that one is wrong.
         """
@@ -300,25 +300,25 @@ class _Runs(NamedTuple):
 
 
 def angle_of(problem: Problem) -> float:
-    """Return a bound of the angle in radians by which the data turn in a run."""
+    """Return a bound of the phase in radians by which the fields advance in a run."""
     peak = float(np.abs(np.ascontiguousarray(problem.initial).view(float)).max(initial=0.0))
     return sum(problem.equations.rates(peak).values()) * problem.span
 
 
 def without_snapshots(run: Trajectory) -> Trajectory:
-    """Return a trajectory without the snapshots that were kept to compare it."""
+    """Return a trajectory without snapshots."""
     return _at_snapshots(run, np.arange(0))
 
 
 def chosen_snapshots(run: Trajectory, problem: Problem) -> Trajectory:
-    """Return a trajectory with a snapshot at each `snapshot_every`-th output, but for all but those
-    that the problem chooses."""
+    """Return a trajectory with only the snapshots that the problem chooses, out of those at every
+    `snapshot_every`-th output."""
     numbers = problem.snapshot_outputs
     return _at_snapshots(run, numbers // problem.snapshot_every)
 
 
 def _at_snapshots(run: Trajectory, numbers: np.ndarray) -> Trajectory:
-    """Return a trajectory with those of its snapshots that have these numbers."""
+    """Return a trajectory with only the snapshots of these numbers (from 0)."""
     return run._replace(
         modulus=run.modulus[..., numbers],
         state=None if run.state is None else run.state[..., numbers],

@@ -1,9 +1,9 @@
 """Many runs of one problem: over axes of its values, and for members of an ensemble.
 
 An axis names what it changes: a parameter of the model ("omega"), "half_width", "end_time", or the
-initial value of a field at a site ("initial.0.1": site 0, the second field). Names with commas
-between them vary together, and each value of their axis has as many numbers. Runs are numbered, the
-last axis first and members fastest, and each depends on its number alone. `survey_runs` makes them.
+initial value of a field at a site ("initial.0.1": site 0, the second field). Names separated by
+commas vary together; each value of such an axis is a tuple. Runs are numbered with the members
+fastest, then the last axis, and each depends only on its number. `survey_runs` executes them.
 """
 
 import inspect
@@ -21,13 +21,13 @@ from .problem import Problem
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")
 OF_FIELDS = tuple(f"{statistic}_{norm}" for statistic in STATISTICS for norm in NORMS)
 CHAINS = ("exponent", "divergence")
-"""Names of what is one number for each field, and of what is one for the whole chain."""
+"""Names of results with one number per field, and of those with one number per run."""
 NAMES = (*OF_FIELDS, *CHAINS)
-"""What can be kept of a run by name."""
+"""Names of all results that a survey can keep."""
 
 
 class Members(NamedTuple):
-    """An ensemble: so many copies of each run, with data that differ by a relative `size`."""
+    """An ensemble: `count` copies of each run with a relative perturbation `size` of the data."""
 
     count: int
     size: float
@@ -36,30 +36,26 @@ class Members(NamedTuple):
 
 
 class Survey(NamedTuple):
-    """Which runs are made of a problem, and what is kept of each."""
+    """The runs of a survey of one problem, and the results kept of each."""
 
     axes: Mapping[str, Sequence]
     keep: tuple[str | Callable[..., Any], ...] = ("max_l2",)
     """Names, and functions that take the problem of a run and its trajectory."""
     window: tuple[float, float] | None = None
-    """The span of time, both ends included, of maxima, means and exponents; None is the whole."""
+    """Time window of maxima, means and exponents, both ends included; None for the whole run."""
     members: Members | None = None
     by_half_width: Mapping[int, Mapping[str, Any]] = MappingProxyType({})
-    """Values on all sites of the parameters that are functions of the sites, for each half-width
-    of an axis."""
+    """Values at all sites of the parameters that are functions of the site, by half-width."""
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The numbers of values of all axes, and of members where there are any."""
+        """The lengths of all axes, followed by the number of members if there are any."""
         sizes = tuple(len(values) for values in self.axes.values())
         return (*sizes, self.members.count) if self.members else sizes
 
 
 class Surveyed(Sequence):
-    """The problems of the runs of a survey, each of which is made when it is asked for.
-
-    They keep moduli as the first one does.
-    """
+    """The sequence of problems of a survey, each created when it is read."""
 
     def __init__(self, problem: Problem, survey: Survey):
         self.problem, self.survey = problem, survey
@@ -69,7 +65,7 @@ class Surveyed(Sequence):
         return prod(self.shape)
 
     def values_of(self, number: int) -> dict[str, Any]:
-        """Return what a run changes, by name; members are not among it."""
+        """Return the values on the axes of a run, by name."""
         place = np.unravel_index(number, self.shape) if self.shape else ()
         values: dict[str, Any] = {}
         for names, axis, i in zip(self.names, self.survey.axes.values(), place, strict=False):
@@ -77,7 +73,7 @@ class Surveyed(Sequence):
         return values
 
     def place_of(self, number: int) -> str:
-        """Return where a run stands in the survey: "omega = 2, member 5"."""
+        """Return a description of a run such as "omega = 2, member 5"."""
         named = [f"{name} = {value:g}" for name, value in self.values_of(number).items()]
         members = self.survey.members
         return ", ".join([*named, *([f"member {number % members.count}"] if members else [])])
@@ -103,12 +99,12 @@ class Surveyed(Sequence):
 
 
 def names_of_axis(axis: str) -> list[str]:
-    """Return what varies along an axis."""
+    """Return the names of the values that vary along an axis."""
     return [name.strip() for name in axis.split(",")]
 
 
 def names_of(survey: Survey) -> list[str]:
-    """Return the names of what is kept; raise ValueError for what there is not."""
+    """Return the names of the kept results; raise ValueError for an unknown one."""
     for quantity in survey.keep:
         if not callable(quantity) and quantity not in NAMES:
             raise ValueError(f"keep: there is no {quantity!r}; there are {', '.join(NAMES)}")
@@ -133,9 +129,9 @@ def _fault_of_function(function: Callable) -> str | None:
 def fault_of_axis(
     name: str, parameters: Collection[str], sites: Collection[int], fields: int
 ) -> str | None:
-    """Return why nothing has the name of an axis, None if it has a meaning.
+    """Return why the name of an axis is invalid, None if it is valid.
 
-    `sites` have initial values, of so many fields.
+    `sites` are those with initial values, and `fields` is the number of fields.
     """
     if name in parameters or name in ("half_width", "end_time"):
         return None

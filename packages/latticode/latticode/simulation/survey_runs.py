@@ -1,4 +1,4 @@
-"""The runs of a survey, and what is kept of each by name."""
+"""Execution of a survey, and the results kept of each run."""
 
 from functools import partial
 from typing import Any
@@ -18,19 +18,19 @@ from .sweep import mean_of, within
 
 
 def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str, np.ndarray]:
-    """Return a whole survey, each of the survey's shape and behind it what is kept.
+    """Return the results of a survey by name, each (*survey.shape, ...).
 
-    A run that cannot be made to its end has NaN, and its reason in "failure"; a run that is not by
-    the solver of the problem has its reason in "remark". A line is printed of each kind. Raises
-    ValueError for what cannot be kept or changed.
+    A failed run has NaN and its reason in "failure"; a run by another solver than the problem's has
+    the reason in "remark". One line is printed for each kind. Raises ValueError for an unknown
+    result or axis.
     """
     return runs_of_survey(problem, survey).make(run)
 
 
 def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
-    """Return the runs of a survey, which conclude with what `run_survey` returns.
+    """Return the runs of a survey; their conclusion is the result of `run_survey`.
 
-    Raises ValueError for what cannot be kept or changed.
+    Raises ValueError for an unknown result or axis.
     """
     names_of(survey)
     known = {**problem.model.parameters, **problem.parameters}
@@ -43,7 +43,7 @@ def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
 
 
 def _in_shape(problems: Surveyed, table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Return what is kept of all runs in the survey's shape; print what failed."""
+    """Return the results of all runs in the survey's shape; print a line if runs failed."""
     texts = table.pop(TEXT)
     for kind, outcome in KINDS.items():
         chosen = np.char.startswith(texts, kind)
@@ -61,16 +61,16 @@ KINDS = {
     "remark": "are by another solver",
     "unfinished": "are not made; to go on from the others, give the result as resume",
 }
-"""What is printed of runs by the kind of their text."""
+"""Printed description of runs by the kind of their text."""
 TEXT = "text"
-"""Under which name a run keeps why it failed, or why it is by another solver; empty if neither."""
+"""Name of the result with the reason of a failure or remark; empty if there is none."""
 
 
 def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
-    """Return what is kept of one run."""
+    """Return the kept results of one run by name; NaN if it failed."""
     fields = len(problem.initial)
     try:
-        functions = any(map(callable, survey.keep))  # they may read what is conserved
+        functions = any(map(callable, survey.keep))  # they may read conserved quantities
         run, text = simulate(problem, conserved=functions), ""
         if remark := remark_on(run.solver):
             text = f"remark: {remark}"
@@ -92,7 +92,7 @@ def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
 
 
 def _statistic(run: Trajectory, window, statistic: str, norm: str) -> np.ndarray:
-    """Return the largest, the mean or the last value of a norm of each field, (field,)."""
+    """Return the maximum, mean or final value of a norm of each field, (field,)."""
     series = getattr(run, norm)
     if statistic == "final":
         return series[:, -1]
@@ -101,7 +101,7 @@ def _statistic(run: Trajectory, window, statistic: str, norm: str) -> np.ndarray
 
 
 def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
-    """Return the exponent of time with which the power of all fields grows in the window."""
+    """Return the exponent of time in the growth of the total power in the window."""
     start, end = window or (run.tau[1], run.tau[-1])
     inside = within(run.tau, (start, end)) & (run.tau > 0.0)
     power = np.add.reduce(run.l2 * run.l2)[inside]
@@ -111,7 +111,7 @@ def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
 
 
 def _divergence(problem: Problem, run: Trajectory) -> float:
-    """Return the first time at which a run by another method differs by the visible part."""
+    """Return the first time at which a run by another method differs visibly; inf if never."""
     method = other_family(run.solver["name"], problem.equations.methods)
     try:
         second_run = simulate(

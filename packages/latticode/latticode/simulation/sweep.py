@@ -14,8 +14,8 @@ from .simulate import Trajectory, simulate
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")
 REACHED = 1e-20
-"""The power at an end of the chain, over the largest of a site, from which on the end counts. What
-an end changes of a norm is of this part: it is far below rounding."""
+"""Power at an end of the chain, relative to the largest at a site, above which the ends matter.
+Below it their effect on norms is far below rounding."""
 
 Window = tuple[float, float]
 
@@ -23,17 +23,17 @@ Window = tuple[float, float]
 def sweep(
     problem: Problem, half_widths: Sequence[int], windows: Sequence[Window], run: Run = run_all
 ) -> dict[str, np.ndarray]:
-    """Integrate `problem` on chains of each half-width; return what `windowed` keeps of each."""
+    """Return the statistics of `windowed` for chains of each half-width, each (half-width, ...)."""
     return runs_of_sweep(problem, half_widths, windows).make(run)
 
 
 def runs_of_sweep(
     problem: Problem, half_widths: Sequence[int], windows: Sequence[Window]
 ) -> ManyRuns:
-    """Return the runs of a sweep, which conclude with what `windowed` keeps of each.
+    """Return the runs of a sweep; their conclusion is the result of `sweep`.
 
-    Where a run ends before anything has come to the ends of its chain, longer chains do the same,
-    and those that follow are not run. Where parameters depend on the site, nobody knows.
+    If a run ends before the motion reaches the ends of the chain, longer chains give the same, and
+    later ones are not run. This does not hold if parameters depend on the site.
     """
     problem = problem.changed(snapshot_every=0, snapshots_at=())
     uniform = not (problem.site_dependent or problem.model.matrices)
@@ -58,7 +58,7 @@ def runs_of_sweep(
 def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.ndarray]:
     """Return the statistics "l2" and "linf", (quantity, statistic, window), and the "work".
 
-    This is the numbers of steps, of rejected ones, and of evaluations.
+    The work is the number of steps, of rejected steps, and of evaluations, (3,).
     """
     return {
         "l2": _over_windows(trajectory.tau, pair_l2(trajectory), windows),
@@ -68,30 +68,30 @@ def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.
 
 
 def _is_inside(trajectory: Trajectory) -> bool:
-    """Return whether nothing has come to the ends of the chain."""
+    """Return whether the motion has not reached the ends of the chain."""
     power = square_modulus(trajectory.final)
     return bool(power[..., [0, -1]].max() <= REACHED * power.max())
 
 
 def pair_l2(trajectory: Trajectory) -> np.ndarray:
-    """Return the l2 norms of A, of B, and of the pair (A, B), each against time."""
+    """Return the l2 norms of A, of B, and of the pair (A, B), (quantity, time)."""
     return np.array([*trajectory.l2, np.sqrt(np.add.reduce(trajectory.l2 * trajectory.l2))])
 
 
 def pair_linf(trajectory: Trajectory) -> np.ndarray:
-    """Return the l-infinity norms of A, of B, and of the pair, each against time."""
+    """Return the l-infinity norms of A, of B, and of the pair (A, B), (quantity, time)."""
     return np.array([*trajectory.linf, np.maximum.reduce(trajectory.linf)])
 
 
 def _over_windows(tau: np.ndarray, series: np.ndarray, windows: Sequence[Window]) -> np.ndarray:
-    """Return (quantity, statistic, window)."""
+    """Return maxima and means of `series` over windows, (quantity, statistic, window)."""
     inside = [series[:, within(tau, window)] for window in windows]
     statistics = [[one.max(axis=1) for one in inside], [mean_of(one) for one in inside]]
     return np.array(statistics).transpose(2, 0, 1)
 
 
 def within(tau: np.ndarray, window: Window) -> np.ndarray:
-    """Return which of the times lie in a window, which includes both its ends."""
+    """Return whether each time lies in a window, both ends included, (time,)."""
     start, end = window
     return (tau >= start - 1e-9) & (tau <= end + 1e-9)
 

@@ -1,4 +1,4 @@
-"""Runs of a traced model: its kernels, their parameters, and what a run returns."""
+"""Equations of a traced model: its kernels, their parameters, and the results of a run."""
 
 import json
 from collections.abc import Iterable
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
-from latticode.equations.graph import evaluate
+from latticode.equations.graph import Node, evaluate
 from latticode.equations.initial_values import InitialValueProblem
 from latticode.equations.model import Model
 from latticode.generation.modules import conserved_text, inputs_of_rates, load_text, module_text
@@ -27,7 +27,7 @@ from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .observables import ObservableRecord, blank_record
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
-"""How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
+"""Mode of numpy.pad beyond the ends of a chain, by the sites whose values the ends read."""
 HEAD_OF_RUNS = """
 from latticode.integrators.methods import NAMED
 from latticode.kernels.compiled import kernel
@@ -43,10 +43,10 @@ TILES = ", can_be_tiled=can_be_tiled, system_of_tile=system_of_tile"
 
 
 def runs_text(methods: Iterable[Method], observe: str, driven: bool, in_tiles: bool = False) -> str:
-    """Return the text of compiled runs by all methods, `run_` and the name of the method.
+    """Return the source text of a function `run_<method>` for each method.
 
-    The module has the function `observe` and the rules of the methods; also `at_time` if its
-    equations are `driven`, and `can_be_tiled` and `system_of_tile` where chains go in tiles.
+    The module must define the function `observe` and the rules of the methods; also `at_time` if
+    its equations are `driven`, and `can_be_tiled` and `system_of_tile` if `in_tiles`.
     """
     texts = []
     for method in methods:
@@ -59,9 +59,9 @@ def runs_text(methods: Iterable[Method], observe: str, driven: bool, in_tiles: b
 def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str, CompiledMethod]:
     """Return the methods of these names with the kernels of the module `home`, by name.
 
-    The module has `observe`, the rules of the methods, `can_be_tiled`, `system_of_tile`, and where
-    it is `driven`, `at_time`. It has `WORK` where the number of work arrays of a power series is
-    not that of a model without clocks.
+    The module defines `observe`, the rules of the methods, `can_be_tiled`, `system_of_tile`, and
+    `at_time` if it is `driven`. Its `WORK`, if defined, is the number of work arrays of a power
+    series.
     """
     methods = [NAMED[name] for name in names]
     text = f"from {home} import *\n" + runs_text(methods, "observe", driven, in_tiles=True)
@@ -80,9 +80,9 @@ def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str
 
 @cache
 def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
-    """Return the generated module of a model some of whose parameters depend on the site.
+    """Return the generated module of a model with some site-dependent parameters.
 
-    No chain goes in tiles: their margins are made for equations that look one site far.
+    Chains are not divided into tiles, whose margins suffice only for nearest neighbours.
     """
     observe = "observe_angles" if model.real else "observe_fields"
     text = module_text(model.rates, model.reach, site_dependent) + OBSERVERS
@@ -93,7 +93,7 @@ def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
 
 
 def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
-    """Return what the kernels of a model take for its parameters, at time 0."""
+    """Return the argument `system` of the kernels of a model, at time 0."""
     model = problem.model
     sites = problem.half_width + 1 if reduction.even else problem.sites
     inputs = inputs_of_rates(model.rates, problem.site_dependent)
@@ -106,11 +106,11 @@ def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
 
 
 DENSE = 0.25
-"""The part of a matrix from which on it is multiplied with its zeros, which is faster."""
+"""Fraction of nonzero entries above which a matrix is multiplied in full, which is faster."""
 
 
 def _couplings(problem: InitialValueProblem, parts: ModelInputs, sites: int) -> Couplings:
-    """Return the matrices of a model, and room for what they are multiplied with."""
+    """Return the coupling matrices of a model, and memory for the vectors they multiply."""
     values, names = problem.parameter_values, sorted(problem.model.matrices)
     count, padded = max(1, len(parts.couples)), -(-sites // LANES) * LANES
     matrices = [values[name] for name in names]
@@ -124,7 +124,7 @@ def _couplings(problem: InitialValueProblem, parts: ModelInputs, sites: int) -> 
 
 
 def _flat_entries(matrices: list, sites: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return weights and columns of all matrices one after another, and where rows start."""
+    """Return weights and columns of all matrices in sequence, and the first entry of each row."""
     starts, before = np.zeros((max(1, len(matrices)), sites + 1), np.int64), 0
     for number, matrix in enumerate(matrices):
         starts[number] = before + np.searchsorted(matrix["rows"], np.arange(sites + 1))
@@ -135,7 +135,7 @@ def _flat_entries(matrices: list, sites: int) -> tuple[np.ndarray, np.ndarray, n
 
 
 def _sums(problem: InitialValueProblem) -> DensityWorkspace:
-    """Return what the densities of a model are given: see Sums."""
+    """Return the workspace of the densities of conserved quantities."""
     model, reach = problem.model, problem.model.reach_of_densities
     if not model.conserved:
         return DensityWorkspace((), *np.zeros((3, 1, 3)))
@@ -150,13 +150,13 @@ def _sums(problem: InitialValueProblem) -> DensityWorkspace:
 def _values(
     problem: InitialValueProblem, inputs: ModelInputs, margin: int = 0
 ) -> tuple[tuple[float, ...], np.ndarray]:
-    """Return constants, and what depends on the site, with so many sites more beyond each end."""
+    """Return constants, and values by site (row, column) with `margin` sites beyond each end."""
     values = problem.parameter_values
 
-    def leaf(one):
-        if one.operation == "number":
-            return one.operands[0]
-        name, by = one.operands
+    def leaf(node: Node) -> Any:
+        if node.operation == "number":
+            return node.operands[0]
+        name, by = node.operands
         value = values[name]
         return value if np.ndim(value) == 0 else moved(value, by, problem.boundary)
 
@@ -169,7 +169,7 @@ def _values(
 
 
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
-    """Return the values at the sites n + by; beyond an end that of the last site, or of a ring."""
+    """Return the values at the sites n + by, periodic on a ring, else constant beyond an end."""
     places = np.arange(values.size) + by
     if kind_of(boundary) in (PERIODIC, ANTIPERIODIC):
         return values[places % values.size]
@@ -193,15 +193,15 @@ NAMES_BY_FORM = {
         state="value of a field, and its rate, at the snapshots",
     ),
 }
-"""Names of results by the function that gives the equations; the model names its fields."""
+"""Names of results by the form of the equations; the fields are named by the model."""
 
 
 class TracedEquations(Equations):
-    """A problem whose kernels, names and bounds all follow from the trace of its model."""
+    """Equations whose kernels, names and bounds follow from the trace of a model."""
 
     @cached_property
     def names(self) -> ResultNames:
-        """What datasets call the results."""
+        """The names of the results in datasets."""
         return NAMES_BY_FORM[self.problem.model.form]._replace(components=self.problem.model.fields)
 
     @property
@@ -210,7 +210,7 @@ class TracedEquations(Equations):
         return methods_taking(self.problem.model)
 
     def describe(self) -> dict[str, Any]:
-        """Return the attributes of a dataset that say which equations were solved."""
+        """Return the attributes of a dataset that describe the equations."""
         problem = self.problem
         return {
             "parameters": json.dumps(problem.parameter_values, default=np.ndarray.tolist),
@@ -219,19 +219,19 @@ class TracedEquations(Equations):
         }
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds of the rates at which data of this size turn or grow, by their key."""
+        """Return bounds of the rates at amplitude `peak`, by the key they depend on."""
         return rates_of(self.problem.model, self.problem.parameters, peak)
 
     def find_reduction(self) -> Reduction:
-        """Return whether half of the chain has the bits of the whole.
+        """Return the half of the chain if data, equations and parameters are even in n, else all.
 
-        It has where data, equations and parameters are the same with left and right exchanged.
+        The half then has the same bits as the whole chain.
         """
         problem = self.problem
-        if problem.site_count is not None:  # no site is the middle of the chain 0..N-1
+        if problem.site_count is not None:  # the chain 0..N-1 has no centre site
             return Reduction(even=False, synchronised=False)
         symmetric = problem.model.even and not problem.site_dependent
-        # the far half of an antiperiodic ring has the other sign
+        # the far half of an antiperiodic ring has the opposite sign
         symmetric = symmetric and kind_of(problem.boundary) != ANTIPERIODIC
         even = symmetric and problem.half_width >= 2 * problem.model.reach
         return Reduction(even and find_reduction(problem.amplitudes).even, synchronised=False)
@@ -244,18 +244,18 @@ class TracedEquations(Equations):
         return CompiledMethod(method, getattr(kernels, f"run_{name}"), work)
 
     def system(self, cut: Reduction) -> System:
-        """Return the parameters of the kernels, at time 0."""
+        """Return the argument `system` of the kernels, at time 0."""
         return make_system(self.problem, cut)
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool
     ) -> ObservableRecord:
-        """Return empty arrays for what is observed at so many times."""
+        """Return uninitialised arrays for the observables at `times` outputs."""
         quantities = len(self.problem.model.conserved) if conserved else 0
         return blank_record(components, sites, times, every, quantities, parts=2)
 
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-        """Return what a `Trajectory` holds of the whole chain, from record and final state."""
+        """Return fields of a `Trajectory` on the whole chain, from record and final state `y`."""
         model, count = self.problem.model, len(self.names.parts)
         final_rows = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
         state = np.array([unfold(part, cut) for part in record.snapshots[:count]])

@@ -176,7 +176,7 @@ def test_multipliers_are_those_of_integrations_over_a_period():
         (
             Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - np.cos(p.t) * x),
             [1],
-            "depend on the time",
+            "depend on time",
         ),
         (
             Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + 0.1),
@@ -196,9 +196,13 @@ def test_multipliers_are_those_of_integrations_over_a_period():
         (
             Model(fields="x", parameters={}, d2_dt2=lambda p, x: 0.2 * lap(x) - np.sin(x)),
             [6.2],
-            "it ends at 0.6",
+            "continuation fails at 0.6",
         ),
-        (Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - 1 * x), [1], "none near"),
+        (
+            Model(fields="x", parameters={}, d2_dt2=lambda p, x: lap(x) - 1 * x),
+            [1],
+            "no such state",
+        ),
     ],
 )
 def test_where_there_is_no_state_the_reason_is_told(model, data, reason):

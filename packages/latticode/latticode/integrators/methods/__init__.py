@@ -1,4 +1,6 @@
-"""The methods of the library, each in a file of its own. To add one, import it here."""
+"""The methods of the library, one in each file. To add a method, import it here."""
+
+from latticode.equations.model import Model
 
 from ..method import Method
 from .crank_nicolson import CrankNicolson as CrankNicolson
@@ -17,18 +19,18 @@ def _rank(method: Method) -> tuple[bool, int]:
 _CLASSES = [
     kind
     for kind in globals().values()
-    if isinstance(kind, type) and kind not in (Method, Ode45Real)
+    if isinstance(kind, type) and issubclass(kind, Method) and kind not in (Method, Ode45Real)
 ]
 METHODS: dict[str, Method] = {
     method.name: method for method in sorted((kind() for kind in _CLASSES), key=_rank)
 }
-"""All methods by name: first those that control their error, and of these the highest order."""
+"""All methods by name: those with error control first, in each group the highest order first."""
 
 
-def methods_taking(model) -> list[str]:
+def methods_taking(model: Model) -> list[str]:
     """Return the names of the methods that integrate the equations of a traced model."""
     return [name for name, method in METHODS.items() if method.integrates(model)]
 
 
 NAMED = METHODS | {Ode45Real.name: Ode45Real()}
-"""These, and the variant that only a program can build: all that figures may have to name."""
+"""METHODS and `ode45_real`, which only programs can choose: all methods that figures may show."""

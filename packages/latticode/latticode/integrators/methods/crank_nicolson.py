@@ -1,6 +1,6 @@
-"""The paper's second solver in general: the trapezoidal rule, and its energy-conserving variant."""
+"""Crank-Nicolson, the paper's second solver, for traced models, and its conserving variant."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -20,21 +20,21 @@ class IteratedCost(NamedTuple):
     def steps(
         self, controls: Mapping[str, Any], demand: Demand, span: float, output_step: float
     ) -> tuple[float, float]:
-        """Return the steps of a run and its evaluations of the right-hand side."""
+        """Return the number of steps of a run, and of evaluations of the right-hand side."""
         step = min(controls["step"], output_step)
-        while demand.rate * step > 2.0:  # it is halved until the iteration contracts
+        while demand.rate * step > 2.0:  # the solver halves it until the iteration converges
             step *= 0.5
         return span / step, span / step * _iterations(demand.rate * step, controls)
 
     def seconds(self, steps: float, evaluations: float, pairs: float) -> float:
-        """Return the seconds that steps and evaluations take."""
+        """Return the seconds for these numbers of steps, evaluations and row pairs."""
         by_step = self.step_seconds + self.pair_seconds * pairs
         by_evaluation = self.evaluation_seconds + self.evaluation_pair_seconds * pairs
         return steps * by_step + evaluations * by_evaluation
 
 
 def _iterations(angle: float, controls: Mapping[str, Any]) -> float:
-    """Return how often a step is iterated from a guess of the sixth order."""
+    """Return the number of iterations of a step, which starts from a guess of order six."""
     error = max(1e-30, (0.5 * angle) ** 6)
     count = 1.0
     while error > controls["tolerance"] and count < controls["iterations"]:
@@ -57,7 +57,7 @@ class CrankNicolson(Method):
     look = ("#e0a100", "s")
 
     def integrates(self, model: Model) -> bool:
-        """Return whether the equations do not depend on the time."""
+        """Return whether the equations are autonomous."""
         return not model.driven
 
     def kernels(self) -> ModuleType:
@@ -68,9 +68,9 @@ class CrankNicolson(Method):
 
 
 class DelfourFortinPayre(CrankNicolson):
-    """The variant of Crank-Nicolson that conserves an energy, for models that declare it.
+    """The variant of Crank-Nicolson that conserves the energy.
 
-    Its rule is the mean of the right-hand side over a step, which no trace gives.
+    Its rule is the mean of the right-hand side over a step, which cannot be derived from a trace.
     """
 
     name, label = "delfour_fortin_payre", "Delfour\N{EN DASH}Fortin\N{EN DASH}Payre"
@@ -78,9 +78,9 @@ class DelfourFortinPayre(CrankNicolson):
     look = ("#7a2e0e", "v")
 
     def integrates(self, model: Model) -> bool:
-        """Return False: the mean over a step is no part of a traced model."""
+        """Return False: traced models do not provide the mean of the right-hand side."""
         return False
 
-    def build(self, rule, observe, **more):
+    def build(self, rule: Callable, observe: Callable, **more: Any) -> Callable:
         """Return the function `solve`, built from the mean of the rates over a step."""
         return self.kernels().build_conserving(rule, observe, **more)

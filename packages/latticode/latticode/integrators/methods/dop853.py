@@ -15,7 +15,7 @@ from latticode.integrators.method import (
 
 
 def find_vanishing_square(controls: Mapping[str, Any]) -> Obstacle | None:
-    """Return the absolute tolerance as an obstacle where its square is no number above zero."""
+    """Return the absolute tolerance as an obstacle if its square underflows, else None."""
     atol = float(controls["atol"])
     if atol >= SMALLEST_ERROR:
         return None
@@ -36,7 +36,7 @@ class Dop853(Method):
     def find_obstacle(
         self, controls: Mapping[str, Any], peak: float, span: float, rate: float
     ) -> Obstacle | None:
-        """Return an absolute tolerance whose square vanishes, with the reason."""
+        """Return the absolute tolerance as an obstacle if its square underflows, else None."""
         return find_vanishing_square(controls)
 
     def kernels(self) -> ModuleType:
@@ -46,6 +46,6 @@ class Dop853(Method):
         return dop853
 
     def work_arrays(self, sites: int, in_tiles: bool) -> int:
-        """Return the number of work arrays; a chain in tiles needs fewer."""
+        """Return the number of work arrays of the size of a state; a chain in tiles needs fewer."""
         kernels = self.kernels()
         return kernels.work_arrays(sites) if in_tiles else kernels.WORK

@@ -1,4 +1,4 @@
-"""Kahan and Li's symplectic composition of order eight, for second derivatives alone."""
+"""Kahan and Li's symplectic composition of order eight, for second-order equations."""
 
 from types import ModuleType
 
@@ -7,9 +7,9 @@ from latticode.integrators.method import Control, FixedStepCost, Method
 
 
 class KahanLi(Method):
-    """Kahan and Li's symplectic composition of order eight, of second derivatives alone.
+    """Kahan and Li's symplectic composition of order eight, for second-order equations.
 
-    Its step is the longest, in the time of the equations.
+    Its control is the longest step, in units of the kernels' time.
     """
 
     name, label, order = "kahan_li", "Kahan\N{EN DASH}Li", 8
@@ -19,7 +19,7 @@ class KahanLi(Method):
     look = ("#c2558f", "X")
 
     def integrates(self, model: Model) -> bool:
-        """Return whether the equations are of second order and forces free of velocities."""
+        """Return whether the equations are x'' = f(x, t), with forces independent of velocities."""
         return model.separable
 
     def kernels(self) -> ModuleType:

@@ -1,6 +1,6 @@
 """MATLAB's ode45: the Dormand-Prince 5(4) pair under MATLAB's step control."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any
 
@@ -21,7 +21,7 @@ class Ode45(Method):
     def find_obstacle(
         self, controls: Mapping[str, Any], peak: float, span: float, rate: float
     ) -> Obstacle | None:
-        """Return a tolerance that is zero, or whose square vanishes, with the reason."""
+        """Return a tolerance as an obstacle if it is zero or its square underflows, else None."""
         if float(controls["rtol"]) == 0.0:
             return "solver.rtol", "the relative tolerance of ode45 must be positive"
         return find_vanishing_square(controls)
@@ -34,11 +34,11 @@ class Ode45(Method):
 
 
 class Ode45Real(Ode45):
-    """The same where real and imaginary parts are unknowns of their own, each with its error."""
+    """ode45 with real and imaginary parts as separate unknowns, each with its own error."""
 
     name, label = "ode45_real", "ode45 (real)"
     look = ("#8a8a8a", "P")
 
-    def build(self, rule, observe, **more):
-        """Return the function `solve`, whose errors are those of real numbers."""
+    def build(self, rule: Callable, observe: Callable, **more: Any) -> Callable:
+        """Return the function `solve`, which measures the errors of real and imaginary parts."""
         return super().build(rule, observe, of_reals=True, **more)

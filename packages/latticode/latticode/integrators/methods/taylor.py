@@ -10,11 +10,11 @@ from latticode.integrators.method import COARSEST, AdaptiveCost, Control, Method
 from latticode.numerics.elementary import log
 
 LARGEST_EXPONENT = 270.0
-"""The last coefficients of a series lie between 1e-270 and 1e270, or the run is refused."""
+"""Decimal exponent that the last coefficients of a series may reach in either direction."""
 
 
 class Taylor(Method):
-    """The Taylor method, the default: at small errors the fastest."""
+    """The Taylor method, the default, because it is the fastest at small errors."""
 
     name, label, order = "taylor", "Taylor", 16
     rule = "continue_series"
@@ -30,14 +30,14 @@ class Taylor(Method):
     def find_obstacle(
         self, controls: Mapping[str, Any], peak: float, span: float, rate: float
     ) -> Obstacle | None:
-        """Return why the last coefficients leave the range of doubles, None if they do not.
+        """Return an obstacle if the last coefficients leave the range of doubles, else None.
 
-        Where nothing moves they may vanish.
+        At rest they may vanish.
         """
         if peak == 0.0 or rate * span < 1e-6:
             return None
         octaves = abs(frexp(peak)[1]) + self.order * (abs(frexp(rate)[1]) + 1)
-        if octaves < LARGEST_EXPONENT:  # as always, and then no logarithms are needed: 2 < 10
+        if octaves < LARGEST_EXPONENT:  # the usual case, which needs no logarithms since 2 < 10
             return None
         power = (log(peak) + self.order * log(rate)) / log(10.0)
         if abs(power) > LARGEST_EXPONENT:
