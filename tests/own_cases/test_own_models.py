@@ -51,7 +51,7 @@ def test_the_page_on_a_lattice_of_ones_own_has_no_word_of_the_paper(tmp_path):
         write_table(folder / "surveys/map.nc", folder / "own/tables/surveys/map.csv")
         curves, stem = gather_survey(mapped), folder / "own/surveys/map"
         style.save(draw_survey(curves), curves, *(f"{stem}.{kind}" for kind in KINDS))
-        write_report(str(folder / "own.html"), [], {}, {"map": "mine"}, [])
+        write_report(str(folder / "own.html"), [], {}, {"map": "mine"}, {}, {}, [])
         page = (folder / "own.html").read_text(encoding="utf-8")
         assert words in page and 'href="own/tables/surveys/map.csv"' in page
         assert ("Phys. Lett. A" in page) == (case is paper)

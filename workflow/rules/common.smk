@@ -89,6 +89,7 @@ if workflow.is_main_process:
 DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SURVEYS = list(SETTINGS.surveys)
+OWN_SPECTRA, OWN_SECTIONS = list(SETTINGS.spectra), list(SETTINGS.sections)
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "ensembles", "second_solver", "members", "lifetimes"]
@@ -127,6 +128,8 @@ pathvars:
     paper_sweep=f"{{sweep,{any_of(PAPER_SWEEPS)}}}",
     own_sweep=f"{{sweep,{any_of(OWN_SWEEPS)}}}",
     own_survey=f"{{survey,{any_of(OWN_SURVEYS)}}}",
+    own_spectrum=f"{{spectrum,{any_of(OWN_SPECTRA)}}}",
+    own_section=f"{{section,{any_of(OWN_SECTIONS)}}}",
     any_case=f"{{case,{any_of(SETTINGS.cases)}}}",
     any_sweep=f"{{sweep,{any_of(SETTINGS.sweeps)}}}",
     any_solver=f"{{solver,{any_of([*METHODS, 'auto'])}}}",

@@ -88,6 +88,8 @@ use rule job as own with:
         cases=OWN_CASES,
         sweeps={sweep: SETTINGS.sweeps[sweep].case for sweep in OWN_SWEEPS},
         surveys={survey: SETTINGS.surveys[survey].case for survey in OWN_SURVEYS},
+        spectra={spectrum: SETTINGS.spectra[spectrum].case for spectrum in OWN_SPECTRA},
+        sections={section: SETTINGS.sections[section].case for section in OWN_SECTIONS},
 
 
 use rule dataset as survey with:
@@ -116,3 +118,31 @@ use rule figure as own_survey with:
         made="own/surveys/<own_survey>",
     params:
         call=function("latticode.drawing.surveys.draw_survey"),
+
+
+use rule dataset as spectrum with:
+    "Lyapunov exponents of a case: results/spectra/{spectrum}.nc"
+    pathvars:
+        made="spectra/<own_spectrum>",
+    resources:
+        **resources_for(lambda wildcards: SETTINGS.cost_of_motion("spectra", wildcards.spectrum)),
+    params:
+        call=function("latticode.datasets.motions.measure_exponents"),
+        name="{spectrum}",
+        problem=lambda wildcards: SETTINGS.problem(SETTINGS.spectra[wildcards.spectrum].case),
+        exponent_count=lambda wildcards: SETTINGS.spectra[wildcards.spectrum].count,
+
+
+use rule dataset as section with:
+    "Where a function of the fields crosses zero: results/sections/{section}.nc"
+    pathvars:
+        made="sections/<own_section>",
+    resources:
+        **resources_for(lambda wildcards: SETTINGS.cost_of_motion("sections", wildcards.section)),
+    params:
+        call=function("pendula.own_cases.sections.find_section"),
+        name="{section}",
+        problem=lambda wildcards: SETTINGS.problem(SETTINGS.sections[wildcards.section].case),
+        when=lambda wildcards: SETTINGS.plain_when(wildcards.section),
+        direction=lambda wildcards: SETTINGS.sections[wildcards.section].direction,
+        site=lambda wildcards: SETTINGS.sections[wildcards.section].site,

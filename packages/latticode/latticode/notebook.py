@@ -28,14 +28,14 @@ from latticode.configuration.messages import in_words
 from latticode.configuration.schema import Configuration, RunLimits, load
 from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
-from latticode.datasets.motions import section_dataset, spectrum_dataset
+from latticode.datasets.motions import measure_exponents, section_at
 from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
 from latticode.datasets.surveys import COUNTS, runs_in, survey_contents
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
-from latticode.integrators.families import pair_of, remark_on
-from latticode.localised.sections import DIRECTIONS, find_crossings
-from latticode.localised.spectra import count_directions, measure_spectrum
+from latticode.integrators.families import remark_on
+from latticode.localised.sections import DIRECTIONS
+from latticode.localised.spectra import count_directions
 from latticode.simulation import simulate as simulation
 from latticode.simulation import survey_runs
 from latticode.simulation import sweep as sweeps
@@ -507,7 +507,7 @@ def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None
         )
     _announce(estimate)
     with show_progress("lyapunov"):
-        return spectrum_dataset(problem, measure_spectrum(problem, int(count)))
+        return measure_exponents(problem, int(count))
 
 
 def section(
@@ -548,12 +548,8 @@ def section(
     if faults:
         raise list_faults(faults, "the section")
     problem = case.kind.of(case.problem())
-    if problem.solver["name"] == "auto":  # its outputs are those of two methods
-        name = pair_of(case.solver_names)[0]
-        problem = problem.changed(solver={"name": name, **dict.fromkeys(("rtol", "atol"), 1e-13)})
     with show_progress("section"):
-        crossings = find_crossings(problem, case.model.trace(when), site, direction)
-    return section_dataset(problem, crossings)
+        return section_at(problem, case.model.trace(when), direction, site)
 
 
 def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":

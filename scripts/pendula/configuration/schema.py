@@ -6,13 +6,14 @@ from typing import Annotated, Any, ClassVar
 from latticode.configuration import cost, schema
 from latticode.configuration.cost import Cost
 from latticode.configuration.schema import Faults
-from latticode.configuration.values import Name
+from latticode.configuration.values import Name, faults
 from latticode.equations.initial_values import name_window
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from pendula.problem import AMPLITUDES
 
 from .cases import AnyCase
+from .motions import CrossingsSection, SpectrumSection
 from .runs import Runs
 
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
@@ -25,6 +26,13 @@ class PaperConfiguration(schema.Configuration):
     """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
     cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
+    spectra: dict[Name, SpectrumSection] = {}
+    sections: dict[Name, CrossingsSection] = {}
+    SECTIONS_WITH_FILES: ClassVar[tuple[str, ...]] = (
+        *schema.Configuration.SECTIONS_WITH_FILES,
+        "spectra",
+        "sections",
+    )
     FORMER_KEYS: ClassVar[Mapping[str, str]] = {
         "pendula": "newton",
         "chaos.lyapunov.spectrum.lengths": "duration_factor",
@@ -34,6 +42,39 @@ class PaperConfiguration(schema.Configuration):
         "unbounded.short.rest": "rest_threshold",
         "unbounded.long.rest": "rest_threshold",
     }
+
+    @model_validator(mode="after")
+    def _motions_are_possible(self) -> "PaperConfiguration":
+        all_faults = [
+            (f"{section}.{name}.{key}", text)
+            for section in ("spectra", "sections")
+            for name, entry in getattr(self, section).items()
+            for key, text in self._faults_of_motion(entry)
+        ]
+        if all_faults:
+            raise faults(all_faults)
+        return self
+
+    def _faults_of_motion(self, entry: SpectrumSection | CrossingsSection) -> Faults:
+        """Yield what keeps a spectrum or a section from being made, and under which key."""
+        if entry.case not in self.cases:
+            yield from super().absent("cases", "case", [entry.case])
+            return
+        case = self.cases[entry.case]
+        if of_case := entry.faults_of(case):
+            yield from of_case
+        elif (total := entry.cost(case)).excess(limits := self.limits.model_dump()) > 1.0:
+            yield "count" if hasattr(entry, "count") else "case", cost.refusal(total, limits)
+
+    def cost_of_motion(self, section: str, name: str) -> Cost:
+        """Return what one of the `spectra` or of the `sections` takes."""
+        entry = getattr(self, section)[name]
+        return entry.cost(self.cases[entry.case])
+
+    def plain_when(self, section: str) -> dict[str, Any]:
+        """Return as plain values the function that crosses zero at one of the `sections`."""
+        entry = self.sections[section]
+        return entry.plain_when(self.cases[entry.case])
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
         """Yield an error for each of `names`, listed at `key`, that is no case or sweep of (4)."""

@@ -18,20 +18,25 @@ def write_report(
     cases: list[str],
     sweeps: dict[str, str],
     surveys: dict[str, str],
+    spectra: dict[str, str],
+    sections: dict[str, str],
     files: list[str],
 ) -> None:
-    """Write the page `html` on `cases`, and on `sweeps` and `surveys` with the case of each.
+    """Write the page `html` on `cases`, and on all else with the case of each.
 
     Their `files` are below the folder of the page.
     """
     folder, written = Path(html).parent, set(files)
-    sections = [_case(name, folder, written) for name in cases]
-    sections += [_many_runs("sweep", name, case, folder) for name, case in sweeps.items()]
-    sections += [_many_runs("survey", name, case, folder) for name, case in surveys.items()]
+    page = [_case(name, folder, written) for name in cases]
+    page += [_many_runs("sweep", name, case, folder) for name, case in sweeps.items()]
+    page += [_many_runs("survey", name, case, folder) for name, case in surveys.items()]
+    page += [_spectrum(name, case, folder) for name, case in spectra.items()]
+    page += [_crossings(name, case, folder) for name, case in sections.items()]
     of_kind = {"trajectories": cases, "sweeps": sweeps, "surveys": surveys}
+    of_kind |= {"spectra": spectra, "sections": sections}
     runs = [read(folder / f"{kind}/{name}.nc") for kind in of_kind for name in of_kind[kind]]
     papers = any("model_text" not in run.attrs for run in runs)
-    write_page(html, "own.html.j2", TITLE, sections, Path(__file__).parent, papers=papers)
+    write_page(html, "own.html.j2", TITLE, page, Path(__file__).parent, papers=papers)
 
 
 def write_table(data: str, table: str) -> None:
@@ -69,4 +74,33 @@ def _many_runs(kind: str, name: str, case: str, folder: Path) -> PageSection:
         lines=_table(file, folder),
         figures=[figure(folder / f"own/{file}", folder)],
         datasets={"Datasets": [dataset(folder / file, folder)]},
+    )
+
+
+def _spectrum(name: str, case: str, folder: Path) -> PageSection:
+    """Return the section of Lyapunov exponents."""
+    file = folder / f"spectra/{name}.nc"
+    spectrum = read(file)
+    rates, errors = spectrum["exponent"].values, spectrum["exponent_error"].values
+    pairs = enumerate(zip(rates, errors, strict=True), 1)
+    rows = [(f"{number}", f"{rate:.5g}", f"{error:.2g}") for number, (rate, error) in pairs]
+    head = ("number", "exponent per unit of τ", "standard error")
+    return PageSection(
+        f"spectrum-{name}",
+        f"The Lyapunov exponents {name} of the case {case}",
+        tables=[PageTable("The largest exponents", head, rows)],
+        datasets={"Datasets": [dataset(file, folder)]},
+    )
+
+
+def _crossings(name: str, case: str, folder: Path) -> PageSection:
+    """Return the section of the page on a section of a motion."""
+    file = folder / f"sections/{name}.nc"
+    times = read(file)["crossing_tau"].values
+    between = f", from τ = {times[0]:.6g} to {times[-1]:.6g}" if times.size else ""
+    return PageSection(
+        f"section-{name}",
+        f"The section {name} of the case {case}",
+        lines=[f"Number of crossings: {times.size}{between}."],
+        datasets={"Datasets": [dataset(file, folder)]},
     )

@@ -118,7 +118,9 @@ def own_files(settings: PaperConfiguration) -> list[str]:
     cases = [case for case in settings.cases if case not in PAPER_CASES]
     sweeps = [sweep for sweep in settings.sweeps if sweep not in PAPER_SWEEPS]
     names_by_folder = {"trajectories": cases, "sweeps": sweeps, "surveys": settings.surveys}
-    if not any(names_by_folder.values()):
+    motions = [f"spectra/{name}" for name in settings.spectra]
+    motions += [f"sections/{name}" for name in settings.sections]
+    if not any([*names_by_folder.values(), motions]):
         raise ConfigurationError(
             "the configuration has no case, sweep or survey of your own: give some by "
             "--configfile, as docs/own_cases.md shows"
@@ -129,7 +131,7 @@ def own_files(settings: PaperConfiguration) -> list[str]:
     figures += [f"cases/{case}.breather" for case in of_models]
     figures += [place for place in places if not place.startswith("trajectories/")]
     return [
-        *(f"<results>/{place}.nc" for place in places),
+        *(f"<results>/{place}.nc" for place in [*places, *motions]),
         *(f"<results>/own/tables/{place}.csv" for place in places),
         *(f"<results>/own/cases/{case}.checks.nc" for case in cases),
         *figure_files(*(f"<results>/own/{figure}" for figure in figures)),

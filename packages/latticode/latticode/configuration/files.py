@@ -33,6 +33,7 @@ OF_MODELS = ".py"
 """The suffix of files that define equations."""
 PATHS = {"model": (OF_MODELS,), "initial": (".nc", ".npy", ".py")}
 """Keys of a case whose value may be the path of a file, with the allowed suffixes."""
+PATHS_BY_SECTION = {"cases": PATHS, "sections": {"when": (OF_MODELS,)}}
 PLAIN_TAGS = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The YAML tags that a configuration may contain; others would create Python objects."""
 SINGLE_VALUES = ("initial",)
@@ -230,18 +231,22 @@ def merge(below: Mapping, above: Mapping) -> dict:
 
 
 def with_paths(configuration: dict, folder: Path) -> dict:
-    """Return a configuration in which paths of models and initial data are relative to `folder`."""
-    cases = configuration.get("cases")
-    if not isinstance(cases, dict):
-        return configuration
-    located_cases = dict(cases)
-    for name, case in cases.items():
-        for key, endings in PATHS.items():
-            path = case.get(key) if isinstance(case, dict) else None
-            if isinstance(path, str) and path.endswith(endings):
-                case = {**case, key: str(folder / path)}
-        located_cases[name] = case
-    return {**configuration, "cases": located_cases}
+    """Return a configuration in which paths of files are relative to `folder`."""
+    located = dict(configuration)
+    for section, paths in PATHS_BY_SECTION.items():
+        entries = configuration.get(section)
+        if isinstance(entries, dict):
+            located[section] = {n: _located(entry, paths, folder) for n, entry in entries.items()}
+    return located
+
+
+def _located(entry: Any, paths: Mapping[str, tuple[str, ...]], folder: Path) -> Any:
+    """Return a case or a section whose paths start at `folder`; mine.py:plane is one too."""
+    for key, endings in paths.items():
+        path = entry.get(key) if isinstance(entry, dict) else None
+        if isinstance(path, str) and path.partition(":")[0].endswith(endings):
+            entry = {**entry, key: str(folder / path)}
+    return entry
 
 
 def gather(files: list[Path], entries: Mapping) -> dict:

@@ -85,6 +85,7 @@ class Configuration(Section):
     surveys: dict[Name, SurveySection] = {}
     solvers: Solvers = Solvers()
     limits: RunLimits = RunLimits()
+    SECTIONS_WITH_FILES: ClassVar[tuple[str, ...]] = ("cases", "sweeps", "surveys")
     FORMER_KEYS: ClassVar[Mapping[str, str]] = {}
     """Present names of renamed keys by their dotted paths, for messages to users of old files."""
 
@@ -141,7 +142,7 @@ class Configuration(Section):
 
     def _same_files(self) -> Iterator[tuple[str, str]]:
         """Yield names whose files would be the same where a file system takes a for A."""
-        for section in ("cases", "sweeps", "surveys"):
+        for section in self.SECTIONS_WITH_FILES:
             seen: dict[str, str] = {}
             for name in getattr(self, section):
                 first_name = seen.setdefault(name.lower(), name)

@@ -3,16 +3,19 @@
 import numpy as np
 import xarray as xr
 
-from latticode.localised.sections import Crossings
-from latticode.localised.spectra import Spectrum
+from latticode.equations.graph import Node
+from latticode.integrators.families import pair_of
+from latticode.localised.sections import find_crossings
+from latticode.localised.spectra import measure_spectrum
 from latticode.simulation.problem import Problem
 
 from .checks import table, variable
 from .stated import describe_run
 
 
-def spectrum_dataset(problem: Problem, spectrum: Spectrum) -> xr.Dataset:
+def measure_exponents(problem: Problem, exponent_count: int, name: str = "lyapunov") -> xr.Dataset:
     """Return exponents and their errors (number,), and the growth (number, growth_tau)."""
+    spectrum = measure_spectrum(problem, exponent_count)
     axes = ("number", "growth_tau")
     coordinates = {"number": np.arange(1, len(spectrum.exponents) + 1), "growth_tau": spectrum.tau}
     of_exponents = "Lyapunov exponent, per unit of tau, from the second half of the run"
@@ -25,11 +28,17 @@ def spectrum_dataset(problem: Problem, spectrum: Spectrum) -> xr.Dataset:
         exponent_error=variable(spectrum.errors, axes[:1], of_errors),
         log_growth=variable(spectrum.log_growth, axes, of_growth),
     )
-    return _described(contents, "lyapunov", problem)
+    return _described(contents, name, problem)
 
 
-def section_dataset(problem: Problem, crossings: Crossings) -> xr.Dataset:
+def section_at(
+    problem: Problem, when: Node, direction: str, site: int, name: str = "section"
+) -> xr.Dataset:
     """Return the times (crossing,) and states (part, component, site, crossing) of a section."""
+    if problem.solver["name"] == "auto":  # its outputs are those of two methods
+        method = pair_of(problem.equations.methods)[0]
+        problem = problem.changed(solver={"name": method, "rtol": 1e-13, "atol": 1e-13})
+    crossings = find_crossings(problem, when, site, direction)
     names, axes = problem.equations.names, ("part", "component", "site", "crossing")
     coordinates = {
         "part": list(names.parts),
@@ -43,7 +52,7 @@ def section_dataset(problem: Problem, crossings: Crossings) -> xr.Dataset:
         crossing_tau=variable(crossings.tau, axes[-1:], "time of the crossing"),
         crossing_state=variable(crossings.states, axes, "state at the crossing"),
     )
-    return _described(contents, "section", problem)
+    return _described(contents, name, problem)
 
 
 def _described(contents: dict, name: str, problem: Problem) -> xr.Dataset:

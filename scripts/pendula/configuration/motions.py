@@ -1,0 +1,94 @@
+"""Lyapunov spectra and sections in a configuration: of which case, and what is measured."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from latticode.configuration.cases import CaseSection
+from latticode.configuration.cost import OF_TANGENTS, Cost
+from latticode.configuration.files import OF_MODELS
+from latticode.configuration.values import Count, Integer, Name, Section, excerpt_of, fault
+from latticode.equations.model import Model, ModelError
+from latticode.equations.model_file import run_file
+from latticode.localised.spectra import count_directions
+from pydantic import AfterValidator
+
+Texts = list[tuple[str, str]]
+"""Keys, each with what is wrong with its value."""
+
+
+def read_function(place: str) -> Callable:
+    """Return the function that a text such as mine.py:plane names.
+
+    Raises ModelError where there is none.
+    """
+    file, _, name = place.rpartition(":")
+    path = Path(file)
+    try:
+        names = run_file(path, path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
+        raise ModelError(f"{path} cannot be read: {why}") from None
+    if not callable(names.get(name)):
+        raise ModelError(f"{path.name} has no function {name}")
+    return names[name]
+
+
+def _as_function(place: str) -> str:
+    file, _, name = place.rpartition(":")
+    if not (file.endswith(OF_MODELS) and name.isidentifier()):
+        raise fault(f"is {excerpt_of(place)}; give a function of a file, such as mine.py:plane")
+    return place
+
+
+class SpectrumSection(Section):
+    """The `count` largest Lyapunov exponents of a case."""
+
+    case: Name
+    count: Count = 1
+
+    def faults_of(self, case: CaseSection) -> Texts:
+        """Return what keeps the spectrum from being measured, and under which key."""
+        most = count_directions(case.kind.of(case.problem()))
+        text = f"is {self.count}; give a whole number from 1 to {most}"
+        return [("count", text)] if self.count > most else []
+
+    def cost(self, case: CaseSection) -> Cost:
+        """Return what the exponents of a case take."""
+        run = case.cost(case.problem(solver=OF_TANGENTS))
+        return Cost((1 + self.count) * run.seconds, (1 + self.count) * run.memory)
+
+
+class CrossingsSection(Section):
+    """Where a function of the fields of a case crosses zero."""
+
+    case: Name
+    when: Annotated[str, AfterValidator(_as_function)]
+    direction: Literal["up", "down", "both"] = "up"
+    site: Integer = 0
+
+    def faults_of(self, case: CaseSection) -> Texts:
+        """Return what keeps the section from being found, and under which key."""
+        ends = f"{case.chain[0]} to {case.chain[-1]}"
+        text = f"is {self.site}; the sites run from {ends}"
+        all_faults = [] if self.site in case.chain else [("site", text)]
+        try:
+            self.plain_when(case)
+        except ModelError as error:
+            all_faults.append(("when", str(error)))
+        return all_faults
+
+    def plain_when(self, case: CaseSection) -> dict[str, Any]:
+        """Return the function as plain values: those of a model whose one density it is."""
+        traced = isinstance(case.model, Model)
+        model = case.model if traced else case.kind.of(case.problem()).model
+        name, density = self.when.rpartition(":")[2], model.trace(read_function(self.when))
+        observed = object.__new__(Model)
+        copied = ("fields", "parameters", "name", "form", "text", "rates")
+        observed.__dict__.update({key: getattr(model, key) for key in copied})
+        observed.conserved = {name: density}
+        return observed.plain
+
+    def cost(self, case: CaseSection) -> Cost:
+        """Return what the run of a case takes, from output to output."""
+        return case.cost(case.problem())
