@@ -16,7 +16,7 @@ from replication.variables import ALONG, ALWAYS, BOUND, CHAOS, KIND, NO, STATIST
 def datasets_of(run: Path) -> list[Path]:
     """Return the datasets that a run computed: those in `quoted` are copies of accepted ones."""
     paths = sorted((run / "results").rglob("*.nc"))
-    return [path for path in paths if path.parent.name != "quoted"]
+    return [path for path in paths if "quoted" not in path.parts]
 
 
 NOT_COMPUTED = {"figures/fig1", "checks/identities"}

@@ -59,12 +59,12 @@ def test_comparing_failing_and_accepting_by_name(finished, clone):
 
 
 def test_everything_that_a_full_run_makes_is_in_the_baseline(full_run):
-    """What is left out is named here: logs, what this machine alone makes, and the archive."""
+    """Left out are logs, what this machine alone makes, copies of the baseline, and the archive."""
     accepted = load_json(full_run / MY_BASELINE / "hashes.json")["files"]
     results = full_run / "results"
     made = {path.relative_to(results).as_posix() for path in results.rglob("*") if path.is_file()}
     left = {name for name in made - accepted.keys() if not name.startswith("logs/")}
-    assert {name.split("/")[0] for name in left} == {"archive", "kernels"}
+    assert {name.split("/")[0] for name in left} == {"archive", "kernels", "quoted"}
     assert accepted.keys() <= made
 
 
@@ -83,6 +83,6 @@ def test_a_value_of_bits_that_means_nothing_is_told(full_run, clone):
 
 
 def test_it_compares_the_figures_of_the_list_alone(full_run, clone):
-    edit(clone / "Snakefile", ', "bounds"),', "),")
+    edit(clone / "Snakefile", '    "bounds",\n', "")
     result = snakemake(clone, full_run, "--dry-run", "accept_figures", "--config", "accept=bounds")
     assert result.returncode != 0 and "bounds names no file of a full run" in said(result)
