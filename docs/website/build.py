@@ -5,6 +5,8 @@ file. The site is written to build/site/html, and opens from a disk. A link or a
 nowhere is an error.
 """
 
+import doctest
+import json
 import os
 import re
 import shutil
@@ -18,6 +20,9 @@ CONFIGURATION = Path("docs/website/mkdocs.yml")
 PAGES = Path("build/site/pages")
 CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$]+)\$", re.DOTALL)
+EXAMPLE = re.compile(r"^```(python|pycon)\n(.*?)^```\n", re.MULTILINE | re.DOTALL)
+LIBRARY = "packages/latticode/docs/"
+"""Pages of this folder are notebooks, too."""
 LINK = re.compile(r"\[((?:[^][]|\[[^]]*\])*)\]\(([^)#\s]+)\)")
 
 
@@ -64,7 +69,34 @@ def collect_page(project: Path, page: str) -> None:
     text = outside_code(LINK, collect_target, source.read_text("utf-8"))
     collected = project / PAGES / page
     collected.parent.mkdir(parents=True, exist_ok=True)
+    if page.startswith(LIBRARY) and EXAMPLE.search(text):
+        collected.with_suffix(".ipynb").write_text(notebook_of(text), "utf-8")
+        text += f"\n[This page as a notebook]({collected.stem}.ipynb)\n"
     collected.write_text(outside_code(FORMULA, formula_in_mathml, text), "utf-8")
+
+
+def notebook_of(text: str) -> str:
+    """Return a page as a Jupyter notebook: its examples in cells, which show the last figure."""
+    cells, end = [], 0
+    parse = doctest.DocTestParser().get_examples
+    for example in EXAMPLE.finditer(text):
+        sources = [example[2]] if example[1] == "python" else [e.source for e in parse(example[2])]
+        sentences = re.sub(r"^!\[.*\n", "", text[end : example.start()], flags=re.MULTILINE)
+        cells += [("markdown", sentences), ("code", "".join(sources).strip())]
+        end = example.end()
+    cells += [("markdown", text[end:]), ("code", "figure")]
+    output = {"execution_count": None, "outputs": []}
+    listed = [
+        {"cell_type": kind, "id": f"cell-{i}", "metadata": {}, "source": source}
+        | (output if kind == "code" else {})
+        for i, (kind, source) in enumerate(cells)
+        if source.strip()
+    ]
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    metadata = {"kernelspec": kernel}
+    return json.dumps(
+        {"nbformat": 4, "nbformat_minor": 5, "metadata": metadata, "cells": listed}, indent=1
+    )
 
 
 def build_site(project: Path) -> int:

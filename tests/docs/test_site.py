@@ -8,6 +8,7 @@ import sys
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 
 import latticode
+import nbformat
 import pytest
 from helpers import ROOT, skip
 
@@ -43,7 +44,26 @@ def test_the_site_is_built_with_formulas_and_docstrings(project):
     assert "<math" in (html / "packages/latticode/docs/gallery/toda.html").read_text()
     reference = (html / "docs/website/api.html").read_text()
     assert [name for name in latticode.__all__ if f'id="latticode.{name}"' not in reference] == []
+    notebooks = sorted((html / "packages/latticode/docs").rglob("*.ipynb"))
+    assert len(notebooks) >= 21
+    for notebook in notebooks:
+        nbformat.validate(nbformat.read(notebook, as_version=4))
     assert "the root of the sum" in reference  # of the docstring of `simulate`
+
+
+@pytest.mark.parametrize("name", ["files", "localised", "gallery/toda"])
+def test_a_page_runs_as_a_notebook(project, name, tmp_path):
+    if find_spec("nbclient") is None or find_spec("ipykernel") is None:
+        skip("nbclient is not installed", "pip install nbclient ipykernel")
+    from nbclient import NotebookClient
+
+    if not (project / "build/site/html").exists():
+        build(project)
+    notebook = project / f"build/site/html/packages/latticode/docs/{name}.ipynb"
+    cells = nbformat.read(notebook, as_version=4)
+    NotebookClient(cells, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    (shown,) = cells.cells[-1].outputs
+    assert "image/png" in shown.data
 
 
 @pytest.mark.parametrize("link", ["(equation.md)", "(equations.md#no-such-heading)"])
