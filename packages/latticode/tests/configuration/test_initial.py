@@ -46,7 +46,15 @@ def pulse(sites):
     return 1.5 / np.cosh(sites) * np.exp(0.3j * sites)
 
 
-@pytest.mark.parametrize("initial", [PULSE, PULSE[None], list(PULSE), pulse], ids=str)
+STARTS_OF_ONE_FIELD = {
+    "sites": PULSE,
+    "field_and_sites": PULSE[None],
+    "list": list(PULSE),
+    "function": pulse,
+}
+
+
+@pytest.mark.parametrize("initial", STARTS_OF_ONE_FIELD.values(), ids=STARTS_OF_ONE_FIELD)
 def test_an_array_and_a_function_of_the_sites_start_a_run_as_scipy_does(initial):
     found = final_of(CASE.changed(initial=initial))
     np.testing.assert_allclose(found, waves_by_scipy(PULSE, 4), rtol=0, atol=1e-12)
