@@ -37,7 +37,7 @@ def verdict_of(findings: Mapping[str, Finding], moves: Sequence[str]) -> Verdict
 
 def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[dict]:
     """Yield a row for a claim and for each of its controls, from what is found in each run."""
-    controls = [control.says for control in claim.controls]
+    controls = [control.description for control in claim.controls]
     moves = [name for name in looks[0] if name and name not in controls]
     chances = {"": chance_of_claim(looks, moves)}
     chances |= {

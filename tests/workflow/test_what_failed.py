@@ -74,7 +74,9 @@ def test_a_disk_that_is_full_is_the_reason(clone, small_disk):
     assert result.returncode == 1
     assert "No space left on device (is the disk full? " in result.stderr
     last, log = result.stderr.splitlines()[-2:], small_disk / "results/logs/figures/fig1.log"
-    assert last == [NO_LOG, f"  (more in {log})"]
+    # The job beside it may free a page after the first message, and then the log has its line.
+    assert last[0] == NO_LOG or "(is the disk full? " in last[0]
+    assert last[1] == f"  (more in {log})"
     repeated = snakemake(clone, small_disk, "fig1")
     assert repeated.returncode == 1 and "Traceback" not in repeated.stderr
     assert f"{small_disk} takes no files" in repeated.stderr

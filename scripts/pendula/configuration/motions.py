@@ -10,7 +10,6 @@ from latticode.configuration.files import OF_MODELS
 from latticode.configuration.values import Count, Integer, Name, Section, excerpt_of, fault
 from latticode.equations.model import Model, ModelError
 from latticode.equations.model_file import run_file
-from latticode.localised.spectra import count_directions
 from pydantic import AfterValidator
 
 Texts = list[tuple[str, str]]
@@ -49,6 +48,8 @@ class SpectrumSection(Section):
 
     def faults_of(self, case: CaseSection) -> Texts:
         """Return what keeps the spectrum from being measured, and under which key."""
+        from latticode.localised.spectra import count_directions  # imports the compiler
+
         most = count_directions(case.kind.of(case.problem()))
         text = f"is {self.count}; give a whole number from 1 to {most}"
         return [("count", text)] if self.count > most else []

@@ -38,7 +38,7 @@ def test_without_datasets_nothing_is_decided():
     assert all("was not made" in row["because"] and row["controls"] for row in rows)
 
 
-NAMES = ["figures", "solvers", "theory", "chaos", "breathers", "pendula", "unbounded", "certified"]
+NAMES = ["figures", "solvers", "theory", "chaos", "breathers", "newton", "unbounded", "certified"]
 PARTS = [BASELINE / f"claims/{name}.json" for name in NAMES]
 """The parts of the ledger, in the order of `PARTS_OF_LEDGER`."""
 

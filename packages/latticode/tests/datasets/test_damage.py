@@ -10,6 +10,7 @@ from dimers import dimers
 from latticode.datasets import netcdf
 from latticode.datasets.json_files import load_json, write_json
 from latticode.datasets.netcdf import DatasetError, as_xarray, read, readable, save
+from latticode.datasets.registry import WAYS
 from latticode.datasets.surveys import survey_contents
 from latticode.datasets.trajectories import trajectory_contents
 from latticode.simulation.simulate import simulate
@@ -81,7 +82,7 @@ def test_a_dataset_cut_anywhere_is_rejected(dataset):
     for length in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
         dataset.write_bytes(content[:length])
         with pytest.raises(
-            DatasetError, match=r"a\.nc is damaged .* delete it and call simulate and save"
+            DatasetError, match=rf"a\.nc is damaged .* delete it and {WAYS['make']}"
         ):
             read(dataset)
 
@@ -114,5 +115,7 @@ def test_a_changed_byte_of_json_is_told_wherever_it_is(tmp_path):
     ]
     for wrong in (*changed, content[:-3], content + b" ", b"", b'{"rows": []}'):
         path.write_bytes(wrong)
-        with pytest.raises(DatasetError, match=r"claims\.json is damaged .* call .* to make"):
+        with pytest.raises(
+            DatasetError, match=rf"claims\.json is damaged .* {WAYS['make']} to make"
+        ):
             load_json(path)

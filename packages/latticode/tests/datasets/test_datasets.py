@@ -8,7 +8,7 @@ import xarray as xr
 from latticode.datasets.checks import rounded, variable
 from latticode.datasets.digest import digest, digest_values
 from latticode.datasets.netcdf import DatasetError, Variable, read, save, write
-from latticode.datasets.registry import NamingError
+from latticode.datasets.registry import WAYS, NamingError
 
 SERIES = {
     "tau": Variable(("tau",), np.arange(3.0)),
@@ -56,7 +56,7 @@ def test_saving_states_no_missing_value_and_leaves_the_dataset_alone(tmp_path):
 def test_a_missing_and_a_damaged_file_are_named_in_full(tmp_path, monkeypatch):
     """Jobs run in the folder of `--directory`, and the user may have a whole file of this name."""
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(DatasetError, match=r"a\.nc is missing: call simulate and save"):
+    with pytest.raises(DatasetError, match=rf"a\.nc is missing: {WAYS['make']}"):
         read("a.nc")
     (tmp_path / "a.nc").write_bytes(b"damaged")
     with pytest.raises(DatasetError, match=f"{re.escape(str(tmp_path))}/a.nc is damaged.*delete"):
