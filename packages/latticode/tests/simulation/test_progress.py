@@ -17,7 +17,7 @@ from latticode.simulation.interrupts import Interrupted
 
 DNLS = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
 CASE = Case(model=DNLS, half_width=5, initial={0: [1.5]}, end_time=1)
-LONG = CASE.changed(half_width=200, end_time=400, output_step=0.25)
+LONG = CASE.changed(half_width=200, end_time=8000, output_step=5)  # over 0.1 s
 SCRIPT = """
 from latticode import Case, Model, abs2, lap, simulate
 model = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
