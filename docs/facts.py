@@ -76,7 +76,7 @@ CHOICES = {
     "settled": "settled from tau",
     "steps": "steps of a period",
 }
-"""Choices and labels in words."""
+"""Texts for choices and labels, by their names in the datasets."""
 
 
 class Accepted(Results):
@@ -204,7 +204,7 @@ def number_and_variations(data: xr.Dataset, name: str) -> dict:
 
 
 def choices_of(variable: xr.DataArray) -> str:
-    """Return in words the choices of a number that can change it."""
+    """Return the text for the choices of a number that can change it."""
     choices = re.findall(r"(\w[\w ]*) = (\([^)]*\)|[^,]*)", variable.attrs["choices"])
     without = WITHOUT_EFFECT.get(str(variable.name), ())
     texts = [choice_in_words(f"{key} = {value}") for key, value in choices if key not in without]
@@ -212,7 +212,7 @@ def choices_of(variable: xr.DataArray) -> str:
 
 
 def choice_in_words(label: str) -> str:
-    """Return a choice and its value, such as "size = 0.01", in words."""
+    """Return the text for a choice and its value, such as "size = 0.01"."""
     name, _, value = label.partition(" = ")
     ends = re.fullmatch(r"\((.*), (.*)\)", value)
     value = "{:g} to {:g}".format(*map(float, ends.groups())) if ends else value.replace("_", " ")

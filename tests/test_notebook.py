@@ -2,6 +2,7 @@
 
 import doctest
 
+import latticode
 import numpy as np
 import pendula
 import pytest
@@ -61,3 +62,8 @@ def test_a_run_by_any_solver_is_checked_and_the_second_one_is_drawn_where_it_div
     assert len(drawn.axes) == 2 and drawn._repr_png_().startswith(b"\x89PNG")
     checks["divergence_time"] = xr.full_like(checks["divergence_time"], 1.0)
     assert len(figures.draw_norms(figures.gather_norms(run, checks)).axes) == 4
+
+
+def test_a_section_of_the_papers_case_is_refused_by_a_sentence(case):
+    with pytest.raises(pendula.ConfigurationError, match="case: has equations that are no Model"):
+        latticode.section(case, when=lambda p, a, b: a.real)

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from latticode import Case, section
 from latticode.configuration.files import ConfigurationError, gather
-from latticode.datasets.motions import measure_exponents
+from latticode.datasets.motions import find_section, measure_exponents
 from pendula.configuration.messages import load
-from pendula.own_cases.sections import find_section
 from pendula.problem import PaperProblem
 from scipy.integrate import solve_ivp
 

@@ -140,7 +140,7 @@ use rule dataset as section with:
     resources:
         **resources_for(lambda wildcards: SETTINGS.cost_of_motion("sections", wildcards.section)),
     params:
-        call=function("pendula.own_cases.sections.find_section"),
+        call=function("latticode.datasets.motions.find_section"),
         name="{section}",
         problem=lambda wildcards: SETTINGS.problem(SETTINGS.sections[wildcards.section].case),
         when=lambda wildcards: SETTINGS.plain_when(wildcards.section),

@@ -33,6 +33,7 @@ from latticode.datasets.netcdf import as_xarray
 from latticode.datasets.stated import describe_run
 from latticode.datasets.surveys import COUNTS, runs_in, survey_contents
 from latticode.datasets.trajectories import final_state, sweep_contents, trajectory_contents
+from latticode.equations.model import Model
 from latticode.integrators.families import remark_on
 from latticode.localised.sections import DIRECTIONS
 from latticode.localised.spectra import count_directions
@@ -543,6 +544,8 @@ def section(
     if site not in case.chain:
         ends = f"{case.chain[0]} to {case.chain[-1]}"
         faults.append(f"site: is {values.excerpt_of(site)}; the sites run from {ends}")
+    if not isinstance(case.model, Model):
+        faults.append("case: has equations that are no Model; give a case of a Model")
     if not callable(when):
         faults.append("when: is no function; give one such as lambda p, x: x - 1")
     if faults:

@@ -15,8 +15,8 @@ MAY_DIFFER = ("drawing",)
 """It makes texts and pictures for people, of rounded numbers."""
 ALLOWED = {
     ("localised/breathers.py", "@"): "what is found is rounded before it is stored",
-    ("equations/model.py", "**"): "a bound of the rates, from which the cost is estimated",
-    ("equations/model.py", "@"): "the same",
+    ("equations/rate_bounds.py", "**"): "a bound of the rates, from which the cost is estimated",
+    ("equations/rate_bounds.py", "@"): "the same",
     ("equations/graph.py", "@"): "values that NumPy computes for the same bound; runs sum in order",
     ("equations/symbols.py", "**"): "a number to the power of a parameter, which the graph writes",
     ("integrators/method.py", "**"): "how long a run will take, an estimate for people",

@@ -17,7 +17,7 @@ from pendula.live.write import THIS_FOLDER as LIVE
 from pendula.live.write import data_of, worker_text
 from pendula.studies.breathers.figures import LOOKS
 
-from .long_studies import LONG_STUDIES
+from .values import LONG_STUDIES
 
 THIS_FOLDER = Path(__file__).parent
 OF_LIVE, OF_ARTICLE = ("runs.js", "panels.js"), ("figures.js", "maps.js")

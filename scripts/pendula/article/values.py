@@ -10,7 +10,7 @@ import xarray as xr
 from latticode.measures.confidence import CONFIDENCE
 from replication.article.cards import COUNTS
 from replication.article.numbers import MARK, Numbers
-from replication.article.quoted import FOLDER
+from replication.article.quoted import FOLDER, LongStudies, LongStudy
 from replication.article.sources import Printed, Source, printed
 from replication.ledger.claim import Kind, Origin
 from replication.ledger.criterion import Verdict
@@ -21,7 +21,24 @@ from replication.words import enclosing_span, number, percent
 from pendula.configuration.schema import PAPER_CASES
 from pendula.studies.paper.solvers import ORDER
 
-from .long_studies import PROOFS, SPEED, TIMES, UNBOUNDED
+UNBOUNDED, PROOFS = f"{FOLDER}/unbounded", f"{FOLDER}/proofs"
+SPEED, TIMES = f"{FOLDER}/speed/work_precision", f"{FOLDER}/reproduction.json"
+LONG_STUDIES: LongStudies = {
+    UNBOUNDED: LongStudy("snakemake unbounded"),
+    f"{FOLDER}/chaos": LongStudy(
+        "snakemake transition", "pendula.studies.chaos.lifetimes.vary_lifetimes"
+    ),
+    f"{FOLDER}/breathers": LongStudy(
+        "snakemake fates sensitivity", "pendula.studies.breathers.other_choices.vary_areas"
+    ),
+    f"{FOLDER}/pendula": LongStudy(
+        "snakemake over_the_top", "pendula.studies.newton.over_the_top.vary_over_the_top"
+    ),
+    PROOFS: LongStudy("snakemake certified", "pendula.studies.certified.contents.certify_curve"),
+    SPEED: LongStudy("snakemake speed"),
+    TIMES: LongStudy("snakemake reproduction", "benchmarks.reproduction.measure_reproduction"),
+}
+"""By the name, or by the folder, of the copies that the article quotes."""
 
 FRONTS = "unbounded/fronts"
 UPWARD = 1.05

@@ -10,8 +10,7 @@ from replication.results import Results
 from pendula import RELEASED
 
 from .live_figures import gather_live_parts
-from .long_studies import LONG_STUDIES
-from .values import gather
+from .values import LONG_STUDIES, gather
 
 ARTICLE = Article(
     folder=Path(__file__).parent,

@@ -74,7 +74,7 @@ class PaperCaseSection(cases.CaseSection):
 
     @property
     def equations(self) -> str:
-        """What the case is of, in words."""
+        """The name of the equations, for messages."""
         return "Newton's equations" if self.model == PENDULA else "the amplitude equations"
 
     @property

@@ -143,7 +143,7 @@ def _at(path: str) -> Any:
 
 
 def from_paper(words: Mapping[str, str]) -> Differences:
-    """Return differences from the paper, in words by path, with the dependencies of datasets."""
+    """Return sentences on differences from the paper, by key, with what datasets depend on."""
     return Differences(words, rests_on)
 
 

@@ -1,9 +1,13 @@
 """Lyapunov spectra and sections as datasets."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
 from latticode.equations.graph import Node
+from latticode.equations.model import Model
 from latticode.integrators.families import pair_of
 from latticode.localised.sections import find_crossings
 from latticode.localised.spectra import measure_spectrum
@@ -53,6 +57,14 @@ def section_at(
         crossing_state=variable(crossings.states, axes, "state at the crossing"),
     )
     return _described(contents, name, problem)
+
+
+def find_section(
+    problem: Problem, when: Mapping[str, Any], direction: str, site: int, name: str
+) -> xr.Dataset:
+    """Return the section at which the only density of a model, as plain values, crosses zero."""
+    ((function, density),) = Model.of_plain(when).conserved.items()
+    return section_at(problem, density, direction, site, name).assign_attrs(when=function)
 
 
 def _described(contents: dict, name: str, problem: Problem) -> xr.Dataset:

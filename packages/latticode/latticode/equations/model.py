@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from .couplings import entries_of, largest_row_sum
+from .couplings import entries_of
 from .graph import (
     LEAVES,
     MOTION,
@@ -45,6 +45,7 @@ from .graph import (
     switches,
 )
 from .model_file import BEFORE, SEED, placed, run_file, same, values_at
+from .rate_bounds import Slopes, bound_rate, slopes_of
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
 
 __all__ = [
@@ -455,34 +456,11 @@ class Model:
         fields at rest.
         """
         defaults = {name: value for name, value in self.parameters.items() if not callable(value)}
-        sizes = {name: _size_of(value) for name, value in (defaults | parameters).items()}
-
-        def size(entry: Node) -> float:
-            if entry.operation == "number":
-                return entry.operands[0]
-            if entry.operation == "field":
-                return peak
-            return sizes.get(entry.operands[0], 1.0) if entry.operands else 1.0
-
-        columns, changes = self._slopes
-        with np.errstate(all="ignore"):
-            values = np.abs(evaluate(changes, lambda entry: np.float64(size(entry))))
-        slopes = np.zeros((len(self.rates), len(self.rates)))
-        for column, change in zip(columns, values.reshape(-1, len(self.rates)), strict=True):
-            slopes[:, column] += change
-        if not peak and not np.isfinite(slopes).all():
-            slopes = np.nan_to_num(slopes, posinf=0.0)
-        return _largest_eigenvalue(slopes)
+        return bound_rate(len(self.rates), self._slopes, defaults | parameters, peak)
 
     @cached_property
-    def _slopes(self) -> tuple[list[int], tuple[Node, ...]]:
-        """The rows that the rates read, and the derivatives of all rates with respect to each."""
-        columns, changes = [], []
-        for entry in leaves_in(self.rates, "field"):
-            component, re_im, _ = entry.operands
-            columns.append(2 * component + re_im)
-            changes += derivative(self.rates, lambda leaf, entry=entry: number(leaf is entry))
-        return columns, tuple(changes)
+    def _slopes(self) -> Slopes:
+        return slopes_of(self.rates)
 
     def tangent(self) -> "Model":
         """Return the model of a solution and a tangent vector: the fields, then their changes."""
@@ -505,31 +483,6 @@ class Model:
             conserved={},
         )
         return tangent
-
-
-def _size_of(value: Any) -> float:
-    """Return the largest magnitude of a parameter, or the largest row sum of a matrix."""
-    if isinstance(value, Mapping):
-        return largest_row_sum(value)
-    if hasattr(value, "tocoo") or np.ndim(value) == 2:
-        return float(abs(value).sum(axis=1).max())
-    return float(np.abs(value).max())
-
-
-def _largest_eigenvalue(matrix: np.ndarray) -> float:
-    """Return an upper bound of the largest eigenvalue of a matrix without negative entries.
-
-    It is the 64th root of the norm of the 64th power. The norm itself would be too coarse: x'' =
-    -k x oscillates at sqrt(k), but the norm of its matrix is k.
-    """
-    bound, exponent = 1.0, 1.0
-    for _ in range(6):
-        largest = matrix.max()
-        if not 0.0 < largest < np.inf:
-            return float(largest) if largest else 0.0
-        bound, matrix = bound * largest**exponent, matrix / largest
-        matrix, exponent = matrix @ matrix, 0.5 * exponent
-    return float(bound * matrix.sum(axis=1).max() ** exponent)
 
 
 MOST_SHOWN = 20

@@ -436,7 +436,7 @@ class SeriesWriter:
 
 
 def _in_order_up_to_products(nodes: list[Node]) -> list[Node]:
-    """Return nodes and all that they are made of, but for what stands in products of a matrix."""
+    """Return nodes after their operands, without the operands of products with a matrix."""
     ordered: dict[Node, None] = {}
 
     def visit(expression: Node) -> None:

@@ -47,7 +47,7 @@ class DensityWorkspace(NamedTuple):
 
 
 class Couplings(NamedTuple):
-    """The matrices that couple sites, and room for what they are multiplied with.
+    """The matrices that couple sites, for sums over all sites in a fixed order.
 
     Rows of a matrix are summed from the first column to the last, whatever the processor. All are
     in `dense` (matrix, column, site) if that has the sites; else their entries that are not zero

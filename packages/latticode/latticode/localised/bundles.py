@@ -22,7 +22,7 @@ from latticode.kernels.compiled import inlined_by_numba, kernel
 
 @kernel
 def inner(chain: Any, u: np.ndarray, v: np.ndarray) -> float:
-    """Return the scalar product of two states over the whole chain, of which they may hold half."""
+    """Return the scalar product of two states over the chain; they may store half of it."""
     total = 0.0
     for row in range(u.shape[0]):
         for j in range(1, u.shape[1] - 1):

@@ -4,6 +4,7 @@
 kernels defines a subclass of its own, and a subclass of `Problem` whose `equations` return it.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -66,11 +67,12 @@ class ResultNames(NamedTuple):
     time: str = "t"
 
 
-class Equations:
+class Equations(ABC):
     """The equations of one problem, as `simulate` integrates them.
 
-    Subclasses override these defaults. The first group of methods needs no kernels; the second
-    group compiles them. A `cut` is the `Reduction` of the chain that is integrated.
+    A subclass defines the abstract members, and may replace the others. The first group of methods
+    needs no kernels; the second group compiles them. A `cut` is the `Reduction` of the chain that
+    is integrated.
     """
 
     stores_final = True
@@ -82,22 +84,22 @@ class Equations:
     # --- Names, units and bounds, known before a run
 
     @property
+    @abstractmethod
     def names(self) -> ResultNames:
         """The names of the results in datasets."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def methods(self) -> Sequence[str]:
         """The names of the methods that integrate the equations."""
-        raise NotImplementedError
 
+    @abstractmethod
     def describe(self) -> dict[str, Any]:
         """Return the attributes of a dataset that describe the equations."""
-        raise NotImplementedError
 
+    @abstractmethod
     def rates(self, peak: float) -> dict[str, float]:
         """Return bounds of the rates at amplitude `peak`, by the key they depend on."""
-        raise NotImplementedError
 
     @property
     def clock(self) -> float:
@@ -115,13 +117,13 @@ class Equations:
         """Return the smallest part of the chain whose run has the bits of the whole chain's."""
         return find_reduction(self.problem.amplitudes)
 
+    @abstractmethod
     def compiled(self, name: str) -> CompiledMethod:
         """Return the method of this name with the kernels of the equations."""
-        raise NotImplementedError
 
+    @abstractmethod
     def system(self, cut: Reduction) -> Any:
         """Return the argument `system` of the kernels, with all parameters."""
-        raise NotImplementedError
 
     def start(self, cut: Reduction) -> np.ndarray:
         """Return the initial state, (row, 1 + site + 1) with ghosts."""
@@ -142,6 +144,6 @@ class Equations:
         """Return uninitialised arrays for the observables at `times` outputs."""
         return blank_record(components, sites, times, every, parts=2)
 
+    @abstractmethod
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
         """Return fields of a `Trajectory` on the whole chain, from record and final state `y`."""
-        raise NotImplementedError
