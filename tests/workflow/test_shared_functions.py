@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from helpers import ROOT, chosen
-from latticode.configuration.cost import Cost
+from latticode.configuration.cost import RunCost
 from latticode.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import load
 from pendula.configuration.schema import PAPER_CASES
@@ -158,7 +158,7 @@ def test_a_configuration_without_own_cases_is_refused_their_report(settings):
 
 
 def test_a_second_attempt_requests_twice_the_memory_and_the_time():
-    requests = resources_for(lambda _: Cost(seconds=600.0, memory=5e8))
+    requests = resources_for(lambda _: RunCost(seconds=600.0, memory=5e8))
     assert [requests["runtime"](None, attempt) for attempt in (1, 2)] == [65, 130]
     assert [requests["mem_mb"](None, attempt) for attempt in (1, 2)] == [2000, 4000]
 

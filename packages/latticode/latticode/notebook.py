@@ -176,7 +176,7 @@ def _load(sections: Mapping, limits: Mapping[str, float]) -> Configuration:
         raise ConfigurationError(_as_argument(str(error))) from None
 
 
-def _announce(estimate: cost.Cost) -> None:
+def _announce(estimate: cost.RunCost) -> None:
     if estimate.seconds > cost.WORTH_SAYING:
         print(f"the run takes {estimate}", flush=True)
 
@@ -500,7 +500,7 @@ def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None
         text = f"count: is {values.excerpt_of(count)}; give a whole number from 1 to {most}"
         raise list_faults([text], "the spectrum")
     cost_of_run = case.cost(case.problem(solver=cost.OF_TANGENTS))
-    estimate = cost.Cost((1 + count) * cost_of_run.seconds, (1 + count) * cost_of_run.memory)
+    estimate = cost.RunCost((1 + count) * cost_of_run.seconds, (1 + count) * cost_of_run.memory)
     limits = RunLimits(**_limits(hours, None)).model_dump()
     if estimate.excess(limits) > 1.0:
         raise list_faults(

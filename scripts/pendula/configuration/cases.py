@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from latticode.configuration import cases
 from latticode.configuration.cases import Initial
-from latticode.configuration.cost import Cost
+from latticode.configuration.cost import RunCost
 from latticode.configuration.files import OF_MODELS
 from latticode.configuration.messages import lines_of
 from latticode.configuration.schema import Configuration
@@ -135,11 +135,11 @@ class PaperCaseSection(cases.CaseSection):
             del values["model"], values["mu"]
         return values
 
-    def cost(self, problem: Mapping) -> Cost:
+    def cost(self, problem: Mapping) -> RunCost:
         """Return the cost of a problem of the case, given as plain values."""
         return cost.estimate(problem)
 
-    def cost_with_checks(self, problem: Mapping) -> Cost:
+    def cost_with_checks(self, problem: Mapping) -> RunCost:
         """Return the cost of a run and its checks."""
         return cost.with_checks(problem)
 

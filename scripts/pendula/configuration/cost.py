@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from functools import partial
 
 from latticode.configuration import cost
-from latticode.configuration.cost import Cost
+from latticode.configuration.cost import RunCost
 from latticode.integrators.method import Demand
 from latticode.integrators.methods import METHODS
 
@@ -31,7 +31,7 @@ def demand(problem: Mapping) -> Demand:
 estimate = partial(cost.estimate, measure=demand)
 
 
-def with_checks(problem: Mapping) -> Cost:
+def with_checks(problem: Mapping) -> RunCost:
     """Return the cost of a user's case: of its run, and of the checks that own_cases makes of it.
 
     Those of pendula are two runs and the amplitudes.

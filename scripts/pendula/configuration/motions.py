@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from latticode.configuration.cases import CaseSection
-from latticode.configuration.cost import OF_TANGENTS, Cost
+from latticode.configuration.cost import OF_TANGENTS, RunCost
 from latticode.configuration.files import OF_MODELS
 from latticode.configuration.values import Count, Integer, Name, Section, excerpt_of, fault
 from latticode.equations.model import Model, ModelError
@@ -54,10 +54,10 @@ class SpectrumSection(Section):
         text = f"is {self.count}; give a whole number from 1 to {most}"
         return [("count", text)] if self.count > most else []
 
-    def cost(self, case: CaseSection) -> Cost:
+    def cost(self, case: CaseSection) -> RunCost:
         """Return what the exponents of a case take."""
         run = case.cost(case.problem(solver=OF_TANGENTS))
-        return Cost((1 + self.count) * run.seconds, (1 + self.count) * run.memory)
+        return RunCost((1 + self.count) * run.seconds, (1 + self.count) * run.memory)
 
 
 class CrossingsSection(Section):
@@ -90,6 +90,6 @@ class CrossingsSection(Section):
         observed.conserved = {name: density}
         return observed.plain
 
-    def cost(self, case: CaseSection) -> Cost:
+    def cost(self, case: CaseSection) -> RunCost:
         """Return what the run of a case takes, from output to output."""
         return case.cost(case.problem())

@@ -5,7 +5,7 @@ from math import sqrt
 from typing import Any, NamedTuple
 
 from latticode.configuration import cost
-from latticode.configuration.cost import Cost
+from latticode.configuration.cost import RunCost
 from latticode.configuration.surveys import FARTHEST
 from latticode.simulation.feasibility import Obstacle
 
@@ -39,12 +39,12 @@ class Runs(NamedTuple):
                 yield self.perturbed, f"is {self.size:g}, and {fault[1]}"
                 return
 
-    def costs(self) -> list[Cost]:
+    def costs(self) -> list[RunCost]:
         """Return the cost of each problem, with data as large as those of members on average."""
         mean = sqrt(1.0 + 2.0 * self.size * self.size)
         return [estimate(enlarged(problem, mean)) for problem in self.problems]
 
-    def total(self) -> Cost:
+    def total(self) -> RunCost:
         """Return the cost of all runs, one after another."""
         total = cost.total(self.costs())
         return total._replace(seconds=self.times * total.seconds)

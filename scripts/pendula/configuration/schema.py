@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, ClassVar
 
 from latticode.configuration import cost, schema
-from latticode.configuration.cost import Cost
+from latticode.configuration.cost import RunCost
 from latticode.configuration.schema import Faults
 from latticode.configuration.values import Name, faults
 from latticode.equations.initial_values import name_window
@@ -66,7 +66,7 @@ class PaperConfiguration(schema.Configuration):
         elif (total := entry.cost(case)).excess(limits := self.limits.model_dump()) > 1.0:
             yield "count" if hasattr(entry, "count") else "case", cost.refusal(total, limits)
 
-    def cost_of_motion(self, section: str, name: str) -> Cost:
+    def cost_of_motion(self, section: str, name: str) -> RunCost:
         """Return what one of the `spectra` or of the `sections` takes."""
         entry = getattr(self, section)[name]
         return entry.cost(self.cases[entry.case])
@@ -91,7 +91,7 @@ class PaperConfiguration(schema.Configuration):
             text = f"case {name!r} is of {self.cases[name].equations}"
             yield key, f"{text}, and this is about the amplitude equations"
 
-    def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
+    def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], RunCost]]:
         """Return in words what is made of a case: those of a user are checked after their run."""
         if name in PAPER_CASES:
             return super().cost_estimate(name)
@@ -149,7 +149,7 @@ class PaperConfiguration(schema.Configuration):
         }
         return [*super().long_runs(), *(f"{label} {total}" for label, total in long.items())]
 
-    def excess(self, key: str, costs: list[Cost], times: float = 1.0) -> Faults:
+    def excess(self, key: str, costs: list[RunCost], times: float = 1.0) -> Faults:
         """Yield `key` and the reason if a study's runs, each made `times` times, cost too much."""
         total = cost.total(costs)._replace(memory=max((each.memory for each in costs), default=0.0))
         total = total._replace(seconds=times * total.seconds)

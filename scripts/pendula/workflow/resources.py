@@ -4,22 +4,22 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from latticode.configuration.cost import Cost
+from latticode.configuration.cost import RunCost
 
 START_MB, START_MINUTES = 1000, 15
 """Memory in MB and time in minutes for Python, imports and a compilation."""
 SAFETY = 5
 """Estimates are within a factor of three, and a node may be slower."""
-SHORT, HOUR = Cost(0.0, 0.0), Cost(3600 / SAFETY, 0.0)
+SHORT, HOUR = RunCost(0.0, 0.0), RunCost(3600 / SAFETY, 0.0)
 """Costs of jobs that request only the start, and an hour more."""
 
 
-def cost_of_study(wildcards: Any) -> Cost:
+def cost_of_study(wildcards: Any) -> RunCost:
     """Return the cost of a study that has the wildcard `size`: an hour for the longer one."""
     return HOUR if wildcards.size else SHORT
 
 
-def resources_for(cost_of: Callable[[Any], Cost]) -> dict[str, Callable]:
+def resources_for(cost_of: Callable[[Any], RunCost]) -> dict[str, Callable]:
     """Return the resources of a job whose run is estimated to take `cost_of(wildcards)`."""
 
     def memory(wildcards: Any, attempt: int) -> int:
@@ -31,6 +31,6 @@ def resources_for(cost_of: Callable[[Any], Cost]) -> dict[str, Callable]:
     return {"mem_mb": memory, "runtime": minutes}
 
 
-def long_study(*_: Any) -> Cost:
+def long_study(*_: Any) -> RunCost:
     """Return the cost of a longer study."""
     return HOUR

@@ -32,7 +32,7 @@ from latticode.simulation.feasibility import MOST_STEPS, find_fault, rates_of
 from latticode.simulation.problem import Problem
 
 from . import cost
-from .cost import Cost
+from .cost import RunCost
 from .files import ConfigurationError
 from .initial import BySite, end_of_run, fields_on, read_initial
 from .solvers import DEFAULT, FLAG, Solver, Solvers, Taylor
@@ -353,11 +353,11 @@ class CaseSection(Section):
         )
         return {**plain_values, "model": self.model.plain, "parameters": values}
 
-    def cost(self, problem: Mapping) -> Cost:
+    def cost(self, problem: Mapping) -> RunCost:
         """Return the cost of a problem of this case, given as plain values."""
         return cost.estimate(problem)
 
-    def cost_with_checks(self, problem: Mapping) -> Cost:
+    def cost_with_checks(self, problem: Mapping) -> RunCost:
         """Return the cost of a run together with its checks."""
         return cost.with_checks(problem)
 

@@ -37,7 +37,7 @@ Measure = Callable[[Mapping], Demand]
 own function."""
 
 
-class Cost(NamedTuple):
+class RunCost(NamedTuple):
     """Seconds of one processor, and bytes of memory."""
 
     seconds: float
@@ -84,7 +84,7 @@ def _sites_of(problem: Mapping) -> float:
     return 2 * problem["half_width"] + 1 if count is None else count
 
 
-def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
+def estimate(problem: Mapping, measure: Measure = demand) -> RunCost:
     """Return the cost of a problem, given as the plain values of a Problem.
 
     No array of the chain's size is allocated; the cost is infinite if a number overflows.
@@ -104,9 +104,9 @@ def estimate(problem: Mapping, measure: Measure = demand) -> Cost:
         seconds = sum(_solver_seconds(method, problem, needs, outputs) for method in solvers)
         pair_bytes = METHODS[solvers[0]["name"]].cost.pair_bytes
         memory = pair_bytes * needs.pairs + SITE_BYTES * sites
-        return Cost(seconds, memory + OUTPUT_BYTES * outputs + snapshots)
+        return RunCost(seconds, memory + OUTPUT_BYTES * outputs + snapshots)
     except (OverflowError, ZeroDivisionError):
-        return Cost(inf, inf)
+        return RunCost(inf, inf)
 
 
 def _solver_seconds(solver: Mapping, problem: Mapping, needs: Demand, outputs: float) -> float:
@@ -149,26 +149,26 @@ MOST_UNKNOWNS = 1000
 """The longest chain with this check."""
 
 
-def with_checks(problem: Mapping, measure: Measure = demand) -> Cost:
+def with_checks(problem: Mapping, measure: Measure = demand) -> RunCost:
     """Return the cost of a run and all its checks, including the localised state."""
     runs = of_checked([estimate(run, measure) for run in [problem, *runs_of_checks(problem)]])
     unknowns = 4.0 * measure(problem).pairs  # two real numbers a field and site
     entries = unknowns**2 if unknowns <= MOST_UNKNOWNS else 0.0
-    state = Cost(LOCALISED["seconds"] * entries, LOCALISED["bytes"] * entries)
+    state = RunCost(LOCALISED["seconds"] * entries, LOCALISED["bytes"] * entries)
     return total([runs, state])
 
 
-def of_checked(runs: Iterable[Cost]) -> Cost:
+def of_checked(runs: Iterable[RunCost]) -> RunCost:
     """Return the cost of runs, where the first run and another one are compared field by field."""
     first, *_ = runs = list(runs)
     compared = first._replace(seconds=0.0, memory=KEPT_TO_COMPARE * first.memory)
     return total([*runs, compared])
 
 
-def total(costs: Iterable[Cost]) -> Cost:
+def total(costs: Iterable[RunCost]) -> RunCost:
     """Return the cost of runs executed one after another."""
     costs = list(costs)
-    return Cost(sum(cost.seconds for cost in costs), max(cost.memory for cost in costs))
+    return RunCost(sum(cost.seconds for cost in costs), max(cost.memory for cost in costs))
 
 
 def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
@@ -192,7 +192,7 @@ ORDINARY = {
 def find_excess(
     problem: Mapping,
     limits: Mapping[str, float],
-    estimate_cost: Callable[[Mapping], Cost] = estimate,
+    estimate_cost: Callable[[Mapping], RunCost] = estimate,
     ordinary: Mapping[str, Mapping] = ORDINARY,
     subject: str = "the run",
 ) -> Obstacle | None:
@@ -208,7 +208,7 @@ def find_excess(
     return min(costs, key=lambda key: costs[key].excess(limits)), refusal(cost, limits, subject)
 
 
-def refusal(cost: Cost, limits: Mapping[str, float], subject: str = "the run") -> str:
+def refusal(cost: RunCost, limits: Mapping[str, float], subject: str = "the run") -> str:
     """Return the message for a run that exceeds the limits on time or memory."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")

@@ -17,7 +17,7 @@ from latticode.integrators.families import remark_on
 
 from . import cost
 from .cases import CaseSection, is_multiple
-from .cost import Cost
+from .cost import RunCost
 from .messages import in_words
 from .solvers import DEFAULT, Solver, Solvers, with_controls
 from .surveys import SurveySection
@@ -136,7 +136,7 @@ class Configuration(Section):
                 hint = f"; did you mean {near[0]!r}?" if near else ""
                 yield key, f"there is no {section.removesuffix('s')} {excerpt_of(name)}{hint}"
 
-    def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], Cost]]:
+    def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], RunCost]]:
         """Return in words what is made of a case, and what estimates its cost."""
         return "the run", self.cases[name].cost
 
@@ -219,11 +219,11 @@ class Configuration(Section):
         key = "windows" if short.excess(limits) < ordinary.excess(limits) else "half_widths"
         return [(key, cost.refusal(total, limits))]
 
-    def cost_of_sweep(self, name: str) -> Cost:
+    def cost_of_sweep(self, name: str) -> RunCost:
         """Return what all runs of a sweep take, one after another."""
         return self._sum_of(name, ({"half_width": m} for m in self.sweeps[name].half_widths))
 
-    def _sum_of(self, name: str, changes: Iterable[Mapping]) -> Cost:
+    def _sum_of(self, name: str, changes: Iterable[Mapping]) -> RunCost:
         """Return what the problem of a sweep takes, run once with each of the changes."""
         problem, case = self.swept_problem(name), self.cases[self.sweeps[name].case]
         return cost.total(case.cost({**problem, **values}) for values in changes)
@@ -262,7 +262,7 @@ class Configuration(Section):
             "by_half_width": self.values_by_half_width(name),
         }
 
-    def cost_of_survey(self, name: str, chunks: int = 1) -> Cost:
+    def cost_of_survey(self, name: str, chunks: int = 1) -> RunCost:
         """Return what one of so many parts takes, if each run is as dear as the dearest corner."""
         survey, base = self.surveys[name], self.cases[self.surveys[name].case]
         runs = -(-prod(survey.plan.shape) // chunks)
@@ -273,7 +273,7 @@ class Configuration(Section):
         twice = 2.0 if "divergence" in survey.keep else 1.0
         return dearest._replace(seconds=twice * runs * dearest.seconds)
 
-    def cost_of(self, case: str, solver: str | None = None) -> Cost:
+    def cost_of(self, case: str, solver: str | None = None) -> RunCost:
         """Return what a run of a case takes, with its snapshots."""
         return self.cases[case].cost(self.shown_problem(case, solver))
 

@@ -19,7 +19,7 @@ from latticode.configuration.values import (
 )
 from pydantic import Field
 
-from pendula.configuration.cost import Cost, estimate
+from pendula.configuration.cost import RunCost, estimate
 from pendula.configuration.runs import Runs
 from pendula.configuration.schema import PAPER_CASES, Faults, PaperConfiguration
 
@@ -226,7 +226,7 @@ class Settings(Section):
         keys = f"lifetimes.{many}", f"lifetimes.{larger}"
         return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
-    def _spectra(self, settings: PaperConfiguration) -> list[Cost]:
+    def _spectra(self, settings: PaperConfiguration) -> list[RunCost]:
         """Return the costs of exponents: half as many tangent vectors as a state has numbers."""
         spectrum, costs = self.lyapunov.spectrum, []
         for case in spectrum.cases:
@@ -236,5 +236,5 @@ class Settings(Section):
                 * (2 * spectrum.half_width + 1)
                 * (spectrum.duration_factor + spectrum.undriven_duration_factor)
             )
-            costs.append(Cost(vectors * cost.seconds, cost.memory))
+            costs.append(RunCost(vectors * cost.seconds, cost.memory))
         return costs
