@@ -21,6 +21,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import platformdirs
 
@@ -29,7 +30,7 @@ from .sources import digest_of_modules
 VARIABLE = "LATTICODE_CACHE"
 OFF = "off"
 UNUSED = 30 * 86400.0
-"""Seconds without use after which machine code of an earlier version of a module is removed."""
+"""After this time in seconds, unused code from earlier versions of a module is removed."""
 DIGEST = hashlib.sha256().digest_size
 DIGITS = 16
 """The number of hexadecimal digits of a hash in the name of a folder or file."""
@@ -51,9 +52,9 @@ def _trusted(folder: Path) -> Path | None:
     if _is_private(folder):
         return folder
     warnings.warn(
-        f"compiled kernels in {folder} are not used, because other users own or can write that"
-        f" folder; kernels are kept in memory only. Name a folder of your own by {VARIABLE}, or"
-        " make this one yours alone (chmod go-w)",
+        f"compiled kernels in {folder} are not used, because another user owns that folder or can"
+        f" write to it; kernels are kept in memory only. Set {VARIABLE} to a folder of your own, or"
+        " withdraw the others' permission to write (chmod go-w)",
         stacklevel=4,
     )
     return None
@@ -71,7 +72,10 @@ def _is_private(place: Path | int) -> bool:
 
 
 def keep_source(name: str, text: str) -> Path:
-    """Return the path of a generated module, named by its text; not written without a cache."""
+    """Return the path of a generated module in a folder named by a hash of its text.
+
+    The module is written only if there is a cache.
+    """
     root = kept_in()
     file = (root or Path("generated")) / "sources" / _digest(text) / name
     if root and (not file.exists() or file.read_text(encoding="utf-8") != text):
@@ -84,7 +88,7 @@ def keep_source(name: str, text: str) -> Path:
 
 
 def _write(file: Path, content: bytes) -> None:
-    """Write a file atomically, so that no other user can write it."""
+    """Write a file atomically, with permissions for this user only."""
     # mkdir(parents=True) would apply `mode` to the last folder only
     absent = [folder for folder in file.parents if not folder.exists()]
     for folder in reversed(absent):
@@ -99,7 +103,10 @@ def _write(file: Path, content: bytes) -> None:
 
 
 def folder_of(function: Callable, root: Path | None) -> Path | None:
-    """Return the folder of a module, named by a hash of its code, imports and the compiler."""
+    """Return the cache folder of a function's module; None without a cache.
+
+    The name contains a hash of the module's text, its imports and the compiler.
+    """
     module = Path(function.__code__.co_filename).resolve()
     return root and root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
 
@@ -107,12 +114,12 @@ def folder_of(function: Callable, root: Path | None) -> Path | None:
 class KernelFiles:
     """The cache files of one function, one for each combination of argument types."""
 
-    def __init__(self, function: Callable, root: Path, ending: str):
+    def __init__(self, function: Callable, root: Path, ending: str) -> None:
         """Prepare the cache of `function`, which must not be a closure, below the folder `root`."""
         self._name, self._ending = function.__qualname__, ending
         self.folder = folder_of(function, root)
 
-    def load(self, *key) -> bytes | None:
+    def load(self, *key: Any) -> bytes | None:
         """Return the machine code saved under a `key` of argument types and processor.
 
         Returns None if there is none, or if the file is damaged or writable by others.
@@ -131,7 +138,7 @@ class KernelFiles:
     def _seal(file: Path, payload: bytes) -> bytes:
         return hashlib.sha256(file.name.encode() + payload).digest()
 
-    def save(self, payload: bytes, *key) -> None:
+    def save(self, payload: bytes, *key: Any) -> None:
         """Write machine code to the cache; if that fails, warn and continue."""
         file = self._file(key)
         try:
@@ -140,9 +147,8 @@ class KernelFiles:
             _write(file, self._seal(file, payload) + payload)
         except OSError as fault:
             warnings.warn(
-                f"compiled kernels cannot be kept in {self.folder.parent}, so that each job"
-                f" compiles its own ({fault.strerror}); name another folder by {VARIABLE}, or"
-                f" `{VARIABLE}={OFF}`",
+                f"compiled kernels cannot be saved in {self.folder.parent} ({fault.strerror}), so"
+                f" each job compiles them again; set {VARIABLE} to another folder, or to `{OFF}`",
                 stacklevel=2,
             )
 
@@ -165,7 +171,7 @@ class KernelFiles:
                     folder.rmdir()
 
 
-def _digest(*texts) -> str:
+def _digest(*texts: Any) -> str:
     return hashlib.sha256("\n".join(map(str, texts)).encode()).hexdigest()[:DIGITS]
 
 

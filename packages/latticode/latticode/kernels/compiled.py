@@ -1,20 +1,20 @@
 """Decorators that compile functions and cache their machine code.
 
 A `kernel` is compiled for numbers, arrays and named tuples, and cached on disk. It may call other
-kernels and functions that have no cache entry of their own: `uncached`, `inlined_by_numba` and
-`inlined_by_llvm`. All of them become subroutines of the kernel, and none allocates memory.
+kernels, and functions without a cache entry: `uncached`, `inlined_by_numba` and `inlined_by_llvm`.
+All of these become subroutines of the kernel, and none allocates memory.
 
-Two compilers. `inside_numba` compiles and caches kernels faster than numba does, but uses private
-parts of numba in the versions TESTED. With any other version, numba's public compiler is used.
+Two compilers. `inside_numba` compiles and caches kernels faster than numba does, but depends on
+private parts of numba. With versions of numba other than TESTED, its public compiler is used.
 
-Names. Machine code calls functions by names that contain numba's number of the function in its
-process. Two solvers from one builder, cached by two processes, can thus get the same name, and a
-third process that loads both would run one of them in place of the other (numba issue 10486).
-Functions without a cache entry therefore have a random number in their names.
+Names. numba numbers the functions of a process, and machine code calls a function by a name with
+this number. Two solvers from one builder, cached by two processes, can thus get the same name. A
+third process that loads both would run one of them instead of the other (numba issue 10486). Names
+of functions without a cache entry therefore contain a random number.
 
-Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
-*, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
-do not, so kernels take those of `numerics` (tests/test_same_bits.py).
+Bits. No kernel uses fastmath. LLVM then neither reorders nor contracts operations, and + - * / and
+sqrt give the same bits on every processor. Functions of the C library (a power, a sine) do not, so
+kernels call those of `numerics` instead (tests/test_same_bits.py).
 """
 
 import secrets
@@ -22,8 +22,10 @@ import warnings
 from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numba
+import numpy as np
 
 from . import DISABLED
 from .cache import folder_of, kept_in
@@ -35,7 +37,7 @@ TESTED = tuple(f"0.{minor}" for minor in range(61, 69))
 """Versions of numba with which `inside_numba` was tested."""
 
 
-def _with_numba_alone(function: Callable, root: Path | None, **options) -> Callable:
+def _with_numba_alone(function: Callable, root: Path | None, **options: Any) -> Callable:
     """Return the function compiled and cached by numba itself.
 
     The cache folder is named by a hash of the module and its imports, because numba does not notice
@@ -53,8 +55,8 @@ if version("numba").rpartition(".")[0] in TESTED:
 else:
     make_kernel = _with_numba_alone
     warnings.warn(
-        f"numba {version('numba')} compiles kernels in its own way, which takes twice as long and"
-        f" gives the same numbers; the faster way was tested with numba {', '.join(TESTED)}",
+        f"kernels take twice as long to compile with numba {version('numba')}; results are the"
+        f" same. The faster compiler was tested with numba {', '.join(TESTED)}",
         stacklevel=2,
     )
 
@@ -67,30 +69,30 @@ def kernel(function: Callable) -> Callable:
 def uncached(function: Callable) -> Callable:
     """Return a compiled closure, such as a solver built around its rates.
 
-    It is cached with the kernel that calls it, because its text does not identify a closure.
+    It is cached with the kernel that calls it, because the text of a closure does not identify it.
     """
     return _compiled(function)
 
 
 def inlined_by_numba(function: Callable) -> Callable:
-    """Return a function inlined before compilation: its only caller need not compile it twice."""
+    """Return a function that numba inlines into its only caller, which saves one compilation."""
     return _compiled(function, inline="always")
 
 
 def inlined_by_llvm(function: Callable) -> Callable:
-    """Return a function inlined after compilation: a call would spill vectors into memory."""
+    """Return a function that LLVM inlines, because a call would move vectors to memory."""
     return _compiled(function, forceinline=True)
 
 
-def _compiled(function: Callable, root: Path | None = None, **options) -> Callable:
+def _compiled(function: Callable, root: Path | None = None, **options: Any) -> Callable:
     if not root:
         function.__qualname__ += f"_{secrets.token_hex(8)}"
     return make_kernel(function, root, **options)
 
 
 @kernel
-def copy(source, target) -> None:
-    """Copy a state (row, column); array expressions would take longer to compile."""
+def copy(source: np.ndarray, target: np.ndarray) -> None:
+    """Copy a state (row, column); an array expression would take longer to compile."""
     for row in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[row, j] = source[row, j]

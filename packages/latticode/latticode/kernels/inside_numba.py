@@ -6,7 +6,7 @@ short chains take up to twice as long.
 
 Why a kernel is optimised as one unit. numba optimises each function together with all functions
 that it calls, and generates machine code for it. An inner function is thus optimised again in each
-of its callers, although only the machine code of the outermost function is ever executed. Here, a
+of its callers, although only the machine code of the outermost function is executed. Here, a
 function called by a kernel is a subroutine: it is compiled to linkable code only, and the kernel is
 optimised once, together with all its subroutines. This takes half the time.
 
@@ -18,22 +18,24 @@ Why numba's own cache is not used. It identifies a function by the path and time
 file. A copied project compiles everything again, and two processes that compile one function for
 different argument types may write to the same file. `cache` stores the code instead.
 
-What this rests upon, all of it private to numba:
-- a dispatcher tells callers its types in `get_call_template` and the key of its code in
-  `get_overload`, keeps a result in `add_overload`, and asks its `_cache` for
-  `load_overload`, `save_overload` and `cache_path`;
-- a `CodeLibrary` optimises in `_optimize_final_module`, makes machine code in
-  `_finalize_final_module`, and `_reduce` and `_rebuild` turn a result into bytes and back;
-- the flag `no_compile` asks for no machine code, and `_nrt` switches the counting of references;
+This module uses these private parts of numba:
+- of a dispatcher: `get_call_template` returns the types to callers, `get_overload` the key of the
+  code, and `add_overload` registers a result; `load_overload`, `save_overload` and `cache_path` are
+  called on its `_cache`;
+- of a `CodeLibrary`: `_optimize_final_module` optimises and `_finalize_final_module` generates
+  machine code;
+- of a result: `_reduce` and `_rebuild` convert it to an object that can be pickled, and back;
+- the flag `no_compile` switches off machine code, and `_nrt` the counting of references.
 
-When numba is upgraded, tests/kernels/test_inside_numba.py fails until its version stands in
-`compiled.TESTED`. Put it there, run that module and tests/test_same_bits.py, and mend what breaks.
+After an upgrade of numba, tests/kernels/test_inside_numba.py fails until `compiled.TESTED` contains
+the new version. Add it, run that module and tests/test_same_bits.py, and repair what fails.
 """
 
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from llvmlite import binding
 from numba import types
@@ -51,10 +53,10 @@ OPTIONS = {
     "no_cfunc_wrapper": True,  # no C code calls a kernel
     "_nrt": False,
 }
-"""What all compiled functions share. No function of another kind may call one that returns an
-array: it would count a reference down that was never counted up."""
+"""Options of all compiled functions. A function with other options must not call one that returns
+an array: it would decrement a reference count that was never incremented."""
 UNCALLED = {"no_cpython_wrapper": True}
-"""Leaves out the code by which Python would call a function."""
+"""Omits the code with which Python would call a function."""
 
 
 class SubroutineLibrary(JITCodeLibrary):
@@ -73,7 +75,7 @@ class SubroutineLibrary(JITCodeLibrary):
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod
-    def of(cls, codegen, code: bytes) -> "SubroutineLibrary":
+    def of(cls, codegen: Any, code: bytes) -> "SubroutineLibrary":
         """Return the library restored from cached `code`."""
         library = cls(codegen, "part")
         library._final_module = binding.parse_bitcode(code)
@@ -84,7 +86,7 @@ class SubroutineLibrary(JITCodeLibrary):
 class SubroutineCompiler(Compiler):
     """numba's compiler without its last stage: it stops at linkable code."""
 
-    def __init__(self, typing_context, target_context, library, *more):
+    def __init__(self, typing_context: Any, target_context: Any, library: Any, *more: Any) -> None:
         library = library or SubroutineLibrary(target_context.codegen(), "part")
         super().__init__(typing_context, target_context, library, *more)
         self.state.flags.no_compile = True
@@ -95,7 +97,7 @@ class KernelCache:
 
     ENDING = ".kernel"
 
-    def __init__(self, function: Callable, root: Path):
+    def __init__(self, function: Callable, root: Path) -> None:
         self._files = KernelFiles(function, root, self.ENDING)
 
     @property
@@ -103,7 +105,7 @@ class KernelCache:
         """The cache folder of the function's module."""
         return str(self._files.folder)
 
-    def load_overload(self, signature, target_context) -> CompileResult | None:
+    def load_overload(self, signature: Any, target_context: Any) -> CompileResult | None:
         """Return the cached result for a signature, or None if there is none."""
         target_context.refresh()
         magic = target_context.codegen().magic_tuple()
@@ -114,21 +116,21 @@ class KernelCache:
             return None
 
     @staticmethod
-    def restore(target_context, cached: bytes) -> CompileResult:
+    def restore(target_context: Any, cached: bytes) -> CompileResult:
         """Return the result that `save_overload` cached."""
         return CompileResult._rebuild(target_context, *pickle.loads(cached))
 
-    def save_overload(self, signature, data: CompileResult) -> None:
-        """Cache a result, unless it contains addresses of this process, such as a large array's."""
+    def save_overload(self, signature: Any, data: CompileResult) -> None:
+        """Cache a result, unless it contains addresses of this process, e.g. of a large array."""
         if not data.library.has_dynamic_globals:
             key = (signature, *_named_tuples(signature), data.codegen.magic_tuple())
             self._files.save(dumps(data._reduce()), *key)
 
 
-def _named_tuples(kinds) -> list[str]:
-    """Return the modules and field names of all named tuples among types, nested ones included.
+def _named_tuples(kinds: Iterable[types.Type]) -> list[str]:
+    """Return the modules and field names of all named tuples among the types, also nested ones.
 
-    numba's names of types omit them: two tuples of one name with the fields (x, y) and (y, x) would
+    numba's type names omit them: tuples of the same name with the fields (x, y) and (y, x) would
     share code.
     """
     names = []
@@ -148,7 +150,7 @@ class SubroutineCache(KernelCache):
     ENDING = ".part"
 
     @staticmethod
-    def restore(target_context, cached: bytes) -> CompileResult:
+    def restore(target_context: Any, cached: bytes) -> CompileResult:
         code, descriptor, environment, signature, *_ = pickle.loads(cached)
         return CompileResult(
             typing_context=target_context.typing_context,
@@ -170,10 +172,10 @@ class SubroutineCache(KernelCache):
 
 
 class CachedFunction(CPUDispatcher):
-    """A compiled function whose code may be cached in a folder, by the class `CACHE`."""
+    """A compiled function that may have a cache of the class `CACHE` below the folder `root`."""
 
     CACHE = KernelCache
-    root = None
+    root: Path | None = None
 
     def keep_in(self, root: Path) -> None:
         """Load code from the cache below the folder `root`, and save new code there."""
@@ -185,11 +187,11 @@ class Subroutine(CachedFunction):
 
     CACHE = SubroutineCache
 
-    def __init__(self, function: Callable, locals=None, options=None):
+    def __init__(self, function: Callable, locals: dict, options: dict) -> None:
         super().__init__(function, locals, {**options, **UNCALLED}, SubroutineCompiler)
 
     def add_overload(self, cres: CompileResult) -> None:
-        """Register the code under its own key, because it has no address."""
+        """Register the code under a new object instead of its address, since it has none."""
         cres = cres._replace(entry_point=object())
         self.targetctx.insert_user_function(cres.entry_point, cres.fndesc, [cres.library])
         self.overloads[tuple(cres.signature.args)] = cres
@@ -200,20 +202,21 @@ class Kernel(CachedFunction):
 
     @cached_property
     def subroutine(self) -> Subroutine:
+        """The same function, compiled for callers that are kernels."""
         subroutine = Subroutine(self.py_func, {}, self.targetoptions)
         if self.root:
             subroutine.keep_in(self.root)
         return subroutine
 
-    def get_call_template(self, args, kws):
-        """Use one subroutine for all argument values; numba would compile one per constant."""
+    def get_call_template(self, args: Iterable[types.Type], kws: dict) -> tuple:
+        """Use one subroutine for all values of constants; numba would compile one for each."""
         return self.subroutine.get_call_template([*map(types.unliteral, args)], kws)
 
-    def get_overload(self, sig):
+    def get_overload(self, sig: Any) -> Any:
         return self.subroutine.get_overload(sig)
 
 
-def make_kernel(function: Callable, root: Path | None = None, **options) -> Kernel:
+def make_kernel(function: Callable, root: Path | None = None, **options: Any) -> Kernel:
     """Return the compiled function; its code is cached below the folder `root`, if given."""
     kernel = Kernel(function, {}, {**OPTIONS, **options})
     if root:

@@ -1,49 +1,50 @@
-"""Vectors of eight doubles in compiled code: one value that holds eight neighbouring sites.
+"""Vectors of eight doubles in compiled code: each holds the numbers of eight neighbouring sites.
 
-What there is. A `Vector` is eight doubles in a vector register, its lanes, numbered 0 to 7.
-`load` and `store` move one between a register and eight neighbouring numbers of an array, `fill`
-repeats one number, + - * / and unary - work lane by lane. `left_neighbours` and `right_neighbours`
-shift lanes, so that each site sees the one beside it. `keep_lanes` replaces the lanes behind the
-last site, `zero_below` those with tiny numbers, `larger_magnitude` and `largest_lane` find the
-largest absolute value. A `VectorView` is a state (row, column) seen a vector at a time: `y[row, j]`
-of the view reads or writes the vector that begins at column j. A formula that is written once for
-`y[row, j]` therefore serves for one site, if it is given the array, and for a vector of sites, if
-it is given the view.
+Operations. A `Vector` is eight doubles in a vector register. These are its lanes, numbered 0 to 7.
+`load` and `store` move a vector between a register and an array, and `fill` repeats one number.
++ - * / and unary - work lane by lane. `left_neighbours` and `right_neighbours` shift lanes, so that
+each site gets its neighbour's number. `keep_lanes` replaces the lanes after the last site,
+`zero_below` replaces tiny numbers, and `larger_magnitude` and `largest_lane` find the largest
+absolute value. A `VectorView` gives access to a state (row, column) by vectors: `view[row, j]`
+reads or writes the vector that begins at column j. A formula in `y[row, j]` is thus written once:
+it computes one site if `y` is the array, and eight sites if `y` is the view.
 
-Why eight. A processor with AVX-512 takes eight doubles in one instruction. For one with AVX2, LLVM
-makes two instructions that do not wait for each other: they gain a little on long rows, and lose a
-little on rows that fill few vectors.
+Why eight. A processor with AVX-512 operates on eight doubles in one instruction. For AVX2, LLVM
+generates two independent instructions. These gain a little speed on long rows, and lose a little on
+rows of few vectors.
 
-Why not LLVM's auto-vectoriser. It vectorises a loop over sites only where it can prove that no
-array overlaps another; it keeps the partial sums of a nested loop (a Cauchy product over the orders
-of a power series) in memory instead of registers; and it leaves the remainder of a row, up to
-fifteen sites, to a scalar loop, which is half of the paper's half chain. A kernel that is written
-with vectors says what is meant, and its speed does not depend on what a compiler proves.
+Why not LLVM's auto-vectoriser. It vectorises a loop over sites only if it can prove that arrays do
+not overlap. It keeps the partial sums of a nested loop, such as a Cauchy product over orders of a
+power series, in memory instead of registers. It computes up to fifteen sites at the end of a row
+one by one, half of the paper's half chain. The speed of a kernel written with vectors does not
+depend on what the compiler can prove.
 
-What is promised of bits. Each lane does the IEEE operations of one site, in the order in which
-they are written: no operation carries a fast-math flag, so LLVM neither reorders nor contracts
-them to fused multiply-adds. One site alone, eight at a time, and any processor give the same bits.
-Where the processor has shorter vectors, LLVM splits each operation into several.
+Bits. Each lane executes the IEEE operations of one site in the order written. No operation has a
+fast-math flag, so LLVM neither reorders them nor contracts them to fused multiply-adds. Results
+have the same bits with one site or eight at a time, and on any processor. For a processor with
+shorter vectors, LLVM splits each operation into several.
 
-Why magnitudes are compared as integers. Read as an integer, the bits of a double without their
-sign are in the order of the numbers, and NaN comes after infinity. A maximum taken that way never
-loses a NaN, as one of floating-point numbers may, and it may be reordered and so vectorised.
+Why magnitudes are compared as integers. Without their sign bits, doubles read as integers are in
+the order of their values, and NaN comes after infinity. A maximum of such integers never loses a
+NaN, as a floating-point maximum may. LLVM may reorder and thus vectorise it.
 
-What it rests upon: `numba.extending`, `numba.types`, and of `numba.core.cgutils` what the guide to
-extending numba uses. Besides, arrays must be contiguous with the last index fastest, and nothing
-checks bounds. `llvmlite.ir` is public, but it follows LLVM: `bitcast` to a typed pointer before a
-load or a store is a habit of LLVM before opaque pointers. After an upgrade of numba the tests in
-tests/kernels/test_simd.py name the operation that broke, and tests/test_same_bits.py finds a
-changed order of operations.
+Dependencies: `numba.extending`, `numba.types`, and the functions of `numba.core.cgutils` that
+numba's guide to extensions uses. Arrays must be contiguous with the last index fastest, and bounds
+are not checked. `llvmlite.ir` is public but follows LLVM: the `bitcast` to a typed pointer before
+each load or store was needed before LLVM had opaque pointers. If an upgrade of numba breaks an
+operation, tests/kernels/test_simd.py names it. tests/test_same_bits.py detects a changed order of
+operations.
 """
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core.typing import Signature
 from numba.extending import (
     intrinsic,
     lower_builtin,
@@ -62,17 +63,21 @@ VECTOR = ir.VectorType(ir.DoubleType(), LANES)
 INT64 = ir.IntType(64)
 BITS = ir.VectorType(INT64, LANES)
 LANE = ir.IntType(32)
+Type, Value, Builder = types.Type, ir.Value, ir.IRBuilder
+Values = Sequence[Value]
+Generated = tuple[Signature, Callable]
+"""A signature, and the function that generates the code."""
 MAGNITUDE = 0x7FFF_FFFF_FFFF_FFFF
-"""All bits of a double but for its sign."""
+"""All bits of a double except its sign."""
 
 
-# --- The type, and what passes between registers and arrays -------------------------------------
+# --- The type; moves between registers and arrays -----------------------------------------------
 
 
 class Vector(types.Type):
-    """The type of eight doubles. They live in registers only: there are no arrays of them."""
+    """The type of eight doubles in a register; there are no arrays of vectors."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("Vector")
 
 
@@ -81,42 +86,44 @@ vector = Vector()
 
 @register_model(Vector)
 class VectorModel(models.PrimitiveModel):
-    def __init__(self, manager, fe_type):
+    def __init__(self, manager: Any, fe_type: Type) -> None:
         super().__init__(manager, fe_type, VECTOR)
 
 
-def constant(kind, values) -> ir.Constant:
+def constant(kind: ir.Type, values: Iterable) -> ir.Constant:
     return ir.Constant(ir.VectorType(kind, LANES), list(values))
 
 
-def address_in_array(context, builder, array_type, array, index) -> ir.Value:
+def address_in_array(
+    context: Any, builder: Builder, array_type: Type, array: Value, index: Value
+) -> Value:
     """Return the address of the vector that starts at the flat `index` of an array."""
     data = cgutils.create_struct_proxy(array_type)(context, builder, array).data
     return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
 
 
-def repeat(builder, number) -> ir.Value:
-    """Return the vector that holds a number, or a whole number, in all lanes."""
+def repeat(builder: Builder, number: Value) -> Value:
+    """Return a vector with a double or an integer in all lanes."""
     nothing = ir.Constant(ir.VectorType(number.type, LANES), ir.Undefined)
     first_lane = builder.insert_element(nothing, number, LANE(0))
     return builder.shuffle_vector(first_lane, nothing, constant(LANE, [0] * LANES))
 
 
 @intrinsic
-def fill(typing_context, number) -> tuple:
-    """Return the number in all lanes."""
+def fill(typing_context: Any, number: Type) -> Generated:
+    """Return a vector with the number in all lanes."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         return repeat(builder, arguments[0])
 
     return vector(types.float64), generate
 
 
 @intrinsic
-def load(typing_context, array, index) -> tuple:
-    """Return LANES numbers of a contiguous array from the flat `index` on; nothing is checked."""
+def load(typing_context: Any, array: Type, index: Type) -> Generated:
+    """Return the vector at the flat `index` of a contiguous array; bounds are not checked."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         place = address_in_array(context, builder, signature.args[0], *arguments)
         return builder.load(place, align=8)
 
@@ -124,10 +131,10 @@ def load(typing_context, array, index) -> tuple:
 
 
 @intrinsic
-def store(typing_context, array, index, value) -> tuple:
-    """Write LANES numbers into a contiguous array from the flat `index` on; nothing is checked."""
+def store(typing_context: Any, array: Type, index: Type, value: Type) -> Generated:
+    """Write a vector at the flat `index` of a contiguous array; bounds are not checked."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         array, index, value = arguments
         place = address_in_array(context, builder, signature.args[0], array, index)
         builder.store(value, place, align=8)
@@ -139,27 +146,33 @@ def store(typing_context, array, index, value) -> tuple:
 # --- Arithmetic, lane by lane -------------------------------------------------------------------
 
 
-def define_operator(symbol, instruction) -> None:
-    """Define an operator of two vectors, or of a vector and a number, by an instruction of LLVM."""
+def define_operator(symbol: Callable, instruction: str) -> None:
+    """Define an operator on two vectors, or on a vector and a number, by an LLVM instruction."""
 
     @type_callable(symbol)
-    def type_of_result(context):
-        def typed(first, second):
+    def type_of_result(context: Any) -> Callable:
+        def typed(first: Type, second: Type) -> Type | None:
             known = {first, second} <= {vector, types.float64} and vector in (first, second)
             return vector if known else None
 
         return typed
 
     @lower_builtin(symbol, vector, vector)
-    def of_vectors(context, builder, signature, arguments):
+    def of_vectors(
+        context: Any, builder: Builder, signature: Signature, arguments: Values
+    ) -> Value:
         return getattr(builder, instruction)(*arguments)
 
     @lower_builtin(symbol, types.float64, vector)
-    def of_number_and_vector(context, builder, signature, arguments):
+    def of_number_and_vector(
+        context: Any, builder: Builder, signature: Signature, arguments: Values
+    ) -> Value:
         return getattr(builder, instruction)(repeat(builder, arguments[0]), arguments[1])
 
     @lower_builtin(symbol, vector, types.float64)
-    def of_vector_and_number(context, builder, signature, arguments):
+    def of_vector_and_number(
+        context: Any, builder: Builder, signature: Signature, arguments: Values
+    ) -> Value:
         return getattr(builder, instruction)(arguments[0], repeat(builder, arguments[1]))
 
 
@@ -170,30 +183,33 @@ define_operator(operator.truediv, "fdiv")
 
 
 @type_callable(operator.neg)
-def type_of_negative(context) -> Callable:
+def type_of_negative(context: Any) -> Callable:
     return lambda value: vector if value == vector else None
 
 
 @lower_builtin(operator.neg, vector)
-def negate(context, builder, signature, arguments) -> ir.Value:
+def negate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
     return builder.fneg(arguments[0])
 
 
-def of_either(generated) -> Callable:
-    """Return a function of a vector or of one number, lane by lane, by instructions of LLVM.
+def of_either(generated: Callable) -> Callable:
+    """Return a compiled function of one vector or one number, defined by LLVM instructions.
 
-    generated(builder, value, wide) writes them, where wide(one) is a constant of as many lanes.
+    generated(builder, value, wide) writes the instructions; wide(number) is a constant with as many
+    lanes as `value`.
     """
 
     @intrinsic
-    def function(typing_context, value):
+    def function(typing_context: Any, value: Type) -> Generated | None:
         if value not in (vector, types.float64):
             return None
 
-        def generate(context, builder, signature, arguments):
+        def generate(
+            context: Any, builder: Builder, signature: Signature, arguments: Values
+        ) -> Value:
             lanes = signature.args[0] == vector
 
-            def wide(value):
+            def wide(value: ir.Constant) -> ir.Constant:
                 return constant(value.type, [value.constant] * LANES) if lanes else value
 
             return generated(builder, arguments[0], wide)
@@ -203,8 +219,8 @@ def of_either(generated) -> Callable:
     return function
 
 
-def call_llvm(builder, name, value) -> ir.Value:
-    """Return a function of LLVM of a vector or of one number."""
+def call_llvm(builder: Builder, name: str, value: Value) -> Value:
+    """Return the value of an LLVM function of a vector or a number."""
     suffix = "v8f64" if value.type == VECTOR else "f64"
     kind = ir.FunctionType(value.type, [value.type])
     function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.{suffix}")
@@ -212,14 +228,14 @@ def call_llvm(builder, name, value) -> ir.Value:
 
 
 @of_either
-def square_root(builder, value, wide) -> ir.Value:
-    """Return the square root, which is rounded alike everywhere; NaN below zero."""
+def square_root(builder: Builder, value: Value, wide: Callable) -> Value:
+    """Return the correctly rounded square root; NaN below zero."""
     return call_llvm(builder, "sqrt", value)
 
 
 @of_either
-def power_of_two(builder, value, wide) -> ir.Value:
-    """Return 2^k of a whole number k, as if k were within -1022..1023."""
+def power_of_two(builder: Builder, value: Value, wide: Callable) -> Value:
+    """Return 2^k for an integer k, which is clipped to -1022..1023."""
     double = ir.DoubleType()
     for limit, compare in ((double(1023.0), ">"), (double(-1022.0), "<")):
         beyond = builder.fcmp_ordered(compare, value, wide(limit))
@@ -231,8 +247,8 @@ def power_of_two(builder, value, wide) -> ir.Value:
 
 
 @of_either
-def whole_exponent(builder, value, wide) -> ir.Value:
-    """Return the k of x = m 2^k with m from sqrt(1/2) to sqrt(2), for normal x > 0."""
+def whole_exponent(builder: Builder, value: Value, wide: Callable) -> Value:
+    """Return the integer k of x = m 2^k with sqrt(1/2) <= m < sqrt(2), for normal x > 0."""
     integer_type = BITS if value.type == VECTOR else INT64
     bits = builder.bitcast(value, integer_type)
     moved = builder.sub(bits, wide(INT64(0x3FE6_A09E_667F_3BCD)))
@@ -241,17 +257,19 @@ def whole_exponent(builder, value, wide) -> ir.Value:
 
 
 @intrinsic
-def select_positive(typing_context, condition, if_positive, otherwise) -> tuple:
-    """Return `if_positive` where the condition is positive, `otherwise` elsewhere, by lane.
+def select_positive(
+    typing_context: Any, condition: Type, if_positive: Type, otherwise: Type
+) -> Generated:
+    """Return in each lane `if_positive` where the condition is positive, else `otherwise`.
 
-    Each is a vector or a number; the result is a vector where one of them is.
+    Each argument is a vector or a number; the result is a number only if all of them are numbers.
     """
     arguments = condition, if_positive, otherwise
     if not {*arguments} <= {vector, types.float64}:
         return None
     kind = vector if vector in arguments else types.float64
 
-    def generate(context, builder, signature, values):
+    def generate(context: Any, builder: Builder, signature: Signature, values: Values) -> Value:
         typed = zip(signature.args, values, strict=True)
         if kind == vector:
             values = [value if of == vector else repeat(builder, value) for of, value in typed]
@@ -265,19 +283,19 @@ def select_positive(typing_context, condition, if_positive, otherwise) -> tuple:
 # --- Numbers too small to compute with ----------------------------------------------------------
 
 TINY = 1e-150
-"""Down to this size the square of a number is a normal double. Smaller factors count as zero."""
+"""Squares of numbers of at least this size are normal doubles. Smaller factors count as zero."""
 
 
 @intrinsic
-def zero_below(typing_context, level, value) -> tuple:
-    """Return a number, or a vector lane by lane, with zero where its size is below `level`.
+def zero_below(typing_context: Any, level: Type, value: Type) -> Generated:
+    """Return a number or vector with zero where its absolute value is below `level`.
 
-    NaN stays.
+    NaN stays NaN.
     """
     if value not in (vector, types.float64):
         return None
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         level, value = arguments
         size = call_llvm(builder, "fabs", value)
         if value.type == VECTOR:
@@ -288,15 +306,17 @@ def zero_below(typing_context, level, value) -> tuple:
     return value(types.float64, value), generate
 
 
-# --- What passes between the lanes --------------------------------------------------------------
+# --- Moves between lanes ------------------------------------------------------------------------
 
 
-def define_shift(first) -> Callable:
-    """Return the function that takes LANES lanes in a row, from `first` on, of two vectors."""
+def define_shift(first: int) -> Callable:
+    """Return a compiled function that joins two vectors and returns LANES lanes from `first` on."""
 
     @intrinsic
-    def shift(typing_context, value, neighbour):
-        def generate(context, builder, signature, arguments):
+    def shift(typing_context: Any, value: Type, neighbour: Type) -> Generated:
+        def generate(
+            context: Any, builder: Builder, signature: Signature, arguments: Values
+        ) -> Value:
             return builder.shuffle_vector(*arguments, constant(LANE, range(first, first + LANES)))
 
         return vector(value, neighbour), generate
@@ -307,14 +327,14 @@ def define_shift(first) -> Callable:
 right_neighbours = define_shift(1)
 """Given a block of sites and the next block, return each site's right neighbour."""
 left_neighbours = define_shift(LANES - 1)
-"""Given the block before and a block of sites, return each site's left neighbour."""
+"""Given the previous block and a block of sites, return each site's left neighbour."""
 
 
 @intrinsic
-def keep_lanes(typing_context, value, count, replacement) -> tuple:
-    """Return the first `count` lanes of a vector, and the number `replacement` in the rest."""
+def keep_lanes(typing_context: Any, value: Type, count: Type, replacement: Type) -> Generated:
+    """Return a vector with the number `replacement` in all lanes from `count` on."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         value, count, replacement = arguments
         inside = builder.icmp_signed("<", constant(INT64, range(LANES)), repeat(builder, count))
         return builder.select(inside, value, repeat(builder, replacement))
@@ -325,20 +345,20 @@ def keep_lanes(typing_context, value, count, replacement) -> tuple:
 # --- The largest absolute value -----------------------------------------------------------------
 
 
-def magnitudes(builder, value) -> ir.Value:
-    """Return the bits of a vector of doubles without their signs."""
+def magnitudes(builder: Builder, value: Value) -> Value:
+    """Return the bits of a vector of doubles without their signs, as integers."""
     return builder.and_(builder.bitcast(value, BITS), constant(INT64, [MAGNITUDE] * LANES))
 
 
-def larger_bits(builder, a, b) -> ir.Value:
+def larger_bits(builder: Builder, a: Value, b: Value) -> Value:
     return builder.select(builder.icmp_signed(">", a, b), a, b)
 
 
 @intrinsic
-def larger_magnitude(typing_context, first, second) -> tuple:
+def larger_magnitude(typing_context: Any, first: Type, second: Type) -> Generated:
     """Return in each lane the larger of two absolute values; NaN is larger than infinity."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         bits = larger_bits(builder, *(magnitudes(builder, value) for value in arguments))
         return builder.bitcast(bits, VECTOR)
 
@@ -346,10 +366,10 @@ def larger_magnitude(typing_context, first, second) -> tuple:
 
 
 @intrinsic
-def largest_lane(typing_context, value) -> tuple:
+def largest_lane(typing_context: Any, value: Type) -> Generated:
     """Return the largest absolute value among the lanes; NaN is larger than infinity."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         bits = magnitudes(builder, arguments[0])
         lanes = [builder.extract_element(bits, LANE(lane)) for lane in range(LANES)]
         while len(lanes) > 1:
@@ -360,11 +380,11 @@ def largest_lane(typing_context, value) -> tuple:
 
 
 @kernel
-def largest_magnitude(values) -> float:
-    """Return the largest absolute value of an array; NaN is larger than infinity.
+def largest_magnitude(values: np.ndarray) -> float:
+    """Return the largest absolute value of a contiguous array; NaN is larger than infinity.
 
-    LLVM vectorises this loop by itself, since integer comparisons may be reordered. `values` is
-    contiguous scratch space: its first element is overwritten, to turn bits into a number again.
+    The first element is overwritten. LLVM vectorises this loop, because integer comparisons may be
+    reordered.
     """
     bits = values.view(np.int64)
     top = np.int64(0)
@@ -375,10 +395,10 @@ def largest_magnitude(values) -> float:
 
 
 @kernel
-def largest_in_rows(scratch, rows) -> float:
-    """Return the largest absolute value in the first `rows` rows of a state, but for its ghosts.
+def largest_in_rows(scratch: np.ndarray, rows: int) -> float:
+    """Return the largest absolute value in the first rows of a state, without ghost columns.
 
-    The ghost columns of those rows are set to zero, and the first element is overwritten.
+    The ghost columns are set to zero, and the first element is overwritten.
     """
     columns = scratch.shape[1]
     for row in range(rows):
@@ -386,15 +406,15 @@ def largest_in_rows(scratch, rows) -> float:
     return largest_magnitude(scratch.reshape(-1)[: rows * columns])
 
 
-# --- A state seen a vector at a time ------------------------------------------------------------
+# --- Access to a state by vectors ---------------------------------------------------------------
 
 INDEX = types.UniTuple(types.intp, 2)
 
 
 class VectorView(types.Type):
-    """The type of a view: an address and a shape. It does not keep the state alive."""
+    """The type of a view: an address and a shape, without a reference to the array."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("VectorView")
 
 
@@ -403,12 +423,12 @@ view_type = VectorView()
 
 @register_model(VectorView)
 class VectorViewModel(models.StructModel):
-    def __init__(self, manager, fe_type):
+    def __init__(self, manager: Any, fe_type: Type) -> None:
         members = [("data", types.CPointer(types.float64)), ("shape", INDEX)]
         super().__init__(manager, fe_type, members)
 
 
-def view_of(context, builder, array_type, state) -> ir.Value:
+def view_of(context: Any, builder: Builder, array_type: Type, state: Value) -> Value:
     array = cgutils.create_struct_proxy(array_type)(context, builder, state)
     view = cgutils.create_struct_proxy(view_type)(context, builder)
     view.data, view.shape = array.data, array.shape
@@ -416,10 +436,10 @@ def view_of(context, builder, array_type, state) -> ir.Value:
 
 
 @intrinsic
-def vector_views(typing_context, states) -> tuple:
-    """Return views of a tuple of contiguous (row, column) states; nothing is checked on access."""
+def vector_views(typing_context: Any, states: Type) -> Generated:
+    """Return views of a tuple of contiguous (row, column) states; they do not check bounds."""
 
-    def generate(context, builder, signature, arguments):
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         values = cgutils.unpack_tuple(builder, arguments[0])
         pairs = zip(signature.args[0], values, strict=True)
         views = [view_of(context, builder, array_type, state) for array_type, state in pairs]
@@ -429,31 +449,31 @@ def vector_views(typing_context, states) -> tuple:
 
 
 @intrinsic
-def shape_of(typing_context, view) -> tuple:
-    def generate(context, builder, signature, arguments):
+def shape_of(typing_context: Any, view: Type) -> Generated:
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
         return cgutils.create_struct_proxy(view_type)(context, builder, arguments[0]).shape
 
     return INDEX(view), generate
 
 
 @overload_attribute(VectorView, "shape")
-def shape(view) -> Callable:
-    """Let `view.shape` be the shape of the state."""
+def shape(view) -> Callable:  # numba compares this signature with that of the lambda
+    """Define `view.shape` as the shape of the state."""
     return lambda view: shape_of(view)
 
 
 @type_callable(operator.getitem)
-def type_of_read(context) -> Callable:
+def type_of_read(context: Any) -> Callable:
     return lambda view, index: vector if view == view_type else None
 
 
 @type_callable(operator.setitem)
-def type_of_write(context) -> Callable:
+def type_of_write(context: Any) -> Callable:
     return lambda view, index, value: types.void if view == view_type else None
 
 
-def address_in_view(context, builder, view, index) -> ir.Value:
-    """Return the address of the vector that starts at (row, column) of a view."""
+def address_in_view(context: Any, builder: Builder, view: Value, index: Value) -> Value:
+    """Return the address of the vector that starts at `index`, (row, column), of a view."""
     view = cgutils.create_struct_proxy(view_type)(context, builder, view)
     row, column = (builder.extract_value(index, i) for i in range(2))
     columns = builder.extract_value(view.shape, 1)
@@ -462,12 +482,12 @@ def address_in_view(context, builder, view, index) -> ir.Value:
 
 
 @lower_builtin(operator.getitem, VectorView, types.UniTuple)
-def read_vector(context, builder, signature, arguments) -> ir.Value:
+def read_vector(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
     return builder.load(address_in_view(context, builder, *arguments), align=8)
 
 
 @lower_builtin(operator.setitem, VectorView, types.UniTuple, Vector)
-def write_vector(context, builder, signature, arguments) -> ir.Value:
+def write_vector(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
     view, index, value = arguments
     builder.store(value, address_in_view(context, builder, view, index), align=8)
     return context.get_dummy_value()

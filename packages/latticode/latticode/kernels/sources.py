@@ -15,17 +15,17 @@ from operator import attrgetter
 from pathlib import Path
 
 ROOTS: dict[str, Path] = {"latticode": Path(__file__).resolve().parents[2]}
-"""The folder of each package whose code is followed. A program that calls the library adds its own:
-imports of other packages are not followed, wherever they lie."""
+"""Parent folders of the packages whose imports are followed. A program that uses the library adds
+its own packages."""
 
 _LIST = r"(?:\([\w\s,]*\)|[\w.]+(?:[ ]as[ ]\w+)?(?:,[ ][\w.]+(?:[ ]as[ ]\w+)?)*)"
 _IMPORT = re.compile(rf"\n[ ]*((?:from[ ][\w.]+[ ])?import[ ]{_LIST})[ ]*(?:[#][^\n]*)?$", re.M)
 _WORD = re.compile(r"import\b")
-_PATH_KEY = attrgetter("parts")  # tuples compare five times as fast as paths, and in the same order
+_PATH_KEY = attrgetter("parts")  # sorts like the paths themselves, five times as fast
 
 
 def modules_of(*files: Path) -> list[Path]:
-    """Return the files and all modules below ROOTS that they import, directly or indirectly."""
+    """Return the files and all modules of ROOTS that they import, directly or indirectly."""
     modules, waiting = set(), list(files)
     while waiting:
         module = waiting.pop()
@@ -38,9 +38,9 @@ def modules_of(*files: Path) -> list[Path]:
 def attached_to(modules: list[Path]) -> list[Path]:
     """Return the data files, such as templates, in the folders of `modules`.
 
-    A file named after a module in its folder (section.html.j2, section.py) counts only with this
-    module, so that computations do not depend on the layout of a page. Any other file counts with
-    its package. A subpackage counts only if it is among `modules` itself.
+    A file named after a module in its folder (section.html.j2, section.py) is returned only if that
+    module is among `modules`: a computation must not depend on the layout of a page. Any other file
+    is returned with its package, and files of a subpackage only if `modules` contains it.
     """
     packages = [module.parent for module in modules if module.name == "__init__.py"]
     owners = {None, *modules}
@@ -92,8 +92,8 @@ _EMPTY = re.compile(r"\n\s*\n")
 def digest_of_code(*files: Path) -> str:
     """Return one hash of all code that these files execute, without comments and docstrings.
 
-    It covers the files, all modules that they import, the data files of these modules, and the
-    versions of PACKAGES.
+    It covers the files, all modules that they import, their data files, and the versions of
+    PACKAGES.
     """
     modules = modules_of(*files)
     module_digests = [f"{_digest_of_bare(path)} {path.name}" for path in modules]
@@ -116,7 +116,8 @@ def _digest_of_bare(module: Path) -> str:
 def strip_comments(text: str) -> str:
     """Return a module's text without comments, docstrings and empty lines.
 
-    Python's parser would take 0.5 s for all modules at every start of a workflow.
+    It searches by a regular expression: parsing all modules would take 0.5 s at every start of a
+    workflow.
     """
     without = _NO_CODE.sub(lambda match: "" if match.lastgroup else match[0], text)
     return _EMPTY.sub("\n", f"\n{without}\n")
@@ -149,7 +150,8 @@ def _packages_of(file: Path) -> tuple[str, ...]:
 def _tree_of(text: str) -> ast.AST:
     """Return a syntax tree with all imports of a module.
 
-    Only lines with imports are parsed (ten times faster), unless the word occurs elsewhere too.
+    Only the import statements are parsed, which is ten times faster. If the word `import` also
+    occurs elsewhere, the whole text is parsed.
     """
     imports = _IMPORT.findall(f"\n{text}")
     same = len(imports) == len(_WORD.findall(text))
@@ -182,7 +184,7 @@ def _files_in(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
 
 
 def describe_machine() -> dict[str, str]:
-    """Return the processor's name and the versions that determine the speed of a run."""
+    """Return the processor's name and the versions on which the speed of a run depends."""
     linux = Path("/proc/cpuinfo")
     cpuinfo = linux.read_text(encoding="utf-8") if linux.exists() else ""
     named = re.search(r"^model name\s*:\s*(.*\S)", cpuinfo, re.MULTILINE)

@@ -126,7 +126,9 @@ def test_a_folder_that_others_can_write_is_not_used(monkeypatch, kept):
     kept.mkdir()
     kept.chmod(0o777)
     monkeypatch.setenv(VARIABLE, str(kept))
-    with pytest.warns(UserWarning, match="other users own or can write that folder.*chmod go-w"):
+    with pytest.warns(
+        UserWarning, match="another user owns that folder or can write to it.*chmod go-w"
+    ):
         assert kept_in() is None
 
 
