@@ -13,6 +13,7 @@ from latticode.datasets.netcdf import read
 from pendula.article.write import ARTICLE
 from replication.article import sources
 from replication.article.cards import Cards, tabulate
+from replication.article.page import places_of
 from replication.article.quoted import copy_of, copy_quoted, original_of
 from replication.article.sources import Printed, Source, code_of, printed
 from replication.words import symbols
@@ -49,6 +50,16 @@ def test_each_number_verdict_and_figure_leads_to_its_card(page):
     assert {link["aria-label"] for link in signs} >= {"confirmed", "cannot be decided"}
     assert "tests/" not in "".join(link["href"] for link in Tags(page).all("a"))
     assert len(page.encode()) < LARGEST
+
+
+def test_the_report_finds_places_of_the_article_by_its_own_ids(page, tmp_path):
+    (tmp_path / "article.html").write_text(page, encoding="utf-8")
+    places = places_of(tmp_path / "article.html")
+    ids = {f"article.html#{name}" for name in Tags(page).ids}
+    assert set(places.values()) <= ids and len(places) > 100
+    assert places["figures/fates"] == "article.html#figure-8"
+    assert {f"claim_{name}" for name in ("theorem_2", "energy_small")} <= places.keys()
+    assert "data_checks/trust.nc.horizon" in places
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,16 @@
 """The report in a real browser: nothing missing, nothing from outside, everything works."""
 
 import json
+import re
 
+import numpy as np
 import pytest
 from latticode.datasets.json_files import load_json
 from replication.ledger.rows import on_figure
 from waiting import wait_for
 
 PHONE = 600
+SHIFT, ENTER, RIGHT, UP = "\ue008", "\ue007", "\ue014", "\ue013"
 
 
 def resize(browser, width: int, height: int = 900) -> None:
@@ -80,7 +83,7 @@ def test_a_count_in_the_table_of_figures_shows_all_claims_that_it_counts(report,
 
 
 def test_a_phone_needs_fewer_than_forty_screens(report):
-    resize(report, 390, 844)
+    resize(report, 360, 740)
     assert run(report, "document.documentElement.scrollHeight / innerHeight") < 40
 
 
@@ -93,6 +96,67 @@ def test_a_link_to_a_folded_claim_unfolds_it(report):
     folded = "document.querySelector('details .claim')"
     run(report, f"location.hash = {folded}.id")
     wait_for(lambda: run(report, f"{folded}.checkVisibility()"))
+
+
+def open_map(report, figure: str, panel: int = 0):
+    """Return a panel of a figure that is a map, in the middle of the window."""
+    open_all(report)
+    maps = report.find_element("id", f"figures/{figure}").find_elements("css selector", ".map a")
+    report.execute_script("arguments[0].scrollIntoView({block: 'center'})", maps[panel])
+    return maps[panel]
+
+
+def numbers_in(address: str) -> dict[str, float]:
+    return {key: float(value) for key, value in re.findall(r"[#&](\w+)=(-?[\d.]+)", address)}
+
+
+@pytest.mark.parametrize(
+    ("figure", "panel", "place", "expected"),
+    [
+        ("stability_chart", 0, (0.75, 0.4), {"omega": 6, "gamma": 1.2}),
+        ("fates", 0, (0.1, 0.3), {"a_re": 0.7, "b_re": 2.1, "omega": -4}),
+    ],
+)
+def test_a_click_on_a_map_opens_the_case_there_in_the_live_page(
+    report, figure, panel, place, expected
+):
+    link = open_map(report, figure, panel)
+    box = report.execute_script("return arguments[0].getBoundingClientRect().toJSON()", link)
+    point = {"x": box["x"] + place[0] * box["width"], "y": box["y"] + (1 - place[1]) * box["height"]}
+    for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+        event = {"type": kind, **point, "button": "left", "clickCount": 1}
+        report.execute_cdp_cmd("Input.dispatchMouseEvent", event)
+    wait_for(lambda: "/live.html#" in report.current_url and run(report, "Boolean(window.byId)"))
+    numbers = numbers_in(report.current_url)
+    assert {key: numbers[key] for key in expected} == pytest.approx(expected, abs=0.05)
+    settings = run(report, "settings")
+    assert {key: settings[key] for key in expected} == {key: numbers[key] for key in expected}
+    assert run(report, "byId('fault').textContent") == ""
+
+
+def test_keys_choose_on_a_map_and_open_the_case(report):
+    link = open_map(report, "stability_chart")
+    first = numbers_in(link.get_attribute("href"))
+    link.send_keys(RIGHT, UP, SHIFT + UP)
+    second = numbers_in(link.get_attribute("href"))
+    steps = [second[key] - first[key] for key in ("omega", "gamma")]
+    np.testing.assert_allclose(steps, (0.1, 0.11), atol=1e-6)
+    assert link.accessible_name == f"Ω = {second['omega']:g}, γ = {second['gamma']:g}"
+    address = link.get_attribute("href")
+    link.send_keys(ENTER)
+    wait_for(lambda: report.current_url.startswith(address))
+
+
+def test_without_scripts_a_map_is_a_picture(report):
+    report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+    try:
+        report.refresh()
+        figure = report.find_element("id", "figures/stability_chart")
+        parts = figure.find_elements("css selector", ".map, .chosen")
+        assert len(parts) == 2 and not any(part.is_displayed() for part in parts)
+        assert figure.find_elements("css selector", "a[href='figures/stability_chart.png'] img")
+    finally:
+        report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
 
 
 @pytest.mark.parametrize("width", [1280, 600, 390, 320])

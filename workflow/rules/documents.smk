@@ -9,6 +9,7 @@ use rule job as report with:
         datasets=DATASETS,
         figures=expand("<results>/figures/{name}.nc", name=FIGURES),
         ledger="<results>/claims.json",
+        article="<results>/article.html",
     output:
         html="<results>/report.html",
     pathvars:

@@ -1,6 +1,11 @@
 """Write the report of a run."""
 
+from pathlib import Path
+
+from latticode.datasets.netcdf import read
+from replication.article.page import places_of
 from replication.report import document
+from replication.report.described import MapLink
 from replication.report.document import ReportedPaper
 
 PAPER = ReportedPaper(
@@ -16,11 +21,27 @@ P. Poullet, <a href="https://doi.org/10.1016/j.physleta.2017.10.021">Physics Let
 
 
 def write_report(
-    datasets: list[str], figures: list[str], ledger: str, differs: dict[str, str], html: str
+    datasets: list[str],
+    figures: list[str],
+    ledger: str,
+    article: str,
+    differs: dict[str, str],
+    html: str,
 ) -> None:
     """Write the page `html` on the files of a run, which are in folders next to it.
 
     `figures` are the paths of their datasets, each next to its picture. `differs` holds the
-    differences of the configuration from the paper's.
+    differences of the configuration from the paper's. `article` is the page to which it links.
     """
-    document.write_report(PAPER, datasets, figures, ledger, differs, html)
+    data = {Path(path).stem: path for path in figures}
+    fates = read(data["fates"])
+    at_start = f"a_re={{x}}&b_re={{y}}&end_time={fates.attrs['end_time']:g}"
+    maps = {
+        "stability_chart": [MapLink("Ω", "γ", "live.html#case=fig4_small&omega={x}&gamma={y}")],
+        "fates": [
+            MapLink("A₀", "B₀", f"live.html#case=fig3_large&omega={omega:g}&{at_start}")
+            for omega in fates["omega"].values
+        ],
+    }
+    in_article = places_of(Path(article))
+    document.write_report(PAPER, datasets, figures, ledger, differs, html, maps, in_article)

@@ -20,6 +20,8 @@ ANNOTATION = re.compile(r"<annotation .*?</annotation>")
 
 PICTURE = re.compile(r'<img src="([^":]*\.png)"([^>]*)>')
 COLOURS = 256
+CARD = re.compile(r'class="card" id="((?:claim|data)_[^"]*)"')
+FIGURE = re.compile(r'<figure id="(figure-\d+)">\s*<a href="([^"]*)\.png">')
 
 
 class LiveParts(NamedTuple):
@@ -67,6 +69,17 @@ def complete_page(
     for place, content in replacements.items():
         html = html.replace(place, content)
     return html
+
+
+def places_of(page: Path) -> dict[str, str]:
+    """Return addresses in the page of an article by what they show: claims, variables, figures.
+
+    The keys are ids of the report; those of figures are the paths of their files.
+    """
+    html = page.read_text(encoding="utf-8")
+    ids = {card: card for card in CARD.findall(html)}
+    ids |= {picture: figure for figure, picture in FIGURE.findall(html)}
+    return {name: f"{page.name}#{place}" for name, place in ids.items()}
 
 
 def _enlargeable(folder: Path, picture: str, attributes: str) -> str:

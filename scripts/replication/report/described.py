@@ -1,22 +1,39 @@
 """Captions of figures and contents of datasets, from the attributes of a run's files."""
 
+import json
 import re
-import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
 from latticode.datasets.netcdf import readable
+from PIL import Image
 
 from replication.words import number
 
 WORDS = 300
 """Longer attributes, such as a model's text, are cut off on the page."""
-SIZE_OF_PNG = slice(16, 24)
-"""The bytes of a PNG with its width and height."""
 SHARED = {"Conventions", "version", "history"}
 """Attributes that are the same in every dataset of a run."""
+
+
+class MapLink(NamedTuple):
+    """The address for a point of a panel, with fields {x} and {y}; the symbols of both axes."""
+
+    x: str
+    y: str
+    address: str
+
+
+class ClickablePanel(NamedTuple):
+    """A panel whose points are links: left, top, width, height in % of the picture, and limits."""
+
+    link: MapLink
+    box: tuple[float, ...]
+    x: tuple[float, float]
+    y: tuple[float, float]
 
 
 class DescribedFigure(NamedTuple):
@@ -26,6 +43,7 @@ class DescribedFigure(NamedTuple):
     caption: str
     width: int
     height: int
+    maps: Sequence[ClickablePanel] = ()
 
     @property
     def label(self) -> str:
@@ -57,14 +75,32 @@ class DescribedDataset(NamedTuple):
     variables: list[DescribedVariable]
 
 
-def figure(path: Path, page: Path) -> DescribedFigure:
-    """Return the figure with the dataset at `path`, for a page in the folder `page`."""
+def figure(path: Path, page: Path, links: Sequence[MapLink] = ()) -> DescribedFigure:
+    """Return the figure with the dataset at `path`, for a page in the folder `page`.
+
+    `links` make links of the points of its first panels.
+    """
     with readable(path), netCDF4.Dataset(path) as data:
         caption = data.caption
-    with path.with_suffix(".png").open("rb") as picture:
-        size = struct.unpack(">II", picture.read(SIZE_OF_PNG.stop)[SIZE_OF_PNG])
+    with Image.open(path.with_suffix(".png")) as picture:
+        size, panels = picture.size, picture.info.get("Panels", "").split(";")
+    maps = []
+    if links:
+        drawn = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))["panels"]
+        maps = [_panel(*panel, size) for panel in zip(links, panels, drawn, strict=False)]
     stem = path.relative_to(page).with_suffix("").as_posix()
-    return DescribedFigure(stem, caption, *size)
+    return DescribedFigure(stem, caption, *size, maps)
+
+
+def _panel(
+    link: MapLink, edges: str, drawn: dict[str, Any], size: tuple[int, int]
+) -> ClickablePanel:
+    """Return a panel from its edges in pixels, and its description with the limits of its axes."""
+    left, top, right, bottom = (
+        100 * int(edge) / size[place % 2] for place, edge in enumerate(edges.split())
+    )
+    box = tuple(round(length, 3) for length in (left, top, right - left, bottom - top))
+    return ClickablePanel(link, box, drawn["x"]["limits"], drawn["y"]["limits"])
 
 
 def dataset(path: Path, page: Path) -> DescribedDataset:

@@ -16,7 +16,7 @@ from replication.ledger.rows import counted, counted_origins, on_figure, whether
 from replication.logs import run_times
 from replication.words import number, plainly, symbols
 
-from .described import DescribedDataset, DescribedFigure, dataset, figure
+from .described import DescribedDataset, DescribedFigure, MapLink, dataset, figure
 from .page import FOLDER, render, script_of_report
 
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
@@ -65,14 +65,19 @@ def write_report(
     ledger: str,
     differs: Mapping[str, str],
     html: str,
+    maps: Mapping[str, Sequence[MapLink]] | None = None,
+    in_article: Mapping[str, str] | None = None,
 ) -> None:
     """Write the page `html` on the files of a run, which are in folders next to it.
 
     `figures` are the paths of their datasets, each next to its picture. `differs` holds the
-    differences of the configuration from the paper's.
+    differences of the configuration from the paper's. `maps` makes links of the points of figures,
+    by their names. `in_article` has addresses in the article by ids of this page.
     """
-    folder, rows = Path(html).parent, load_json(ledger)["rows"]
-    described = {Path(path).stem: figure(Path(path), folder) for path in figures}
+    folder, rows, maps = Path(html).parent, load_json(ledger)["rows"], maps or {}
+    described = {
+        path.stem: figure(path, folder, maps.get(path.stem, ())) for path in map(Path, figures)
+    }
     of_paper = [described.pop(name) for name in paper.figures]
     numbers = range(1, len(of_paper) + 1)
     sections = [
@@ -95,6 +100,7 @@ def write_report(
         verdict="; ".join(counted(rows)),
         differs=[*differs.values()],
         introduction=Markup(paper.introduction),
+        in_article=in_article or {},
         **script_of_report(),
     )
 

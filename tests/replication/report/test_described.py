@@ -1,10 +1,12 @@
 """What a page says of files: parameters, meanings of variables, and captions."""
 
+import json
+
 import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import save
 from matplotlib.image import imsave
-from replication.report.described import dataset, figure
+from replication.report.described import MapLink, dataset, figure
 
 ABOUT = {"long_name": "height of <b>waves</b>", "units": "rad"}
 
@@ -32,8 +34,14 @@ def test_a_figure_is_told_by_its_caption_and_the_size_of_its_picture(tmp_path):
     (tmp_path / "figures").mkdir()
     about = {"caption": "Norms of A: left. Bars are errors."}
     save(tmp_path / "figures/fig5.nc", xr.Dataset(attrs=about))
-    imsave(tmp_path / "figures/fig5.png", np.zeros((20, 30)))
+    panels = {"Panels": "3 4 18 14;20 4 21 14"}
+    imsave(tmp_path / "figures/fig5.png", np.zeros((20, 30)), metadata=panels)
     found = figure(tmp_path / "figures/fig5.nc", tmp_path)
-    assert found == ("figures/fig5", about["caption"], 30, 20)
+    assert found == ("figures/fig5", about["caption"], 30, 20, [])
+    axes = [{"x": {"limits": [-6, 10]}, "y": {"limits": [0, 3]}}, {}]
+    (tmp_path / "figures/fig5.json").write_text(json.dumps({"panels": axes}))
+    link = MapLink("Ω", "γ", "live.html#omega={x}&gamma={y}")
+    (panel,) = figure(tmp_path / "figures/fig5.nc", tmp_path, [link]).maps
+    assert panel == (link, (10, 20, 50, 50), [-6, 10], [0, 3])
     assert (found.label, found._replace(stem="own/cases/fig5").label) == ("Fig 5", "")
     assert found.headline == "Norms of A"

@@ -25,7 +25,7 @@ def written(tmp_path, monkeypatch):
     monkeypatch.setattr(
         document,
         "figure",
-        lambda path, folder: DescribedFigure(
+        lambda path, folder, links: DescribedFigure(
             f"figures/{path.stem}",
             NASTY if path.stem == "extra" else f"{path.stem} is shown.",
             30,
@@ -46,7 +46,7 @@ def written(tmp_path, monkeypatch):
 
 
 def plain(html: str) -> str:
-    text = re.sub(r"<style>.*?</style>|<[^>]*>", " ", html, flags=re.DOTALL)
+    text = re.sub(r"<style>.*?</style>|<nav.*?</nav>|<[^>]*>", " ", html, flags=re.DOTALL)
     return " ".join(text.replace("\N{NO-BREAK SPACE}", " ").split())
 
 

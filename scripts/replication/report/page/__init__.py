@@ -24,7 +24,7 @@ def render(template: str, folder: Path = FOLDER, **values) -> str:
         lstrip_blocks=True,
     )
     style = (FOLDER / "style.css").read_text(encoding="utf-8")
-    common = {"style": Markup(style), "style_hash": digest(style), "script": ""}
+    common = {"style": Markup(style), "style_hash": digest(style), "script": "", "in_article": {}}
     return environment.get_template(template).render(**common | values)
 
 

@@ -1,6 +1,6 @@
 "use strict";
 
-// Filters the claims of the report, and opens what a link leads to.
+// Filters the claims of the report, opens what a link leads to, and makes links of points on maps.
 
 const form = document.querySelector(".filters");
 const selects = [...form.querySelectorAll("select")];
@@ -42,6 +42,50 @@ const showTarget = () => {
   if (target.tagName === "SECTION") target.querySelector("details")?.setAttribute("open", "");
   target.scrollIntoView();
 };
+
+// Make a link of each point of a panel of a figure; arrow keys or the pointer choose the point.
+const startMap = (map) => {
+  const read = (name) => map.dataset[name].split(" ");
+  const limits = [read("x"), read("y")].map((ends) => ends.map(Number));
+  const steps = limits.map(([first, last]) => 10 ** Math.floor(Math.log10((last - first) / 100)));
+  const [link, mark] = ["a", "i"].map((tag) => document.createElement(tag));
+  const chosenText = map.closest("figure").querySelector(".chosen output");
+  let chosen;
+  const choose = (point) => {
+    chosen = point.map((value, i) => {
+      const [first, last] = limits[i];
+      const inside = Math.max(first, Math.min(last, value));
+      return Number((Math.round(inside / steps[i]) * steps[i]).toPrecision(6));
+    });
+    link.href = map.dataset.address.replace("{x}", chosen[0]).replace("{y}", chosen[1]);
+    chosenText.textContent = read("names").map((name, i) => `${name} = ${chosen[i]}`).join(", ");
+    link.ariaLabel = chosenText.textContent;
+    const [across, up] = chosen.map((value, i) => (value - limits[i][0]) / (limits[i][1] - limits[i][0]));
+    Object.assign(mark.style, { left: `${100 * across}%`, top: `${100 * (1 - up)}%` });
+  };
+  const chooseByPointer = ({ clientX, clientY }) => {
+    const { left, top, width, height } = map.getBoundingClientRect();
+    const parts = [(clientX - left) / width, 1 - (clientY - top) / height];
+    choose(limits.map(([first, last], i) => first + parts[i] * (last - first)));
+  };
+  const chooseByKey = (event) => {
+    const count = event.shiftKey ? 10 : 1;
+    const moves = { ArrowLeft: [-count, 0], ArrowRight: [count, 0], ArrowDown: [0, -count], ArrowUp: [0, count] };
+    if (!(event.key in moves)) return;
+    event.preventDefault();
+    choose(chosen.map((value, i) => value + moves[event.key][i] * steps[i]));
+  };
+  for (const kind of ["pointermove", "pointerdown"]) link.addEventListener(kind, chooseByPointer);
+  link.addEventListener("keydown", chooseByKey);
+  const [left, top, width, height] = read("box").map((part) => `${part}%`);
+  Object.assign(map.style, { left, top, width, height });
+  choose(limits.map(([first, last]) => (first + last) / 2));
+  chosenText.textContent = "";
+  map.append(link, mark);
+  map.hidden = false;
+};
+for (const map of document.querySelectorAll(".map")) startMap(map);
+for (const text of document.querySelectorAll(".chosen")) text.hidden = false;
 
 form.hidden = false;
 form.addEventListener("input", filter);
