@@ -122,11 +122,13 @@ def test_a_click_on_a_map_opens_the_case_there_in_the_live_page(
 ):
     link = open_map(report, figure, panel)
     box = report.execute_script("return arguments[0].getBoundingClientRect().toJSON()", link)
-    point = {"x": box["x"] + place[0] * box["width"], "y": box["y"] + (1 - place[1]) * box["height"]}
+    across, up = place
+    point = {"x": box["x"] + across * box["width"], "y": box["y"] + (1 - up) * box["height"]}
     for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
         event = {"type": kind, **point, "button": "left", "clickCount": 1}
         report.execute_cdp_cmd("Input.dispatchMouseEvent", event)
-    wait_for(lambda: "/live.html#" in report.current_url and run(report, "Boolean(window.byId)"))
+    wait_for(lambda: "/live.html#" in report.current_url)
+    wait_for(lambda: run(report, "typeof settings === 'object' && !isSolving"))
     numbers = numbers_in(report.current_url)
     assert {key: numbers[key] for key in expected} == pytest.approx(expected, abs=0.05)
     settings = run(report, "settings")

@@ -6,9 +6,12 @@ from pendula.workflow.files import figure_files
 from pendula.workflow.report_labels import folder_of, label_dataset, label_figure
 
 
-def test_a_figure_is_labelled_by_its_name_and_caption():
+def test_a_figure_is_labelled_by_its_name_and_the_beginning_of_its_caption():
     (label,) = label_figure(None, figure_files(f"{BASELINE}/figures/fig5")).values()
-    assert label == f"fig5: {dataset('figures/fig5').attrs['caption']}"
+    sentence = dataset("figures/fig5").attrs["caption"].partition(". ")[0]
+    assert label == f"fig5: {sentence}"
+    (label,) = label_figure(None, figure_files(f"{BASELINE}/figures/fates")).values()
+    assert label == "fates: Fate of an excited central pair at τ = 70, for each Ω, by its …"
 
 
 @pytest.mark.parametrize(("place", "name"), [(0, "solvers"), (1, "trust")])

@@ -5,7 +5,11 @@ Each has one label: of two results, the page would show a second label as a swit
 
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import shorten
 from typing import Any
+
+MOST_LETTERS = 64
+"""Of a caption in a label."""
 
 
 def folder_of(wildcards: Any, output: Sequence[str]) -> str:
@@ -14,9 +18,15 @@ def folder_of(wildcards: Any, output: Sequence[str]) -> str:
 
 
 def label_figure(wildcards: Any, output: Sequence[str]) -> dict[str, str]:
-    """Return the name of a figure with its caption, which its dataset holds."""
+    """Return the name of a figure with the beginning of its caption, which its dataset holds.
+
+    The page's list is as wide as its longest label, and hides pictures beside it.
+    """
     (shown,) = (path for path in output if path.endswith(".nc"))
-    return {"figure": f"{Path(shown).stem}: {_attributes_of(shown)['caption']}"}
+    headline = shorten(
+        _attributes_of(shown)["caption"].partition(". ")[0], MOST_LETTERS, placeholder=" …"
+    )
+    return {"figure": f"{Path(shown).stem}: {headline}"}
 
 
 def label_dataset(wildcards: Any, output: Sequence[str], place: int = 0) -> dict[str, str]:
