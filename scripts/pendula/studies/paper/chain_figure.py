@@ -20,9 +20,9 @@ CAPTION = (
 
 
 def gather_chain() -> xr.Dataset:
-    """Return the points on the page of all pairs, with the central one turned by ANGLES.
+    """Return the positions on the page of all pairs, the central one turned by ANGLES.
 
-    The others are turned less, the farther they are from it: a picture, not a solution.
+    The angles decrease away from the centre: this is a sketch, not a solution.
     """
     offsets = np.arange(PAIRS) - PAIRS // 2
     place = SPACING * offsets[:, None]
@@ -62,7 +62,7 @@ def _project(along: np.ndarray, back: np.ndarray, up: np.ndarray | float) -> np.
 
 
 def _coil() -> np.ndarray:
-    """Return a coil along the chain from one pivot, the origin, to the next."""
+    """Return the points of a coil along the chain, from one pivot, at the origin, to the next."""
     turn = np.linspace(0, 2 * np.pi * COILS, 24 * COILS + 1)
     share = LEAD + (1 - 2 * LEAD) * turn / turn[-1]
     across = SPACING * share + 0.45 * COIL_RADIUS * (cos(turn) - 1)
@@ -105,7 +105,7 @@ def _draw_row(axes: Axes, row: xr.Dataset) -> None:
         axes.plot(*bob, "o", color=COLOURS[pendulum], markersize=9, markeredgecolor="black")
         axes.plot(*pivot, "o", color="black", markersize=2.5)
         name = f"${pendulum}_{{n{offset:+d}}}$" if offset else f"${pendulum}_n$"
-        # on the side to which the pendulum is turned, away from its dashed position at rest
+        # the name is on the side of the bob that faces away from the dashed line
         side, ha = (1, "left") if bob[0] >= rest_position[0] else (-1, "right")
         axes.annotate(
             name,

@@ -22,15 +22,15 @@ from .solvers import ORDER, STATED_DRIFT, UNKNOWNS
 
 SECTION = 5
 EARLIEST = 20.0
-"""Shorter runs show no drift that could be compared."""
+"""Runs that end before this tau show no drift that could be compared."""
 
 
 def drifts(solvers: xr.Dataset, size: str) -> Finding:
-    """Return the finding of a claim on the energy over the cases with data of this size.
+    """Return the finding on the energy drift in the cases with initial data of this size.
 
-    The paper gives the order of the drift and the tolerances of the solver. It says neither whether
-    the order is that of H or relative to H(0), nor whether the solver's unknowns are complex. A
-    case decides if it keeps the order by all these readings, or exceeds it by all of them.
+    The paper gives the order of the drift and the tolerances of the solver. It does not say whether
+    the drift is absolute or relative to H(0), and whether the solver's unknowns are complex or
+    real. A case counts only if all these definitions agree on whether it keeps the order.
     """
     if (end := float(solvers["tau"][-1])) < EARLIEST:
         raise UndecidableError(f"the runs end at tau = {end:g}, before {EARLIEST:g}")
@@ -38,7 +38,7 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
     for (unknowns, solver), reading in product(UNKNOWNS.items(), solvers["of"].values):
         read = solvers["largest_drift"].sel(solver=solver, of=reading)
         for case in (name for name in map(str, solvers["case"].values) if name.endswith(size)):
-            # names leave out the reading that the figures use
+            # the default of the figures, absolute with complex unknowns, is not in the names
             words = (word for word in (unknowns, reading) if word not in ("complex", "absolute"))
             name = "_".join([case, *words])
             measured[name] = float(read.sel(case=case))
@@ -51,8 +51,8 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
     ]
     each = "absolute or relative, with complex or real unknowns"
     words = [f"it is larger in {', '.join(beyond)} ({each})"] if beyond else []
-    words += [f"the definition decides in {', '.join(open_)}"] if open_ else []
-    caveat = f"the drift may be {ORDER.value:g} times the stated one; {', and '.join(words)}"
+    words += [f"the answer depends on the definition in {', '.join(open_)}"] if open_ else []
+    caveat = f"we allow {ORDER.value:g} times the stated drift; {', and '.join(words)}"
     label = "largest drift of H, for each kind of drift and of unknowns"
     if (open_ and not beyond) or np.isnan([*measured.values()]).any():
         relative = [name for name in measured if name.endswith("relative")]
@@ -63,7 +63,7 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
 
 
 def as_by(solver: str) -> dict:
-    """Return a change that gives the drifts of another solver as those of ode45."""
+    """Return a change that replaces the drifts of ode45 by those of another solver."""
     return repeat("solver", solver, at=list(UNKNOWNS.values()), names="largest_drift")
 
 

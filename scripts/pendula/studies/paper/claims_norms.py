@@ -28,7 +28,7 @@ from pendula.problem import Constants
 
 SECTION = 5
 
-# ASSUME: the paper's words as numbers; the origin of each quotes the word.
+# ASSUME: a number for each of the paper's words, which its origin quotes.
 HALF = Cutoff(0.5, '"decreases": to less than half')
 MOST = Cutoff(0.5, '"excites others": most of P is on other sites')
 ANTICORRELATED = Cutoff(-0.8, '"oscillates between": |A|^2 falls where |B|^2 rises', -1.0)
@@ -40,7 +40,7 @@ NORMS = ("l2", "linf")
 AT_STABLE_REST = ("fig2_small", "fig2_large", "fig3_small", "fig3_large")
 """The cases in which the chain at rest is linearly stable by Lemma 1."""
 UNSTABLE = 3.0
-"""Growth is measured up to this time, before small data become large."""
+"""Growth is measured up to this tau, before small amplitudes become large."""
 
 
 @claim(
@@ -55,7 +55,7 @@ UNSTABLE = 3.0
     ),
 )
 def fig2_bounded(small: xr.Dataset, large: xr.Dataset, sweep: xr.Dataset) -> Finding:
-    """Compare P with the bound by the energy of the same data, and the sweep with that bound."""
+    """Compare P of each run with the bound from its energy; the sweep is of the large case."""
     bounds = [
         theorem_1_bound(float(ds["energy"][0]), Constants.of(ds.attrs)) for ds in (small, large)
     ]
@@ -86,7 +86,7 @@ def fig2_excites(small: xr.Dataset) -> Finding:
         Above(
             MOST,
             "least_share_elsewhere",
-            label="least share of P beside the largest |A_n| and |B_n|",
+            label="least share of P outside the largest |A_n| and |B_n|",
         ),
         Below(HALF, "largest_late_amplitude", label="largest late |A_n| over the initial one"),
     )
@@ -161,7 +161,7 @@ def fig2_separate(large: xr.Dataset) -> Finding:
 
 
 def with_growth_of(run: xr.Dataset, growing: xr.Dataset) -> xr.Dataset:
-    """Return a run whose norms grow like those of another run, from its own initial norm."""
+    """Return `run` with the norms of `growing`, scaled to start at the initial norm of `run`."""
     to_start = np.sqrt(total_power(run)[0] / total_power(growing)[0])
     return take_from("l2", "linf")(run, growing.assign({n: to_start * growing[n] for n in NORMS}))
 
@@ -183,10 +183,10 @@ def with_growth_of(run: xr.Dataset, growing: xr.Dataset) -> xr.Dataset:
     ),
 )
 def stable_oscillations(*trajectories) -> Finding:
-    """Decide by the cases that Theorem 1 or 2 covers, which say what oscillations are stable.
+    """Require bounded norms in the cases that Theorem 1 or 2 covers.
 
-    Rest is stable in all four cases. The paper restricts stability to small initial conditions
-    below the band.
+    Rest is stable in all four cases, but below the band the paper claims stable oscillations only
+    for small initial conditions.
     """
     runs_by_case = dict(zip(AT_STABLE_REST, trajectories, strict=True))
     grown = {
@@ -207,13 +207,13 @@ def stable_oscillations(*trajectories) -> Finding:
     )
     uncovered = {case: ratio.max() for case, ratio in grown.items() if case not in covered}
     measured |= {f"largest_{case}": ratio for case, ratio in uncovered.items()}
-    left = ", ".join(
-        f"{case}, whose l2 norm grows to {ratio:.2g} times its initial value"
+    caveats = (
+        f"no theorem covers {case}: its l2 norm grows to {ratio:.2g} times its initial value,"
+        " although rest is stable"
         for case, ratio in uncovered.items()
         if ratio >= FACTOR.value
     )
-    caveat = f"rest is stable in {left}, too: no theorem covers this case" if left else ""
-    return judge(measured, criterion, caveat)
+    return judge(measured, criterion, "; ".join(caveats))
 
 
 @claim(
@@ -224,7 +224,7 @@ def stable_oscillations(*trajectories) -> Finding:
 )
 def fig3_alike(eight: xr.Dataset, four: xr.Dataset) -> Finding:
     if eight.attrs["omega"] == four.attrs["omega"]:
-        raise UndecidableError("both runs are at one Omega")
+        raise UndecidableError("both runs have the same Omega")
     l2 = np.sqrt(total_power(late(four)).mean() / total_power(late(eight)).mean())
     linf = largest(late(four)).mean() / largest(late(eight)).mean()
     measured = {"l2_ratio": l2, "linf_ratio": linf}
@@ -256,7 +256,7 @@ def fig3_only_small(small: xr.Dataset, large: xr.Dataset) -> Finding:
 
 
 def region_of(run: xr.Dataset) -> str:
-    """Return the name of the theorem that covers the data of a run, or "none"."""
+    """Return the name of the theorem that covers the initial data of a run, or "none"."""
     start, energy = float(total_power(run)[0]), float(run["energy"][0])
     return proven_region(energy, start, Constants.of(run.attrs), str(run.attrs["boundary"]))
 
@@ -268,7 +268,7 @@ def region_of(run: xr.Dataset) -> str:
     controls=(ClaimControl("a stable run at Omega = -4", "fig3_small"),),
 )
 def fig4_unstable(small: xr.Dataset) -> Finding:
-    """Require growth of small data: once cubic terms matter, growth is no instability of zero."""
+    """Require that small data grow: large data may grow by cubic terms while zero is stable."""
     if not largest(small)[0] ** 2 <= Constants.of(small.attrs).gamma:
         raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]

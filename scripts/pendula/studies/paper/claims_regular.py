@@ -1,4 +1,4 @@
-"""Sections 5 and 6: claims on norms that stay bounded and on regular motion."""
+"""Section 6: the claim that stable chains move regularly."""
 
 import xarray as xr
 from replication.ledger.changes import exchange
@@ -11,7 +11,7 @@ from pendula.models.linear_chain import gamma_0
 SECTION = 5
 
 GAMMA = EPSILON = 1.0
-"""Datasets of all cases of the paper."""
+"""The paper's drive and coupling, the same in all its cases."""
 
 
 @claim(
@@ -31,9 +31,9 @@ def stable_is_regular(lyapunov: xr.Dataset, cases: xr.Dataset) -> Finding:
         "others": (~covered).sum(),
         "regular_among_them": (~grown & ~covered).sum(),
     }
-    label = "chaotic cases to which Theorem 1 or 2 applies, and regular ones to which neither does"
+    label = "chaotic cases that Theorem 1 or 2 covers, and regular cases that neither covers"
     criterion = AtMost(0, "chaotic_among_them", "regular_among_them", label=label)
     at_rest = gamma_0(cases["omega"].values, EPSILON) > GAMMA
     names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
-    caveat = f"{names} is chaotic though its chain at rest is stable" if names else ""
+    caveat = f"{names} is chaotic although the chain at rest is stable" if names else ""
     return judge(measured, criterion, caveat)

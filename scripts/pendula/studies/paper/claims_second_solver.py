@@ -1,9 +1,9 @@
 """Section 5: claims on the figures by the paper's second solver.
 
-Single runs of a chaotic case cannot agree for long. Where the motion is chaotic, a run of the
-second solver is compared with an ensemble, as one more member. In Figs 2 to 4 the mean norm over a
-long time is compared, which is normally distributed to good approximation. The maxima of Fig 6,
-right, are not, as some runs spread late: there the run is compared with the range of many others.
+Single runs of a chaotic case cannot agree for long. If the motion is chaotic, a run of the second
+solver is therefore compared with an ensemble, as one more member. For Figs 2 to 4 we compare the
+mean norm over a long time, which is normally distributed to good approximation. The maxima of
+Fig 6, right, are not, because some runs spread late: we compare them with the range of many runs.
 """
 
 import numpy as np
@@ -33,28 +33,30 @@ SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale, wider t
 ZERO = ["fig4_small", "fig4_large"]
 """The cases at Omega = 0."""
 LATE, WINDOW = (30.0, 50.0), "[30, 50]"
-"""The time window over which a run is compared with its ensemble."""
+"""The time window in which a run is compared with its ensemble."""
 
 FIRST = sweeps("fig5_left", "fig6_left")
 SECOND = tuple(f"{name}.crank_nicolson" for name in FIRST)
 """The regular sweeps by each solver."""
 (RIGHT,) = checks("second_solver")
-"""A chaotic sweep by the first solver, and by the second one with two steps."""
+"""A chaotic sweep by the first solver, and by the second with two different steps."""
 
 
 # --- Figs 2 to 4 ----------------------------------------------------------------------------------
 
 
 def late_distance(solvers: xr.Dataset, members: xr.Dataset, case: str) -> tuple[float, int]:
-    """Return how far the second solver is from the mean of its ensemble, and the number of members.
+    """Return the distance of the second solver from the ensemble's mean, and the number of members.
 
-    The number is the late mean of the l2 norm, after the solvers diverge. Its distance is in
-    standard deviations of one more member, which include the error of the mean.
+    The late mean of the l2 norm is compared, after the solvers diverge. The distance is divided by
+    the standard deviation between one more member and the ensemble's mean.
     """
     run, since = solvers.sel(case=case), LATE[0]
     known = WINDOW in members["window"].values and run["second_divergence"][0] < since
     if not known or members.sizes["member"] < missing.FEWEST or run["tau"][-1] < LATE[1]:
-        raise UndecidableError(f"there is no ensemble of {case} on {WINDOW}, or it is too small")
+        raise UndecidableError(
+            f"{case} has too few members, or no data over {WINDOW} after the solvers diverge"
+        )
     drawn = members["l2_level"].sel(case=case, quantity="pair", window=WINDOW).values
     value = run["second_l2"].sel(tau=slice(*LATE)).values.mean()
     deviation = drawn.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(drawn))
@@ -67,7 +69,7 @@ def late_distance(solvers: xr.Dataset, members: xr.Dataset, case: str) -> tuple[
     checks("solvers", "lyapunov", "members"),
     controls=(
         ClaimControl(
-            "Omega = -4 by the second solver for Omega = 0, in the chaotic cases",
+            "the second solver's run at Omega = -4 in place of its runs at Omega = 0",
             {"solvers": repeat("case", "fig3_large", at=ZERO, names="second_l2")},
         ),
         ClaimControl(
@@ -109,8 +111,8 @@ def second_solver(solvers: xr.Dataset, lyapunov: xr.Dataset, members: xr.Dataset
         if full_step > SEEN.value
     ]
     if drawn:
-        parted = ", ".join(f"{case} from tau = {since[case]:.3g} on" for case in drawn)
-        caveats.append(f"chaotic cases become other members of the same ensembles: {parted}")
+        divergences = ", ".join(f"{case} from tau = {since[case]:.3g} on" for case in drawn)
+        caveats.append(f"chaotic cases diverge as members of an ensemble do: {divergences}")
     return judge(measured, criterion, "; ".join(caveats))
 
 
@@ -118,7 +120,7 @@ def second_solver(solvers: xr.Dataset, lyapunov: xr.Dataset, members: xr.Dataset
 
 
 def largest_difference(first: xr.Dataset, second: xr.Dataset) -> float:
-    """Return the largest relative difference of the norms of the pair over a sweep."""
+    """Return the largest relative difference between the norms of the pair in two sweeps."""
     if first.sizes["half_width"] < FEWEST:
         raise UndecidableError(f"the sweeps have fewer than {FEWEST} half-widths")
     return max(
@@ -128,7 +130,7 @@ def largest_difference(first: xr.Dataset, second: xr.Dataset) -> float:
 
 
 def shares_inside(right: xr.Dataset) -> np.ndarray:
-    """Return the share of runs of the second solver within the range of the first, (solver_step,).
+    """Return the share of the second solver's runs within the range of the first, (solver_step,).
 
     It is the smallest share over all half-widths.
     """
@@ -140,7 +142,7 @@ def shares_inside(right: xr.Dataset) -> np.ndarray:
 
 
 def first_as_second(right: xr.Dataset) -> xr.Dataset:
-    """Return a control: the ensembles with the first solver's runs as those of the second."""
+    """Return, as a control, ensembles with runs of the first solver in place of the second's."""
     drawn = right["first_l2"].isel(first_member=slice(right.sizes["member"]))
     drawn = drawn.rename(first_member="member").broadcast_like(right["l2"])
     remaining = right["first_l2"].isel(first_member=slice(right.sizes["member"], None))
@@ -150,7 +152,7 @@ def first_as_second(right: xr.Dataset) -> xr.Dataset:
 
 
 def coarse_alone(right: xr.Dataset) -> xr.Dataset:
-    """Return the ensembles with the runs of the coarse step in place of all, as a control."""
+    """Return, as a control, ensembles with the second solver's coarse runs for both steps."""
     largest = right["solver_step"].max()
     return repeat("solver_step", float(largest), at=slice(None), names="l2")(right)
 
@@ -166,7 +168,7 @@ def coarse_alone(right: xr.Dataset) -> xr.Dataset:
             confirms=True,
         ),
         ClaimControl(
-            "the sweep at Omega = -4 for that at Omega = 8 by the second solver",
+            "the sweep at Omega = -4 in place of the second solver's at Omega = 8",
             {SECOND[1]: "fig6_right"},
         ),
         ClaimControl("a coarse step in place of both", {RIGHT: coarse_alone}),
@@ -180,10 +182,9 @@ def second_solver_sweeps(
     second_6: xr.Dataset,
     right: xr.Dataset,
 ) -> Finding:
-    """Compare regular sweeps point by point, and a chaotic one by ensembles and with two steps.
+    """Compare regular sweeps point by point, and a chaotic one by ensembles, with two steps.
 
-    If the two steps give different outcomes the claim is undecided, because the paper gives no
-    step.
+    The paper gives no step: if the outcome depends on it, the claim is undecided.
     """
     shares = shares_inside(right)
     measured = {
@@ -198,10 +199,10 @@ def second_solver_sweeps(
     if regular.holds(measured) and len(same_range.failing(measured)) == 1:
         fine, coarse = right["solver_step"].values[[0, -1]]
         because = (
-            "the paper gives no step: in Fig 6, right, at least"
-            f" {measured['share_inside']:.0%} of the runs of the second solver lie within the range"
-            f" of {right.sizes['first_member']} runs of the first at every M with a step of"
-            f" {fine:g}, and at some M {measured['coarse_share_inside']:.0%} with {coarse:g}"
+            f"the paper gives no step: in Fig 6, right, with a step of {fine:g} at every M at least"
+            f" {measured['share_inside']:.0%} of the second solver's runs lie within the range of"
+            f" {right.sizes['first_member']} runs of the first; with {coarse:g} only"
+            f" {measured['coarse_share_inside']:.0%} do at some M"
         )
         return undecided(measured, because, AllOf(regular, same_range))
     return judge(measured, AllOf(regular, same_range), "Fig 5, right, is not compared")

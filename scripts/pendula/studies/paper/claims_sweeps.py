@@ -1,7 +1,7 @@
-"""Section 5, Figs 5 and 6: claims on norms over time windows against the half-width M.
+"""Section 5, Figs 5 and 6: claims on norms in a time window as functions of the half-width M.
 
-On a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite, and
-once the front does not reach the ends within the window, a longer chain changes nothing.
+In a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite, and
+if the front does not reach the ends within the window, a longer chain changes nothing.
 """
 
 import numpy as np
@@ -29,21 +29,21 @@ from pendula.problem import Constants
 SECTION = 5
 
 WINDOW = "[10, 50]"
-"""Windows of Fig 5, according to the text and to the caption."""
+"""Time window of Fig 5, in the text and in the caption."""
 LEVEL = Cutoff(levels.LEVEL, '"approaches a level": within 0.5 %, the width of a line')
 TEXT_6 = "[10, 70]"
-"""Window of Fig 6, according to the text."""
+"""Time window of Fig 6 in the text."""
 
 
 def with_a_hump(sweep: xr.Dataset) -> xr.Dataset:
-    """Return a control: a sweep, or the check at Omega = 8, whose l2 rises before it falls."""
+    """Return, as a control, a sweep or the check at Omega = 8 with an l2 norm that rises first."""
     return scale("l2", 1.3, half_width=sweep["half_width"][1:5])(sweep)
 
 
 def falls_to_a_level(
     half_widths: np.ndarray, values: np.ndarray, fall: str
 ) -> tuple[dict[str, float], AllOf]:
-    """Return the measured numbers of a curve against M that falls to a level, and the criterion."""
+    """Return the measured numbers and the criterion for a fall with M to a level."""
     measured = {
         fall: 1.0 - values[-1] / values[0],
         "largest_rise": np.max(values / np.minimum.accumulate(values)) - 1.0,
@@ -64,14 +64,14 @@ def falls_to_a_level(
     ),
 )
 def fig5_decreases(sweep: xr.Dataset) -> Finding:
-    """Require a fall over all M, and no rise of the curve before it reaches its level."""
+    """Require that the maximum falls with M to a level, and does not rise before."""
     m, highest = swept(sweep, "l2", "max", WINDOW)
     _, average = swept(sweep, "l2", "mean", WINDOW)
     measured, criterion = falls_to_a_level(m, highest, "fall_of_maximum")
     measured["fall_of_mean"] = 1.0 - average[-1] / average[0]
     caveat = ""
     if measured["fall_of_mean"] <= CONSTANT.value:
-        caveat = "for the maximum of the text; the average of the caption hardly changes"
+        caveat = "for the maximum (text of the paper); the average (caption) hardly changes"
     return judge(measured, criterion, caveat)
 
 
@@ -117,7 +117,7 @@ def fig5_not_shown(check: xr.Dataset) -> Finding:
 
 
 def maxima_of(sweep: xr.Dataset) -> xr.Dataset:
-    """Return the maxima of a sweep over Fig 5's window, named as in the check at Omega = 8."""
+    """Return the maxima of a sweep in the window of Fig 5, named as in the check at Omega = 8."""
     chosen = {"quantity": "pair", "statistic": "max", "window": WINDOW}
     return sweep[["l2"]].sel(chosen, drop=True)
 

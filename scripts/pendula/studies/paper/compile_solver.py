@@ -12,12 +12,12 @@ from pendula.models import solvers
 from pendula.problem import PaperProblem
 
 CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
-"""A value for every control. Compiled code depends on none of them, so that another tolerance needs
-no compilation, and reruns only jobs that use it."""
+"""A value for every control. Compiled code does not depend on them: another tolerance needs no
+compilation, and reruns only the jobs that use it."""
 
 
 def compile_solver(kernels: str, solver: str) -> None:
-    """Run the solver over a short time, then record from which sources it was compiled."""
+    """Compile the solver by a short run, then write a hash of its sources to the file `kernels`."""
     controls = {name: CONTROLS[name] for name in NAMED[solver].controls}
     problem = PaperProblem(
         parameters={"epsilon": 1.0, "gamma": 1.0, "omega": 0.0},

@@ -1,4 +1,4 @@
-"""Figures 2 to 6, the motion of the chain, and comparisons of the solvers."""
+"""Figures 2 to 6, space-time plots of the chain, and comparisons of the solvers."""
 
 import numpy as np
 import xarray as xr
@@ -63,10 +63,10 @@ TRUST_CAPTION = (
 def gather_norms(
     runs: list[xr.Dataset], references: list[xr.Dataset], ensembles: xr.Dataset | None = None
 ) -> xr.Dataset:
-    """Return the norms of two trajectories, of small and of large data, with their references.
+    """Return the norms of two runs, from small and from large data, and of their references.
 
-    If the parameters of a trajectory are not those of its reference, the norms of the reference are
-    NaN. With `ensembles` the bands of the cases are added.
+    If a run and its reference have different parameters, the reference norms are NaN. With
+    `ensembles` the bands of the cases are added.
     """
     cases = [_with_reference(run, true) for run, true in zip(runs, references, strict=True)]
     divergence_text, band = PARTS_CAPTION, ""
@@ -99,7 +99,7 @@ def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
 
 
 def _share(banded: xr.Dataset) -> str:
-    """Return the share of the runs within a band between quantiles, such as "90 %"."""
+    """Return the share of runs within the band between the quantiles, such as "90 %"."""
     ends = banded["quantile"].values
     return f"{100 * (ends[-1] - ends[0]):g} %"
 
@@ -108,8 +108,8 @@ def _share(banded: xr.Dataset) -> str:
 def draw_norms(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, small data above and large below, A red and B blue.
 
-    The reference is drawn under the run. If they diverge, a dashed line marks the time, and a strip
-    below shows the ensemble.
+    The reference is drawn under the run. A dashed line marks their divergence time if there is one,
+    and a strip below shows the ensemble.
     """
     cases = [data.sel(initial_size=size) for size in data["initial_size"].values]
     figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
@@ -145,7 +145,7 @@ def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_spacetime(data: xr.Dataset) -> Figure:
-    """Draw |A_n| left and |B_n| right, small data above and large below, one scale a row.
+    """Draw |A_n| left and |B_n| right, small data above and large below, one scale per row.
 
     A dashed line marks the divergence time.
     """
@@ -177,9 +177,9 @@ def gather_sweeps(
 ) -> xr.Dataset:
     """Return the norms of the pair in two sweeps: the maximum over a window, the mean over another.
 
-    The paper's text speaks of the maximum, its captions of the average, over different windows.
-    Windows have the names that they have in the sweeps, such as "[10, 50]"; `norms` are those to
-    draw. If a sweep has an ensemble, its mean and standard deviation are added.
+    The paper's text uses the maximum, its captions the average, over different windows. Windows are
+    named as in the sweeps, such as "[10, 50]"; `norms` are the norms to draw. If a sweep has an
+    ensemble, its mean and standard deviation are added.
     """
     sweeps = {"left": left, "right": right}
     readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
@@ -197,10 +197,9 @@ def gather_sweeps(
 
 @style.styled
 def draw_sweeps(data: xr.Dataset) -> Figure:
-    """Draw both panels: l2 red dots, l-infinity blue squares; the captions' reading is hollow.
+    """Draw both panels: red dots for l2, blue squares for l-infinity, hollow for averages.
 
-    Each dot of a chaotic sweep is one random sample, so the bars of its ensemble are drawn next to
-    it.
+    Each mark of a chaotic sweep is one random sample: the bars next to it show its ensemble.
     """
     figure = style.new_figure(style.WIDTH, 2.6)
     row = figure.subplots(1, 2)
@@ -216,17 +215,16 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
 
 LABELS = ["omega", "initial"]
 DIFFERENCE = "largest difference of the norms up to this time"
-UNKNOWN = "no reference of this case is known"
+UNKNOWN = "no reference for this case"
 DRAWN = ["ode45", "ode45_real", "taylor", "delfour_fortin_payre", "crank_nicolson"]
-"""Noisy curves below smooth ones."""
+"""Solvers in drawing order: noisy curves are drawn below smooth ones."""
 
 
 def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
-    """Return the largest of the values up to each time.
+    """Return the running maximum of values over time.
 
     The difference of two oscillating curves returns to zero many times and would fill the panel.
-    Its largest value so far never falls, and it exceeds the visible fraction at the divergence
-    time.
+    Its running maximum never falls, and exceeds the visible fraction at the divergence time.
     """
     values = values.transpose(..., "tau")
     largest = values.copy(data=np.maximum.accumulate(values.values, axis=-1))
@@ -234,7 +232,7 @@ def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
 
 
 def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
-    """Return the largest drift of the energy up to each time, and the drift the paper states."""
+    """Return the running maximum of the energy drift, and the drift that the paper states."""
     drift = _so_far(
         solvers["drift"].sel(solver=DRAWN), "largest drift of the energy up to this time"
     )
@@ -244,7 +242,7 @@ def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_drift(data: xr.Dataset) -> Figure:
-    """Draw one panel a case, one line a solver, and the paper's statement as a dashed line."""
+    """Draw one panel per case, one line per solver, and the paper's drift as a dashed line."""
     return draw_cases(data, _draw_drift, r"largest $|H(\tau) - H(0)|$ so far")
 
 
@@ -266,7 +264,7 @@ def _look(solver: str) -> dict:
 
 
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
-    """Return by case the error of each solver against the reference, and its divergence time."""
+    """Return each solver's error against the reference and its divergence time, by case."""
     largest = _so_far(trust["difference"], DIFFERENCE)
     drawn = trust[["horizon", "visible", *LABELS]].assign(largest_so_far=largest)
     return drawn.assign_attrs(caption=TRUST_CAPTION)
@@ -274,9 +272,9 @@ def gather_trust(trust: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_trust(data: xr.Dataset) -> Figure:
-    """Draw one panel a case, one line a solver, and a mark where its error becomes visible.
+    """Draw one panel per case, one line per solver, and a mark where its error becomes visible.
 
-    A curve that never becomes visible has its mark near its end, so that marks identify all curves.
+    If an error never becomes visible, the mark is near the end of the curve to identify it.
     """
     return draw_cases(data, _draw_trust, "largest error so far")
 

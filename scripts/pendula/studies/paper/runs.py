@@ -1,4 +1,4 @@
-"""The datasets of trajectories and sweeps: a case by a solver, and a case on many chains."""
+"""Datasets of trajectories (one case) and of sweeps (one case on chains of many lengths)."""
 
 from collections.abc import Sequence
 
@@ -20,8 +20,8 @@ def run_case(name: str, problem: PaperProblem) -> Contents:
     if remark := remark_on_start(problem):
         print(f"{name}: {remark}")
     if "iterations" in problem.solver and result.outcome.rejected:
-        cut = result.outcome.rejected
-        print(f"{name}: the iteration did not contract; {cut} steps were cut")
+        halvings = result.outcome.rejected
+        print(f"{name}: the iteration did not contract; the step was halved {halvings} times")
     return trajectory_contents(name, problem, result)
 
 
@@ -31,7 +31,7 @@ def run_sweep(
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
 ) -> ManyRuns:
-    """Return the runs on all `half_widths`, for maxima and means of norms over `windows`."""
+    """Return the runs on all `half_widths`, and how maxima and means over `windows` follow."""
     runs = runs_of_sweep(problem, half_widths, windows)
 
     def contents(retained: dict[str, np.ndarray]) -> Contents:

@@ -1,8 +1,8 @@
 """The paper's solvers compared: energy drift, second solver, errors against the reference.
 
-Section 5 states to which order ode45 conserves the energy, and that a second solver gives no
-significant differences. Each case is integrated here by all solvers, and two datasets store what
-figures, claims and the article need of the runs.
+Section 5 states the order of the energy drift of ode45, and that a second solver gives no
+significant differences. Here all solvers integrate each case, and two datasets store the results
+for figures, claims and the article.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -30,34 +30,34 @@ from pendula.problem import PaperProblem
 
 FIRST, SECOND, HALVED = "ode45", "crank_nicolson", "crank_nicolson_halved"
 TRIED = FIRST, SECOND, "taylor"
-"""The solvers that are compared with the references."""
+"""The solvers whose runs are compared with the references."""
 UNKNOWNS = {"complex": FIRST, "real": "ode45_real"}
-"""The paper's first solver by the type of its unknowns: see `integrators.ode45`."""
+"""The paper's first solver, with complex or with real unknowns (see `integrators.ode45`)."""
 STATED_DRIFT = {"small": 1e-6, "large": 1e-4}
-"""The drift of the energy that the paper states, by the end of a case's name."""
+"""The energy drift that the paper states, by the size of the initial data in the case's name."""
 # ASSUME: "up to the order of 10^-k" allows up to twice that number.
 ORDER = Cutoff(2.0, '"up to the order of": up to twice the number')
 
 COMPARED = {
     "drift": "drift of the energy, |H(tau) - H(0)|",
-    "of": "reading of the drift: as it is, or relative to |H(0)|",
+    "of": "definition of the drift: absolute, or relative to |H(0)|",
     "largest_drift": "largest drift of the energy",
     "stated_drift": "order of the drift that the paper states",
     "second_step": "step of the second solver",
-    "second_difference": "largest difference of the norms by the paper's two solvers",
-    "second_divergence": "first tau at which they differ visibly, infinite: never",
+    "second_difference": "largest difference of the norms between the paper's two solvers",
+    "second_divergence": "first tau at which these norms differ visibly, infinite if never",
     "second_l2": "l2 norm of the pair by the second solver",
-    "visible": "visible part of full scale",
+    "visible": "visible fraction of full scale",
 }
 TRUSTED = {
-    "horizon": f"first tau at which a norm is visibly off, {ABSENT}",
+    "horizon": f"first tau at which a norm differs visibly from the reference, {ABSENT}",
     "visible": COMPARED["visible"],
     "known_until": "last tau at which run and reference are both known",
-    "l2_bound": "largest proven bound of the certified curve in the l2 norm",
-    "distance": "largest distance of its norms from the reference, over the bound",
-    "late_distance": "the same distance of the curve one output late",
+    "l2_bound": "largest proven error bound of the certified curve in the l2 norm",
+    "distance": "largest distance of the certified norms from the reference, divided by the bound",
+    "late_distance": "the same distance if the certified curve is one output late",
 }
-"""Long names of the variables of the two datasets that are not in the registry."""
+"""Long names of those variables of the two datasets that are not in the registry."""
 NO_REFERENCE = missing("there is no reference")
 ATTRIBUTES = {
     "omega": REGULAR,
@@ -82,10 +82,10 @@ def measure_solvers(
     user_cases: Collection[str] = (),
     proofs: Mapping[str, xr.Dataset] = {},
 ) -> Iterator[xr.Dataset]:
-    """Yield the dataset of energy drifts and the second solver, then that of all errors.
+    """Yield the dataset of energy drifts and of the second solver, then the dataset of all errors.
 
-    `cases` are plain problems without a solver, and `solvers` the controls of each. For
-    `user_cases`, which differ from the paper's, there is no stated drift.
+    `cases` are plain values of problems without a solver; `solvers` are the controls by solver. The
+    paper states no drift for `user_cases`, which differ from its own.
     """
     runs = {name: run_by_all(name, case, solvers) for name, case in cases.items()}
     yield compare_solvers(runs, user_cases)
@@ -93,7 +93,7 @@ def measure_solvers(
 
 
 def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict[str, xr.Dataset]:
-    """Return a case by each solver, by ode45 on real unknowns, and by half the second's step."""
+    """Return the runs of a case by each solver, ode45_real, and the second with half its step."""
     first, second = solvers[FIRST], solvers[SECOND]
     variants = {
         UNKNOWNS["real"]: {**first, "name": UNKNOWNS["real"]},
@@ -109,7 +109,7 @@ def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict
 def compare_solvers(
     runs: Mapping[str, Mapping[str, xr.Dataset]], user_cases: Collection[str] = ()
 ) -> xr.Dataset:
-    """Return the dataset of COMPARED: energy drifts, and the differences of the second solver."""
+    """Return the dataset of COMPARED: energy drifts, and differences of the second solver."""
     comparisons = []
     for case, by_solver in runs.items():
         stated = np.nan if case in user_cases else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
@@ -145,7 +145,7 @@ def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
 
 
 def _second_solver_differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Return the differences of the second solver from the first, by step, and its l2 norm."""
+    """Return the second solver's differences from the first, by its step, and its l2 norm."""
     differences = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
     run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
     return xr.Dataset(
@@ -171,15 +171,15 @@ def trust_solvers(
 ) -> xr.Dataset:
     """Return the dataset of TRUSTED: errors and horizons by case and solver.
 
-    The horizon is NaN if a run does not solve the problem of its reference. `proofs` are curves
-    with a proven bound, which is used if it is of the run's problem.
+    The horizon is NaN if a run does not solve the problem of its reference. `proofs` are certified
+    curves with their error bounds; a curve is used only if it solves the same problem.
     """
     errors = [
         _trust_case(by_solver, references[case], proofs.get(case))
         for case, by_solver in runs.items()
     ]
     data = _stack(errors, runs).assign(visible=VISIBLE)
-    title = "Until when each solver's norms are those of the reference"
+    title = "How long each solver's norms agree with the reference"
     return _described(data, TRUSTED, runs, title)
 
 
@@ -204,7 +204,7 @@ def _trust_case(
 
 
 def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
-    """Return the numbers of TRUSTED that are proved for the run's problem, NaN if none is."""
+    """Return TRUSTED's numbers on the certified curve, NaN without one for the run's problem."""
     if proved is None or not is_of_same_case(run, proved):
         return dict.fromkeys(("l2_bound", "distance", "late_distance"), np.nan)
     right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)
@@ -226,12 +226,12 @@ def _case_variables(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
 
 
 def _stack(by_case: list[xr.Dataset], cases: Collection[str]) -> xr.Dataset:
-    """Return datasets of cases joined along "case"."""
+    """Return one dataset of the datasets of cases, joined along "case"."""
     return xr.concat(by_case, xr.Variable("case", list(cases)), join="outer")
 
 
 def _described(data: xr.Dataset, names: Mapping, runs: Mapping, title: str) -> xr.Dataset:
-    """Return a dataset with its long names, and with what all runs have in common."""
+    """Return the dataset with long names, and with the attributes that all runs share."""
     for name, long_name in names.items():
         if name in data:
             data[name].attrs = {"long_name": long_name}

@@ -13,15 +13,15 @@ from pendula.problem import Constants
 
 NUMBERS = {
     "region": ("region of the theorem that covers the case", None),
-    "ratio": ("largest P over its smallest bound", 1.0),
-    "start": ("P at the start, delta", None),
+    "ratio": ("largest P divided by its smallest bound", 1.0),
+    "start": ("initial P, delta", None),
     "observed": ("largest P", None),
     "theorem_1": ("C of Theorem 1", None),
     "theorem_2": ("bound on P from the barrier of (25)", None),
-    "widened": ("the same with the bonds kept", None),
+    "widened": ("the same bound with the coupling energy kept", None),
     "theorem_3": ("C_N of Theorem 3", None),
 }
-"""The numbers of a trajectory: long name, and tolerance if the number decides."""
+"""The numbers of a trajectory: long name, and tolerance if the check depends on the number."""
 PRINTED_NUMBERS = ("start", "theorem_1", "theorem_2", "widened", "theorem_3")
 """Numbers that follow from the initial conditions."""
 
@@ -40,10 +40,10 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
 
 
 def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
-    """Return the table that compares each of the paper's trajectories, by case, with its bounds."""
+    """Return the table of the paper's trajectories, by case, with the bounds on each."""
     attributes = [trajectory.attrs for trajectory in trajectories.values()]
     return tabulate(
-        "The paper's cases beside the bounds of its theorems",
+        "The paper's cases, and the bounds of its theorems on them",
         {"case": list(trajectories)},
         map(case_numbers, trajectories.values()),
         NUMBERS,
@@ -55,7 +55,7 @@ def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
 
 
 def check_observed(trajectories: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Return the check of the paper's cases, and print whether it holds."""
+    """Return the dataset of `check_cases`, and print whether the check holds."""
     check = check_cases(trajectories)
     print(describe("cases", check))
     return mark(xr.Dataset.from_dict(check), REGULAR, "omega", *PRINTED_NUMBERS)

@@ -1,4 +1,4 @@
-"""All checks, made by one job: to start a job costs more than most of them."""
+"""All checks, computed by one job: most of them take less time than to start a job."""
 
 from collections.abc import Iterator
 
@@ -18,7 +18,7 @@ SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-14}
 
 
 def check_not_shown() -> dict:
-    """Return the sweep at Omega = 8 from small data, which the paper mentions but does not show."""
+    """Return the sweep at Omega = 8 from small data that the paper mentions but does not show."""
     constants, peaks = constants_at(OMEGA), []
     for half_width in HALF_WIDTHS:
         data = one_pair(2 * half_width + 1, PAIR)
@@ -29,7 +29,7 @@ def check_not_shown() -> dict:
     checked = table(
         f"Largest l2 on [{WINDOW[0]:g}, {WINDOW[1]:g}] at Omega = {OMEGA:g}, small data",
         {"half_width": HALF_WIDTHS},
-        l2=variable(peaks, ("half_width",), "l2 norm over the chain, largest in the window"),
+        l2=variable(peaks, ("half_width",), "largest l2 norm of the chain in the window"),
     )
     checked["attrs"] |= {**vars(constants), **controls_of(SOLVER), "end_time": WINDOW[1]}
     checked["attrs"] |= {"boundary": ENDS, "initial": write_initial({0: PAIR})}

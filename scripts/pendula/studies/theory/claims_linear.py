@@ -28,12 +28,12 @@ RESOLVED_EXPONENT = Cutoff(0.05, "exponents are measured to one decimal")
     "roots is always real, and whose second pair is real if |kappa| > 2 |gamma| and imaginary "
     "otherwise.",
     {
-        "(14)": "the kappa 2 epsilon sin^2(theta / 2) - Omega",
+        "(14)": "kappa = 2 epsilon sin^2(theta / 2) - Omega",
         "(15)": "the roots for half of the drive",
     },
 )
 def dispersion() -> None:
-    """By (14) and its factors the squares of the roots are kappa^2 and kappa^2 - 4 gamma^2."""
+    """By (14) and (15) the squared roots are kappa^2 and kappa^2 - 4 gamma^2."""
 
 
 @claim(
@@ -44,7 +44,7 @@ def dispersion() -> None:
     kind=Kind.THEOREM,
 )
 def stable_below(chart: xr.Dataset) -> Finding:
-    """Require above gamma_0 half of the rate of N sites, if the run is long enough for it."""
+    """Require no growth below gamma_0, and above it half of the rate of N sites if resolved."""
     below, above = (chart["gamma"] < chart["gamma_0"]), (chart["gamma"] > chart["gamma_0"])
     is_resolved = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
     measured = {
@@ -57,7 +57,7 @@ def stable_below(chart: xr.Dataset) -> Finding:
     caveat = f"{spared} drives above gamma_0 leave the finite chain stable" if spared else ""
     criterion = AllOf(
         AtMost(RESOLVED, "fastest", label="fastest growth below gamma_0"),
-        AtLeast(HALF, "slowest", label="slowest growth above it over the predicted rate"),
+        AtLeast(HALF, "slowest", label="slowest growth above gamma_0 over the predicted rate"),
     )
     return judge(measured, criterion, caveat)
 
@@ -84,11 +84,11 @@ def unstable_band(chart: xr.Dataset) -> Finding:
     "Section 3, before Lemma 1",
     "The bound gamma_0 on the drive is sharp.",
     checks("threshold"),
-    controls=(ClaimControl("gamma_0 of an Omega that is 0.1 farther off", shift("excess", 0.05)),),
+    controls=(ClaimControl("a gamma_0 that is too low by 0.05", shift("excess", 0.05)),),
     kind=Kind.THEOREM,
 )
 def sharp_threshold(check: xr.Dataset) -> Finding:
-    """Require that the thresholds of longer and longer chains tend to gamma_0."""
+    """Require that the threshold of a finite chain tends to gamma_0 with its length."""
     excess, sites = check["excess"], check["sites"].values + 1.0
     steps = log(excess.isel(sites=0) / excess.isel(sites=-1)) / log(sites[-1] / sites[0])
     measured = {"order": steps.min(), "excess_of_the_longest": excess.isel(sites=-1).max()}
@@ -108,7 +108,7 @@ def sharp_threshold(check: xr.Dataset) -> Finding:
 )
 def unstable_waves(check: xr.Dataset) -> Finding:
     edge = abs(check["leading_wave"] - np.pi * (check["omega"] > 0.0)).max(skipna=False)
-    label = "distance of the leading wave from its edge"
+    label = "distance of the leading wave from its edge, 0 or pi"
     return judge({"from_its_edge": edge}, Below(0.5 * np.pi, "from_its_edge", label=label))
 
 
@@ -121,6 +121,6 @@ def unstable_waves(check: xr.Dataset) -> Finding:
 )
 def threshold_growth(threshold: xr.Dataset) -> Finding:
     measured = {"wave_exponent": threshold["wave_exponent"].max(skipna=False)}
-    caveat = "on N sites at their own threshold: at gamma_0, which is lower, none grows"
+    caveat = "on N sites at their own threshold; at gamma_0, which is lower, no wave grows"
     criterion = Near(1.0, RESOLVED_EXPONENT, "wave_exponent", label="exponent of tau of a wave")
     return judge(measured, criterion, caveat)

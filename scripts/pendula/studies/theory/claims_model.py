@@ -34,10 +34,10 @@ def by_algebra(
     kind: Kind = Kind.IDENTITY,
     caveat: str = "",
 ) -> Callable:
-    """Return a decorator: the claim holds if no terms are left of the statements in `twins`.
+    """Return a decorator for a claim that holds if the statements in `twins` leave no terms.
 
-    `twins` describes for each statement its wrong twin, which a control puts in its place. The
-    decorated function only names the claim, and its docstring says why these statements decide it.
+    `twins` describes the wrong twin of each statement, which a control puts in its place. The
+    decorated function names the claim, and its docstring gives the reason for these statements.
     """
 
     def declare(function: Callable) -> Callable:
@@ -53,20 +53,20 @@ def by_algebra(
 
 
 def terms_left(identities: xr.Dataset, *names: str) -> dict[str, float]:
-    """Return the number of terms left of each of these statements, as measured numbers."""
+    """Return the number of terms that each of these statements leaves, as measured numbers."""
     terms = identities["terms"]
     return {f"terms_left_of_{name}": terms.sel(identity=name).max() for name in names}
 
 
 def nothing_left(left: Mapping[str, float]) -> AtMost:
-    """Return the criterion that no terms are left of these statements."""
+    """Return the criterion that these statements leave no terms."""
     return AtMost(0, *left, label="terms left of the identity")
 
 
 def twin(name: str, description: str) -> ClaimControl:
-    """Return the control that puts the wrong twin of this statement in its place."""
+    """Return the control with this statement replaced by its wrong twin."""
 
-    def wrong(identities: xr.Dataset):
+    def wrong(identities: xr.Dataset) -> xr.Dataset:
         is_named = identities["identity"] == name
         terms = identities["terms"].where(~is_named, identities["twin_terms"])
         return identities.assign(terms=terms)
@@ -83,7 +83,7 @@ def twin(name: str, description: str) -> ClaimControl:
     },
 )
 def hamiltonian() -> None:
-    """The rates of (4) are those by the gradient of H, and the rate of H along them vanishes."""
+    """The gradient of H gives the rates of (4), and the rate of H along them vanishes."""
 
 
 @claim(
@@ -96,17 +96,17 @@ def hamiltonian() -> None:
     kind=Kind.IDENTITY,
 )
 def no_gauge(identities: xr.Dataset) -> Finding:
-    """Without the drive a change of all phases is a symmetry; with it terms must be left."""
+    """Without the drive a shift of all phases is a symmetry; with it terms must be left."""
     left = identities["twin_terms"].min("boundary")
     measured = {
         f"terms_left_of_{form}": left.sel(identity=f"phases of ({form}) without drive")
         for form in (4, 10)
     }
-    return judge(measured, Above(0, *measured, label="terms left if all phases are turned"))
+    return judge(measured, Above(0, *measured, label="terms left if all phases are shifted"))
 
 
 def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
-    """Return a control: the table with the spectra at gamma = 0 in place of the driven ones."""
+    """Return, as a control, the spectra at gamma = 0 in place of the driven ones."""
     if "exponents_undriven" not in lyapunov:
         raise UndecidableError("there are no spectra at gamma = 0")
     names = ("exponents", "exponents_error")
@@ -121,12 +121,12 @@ def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
 )
 def one_integral(lyapunov: xr.Dataset) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
-    # With a second integral at least four exponents of a spectrum vanish, and a single one outside
-    # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
+    # A second integral makes at least four exponents of each spectrum vanish. One of them outside
+    # its confidence interval would hide it: hence Bonferroni's bound, for four in every spectrum.
     level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(INTERVALS - 1, level) / student(INTERVALS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
-    # exponents that are nearer to zero than to the next exponent
+    # an exponent vanishes for sure if it lies within the mean spacing of exponents from zero
     between = 2.0 * size.max("index") / size.sizes["index"]
     vanishing = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
@@ -138,12 +138,12 @@ def one_integral(lyapunov: xr.Dataset) -> Finding:
         return undecided(
             measured,
             "each integral makes a pair of Lyapunov exponents vanish, and on a short chain the runs"
-            f" of {many} are too short to exclude that a second pair vanishes",
+            f" of {many} are too short to exclude a second vanishing pair",
             AllOf(one_pair[1], AtMost(1.0, "most_resolved_pairs", label="pairs close to zero")),
         )
     caveat = (
         "each integral makes a pair of Lyapunov exponents vanish, and on short chaotic chains "
-        "exactly one pair does; this excludes another integral only where these runs went"
+        "exactly one pair does; this excludes another integral only in the region of these runs"
     )
     fails = "a second pair of Lyapunov exponents vanishes, or none does"
     return judge(measured, AllOf(*one_pair), caveat, fails)
@@ -158,7 +158,7 @@ def one_integral(lyapunov: xr.Dataset) -> Finding:
         "(11)": "P without T",
         "energy of (10)": "the energy with u and v as their own conjugate variables",
     },
-    caveat="the symmetry is that of P and T together; P alone is none",
+    caveat="P and T together are a symmetry; P alone is not",
 )
 def pt_form() -> None:
     """The change (9) turns (4) into (10), and H / 8 is the energy of (10)."""
@@ -183,7 +183,7 @@ def exchange() -> None:
     },
 )
 def synchronised() -> None:
-    """The exchange keeps A = B, where the rates are those of (5), without a drive."""
+    """The exchange preserves A = B, where the rates are those of (5), without a drive."""
 
 
 @by_algebra(
@@ -201,7 +201,7 @@ def pendula_synchronised() -> None:
     {"H from the energy of (1)": "the energy of another Omega"},
 )
 def inherited() -> None:
-    """In the frame that rotates with the pendula, averaged over a period, it is -H at mu^4."""
+    """The energy of (1), averaged over a period in the rotating frame, is -H at order mu^4."""
 
 
 @by_algebra(
@@ -220,4 +220,4 @@ def resonance() -> None:
     {"(4) from (1) by (3)": "the slow time mu^2 t"},
 )
 def amplitude_equations() -> None:
-    """The residual of (1) at mu^3 has no first harmonic, and only with (4) and this tau."""
+    """The residual of (1) at mu^3 has no first harmonic if and only if (4) holds with this tau."""

@@ -26,8 +26,8 @@ from .claims_model import by_algebra, nothing_left, terms_left, twin
 
 SECTION = 4
 
-# ASSUME: a quantity grows with the chain, as C_N does in proportion to N, if its exponent of N
-# is nearer to one than to zero.
+# ASSUME: a quantity "grows with N", as C_N does in proportion to N, if its exponent of N is
+# nearer to one than to zero.
 IN_PROPORTION = Cutoff(0.5, '"grows with N": the exponent of N is nearer to 1 than to 0')
 SHARP = Cutoff(0.9, '"sharp": at least 90 % of the bound is reached', ideal=1.0)
 ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
@@ -48,11 +48,11 @@ def local_existence() -> None:
 DISTANCE, GROWTH = "distance of two solutions", "(19)"
 """Statements proved by algebra: bounds on the rate of a distance, and on the rate of P."""
 of_lemma_2 = partial(claim, "Lemma 2", needs=checks("identities", "well_posed"), kind=Kind.THEOREM)
-HALF_OF_THE_RATE = twin(DISTANCE, "a rate of half of the drive")
+HALF_OF_THE_RATE = twin(DISTANCE, "a rate for half of the drive")
 
 
 def of_a_neighbour(well_posed: xr.Dataset) -> xr.Dataset:
-    """Return a control: runs in which a solution from nearby data is that of the second solver."""
+    """Return, as a control, a solution from perturbed data in place of the second solver's."""
     near = well_posed.sel(perturbation_size=well_posed["perturbation_size"].min(), drop=True)
     return well_posed.assign(
         between_solvers=float(well_posed["perturbation_size"].min())
@@ -61,17 +61,17 @@ def of_a_neighbour(well_posed: xr.Dataset) -> xr.Dataset:
 
 
 def of_one_distance(well_posed: xr.Dataset) -> xr.Dataset:
-    """Return a control: runs in which all distances are those of the largest perturbation."""
+    """Return, as a control, runs with the same distance for all perturbations."""
     sizes = well_posed["perturbation_size"]
     return well_posed.assign(distance_ratio=well_posed["distance_ratio"] * sizes.max() / sizes)
 
 
 def beyond_runs(well_posed: xr.Dataset, time: str) -> str:
-    """Return the caveat on what is known from runs only, up to the time of the attribute `time`."""
+    """Return the caveat on the range of the runs; the attribute `time` has their duration."""
     largest, end = well_posed["initial_power"].max(), well_posed.attrs[time]
     return (
         f"computed from random initial conditions with P up to {largest:g} and for |tau| up to"
-        f" {end:g}; beyond these it rests on the proof"
+        f" {end:g}; beyond these it relies on the proof"
     )
 
 
@@ -80,7 +80,7 @@ def beyond_runs(well_posed: xr.Dataset, time: str) -> str:
     controls=(
         twin(GROWTH, "the bound exp(2 |gamma tau|)"),
         ClaimControl(
-            "runs under twice the drive, by the bound of the drive",
+            "runs under twice the drive of the bound",
             {"well_posed": take(steepest="steepest_of_twice_the_drive")},
         ),
     ),
@@ -103,17 +103,17 @@ def global_existence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     controls=(
         HALF_OF_THE_RATE,
         ClaimControl(
-            "the solution from a perturbed initial condition as that by the second solver",
+            "a solution from a perturbed initial condition in place of the second solver's",
             {"well_posed": of_a_neighbour},
         ),
     ),
 )
 def uniqueness(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
-    """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d: from 0 it stays 0.
+    """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d: if zero, it stays zero.
 
-    M is the largest amplitude on the straight line between both states, along which the rates are
-    integrated by their derivative; the identity is about this derivative. Two solvers, each of
-    which could have found another solution, find the same one.
+    M is the largest amplitude on the straight line between the two states. The derivative of the
+    rates, integrated along this line, is their difference; the identity bounds this derivative. Two
+    solvers find the same solution.
     """
     left = terms_left(identities, DISTANCE)
     measured = {
@@ -123,27 +123,26 @@ def uniqueness(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     criterion = AllOf(
         nothing_left(left),
         AtMost(1.0, "rate", label=RATE),
-        Below(ONE_SOLUTION, "between_solvers", label="distance of the solutions by two solvers"),
+        Below(ONE_SOLUTION, "between_solvers", label="distance between two solvers' solutions"),
     )
     caveat = f"{beyond_runs(well_posed, 'close_time')}, where M is finite"
     return judge(left | measured, criterion, caveat)
 
 
-RATE = "largest growth of the log of a distance over (2 gamma + M^2 / 2) tau"
+RATE = "largest growth of the log of a distance, divided by (2 gamma + M^2 / 2) tau"
 
 
 @of_lemma_2(
     "The solution depends continuously on the initial data.",
     controls=(
         HALF_OF_THE_RATE,
-        ClaimControl("distances that do not depend on the size", {"well_posed": of_one_distance}),
+        ClaimControl("the same distance for every perturbation", {"well_posed": of_one_distance}),
     ),
 )
 def continuous_dependence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
-    """The same rate bounds the distance at any later time by a multiple of the initial one.
+    """The same rate bounds the distance at any later time by a multiple of the initial distance.
 
-    So the later distance shrinks with the initial one, and in proportion to it, since the rates are
-    smooth.
+    The later distance thus shrinks with the initial one, in proportion because rates are smooth.
     """
     left, near = terms_left(identities, DISTANCE), well_posed.sortby("perturbation_size")
     logs = (
@@ -161,7 +160,7 @@ def continuous_dependence(identities: xr.Dataset, well_posed: xr.Dataset) -> Fin
         RESOLVED_ORDER,
         "least_order",
         "largest_order",
-        label="order of a distance in the first",
+        label="order of a distance in the initial one",
     )
     criterion = AllOf(nothing_left(left), AtMost(1.0, "rate", label=RATE), orders)
     caveat = f"{beyond_runs(well_posed, 'close_time')}, where the rate bounds the distance"
@@ -184,7 +183,7 @@ def growth_bound() -> None:
     {"balance of P": "the balance equation with twice the drive"},
 )
 def balance() -> None:
-    """The rate of P along the equations is that of the balance equation."""
+    """The rate of P by (4) is the right side of the balance equation."""
 
 
 @by_algebra(
@@ -241,7 +240,7 @@ def theorem_1() -> None:
     kind=Kind.THEOREM,
 )
 def theorem_2() -> None:
-    """By (25) no state of small energy is on the barrier that the continuous P would cross."""
+    """P is continuous, and by (25) no state of small energy has P at the barrier."""
 
 
 @by_algebra(
@@ -273,7 +272,7 @@ def bootstrap(check: xr.Dataset) -> Finding:
     fails = (
         f"a state with P = {largest:.3g} satisfies (25) at an energy for which (24) allows only "
         f"{allowed:.3g}: the proof assumes the bound P <= C_0 delta that it is to prove; the "
-        "theorem stands, because P is continuous in time and starts below the barrier"
+        "theorem holds, because P is continuous in time and starts below the barrier"
     )
     label = "largest P that the proof's inequalities allow"
     return judge(measured, AtMost(allowed, "largest_power", label=label), fails=fails)
@@ -286,7 +285,7 @@ def bootstrap(check: xr.Dataset) -> Finding:
     kind=Kind.THEOREM,
 )
 def theorem_3() -> None:
-    """H is conserved, and P^2 / (8 N) - c P is at most H, by the bound and (27)."""
+    """H is conserved, and by its lower bound and (27) it is at least P^2 / (8 N) - c P."""
 
 
 @claim(
@@ -300,7 +299,7 @@ def theorem_3_proof(check: xr.Dataset) -> Finding:
     measured = {name: check[name].min() for name in ("printed", "corrected")}
     measured["smallest_chain"] = smallest = number(check, "smallest")
     fails = (
-        f"A = -B = x (-1)^n violates it on {smallest:.0f} sites and more; with 2 gamma in place of "
+        f"A = -B = x (-1)^n violates it on {smallest:.0f} or more sites; with 2 gamma in place of "
         "gamma it holds"
     )
     return judge(
@@ -318,15 +317,15 @@ ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)
     controls=(ClaimControl("Omega = 8, where Theorem 1 bounds P on any chain", ABOVE_THE_BAND),),
 )
 def bound_grows(check: xr.Dataset) -> Finding:
-    """Require that C_N grows, and that the largest P of data of one energy does."""
+    """Require that C_N grows with N, and that the largest P at a fixed energy does too."""
     measured = {
         name: number(check, name, omega=0.0) for name in ("constant_exponent", "shell_exponent")
     }
-    caveat = "it must at Omega = 0; above the band Theorem 1 gives one bound for all N"
+    caveat = "it must grow at Omega = 0; above the band Theorem 1 gives one bound for all N"
     criterion = AllOf(
         Above(IN_PROPORTION, "constant_exponent", label="exponent of N in C_N"),
         Above(
-            IN_PROPORTION, "shell_exponent", label="exponent of N in the largest P of one energy"
+            IN_PROPORTION, "shell_exponent", label="exponent of N in the largest P at one energy"
         ),
     )
     return judge(measured, criterion, caveat)
@@ -340,12 +339,12 @@ def bound_grows(check: xr.Dataset) -> Finding:
 )
 def energy_not_useful(check: xr.Dataset) -> Finding:
     measured = {"shell_exponent": number(check, "shell_exponent", omega=0.0)}
-    label = "exponent of N in the largest P of one energy"
+    label = "exponent of N in the largest P at one energy"
     return judge(measured, Above(IN_PROPORTION, "shell_exponent", label=label))
 
 
 SIZES = ("theorem_1", "theorem_2")
-"""The theorems whose bounds are proportional to the initial power of small data."""
+"""The theorems with bounds proportional to P(0) for small data."""
 
 
 @claim(
@@ -359,16 +358,15 @@ SIZES = ("theorem_1", "theorem_2")
             take(proof_constant="least_constant"),
             confirms=True,
         ),
-        ClaimControl("initial conditions of which no P grows", put("least_constant", 1.0)),
+        ClaimControl("initial conditions from which P does not grow", put("least_constant", 1.0)),
         ClaimControl("bounds in terms of H that are 25 % too large", scale("reached", 0.8)),
     ),
 )
 def sharp_theorems(check: xr.Dataset) -> Finding:
-    """Compare the bounds C delta of small data, delta = P(0), with the largest growth of P.
+    """Compare the bounds C delta for small data, delta = P(0), with the largest growth of P.
 
-    The paper prints no constants: they may be the least ones, or those of the inequalities in its
-    proofs. If only the latter fail, and the bounds in terms of H are attained, the claim is
-    undecided.
+    The paper prints no constants C: they may be the least possible ones, or those of the
+    inequalities in its proofs. If only the latter are not attained, the claim is undecided.
     """
     measured = {}
     for theorem in SIZES:
@@ -385,9 +383,9 @@ def sharp_theorems(check: xr.Dataset) -> Finding:
     by_energy = Above(
         SHARP,
         *(name for name in measured if name.startswith("by_energy")),
-        label="share of the bound by H that is reached",
+        label="attained share of the bound in terms of H",
     )
-    by_size = Above(SHARP, *shares, label="share of the bound by the size that is reached")
+    by_size = Above(SHARP, *shares, label="attained share of the bound in terms of delta")
     sharp = AllOf(growths, by_energy, by_size)
     if set(sharp.failing(measured)) == set(shares):
         return undecided(measured, _by_energy_alone(measured), sharp)
@@ -405,7 +403,7 @@ def _by_energy_alone(measured: dict[str, float]) -> str:
     return (
         "the paper prints no constants: for small initial conditions with P(0) = delta the"
         f" inequalities of its proofs give P <= {first['proof']:.3g} delta at Omega = 8 and"
-        f" {second['proof']:.3g} delta at Omega = -4, and {first['least']:.3g} delta and"
-        f" {second['least']:.3g} delta are enough; in terms of H at least"
-        f" {np.floor(1e4 * reached) / 100:g}% of each bound is reached"
+        f" {second['proof']:.3g} delta at Omega = -4, but {first['least']:.3g} delta and"
+        f" {second['least']:.3g} delta are enough; at least"
+        f" {np.floor(1e4 * reached) / 100:g}% of each bound in terms of H is attained"
     )

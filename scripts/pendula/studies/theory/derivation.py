@@ -1,10 +1,10 @@
-"""From Newton's equations (1) to (4): the straightforward computations that the paper leaves out.
+"""From Newton's equations (1) to (4): the straightforward computations that the paper omits.
 
-The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and likewise y with B. Cosine
-and sine of the fast time omega t are indeterminates here, A and B depend on the slow time. The
-residual of (1) at mu^3 must have no first harmonic, or the remainder grows with time: this gives
-(4). The energy of (1) in the frame that rotates with the pendula, averaged over a period, gives -H
-at mu^4.
+The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and likewise y with B. Here
+cosine and sine of the fast time omega t are indeterminates; A and B depend on the slow time. The
+residual of (1) at mu^3 must have no first harmonic, or the remainder would grow with time: this
+gives (4). The energy of (1), averaged over a period in the frame that rotates with the pendula, is
+-H at mu^4.
 """
 
 from collections.abc import Callable, Mapping
@@ -51,7 +51,7 @@ def at_order(polynomial: fmpq_mpoly, order: int) -> fmpq_mpoly:
 
 
 def averaged(polynomial: fmpq_mpoly) -> fmpq_mpoly:
-    """Return the mean of a polynomial in cos and sin of the fast time over a period."""
+    """Return the mean over a period of a polynomial in cos and sin of the fast time."""
     mean = ZERO
     for powers, coefficient in polynomial.to_dict().items():
         j, k = powers[COSINE_AT], powers[SINE_AT]
@@ -80,20 +80,20 @@ def turning(re: np.ndarray, im: np.ndarray) -> np.ndarray:
     return scaled(COSINE, re) - scaled(SINE, im)
 
 
-def accelerations(ends: str, x: np.ndarray, drive=DOUBLE) -> np.ndarray:
-    """Return x'' and y'' of the traced equations (1) at the angles x and y, (component, site)."""
+def accelerations(ends: str, x: np.ndarray, drive: fmpq_mpoly = DOUBLE) -> np.ndarray:
+    """Return x'' and y'' by the traced equations (1) at the angles `x`, both (component, site)."""
     state = np.stack([x, 0 * x], axis=1)
     constants = {"coupling": EPSILON * MU**2, "drive": 2 * GAMMA * MU**2 * drive}
     return rates(ends, state, KERNEL_MODEL, SINES, **constants)[:, 1]
 
 
-def first_harmonic(ends: str, slow: fmpq, drive=DOUBLE) -> list:
+def first_harmonic(ends: str, slow: fmpq, drive: fmpq_mpoly = DOUBLE) -> list[fmpq_mpoly]:
     """Return the first harmonic, by cos and by sin, of the residual of (1) at mu^3.
 
-    The amplitudes obey (4) in a time whose rate is `slow` in mu^2 t.
+    The amplitudes obey (4) with tau = `slow` mu^2 t.
     """
     change = slow * rates(ends)
-    # x'' of (3) minus -x: omega^2 = 1 + mu^2 Omega, and the product of the two rates
+    # x'' + x of (3), by omega^2 = 1 + mu^2 Omega and twice the fast times the slow derivative
     inertia = -scaled(OMEGA, turning(STATE[:, 0], STATE[:, 1]))
     inertia = inertia - 2 * turning(change[:, 1], -change[:, 0])
     forces = accelerations(ends, angles(), drive=drive)
@@ -104,8 +104,8 @@ def first_harmonic(ends: str, slow: fmpq, drive=DOUBLE) -> list:
     ]
 
 
-def resonance(ends: str, drive) -> list:
-    """Return the first harmonic for another drive."""
+def resonance(ends: str, drive: fmpq_mpoly) -> list[fmpq_mpoly]:
+    """Return the first harmonic for another time dependence of the drive."""
     return first_harmonic(ends, SLOW, drive)
 
 
@@ -118,8 +118,8 @@ def newtons_energy(ends: str, x: np.ndarray) -> fmpq_mpoly:
     return gravity + coupled + GAMMA * MU**2 * DOUBLE * ((x[0] - x[1]) ** 2).sum()
 
 
-def inherited(ends: str, omega) -> list:
-    """Return the residuals of H as the averaged Newton energy, and of (1) as its equations."""
+def inherited(ends: str, omega: fmpq_mpoly) -> list[fmpq_mpoly]:
+    """Return residuals: of -H as the averaged energy of (1), and of (1) as its gradient."""
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
     generic = STATE[:, 0]
@@ -134,10 +134,10 @@ def inherited(ends: str, omega) -> list:
     return [averaged(at_order(turning, 4)) + energy(ends, omega=omega), *left]
 
 
-def synchronised(ends: str, sign: int) -> list:
-    """Return the residual of (1) on y = `sign` x, and what the drive contributes there.
+def synchronised(ends: str, sign: int) -> list[fmpq_mpoly]:
+    """Return the residual of y = `sign` x under (1), and the contribution of the drive there.
 
-    The symbol for the sine acts on each angle alone, so the result holds for any odd function.
+    The sine acts on each angle separately, so the result holds for any odd function.
     """
     x = np.stack([STATE[0, 0], sign * STATE[0, 0]])
     driven, free = (accelerations(ends, x, drive) for drive in (DOUBLE, ZERO))
@@ -150,4 +150,4 @@ IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
     "H from the energy of (1)": (inherited, OMEGA, OMEGA + 1),
     "x = y is kept": (synchronised, 1, -1),
 }
-"""See `identities.IDENTITIES`."""
+"""Statements with their residuals, as in `identities.IDENTITIES`."""

@@ -1,5 +1,7 @@
 """Short runs of (4) for the checks, and their initial data."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 from latticode.measures.norms import power_of
 from latticode.numerics.draws import complex_normal
@@ -11,7 +13,7 @@ from pendula.models.integrations import make_chain
 from pendula.problem import Constants, PaperProblem
 
 ENDS, PAIR = "dirichlet", (1.0, 0.1)
-"""The ends of the paper's chains, and (A_0, B_0) of its small cases."""
+"""The ends of the paper's chains, and (A_0, B_0) in its small cases."""
 
 
 def constants_at(omega: float, gamma: float = 1.0) -> Constants:
@@ -20,11 +22,17 @@ def constants_at(omega: float, gamma: float = 1.0) -> Constants:
 
 
 def run(
-    constants: Constants, boundary: str, amplitudes: np.ndarray, end_time, outputs=1, *, solver
+    constants: Constants,
+    boundary: str,
+    amplitudes: np.ndarray,
+    end_time: float,
+    outputs: int = 1,
+    *,
+    solver: Mapping,
 ) -> Trajectory:
-    """Return the trajectory of amplitudes (2, N), integrated on the full chain without reductions.
+    """Return the trajectory from amplitudes (2, N), integrated on the full chain, not on its half.
 
-    It has the initial state and `outputs` more, in equal steps up to `end_time`.
+    It has the initial state and `outputs` later ones, in equal steps up to `end_time`.
     """
     problem = PaperProblem(
         parameters=vars(constants),
@@ -43,8 +51,8 @@ def controls_of(solver: dict) -> dict:
     return {"solver" if key == "name" else f"solver_{key}": value for key, value in solver.items()}
 
 
-def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray):
-    """Return H of equation (8), (...), of `amplitudes` (..., 2, N), as the library computes it."""
+def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
+    """Return H of (8) by the kernel of the solvers, (...), for `amplitudes` (..., 2, N)."""
     chains = amplitudes.reshape(-1, *amplitudes.shape[-2:])
     states = np.zeros((len(chains), 4, chains.shape[2] + 2))
     states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = chains.real, chains.imag
@@ -64,7 +72,7 @@ def random_amplitudes(seed: int, sites: int) -> np.ndarray:
     return 1.0 / np.sqrt(power_of(drawn)) * drawn
 
 
-def one_pair(sites: int, pair) -> np.ndarray:
+def one_pair(sites: int, pair: Sequence[complex]) -> np.ndarray:
     """Return amplitudes (2, N) with one excited pair in the middle and all others at rest."""
     amplitudes = np.zeros((2, sites), complex)
     amplitudes[:, sites // 2] = pair

@@ -14,7 +14,7 @@ from replication.variables import REGULAR
 
 from pendula.drawing import name_initial
 
-HEAT = "YlOrRd"  # from light to dark: growth is slow, and colours light, near the boundaries
+HEAT = "YlOrRd"  # light for slow growth, so that the thresholds are seen
 CHART = ["measured", "infinite_curve", "finite_curve", "sites"]
 CURVES = {
     "finite_curve": {"color": style.BLUE, "lw": 1.1, "label": "threshold of the finite chain"},
@@ -46,10 +46,9 @@ BOUNDS_CAPTION = (
 def gather_chart(
     chart: xr.Dataset, points: Sequence[tuple[float, float]], of_paper: bool = True
 ) -> xr.Dataset:
-    """Return the chart and the points of the cases.
+    """Return the chart with the points of the cases.
 
-    `points` are pairs (Omega, gamma) in units of epsilon; `of_paper` tells whether they are the
-    paper's.
+    `points` are pairs (Omega, gamma) in units of epsilon; with `of_paper` they are the paper's.
     """
     data = chart[CHART].drop_attrs(deep=False).assign_attrs(caption=CHART_CAPTION, **REGULAR)
     owner = "the paper's cases" if of_paper else "the cases"

@@ -2,7 +2,7 @@
 
 These are polynomials in the fields and the constants, for each kind of ends. An identity holds for
 all data and constants if and only if the difference of its sides has no terms. Each statement has a
-wrong twin, of which terms must be left.
+wrong twin, which must leave terms.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 from latticode.datasets.checks import describe, table, variable
 from latticode.equations.model import Model, Value, abs2, conj, lap
 
@@ -44,13 +44,13 @@ from .polynomials import (
 
 HALF = fmpq(1, 2)
 TURN = fmpq(3, 5), fmpq(4, 5)
-"""Cosine and sine of an angle that is no rational part of a turn: what holds for it holds for all
-angles."""
+"""Cosine and sine of an irrational fraction of a turn: a symmetry under its multiples, which come
+close to any angle, is one under all angles."""
 
 # --- The paper's other forms of the equations, as it prints them ----------------------------------
 
 
-def pt_form(p, u: Value, v: Value) -> list[Value]:
+def pt_form(p: Any, u: Value, v: Value) -> list[Value]:
     """Return i du/dtau and i dv/dtau of (10)."""
     uu, vv = abs2(u), abs2(v)
     return [
@@ -67,7 +67,7 @@ def pt_form(p, u: Value, v: Value) -> list[Value]:
     ]
 
 
-def scalar_form(p, a: Value) -> Value:
+def scalar_form(p: Any, a: Value) -> Value:
     """Return i da/dtau of the scalar equation to which (4) reduces by (5)."""
     return p.epsilon * lap(a) + p.omega * a + 0.5 * abs2(a) * a
 
@@ -102,22 +102,22 @@ def equal_phases(factor: int) -> np.ndarray:
 
 
 def equivariance(
-    ends: str, image: Callable, state: np.ndarray = STATE, direction: int = 1, **constants
+    ends: str, image: Callable, state: np.ndarray = STATE, direction: int = 1, **constants: Any
 ) -> Residual:
-    """Return the residual of the equations under w -> image(w), with time in this `direction`."""
+    """Return the residual of the symmetry w -> image(w); a `direction` of -1 reverses time."""
     return rates(ends, image(state), **constants) - direction * image(
         rates(ends, state, **constants)
     )
 
 
 def p_and_t(ends: str, direction: int) -> Residual:
-    """Return the residual of (10) under P T, or under P alone with time in its own direction."""
+    """Return the residual of (10) under P and T if `direction` is -1, else under P alone."""
     image = exchanged if direction > 0 else lambda w: conjugate(exchanged(w))
     return equivariance(ends, image, direction=direction, model=PT)
 
 
-def phases(ends: str, gamma, **constants) -> Residual:
-    """Return the residual of (4) under a change of all phases, with this drive."""
+def phases(ends: str, gamma: fmpq_mpoly, **constants: Any) -> Residual:
+    """Return the residual of the equations with this drive under a shift of all phases."""
     return equivariance(ends, turned, gamma=gamma, **constants)
 
 
@@ -126,12 +126,12 @@ def phases_alike(ends: str, factor: int) -> Residual:
     return equivariance(ends, turned, equal_phases(factor))
 
 
-def hamiltonian(ends: str, omega) -> Residual:
-    """Return the rates of (4) minus those by (7): the gradient by conj A is half that by rows."""
+def hamiltonian(ends: str, omega: fmpq_mpoly) -> Residual:
+    """Return the rates of (4) minus those of (7), where d/d(conj A) is half of (d/dRe, d/dIm)."""
     return rates(ends) - HALF * times(0, -1, gradient(energy(ends, omega=omega)))
 
 
-def rate_of_energy(ends: str, omega) -> Residual:
+def rate_of_energy(ends: str, omega: fmpq_mpoly) -> Residual:
     return (gradient(energy(ends, omega=omega)) * rates(ends)).sum()
 
 
@@ -140,29 +140,29 @@ def reduction(ends: str, factor: int) -> Residual:
     return rates(ends, equal_phases(factor))[0] - rates(ends, STATE[:1], SCALAR)[0]
 
 
-def of_pt(ends: str, gamma) -> Residual:
+def of_pt(ends: str, gamma: fmpq_mpoly) -> Residual:
     """Return the rates of (4) minus those of (10) transformed by (9)."""
     return from_pt(rates(ends, model=PT)) - rates(ends, from_pt(STATE), gamma=gamma)
 
 
 def pt_hamiltonian(ends: str, image: Callable) -> Residual:
-    """Return the rates of (10) minus those of K = H / 8, by i u' = dK/d(conj v) and the like."""
+    """Return the rates of (10) minus those of K = H / 8: i u' = dK/d(conj v), likewise v'."""
     slope = gradient(fmpq(1, 8) * put(energy(ends), from_pt(STATE)))
     return rates(ends, model=PT) - HALF * times(0, -1, image(slope))
 
 
 def sign_of_gamma(ends: str, image: Callable) -> Residual:
-    """Return the residual of w -> image(w) as a change of the sign of gamma."""
+    """Return the residual of the statement that w -> image(w) changes the sign of gamma."""
     return rates(ends, image(STATE), gamma=-GAMMA) - image(rates(ends))
 
 
 # --- The linear equations -------------------------------------------------------------------------
 
 
-def of_a_wave(ends: str, kappa) -> Residual:
-    """Return the linear rates of a site whose neighbours are cos theta times it, minus (14).
+def of_a_wave(ends: str, kappa: fmpq_mpoly) -> Residual:
+    """Return the linear rates of a site minus (14), with cos(theta) times the site as neighbours.
 
-    The linear equation (14) is i A' + kappa A = gamma (conj B - conj A), and s = sin(theta / 2).
+    The linear equation (14) is i A' + kappa A = gamma (conj B - conj A). SINE is sin(theta / 2).
     """
     site = STATE[..., :1]
     neighbour = scaled(1 - 2 * SINE**2, site)
@@ -174,7 +174,7 @@ def of_a_wave(ends: str, kappa) -> Residual:
 
 
 def determinant(ends: str, drive: int) -> Residual:
-    """Return the determinant printed before (15) minus its factors, with `drive` times gamma."""
+    """Return the determinant before (15) minus the product of its factors, with `drive` gamma."""
     k, g, w = KAPPA, GAMMA, OMEGA
     rows = [[k - w, g, ZERO, -g], [g, k + w, -g, ZERO], [ZERO, -g, k - w, g], [-g, ZERO, g, k + w]]
     total = ZERO
@@ -211,25 +211,25 @@ IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
     **derivation.IDENTITIES,
     **inequalities.IDENTITIES,
 }
-"""By name: the residual of each statement for a kind of ends, its value or option, and third that
-of its wrong twin."""
+"""By statement: the function that returns its residual from a kind of ends and an argument, the
+argument of the statement, and the argument of its wrong twin."""
 
 
 def prove_identities() -> xr.Dataset:
-    """Return the number of terms left of each statement and of its twin, for each kind of ends."""
+    """Return the number of terms that each statement and its twin leave, for each kind of ends."""
     dims = ("identity", "boundary")
     right, wrong = (
         [
-            [terms_left(left(ends, texts[i])) for ends in BOUNDARIES]
-            for left, *texts in IDENTITIES.values()
+            [terms_left(residual(ends, arguments[i])) for ends in BOUNDARIES]
+            for residual, *arguments in IDENTITIES.values()
         ]
         for i in (0, 1)
     )
     check = table(
         "Identities and inequalities of the paper, proved as polynomials over the rationals",
         {"identity": list(IDENTITIES), "boundary": list(BOUNDARIES)},
-        terms=variable(right, dims, "terms that are left of the statement", tolerance=0),
-        twin_terms=variable(wrong, dims, "terms that are left of its wrong twin"),
+        terms=variable(right, dims, "terms that the statement leaves", tolerance=0),
+        twin_terms=variable(wrong, dims, "terms that its wrong twin leaves"),
     )
     print(describe("identities", check))
     return xr.Dataset.from_dict(check).assign_attrs(sites=SITES)

@@ -1,9 +1,8 @@
-"""The inequalities of Section 4, proved: the larger side minus the smaller one is a sum of squares.
+"""Proofs of the inequalities of Section 4: larger minus smaller side is a sum of squares.
 
-The factors of the squares are not negative if epsilon, gamma > 0 and |Omega| = +-Omega. The
-residual of an inequality is its larger side minus its smaller side minus these squares: it must
-have no terms. P counts |A_n|^2 and |B_n|^2 of all sites. A wrong twin has three quarters of the
-larger side, or half of the drive.
+For epsilon, gamma > 0 and |Omega| = +-Omega no square has a negative factor. The residual of an
+inequality is its larger side minus its smaller side minus these squares: it must have no terms. A
+wrong twin has 3/4 of the larger side, or half of the drive.
 """
 
 from collections.abc import Callable, Mapping
@@ -34,7 +33,7 @@ HALF, QUARTER, LESS = fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)
 
 
 def sums(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
-    """Return 4 P minus the bonds as a sum of squares."""
+    """Return 4 P - bonds() as a sum of squares."""
     right, left = joined(ends, state)
     ends_twice = 2 * densities(state)[:, [0, -1]].sum() if ends == "free" else ZERO
     return ((right + left) ** 2).sum() + ends_twice
@@ -47,12 +46,12 @@ def along_drive(sign: int) -> fmpq_mpoly:
 
 
 def pairs(values: np.ndarray) -> fmpq_mpoly:
-    """Return the sum of the products of two different values, each pair once."""
+    """Return the sum of the products of any two values, each pair once."""
     return sum((a * b for a, b in combinations(np.ravel(values), 2)), start=ZERO)
 
 
-def driven(change, state: np.ndarray, factor: int) -> list:
-    """Return `factor` gamma |state|^2 minus and plus `change`, minus the squares of the drive."""
+def driven(change: fmpq_mpoly, state: np.ndarray, factor: int) -> list[fmpq_mpoly]:
+    """Return `factor` gamma |state|^2 -+ `change` minus the squares of the drive, by both signs."""
     together, (x, y) = state[0] + state[1], state[0] - state[1]
     power = factor * GAMMA * densities(state).sum()
     return [
@@ -67,12 +66,12 @@ def growth(ends: str, factor: int) -> Residual:
 
 
 def parting(ends: str, factor: int) -> Residual:
-    """Return the residual of a bound on the rate of |d|^2, for solutions at a small distance d.
+    """Return the residual of a bound on the rate of |d|^2, for two solutions a small d apart.
 
-    The bound is `factor` gamma |d|^2, plus the sum of |A_n|^2 |d_n|^2 over the sites of A and of B.
+    The bound is `factor` gamma |d|^2, plus the sum of |A_n|^2 |d_n|^2 and the like for B.
     """
     (re, im), (x, y) = STATE.swapaxes(0, 1), PERTURBATION.swapaxes(0, 1)
-    along, across = re * x + im * y, im * x - re * y  # of A times the conjugate of d
+    along, across = re * x + im * y, im * x - re * y  # Re and Im of A conj(d)
     quartic = (densities() * densities(PERTURBATION)).sum()
     bounds = driven(
         2 * (PERTURBATION * linear_rates(ends, PERTURBATION, STATE)).sum(), PERTURBATION, factor
@@ -83,33 +82,33 @@ def parting(ends: str, factor: int) -> Residual:
     ]
 
 
-def laplacian(ends: str, share) -> Residual:
-    """Return the residual of (17), with `share` of the larger side."""
+def laplacian(ends: str, share: int | fmpq) -> Residual:
+    """Return the residual of (17), its larger side times `share`."""
     return 4 * share * densities().sum() - bonds(ends) - sums(ends)
 
 
-def of_products(ends: str, share) -> Residual:
-    """Return the residual of (18), squared, with `share` of the larger side."""
+def of_products(ends: str, share: int | fmpq) -> Residual:
+    """Return the residual of (18) squared, its larger side times `share`."""
     a, b = densities()
     both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
     return share * a.sum() * b.sum() - (a * b).sum() - both
 
 
-def embedding(ends: str, share) -> Residual:
-    """Return the residual of (22), to the fourth power, with `share` of the larger side."""
+def embedding(ends: str, share: int | fmpq) -> Residual:
+    """Return the residual of (22) to the fourth power, its larger side times `share`."""
     a = densities()[0]
     return share * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
 
-def embedding_reversed(ends: str, share) -> Residual:
-    """Return the residual of (27), to the fourth power, with `share` of the larger side."""
+def embedding_reversed(ends: str, share: int | fmpq) -> Residual:
+    """Return the residual of (27) to the fourth power, its larger side times `share`."""
     a = densities()[0]
     differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
     return share * len(a) * (a**2).sum() - a.sum() ** 2 - differences
 
 
 def above_band(ends: str, gammas: int) -> Residual:
-    """Return the residual of (21), with `gammas` times gamma in it."""
+    """Return the residual of (21), with `gammas` in place of the factor 2 of gamma."""
     squares = densities()
     power, quartic = squares.sum(), (squares**2).sum()
     bound = (OMEGA - gammas * GAMMA - 4 * EPSILON) * power
@@ -117,7 +116,7 @@ def above_band(ends: str, gammas: int) -> Residual:
 
 
 def below_band(ends: str, gammas: int) -> Residual:
-    """Return the residual of (25), where Omega = -|Omega|."""
+    """Return the residual of (25), where Omega = -|Omega|, with `gammas` as in `above_band`."""
     squares = densities()
     power = squares.sum()
     bound = (-OMEGA - gammas * GAMMA) * power - QUARTER * power**2
@@ -126,7 +125,10 @@ def below_band(ends: str, gammas: int) -> Residual:
 
 
 def size_of_energy(ends: str, gammas: int) -> Residual:
-    """Return the residuals of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4, by four signs."""
+    """Return the residuals of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4.
+
+    There is one for each sign of H and of Omega.
+    """
     squares, h, left = densities(), energy(ends), []
     power, quartic = squares.sum(), (squares**2).sum()
     for sign_of_h in (1, -1):
@@ -140,7 +142,7 @@ def size_of_energy(ends: str, gammas: int) -> Residual:
 
 
 def quadratic_part(ends: str, gammas: int) -> Residual:
-    """Return the residuals of the lower bound of H in the proof of Theorem 3, by two signs."""
+    """Return the residuals of the lower bound on H in Theorem 3's proof, by the sign of Omega."""
     squares, left = densities(), []
     power, quartic = squares.sum(), (squares**2).sum()
     for size in (OMEGA, -OMEGA):  # |Omega|
@@ -162,4 +164,4 @@ IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
     "size of H": (size_of_energy, 2, 1),
     "lower bound for Theorem 3": (quadratic_part, 2, 1),
 }
-"""See `identities.IDENTITIES`."""
+"""Statements with their residuals, as in `identities.IDENTITIES`."""

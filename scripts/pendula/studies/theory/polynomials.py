@@ -1,17 +1,18 @@
 """Traced equations on polynomials over the rationals (python-flint), to prove identities.
 
-The fields of a chain of SITES pairs and the constants are indeterminates. Each equation couples
-neighbours alone, so a chain of three sites has all that a longer one has: two ends and a site
-between them. States are arrays of polynomials, (component, Re or Im, site).
+The fields of a chain of SITES pairs and the constants are indeterminates. Only neighbours are
+coupled, so a chain of three sites represents any longer one: it has two ends and a site between
+them. States are arrays of polynomials, (component, Re or Im, site).
 """
 
 from collections.abc import Iterable
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from latticode.equations.ends import DIRICHLET, FREE, PERIODIC, kind_of, neighbours
-from latticode.equations.graph import evaluate
+from latticode.equations.graph import Node, evaluate
 from latticode.equations.model import Model
 
 from pendula.models.equations import AMPLITUDE_MODEL
@@ -19,7 +20,7 @@ from pendula.models.equations import AMPLITUDE_MODEL
 SITES = 3
 CONSTANTS = ("epsilon", "gamma", "omega")
 FURTHER_SYMBOLS = ("mu", "cosine", "sine", "kappa")
-"""Indeterminates of single identities: mu of (2), cos and sin of omega t, the kappa of (14)."""
+"""Indeterminates of some identities: mu of (2), cos and sin of omega t, kappa of (14)."""
 ROWS = tuple(
     f"{re_im} {field}{n}" for field in "ABab" for re_im in ("Re", "Im") for n in range(SITES)
 )
@@ -29,11 +30,11 @@ EPSILON, GAMMA, OMEGA, MU, COSINE, SINE, KAPPA = GENS[:7]
 ZERO = 0 * GAMMA
 
 Residual = fmpq_mpoly | np.ndarray | list
-"""What is left of a statement: a polynomial, or several; they vanish if it holds."""
+"""One or more polynomials that vanish if a statement holds."""
 
 
 def object_array(values: Iterable, shape: tuple[int, ...] = (2, 2, SITES)) -> np.ndarray:
-    """Return an array of polynomials, which NumPy would take for sequences of terms."""
+    """Return an array of polynomials, which `np.array` would read as sequences of terms."""
     array = np.empty(shape, object)
     for at, value in zip(np.ndindex(*shape), values, strict=True):
         array[at] = value
@@ -44,8 +45,8 @@ STATE, PERTURBATION = object_array(GENS[7:19]), object_array(GENS[19:])
 """A state, and the difference of another solution from it."""
 
 
-def scaled(by, values: np.ndarray) -> np.ndarray:
-    """Return an array times a polynomial, which NumPy would take for a sequence."""
+def scaled(by: Any, values: np.ndarray) -> np.ndarray:
+    """Return an array times a number or polynomial, which NumPy would read as a sequence."""
     return np.frompyfunc(lambda value: by * value, 1, 1)(values)
 
 
@@ -59,18 +60,18 @@ def rates(
     ends: str,
     state: np.ndarray = STATE,
     model: Model = AMPLITUDE_MODEL,
-    functions=None,
-    **constants,
+    functions: Any = None,
+    **constants: Any,
 ) -> np.ndarray:
     """Return the rates of a state, of the same shape; `constants` replace their indeterminates.
 
-    `functions` replaces sines of polynomials.
+    `functions` has a `sin` of polynomials if the model has a sine.
     """
     values = {"epsilon": EPSILON, "gamma": GAMMA, "omega": OMEGA} | constants
     shape, (right, left) = state.shape, neighbours(state, ends)
     seen = {0: state, 1: right, -1: left}
 
-    def leaf(node):
+    def leaf(node: Node) -> Any:
         if node.operation == "number":
             return rational(node.operands[0])
         if node.operation in ("parameter", "clock"):
@@ -83,7 +84,7 @@ def rates(
 
 
 def linear_rates(ends: str, state: np.ndarray = STATE, at: np.ndarray | None = None) -> np.ndarray:
-    """Return the rates of (4), linearised at zero or `at` a state: its derivative along `state`."""
+    """Return the derivative of the rates of (4) along `state`, at zero or at the state `at`."""
     both = np.concatenate([0 * state if at is None else at, state])
     return rates(ends, both, AMPLITUDE_MODEL.tangent())[len(state) :]
 
@@ -91,7 +92,7 @@ def linear_rates(ends: str, state: np.ndarray = STATE, at: np.ndarray | None = N
 def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the sites (..., bond) to the right and to the left of each bond of a chain.
 
-    There is a bond beyond an end at rest, and none beyond a free end.
+    A Dirichlet end has a bond to a site at rest, and a free end has none.
     """
     none, at_rest = state[..., :0], 0 * state[..., :1]
     beyond = {DIRICHLET: (at_rest, at_rest), FREE: (none, none), PERIODIC: (state[..., -1:], none)}
@@ -100,7 +101,7 @@ def joined(ends: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return padded[..., 1:], padded[..., :-1]
 
 
-def energy(ends: str, state: np.ndarray = STATE, omega=OMEGA) -> fmpq_mpoly:
+def energy(ends: str, state: np.ndarray = STATE, omega: fmpq_mpoly = OMEGA) -> fmpq_mpoly:
     """Return H of (8) as a polynomial."""
     squares = densities(state)
     return (
@@ -123,18 +124,18 @@ def bonds(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
 
 
 def drive(state: np.ndarray = STATE) -> fmpq_mpoly:
-    """Return the real part of the sum of (A - B)^2, which gamma multiplies in -H."""
+    """Return the real part of the sum of (A_n - B_n)^2, which has the factor gamma in -H."""
     x, y = state[0] - state[1]
     return (x**2 - y**2).sum()
 
 
 def gradient(of: fmpq_mpoly) -> np.ndarray:
-    """Return the derivatives of a polynomial by the rows of the state."""
+    """Return the derivatives of a polynomial with respect to the entries of STATE."""
     return object_array(of.derivative(GENS.index(symbol)) for symbol in STATE.ravel())
 
 
-def times(re, im, state: np.ndarray) -> np.ndarray:
-    """Return a state times a complex number."""
+def times(re: Any, im: Any, state: np.ndarray) -> np.ndarray:
+    """Return a state times the complex number re + i im."""
     return np.stack([re * state[:, 0] - im * state[:, 1], re * state[:, 1] + im * state[:, 0]], 1)
 
 
@@ -144,12 +145,12 @@ def conjugate(state: np.ndarray) -> np.ndarray:
 
 
 def put(polynomial: fmpq_mpoly, state: np.ndarray) -> fmpq_mpoly:
-    """Return a polynomial with another state in place of the indeterminate one."""
+    """Return a polynomial with `state` in place of STATE."""
     return polynomial.compose(*GENS[:7], *state.ravel(), *GENS[19:])
 
 
-def terms_left(polynomial) -> int:
-    """Return the number of terms of a polynomial, array or list, which is 0 if it vanishes."""
+def terms_left(polynomial: Residual) -> int:
+    """Return the number of terms of a polynomial, array or list: 0 if it vanishes."""
     if isinstance(polynomial, np.ndarray | list):
         return sum(map(terms_left, polynomial))
     return len(polynomial)

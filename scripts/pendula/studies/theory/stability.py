@@ -18,11 +18,11 @@ from pendula.problem import Constants
 from .equations import ENDS, constants_at, controls_of, random_amplitudes, run, squared_norm
 
 TINY = 1e-130
-"""Norm of the initial data: e^{2 gamma tau} times it must be too small for the cubic terms."""
+"""Norm of the initial data: even after growth by e^{2 gamma tau}, cubic terms are negligible."""
 SOLVER = {"name": "taylor", "rtol": 1e-9, "atol": 1e-9 * TINY}
 OMEGAS, GAMMAS, SITES = np.linspace(-6.0, 10.0, 33), np.linspace(0.0, 3.0, 13), 21
 END_TIME, LONG, SEED = 40.0, 100.0, 5
-CURVE = np.linspace(-6.0, 10.0, 1601)  # resolves the teeth of the finite chain's threshold
+CURVE = np.linspace(-6.0, 10.0, 1601)  # resolves the spikes of the finite chain's threshold
 
 
 def late_growth(constants: Constants, data: np.ndarray, end_time: float) -> float:
@@ -32,10 +32,10 @@ def late_growth(constants: Constants, data: np.ndarray, end_time: float) -> floa
 
 
 def check_chart() -> dict:
-    """Return growth rates measured on a grid of (Omega, gamma), with the predicted ones.
+    """Return measured and predicted growth rates on a grid of (Omega, gamma).
 
-    The equations run from tiny random data to END_TIME; the slope of log l2 over the second half
-    tends to the largest rate of the finite chain as modes separate.
+    Runs start from tiny random data. The slope of log l2 over their second half tends to the
+    largest rate of the finite chain, as the fastest mode outgrows all others.
     """
     data, half = random_amplitudes(SEED, SITES), 0.5 * END_TIME
     measured = [
@@ -63,20 +63,19 @@ def check_chart() -> dict:
 
 
 def edge_wave(omega: float, sites: int) -> np.ndarray:
-    """Return A = -B in the wave nearest to the edge of the band, at the least P of a period.
+    """Return the wave A = -B nearest to the edge of the band, at the phase of its least P.
 
-    D = A - B is real if kappa > 0, which means Omega below the band, and imaginary otherwise.
+    A is real if kappa > 0, with Omega below the band, and imaginary otherwise.
     """
     shape = modes(sites, ENDS)[0] if omega < 0.0 else 1j * modes(sites, ENDS)[-1]
     return np.stack([shape, -shape]).astype(complex)
 
 
 def check_threshold() -> dict:
-    """Return growth near gamma_0, for Lemma 1 and its proof, on chains of SITES and more.
+    """Return thresholds of finite chains minus gamma_0, and the growth at and above a threshold.
 
-    A finite chain has its own threshold, above gamma_0 by an amount of order 1 / N^2. At the
-    threshold the wave at the edge of the band must grow in proportion to tau: by (14) as 4 gamma
-    tau.
+    The threshold of a finite chain exceeds gamma_0 by an amount of order 1 / N^2. At this threshold
+    the wave at the edge of the band must grow in proportion to tau: by (14) as 4 gamma tau.
     """
     rows, sizes, omegas = [], (SITES, 81, 601), np.array([-4.0, 8.0])
     thresholds = np.transpose([finite_threshold(omegas, 1.0, n, ENDS) for n in sizes])
@@ -89,7 +88,7 @@ def check_threshold() -> dict:
         rows.append([*(np.array(grown) / log(2.0)), np.pi * (fastest + 1) / (SITES + 1)])
     labels = {
         "wave_exponent": "exponent of tau in l2 of a wave at the threshold of its chain",
-        "exponent_above": "the same of the wave above the threshold",
+        "exponent_above": "the same exponent above the threshold",
         "leading_wave": "wave number of the fastest growth above the threshold",
     }
     excess = thresholds - gamma_0(omegas, 1.0)[:, None]

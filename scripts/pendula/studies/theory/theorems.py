@@ -22,26 +22,25 @@ from .stability import edge_wave
 TINY = 1e-5
 """Amplitude of tiny data: the cubic terms change ratios by its square."""
 SQUARES = (20.0, 25.0, 40.0, 60.0)
-"""Values of x^2 of A = -B = (-1)^n x at Omega = -4: the minimum of H, which is at 20, and larger
-ones."""
+"""Values of x^2 for A = -B = (-1)^n x at Omega = -4: 20, where H is least, and larger ones."""
 LONG, SIZES = 513, (11, 81)
-"""Sites of the chain on which data come near to the bounds, and of two that are compared."""
+"""Numbers of sites: of the chain on which bounds are approached, and of two that are compared."""
 
 
 def check_sharpness() -> dict:
     """Return the largest known share of each bound that data attain at Omega = 8 or -4.
 
     For Theorems 1 and 2 the data are tiny: A = -B in the wave at the edge of the band. By the
-    linear equations P goes from its least to its largest value, a quarter of a turn later in phase,
-    and H stays. For Theorem 3 they are A = -B = (-1)^n x, the best of SQUARES. Without ends they
-    attain its bound for any x^2 of at least 2 c if Omega is not positive. The ends cost part of the
-    bound, less of it for a larger x.
+    linear equations H is constant, and P goes from its least to its largest value while the phase
+    advances by a quarter of a turn. For Theorem 3 the data are A = -B = (-1)^n x with the best of
+    SQUARES. Without ends they would attain its bound for any x^2 >= 2 c if Omega <= 0. With ends
+    they attain less, but more for a larger x.
 
-    In terms of the size delta = P(0) the paper prints no constants. In the limit of small delta the
-    inequalities of its proofs give P <= `proof_constant` delta, the largest |H| of this size over
-    the least one of this P, and the wave needs `least_constant`: for Theorem 1 with H <= (Omega + 2
-    gamma) delta, for Theorem 2 with |H| <= C delta and C delta / (|Omega| - 2 gamma - C_0 delta /
-    4) <= C_0 delta.
+    The paper prints no constants for bounds in terms of delta = P(0). The wave needs P <=
+    `least_constant` delta. For small delta the inequalities of the proofs give P <=
+    `proof_constant` delta: the largest |H| at this delta over the least |H| at this P. They are H
+    <= (Omega + 2 gamma) delta for Theorem 1; |H| <= C delta and C delta / (|Omega| - 2 gamma - C_0
+    delta / 4) <= C_0 delta for Theorem 2.
     """
     above, below = constants_at(8.0), constants_at(-4.0)
     high, low = (TINY * edge_wave(constants.omega, LONG) for constants in (above, below))
@@ -65,12 +64,12 @@ def check_sharpness() -> dict:
     }
     of_proof, of_wave = zip(*constants.values(), strict=True)
     return table(
-        "What part of the bounds of Theorems 1 to 3 is reached",
+        "Attained share of the bounds of Theorems 1 to 3",
         {"form": list(reached), "theorem": list(constants)},
         sites=variable(LONG, (), "number of sites N"),
-        reached=variable(list(reached.values()), ("form",), "largest P over its bound"),
-        proof_constant=variable(of_proof, ("theorem",), "bound of the proof over delta, tiny data"),
-        least_constant=variable(of_wave, ("theorem",), "growth of P of the wave, from its least"),
+        reached=variable(list(reached.values()), ("form",), "largest P divided by its bound"),
+        proof_constant=variable(of_proof, ("theorem",), "the proof's bound over small delta"),
+        least_constant=variable(of_wave, ("theorem",), "largest over least P of the wave"),
     )
 
 
@@ -86,10 +85,10 @@ def largest_of_energy(constants: Constants, sites: int, energy: float) -> float:
 
 
 def check_chain_growth() -> dict:
-    """Return C_N of Theorem 3 and the largest P of data of one energy, on chains of two SIZES.
+    """Return the exponents of N in C_N of Theorem 3 and in the largest P at one energy.
 
-    The energy is that of one pair. If the largest P of that energy grows with N, so must each bound
-    in terms of H.
+    The energy is that of one pair; chains have two SIZES. If the largest P at this energy grows
+    with N, so must every bound in terms of H.
     """
     exponents, omegas, dims = [], [0.0, 8.0], ("omega",)
     for constants in map(constants_at, omegas):
@@ -101,20 +100,20 @@ def check_chain_growth() -> dict:
         exponents.append(np.diff(log(grown), axis=0)[0] / log(SIZES[1] / SIZES[0]))
     of_bound, of_shell = np.transpose(exponents)
     data = table(
-        "What grows with the length of the chain: C_N, and the largest P of one energy",
+        "Growth with the length of the chain: of C_N, and of the largest P at one energy",
         {"omega": omegas},
-        constant_exponent=variable(of_bound, dims, "exponent in N of C_N"),
-        shell_exponent=variable(of_shell, dims, "exponent in N of the largest P of one energy"),
+        constant_exponent=variable(of_bound, dims, "exponent of N in C_N"),
+        shell_exponent=variable(of_shell, dims, "exponent of N in the largest P at one energy"),
     )
     data["coords"]["omega"]["attrs"] |= FEW_CHOICES
     return data
 
 
-# --- Errors of the proofs, each with the smallest example that anyone can rerun -------------------
+# --- Errors in the proofs, with small examples ----------------------------------------------------
 
 
 def check_errata() -> dict:
-    """Return the errors of the proofs of Theorems 2 and 3, at Omega = -4, on short chains.
+    """Return examples of the errors in the proofs of Theorems 2 and 3, at Omega = -4.
 
     The bound printed in Theorem 3's proof has gamma in place of 2 gamma.
     """
@@ -128,15 +127,15 @@ def check_errata() -> dict:
         {"sites": sizes},
         printed=variable(printed, dims, "H minus the bound with gamma, as printed"),
         corrected=variable(corrected, dims, "H minus the bound with 2 gamma"),
-        smallest=variable(smallest, (), "smallest chain that breaks the printed bound"),
+        smallest=variable(smallest, (), "sites of the smallest chain that violates the bound"),
         **without_continuity(constants),
     )
 
 
 def margin(constants: Constants, sites: int, drive: float) -> float:
-    """Return H minus its lower bound in Theorem 3's proof, with `drive` gamma, for (-1)^n.
+    """Return H minus its lower bound in Theorem 3's proof, with `drive` gamma, for A = -B = (-1)^n.
 
-    The quartic terms of both are equal, so that its sign does not depend on the size of the data.
+    The quartic terms cancel, so the sign is the same for data of any size.
     """
     z = alternating(sites, 1.0)
     quartic = 0.25 * np.sum(square_modulus(z) ** 2)
@@ -145,12 +144,12 @@ def margin(constants: Constants, sites: int, drive: float) -> float:
 
 
 def without_continuity(constants: Constants) -> dict:
-    """Return data that satisfy all that the printed proof of Theorem 2 uses, and violate (24).
+    """Return data that satisfy all premises of the printed proof of Theorem 2, but violate (24).
 
-    For small data, here delta = delta_0 / 2, the proof uses (25), that -H > 0 is constant, and |H|
-    <= C delta with C = c, and concludes P <= C_0 delta. This does not exclude states beyond the
-    barrier of (25): a pair (x, 0) there has the same energy. They are excluded because P is
-    continuous and starts below 2 a.
+    For small data, here delta = delta_0 / 2, the premises are (25), a constant -H > 0, and |H| <= C
+    delta with C = c. The proof concludes P <= C_0 delta. The premises do not exclude states beyond
+    the barrier of (25): a pair (x, 0) there has the same energy. Continuity does, because P starts
+    below 2 a.
     """
     delta_0, c_0 = theorem_2_constants(constants)
     delta, gap = 0.5 * delta_0, theorem_2_gap(constants)
@@ -161,9 +160,9 @@ def without_continuity(constants: Constants) -> dict:
     premises &= depth >= gap * powers - 0.25 * powers**2
     below = powers[premises & (powers < 2.0 * gap)].max()
     return {
-        "delta_0": variable(delta_0, (), "radius that the inequalities of Theorem 2's proof give"),
+        "delta_0": variable(delta_0, (), "largest delta by the inequalities of Theorem 2's proof"),
         "allowed_power": variable(c_0 * delta, (), "C_0 delta of the small data"),
-        "largest_power": variable(powers[premises].max(), (), "largest P that its premises allow"),
-        "largest_power_below": variable(below, (), "largest P that they allow below the barrier"),
+        "largest_power": variable(powers[premises].max(), (), "largest P that the premises allow"),
+        "largest_power_below": variable(below, (), "the same below the barrier"),
         "barrier_power": variable(2.0 * gap, (), "P at the barrier of (25), 2 a"),
     }

@@ -1,8 +1,8 @@
 """Checks of Lemma 2 on runs: solutions exist for all times, and depend continuously on the data.
 
-Runs prove nothing for all initial conditions. They can contradict the lemma: by a norm that grows
-faster than (19) allows, by two solutions of one initial condition, or by a distance of two
-solutions that does not shrink with that of their initial conditions.
+Runs cannot prove the lemma, but they could contradict it: by a norm that grows faster than (19)
+allows, by two solutions from one initial condition, or by a distance between two solutions that
+does not shrink with the initial distance.
 """
 
 from itertools import product
@@ -19,13 +19,13 @@ from pendula.problem import Constants
 from .equations import ENDS, constants_at, controls_of, random_amplitudes, run
 
 OMEGAS, POWERS, COURSES = [-4.0, 0.0, 8.0], [1.0, 26.0, 1000.0], ["forward", "backward"]
-"""Omega of the paper's figures; P(0) up to far above that of the large data, which is 26; and the
-direction of time."""
+"""Omega of the paper's figures; P(0), which is 26 for the paper's large data; directions of
+time."""
 DIRECTIONS, SIZES = ["A alone", "one pair", "all sites"], [1e-4, 1e-6, 1e-8]
-"""Which initial data are perturbed, and by how much, relative to the norm."""
+"""The amplitudes that are perturbed, and the perturbations relative to the norm."""
 SITES, SEED = 21, 11
 END_TIME, CLOSE_TIME, OUTPUTS = 10.0, 1.0, 400
-"""Distances are measured at CLOSE_TIME, before chaos makes the small ones of order one."""
+"""Distances are measured at CLOSE_TIME, before chaos amplifies small ones to order one."""
 SOLVER = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 
@@ -33,14 +33,14 @@ SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 def start_of(power: float, course: str) -> np.ndarray:
     """Return random amplitudes (2, N) with this P.
 
-    Conjugation reverses time: the conjugate data run forward as the data run backward.
+    A forward run from conjugate data is the conjugate of the backward run from the data.
     """
     amplitudes = np.sqrt(power) * random_amplitudes(SEED, SITES)
     return amplitudes.conj() if course == "backward" else amplitudes
 
 
 def perturbed(amplitudes: np.ndarray, direction: str, size: float) -> np.ndarray:
-    """Return amplitudes at the distance `size` times their norm, in a random direction."""
+    """Return the amplitudes plus a random change with `size` times their norm."""
     change = complex_normal(np.random.default_rng([SEED, DIRECTIONS.index(direction)]), (2, SITES))
     if direction == "A alone":
         change[1] = 0.0
@@ -55,16 +55,16 @@ def distance_of(first: np.ndarray, second: np.ndarray) -> float:
 
 
 def margins(constants: Constants, start: np.ndarray, gamma: float) -> dict[str, float]:
-    """Return how close a run comes to the bound (19) of a drive `gamma`, as ratios."""
+    """Return the largest ratios of a run's growth to the bound (19) for the drive `gamma`."""
     trajectory = run(constants, ENDS, start, END_TIME, OUTPUTS, solver=SOLVER)
     return growth_margin(trajectory.tau, trajectory.l2, gamma)
 
 
 def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the distances at CLOSE_TIME of perturbed runs over the initial ones.
+    """Return the growth of the distances of perturbed runs by CLOSE_TIME, (direction, size).
 
-    Also returns the growth of their logarithms over what the drive and the largest amplitude allow,
-    (2 |gamma| + M^2 / 2) tau. Both are (direction, size).
+    Also return its logarithm divided by the largest that the drive and the largest amplitude M
+    allow, (2 |gamma| + M^2 / 2) tau.
     """
     first = run(constants, ENDS, start, CLOSE_TIME, OUTPUTS, solver=SOLVER)
     ratios = np.empty((len(DIRECTIONS), len(SIZES)))
@@ -81,7 +81,7 @@ def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.
 
 
 def between_solvers(constants: Constants, start: np.ndarray) -> float:
-    """Return the distance at CLOSE_TIME of runs by two solvers, over the initial norm."""
+    """Return the distance at CLOSE_TIME between two solvers' runs, relative to the initial norm."""
     ends = [
         run(constants, ENDS, start, CLOSE_TIME, solver=solver).final for solver in (SOLVER, SECOND)
     ]
@@ -110,17 +110,17 @@ def check_well_posed() -> dict:
     labels = {
         "from_start": "largest P over the bound (19)",
         "steepest": "largest change of log P over 4 gamma times its duration",
-        "steepest_of_twice_the_drive": "the same under twice the drive, by the bound of the drive",
-        "between_solvers": "distance of the solutions by two solvers, over the initial norm",
+        "steepest_of_twice_the_drive": "the same for runs under twice the drive of the bound",
+        "between_solvers": "distance between two solvers' solutions, relative to the initial norm",
     }
     ratios, rates = zip(*(dependence(*cell) for cell in cells), strict=True)
     near = {"direction": DIRECTIONS, "perturbation_size": SIZES}
     distances = {
         "distance_ratio": (
             ratios,
-            "distance of two solutions over that of their initial conditions",
+            "distance between two solutions, divided by its initial value",
         ),
-        "rate": (rates, "growth of the log of the distance over (2 gamma + M^2 / 2) tau"),
+        "rate": (rates, "growth of the log of the distance, divided by (2 gamma + M^2 / 2) tau"),
     }
     data = table(
         f"Solutions from random initial conditions on {SITES} sites, and others close to them",
@@ -129,8 +129,8 @@ def check_well_posed() -> dict:
             over, labels, {name: np.reshape(values, shape) for name, values in numbers.items()}
         ),
         **{
-            name: variable(np.reshape(distance, (*shape, *ratios[0].shape)), (*over, *near), words)
-            for name, (distance, words) in distances.items()
+            name: variable(np.reshape(values, (*shape, *ratios[0].shape)), (*over, *near), label)
+            for name, (values, label) in distances.items()
         },
     )
     data["attrs"] |= {**controls_of(SOLVER), "end_time": END_TIME, "close_time": CLOSE_TIME}
