@@ -1,1 +1,1 @@
-"""Speed against error, and the cost of a run: measurements, which no reproduction repeats."""
+"""Measurements of speed against error, and of the cost of runs; no reproduction repeats them."""

@@ -1,8 +1,8 @@
-"""Who is compared: every solver of this project, and those of other people that are installed.
+"""The contestants: all solvers of this project, and the installed integrators by others.
 
-A contestant is prepared for a problem once (it compiles what it compiles) and then solves it at a
-given accuracy (a tolerance, or a step), again and again: from loose to tight, which gives the
-points of a work-precision diagram, and in turns with another one at the same error.
+A contestant is prepared for a problem once, which may compile code. It then solves the problem at
+accuracies (tolerances, or steps) from loose to tight, which gives the points of a work-precision
+diagram, and in turns with another contestant at the same error.
 """
 
 from collections.abc import Callable, Mapping
@@ -26,18 +26,18 @@ STEPS = {
 PEERS: dict[str, Peer] = peers_in_python.PEERS | peer_in_cpp.PEERS
 
 PATIENCE = 1.0
-"""Seconds: a contestant that took longer is not asked for more accuracy."""
+"""Seconds: after a run that took longer, no tighter accuracy is tried."""
 LIMIT = 5.0
-"""Seconds after which a run is broken off."""
+"""Seconds after which a run is stopped."""
 REPEAT, PAIRS, FEW_PAIRS = 7, 7, 3
 LONG = 0.3
-"""Seconds: a run that takes longer is not repeated by itself, and few pairs are enough."""
+"""Seconds: a run that takes longer is timed once, and in FEW_PAIRS pairs."""
 BLOCK = 0.02
-"""Seconds that one side of a pair takes at least: short runs are repeated."""
+"""Least seconds of one side of a pair, for which short runs are repeated."""
 
 
 class Contestant(NamedTuple):
-    """Its name in tables, what it can be asked for, and how it is made ready for a problem."""
+    """A title for tables, accuracies from loose to tight, and a function that prepares a solver."""
 
     title: str
     accuracies: np.ndarray
@@ -45,7 +45,7 @@ class Contestant(NamedTuple):
 
 
 class Point(NamedTuple):
-    """What one accuracy costs (median of the repetitions, s) and brings."""
+    """An accuracy, the median time of its runs in s, and their error."""
 
     accuracy: float
     seconds: float
@@ -83,7 +83,7 @@ OURS = {name: contestant for name, contestant in SOLVERS.items() if name != "kah
 
 
 def find_peers(peers: Mapping[str, Peer]) -> tuple[dict[str, Contestant], str]:
-    """Return the peers that are installed, and why others are missing, which is also printed."""
+    """Return the installed peers, and the reasons why others are missing; print the reasons."""
     absent = {name: why for name, peer in peers.items() if (why := peer.why_absent())}
     present = {
         name: Contestant(peer.title, TOLERANCES, peer.prepare)
@@ -96,7 +96,7 @@ def find_peers(peers: Mapping[str, Peer]) -> tuple[dict[str, Contestant], str]:
 
 
 def error_of(final: np.ndarray, exact: np.ndarray) -> float:
-    """Return the largest difference of two final states in any number of a site."""
+    """Return the largest difference of two final states in any number."""
     return float(np.abs(final - exact).max())
 
 
@@ -105,20 +105,20 @@ def measure_points(
 ) -> list[Point]:
     """Return one point for each accuracy, from the loosest to the tightest.
 
-    `exact` is the state at the end of the problem. The first accuracy that takes too long, or errs
-    by less than `goal`, is the last one. An accuracy at which the contestant gives up, or returns
-    what is not finite, has no point.
+    `exact` is the state at the end of the problem. No accuracy is tried after one that takes too
+    long, or has an error below `goal`. An accuracy has no point if the contestant fails or returns
+    numbers that are not finite.
     """
     solve, points = contestant.prepare(problem), []
     for accuracy in contestant.accuracies:
         try:
             with limit(LIMIT):
                 final, seconds = solve(accuracy)
-                if not points and seconds > LONG:  # the very first may have compiled
+                if not points and seconds > LONG:  # the first run may have compiled
                     final, seconds = solve(accuracy)
         except TooLongError:
             break
-        except RuntimeError:  # of a peer that gives up; IntegrationError is one too
+        except RuntimeError:  # raised by peers that fail; IntegrationError is a subclass
             continue
         if not np.all(np.isfinite(final)):
             continue
@@ -131,7 +131,7 @@ def measure_points(
 
 
 def cheapest(points: list[Point], target: float) -> Point | None:
-    """Return the point of the least time whose error is not above the target, if there is one."""
+    """Return the fastest point with an error of at most `target`, None if there is none."""
     reached = [point for point in points if point.error <= target]
     return min(reached, key=lambda point: point.seconds, default=None)
 
@@ -139,9 +139,9 @@ def cheapest(points: list[Point], target: float) -> Point | None:
 def compare(
     problem: PaperProblem, target: float, peer: Measured, ours: dict[str, Measured]
 ) -> np.ndarray | None:
-    """Let the peer and our best solver take turns, each at an error below the target.
+    """Return ratios of the peer's time to our best solver's, None if one misses the target.
 
-    Return how many times as long the peer takes; None where one of them misses the target.
+    Both run in turns, each at an error of at most `target`.
     """
     reached = {name: cheapest(points, target) for name, (_, points) in ours.items()}
     times = {name: point.seconds for name, point in reached.items() if point}
@@ -163,16 +163,16 @@ def compete(
     target: float,
     ours: Mapping[str, Contestant],
     peers: Mapping[str, Contestant],
-    say: Callable[[str], None],
+    report: Callable[[str], None],
 ) -> tuple[dict[str, list[Point]], dict[str, np.ndarray | None]]:
-    """Return the points of all contestants by name, and how each peer compares with our best.
+    """Return the points of all contestants by name, and the ratios of each peer by `compare`.
 
-    `say` is called with the title of each contestant before it is measured.
+    `report` is called with the title of each contestant before it is measured.
     """
     points = {}
     for name, contestant in {**ours, **peers}.items():
-        say(contestant.title)
-        # peers need not err much less than what they are compared at
+        report(contestant.title)
+        # peers are compared at the target only, and need no error far below it
         goal = 0.0 if name in ours else 0.3 * target
         points[name] = measure_points(contestant, problem, exact, goal)
     measured = {name: (contestant, points[name]) for name, contestant in ours.items()}

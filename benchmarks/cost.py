@@ -1,4 +1,4 @@
-"""How the cost of a run grows with the chain: time a site and unit of slow time."""
+"""The cost of a run against the length of the chain: time per site and unit of tau."""
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -12,14 +12,14 @@ SITES = (3, 5, 11, 31, 61, 201, 1001, 10_001, 100_001)
 SOLVERS = ("dop853", "taylor")
 TOLERANCE = 1e-10
 WORK = 40_000
-"""Sites times units of tau of a run, so that short chains run long enough to be timed."""
+"""Number of sites times end time of a run: short chains run long enough to be timed."""
 REPEAT = 5
 
 CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 
 
 def measure() -> dict[str, Variable]:
-    """Return the variables of the dataset: the median time over (sites, solver)."""
+    """Return the variables of the dataset: the median time, (sites, solver)."""
     seconds = np.array([[time_chain(sites, name) for name in SOLVERS] for sites in SITES])
     label = "time a site and unit of slow time"
     return {
@@ -30,7 +30,7 @@ def measure() -> dict[str, Variable]:
 
 
 def noisy_chain(sites: int, name: str) -> PaperProblem:
-    """Return a chain with even amplitudes of order one: every site moves from the start."""
+    """Return a problem with even amplitudes of order one: every site moves from the start."""
     rng = np.random.default_rng(0)
     half = rng.normal(size=(2, sites // 2 + 1)) + 1j * rng.normal(size=(2, sites // 2 + 1))
     end = min(50.0, max(1.0, WORK / sites))
@@ -46,7 +46,7 @@ def noisy_chain(sites: int, name: str) -> PaperProblem:
 
 
 def time_chain(sites: int, name: str) -> float:
-    """Return the time in s a site and unit of tau."""
+    """Return the time in s per site and unit of tau."""
     problem = noisy_chain(sites, name)
     simulate(problem)  # compiles
     return repeat(lambda: timed(lambda: simulate(problem))[1], REPEAT) / sites / problem.end_time

@@ -15,13 +15,13 @@ ROWS = [
     {"marker": "o", "color": "black", "markersize": 3.5},
     {"marker": "s", "color": "black", "markersize": 3.5, "markerfacecolor": "white"},
 ]
-"""How the cases of a regime look in the rows of the peers."""
+"""Marks of the cases of a regime in the rows of the peers."""
 ROW = 0.155
 """The height of a row in inches."""
 
 
 def gather_work_precision(measured: xr.Dataset, regime: str) -> xr.Dataset:
-    """Return the times and errors of the cases of one regime, and how peers compare with them."""
+    """Return the times and errors in the cases of one regime, and the ratios of peers if any."""
     chosen = measured.isel(case=measured["regime"].values == regime)
     compared = RATIOS if "peer" in measured.dims else []
     return chosen[[*ACCURACY, *compared]].assign_attrs(regime=regime)
@@ -29,9 +29,9 @@ def gather_work_precision(measured: xr.Dataset, regime: str) -> xr.Dataset:
 
 @style.styled
 def draw_work_precision(data: xr.Dataset) -> Figure:
-    """Draw time over error above, both logarithmic: the lower left corner is the best place.
+    """Draw time against error at the top, both logarithmic: the lower left corner is best.
 
-    Below, each peer has a row with its time over that of the fastest solver here, by case.
+    Below, each peer has a row with its time relative to our fastest solver's, by case.
     """
     heights = [2.3, ROW * (data.sizes["peer"] + 1)] if "peer" in data.dims else [2.3]
     figure = style.new_figure(style.WIDTH, sum(heights) + 0.6 * len(heights))
@@ -53,7 +53,7 @@ def _draw_case(axes: Axes, case: xr.Dataset) -> None:
     for name in case["contestant"].values:
         curve = case.sel(contestant=name)
         if curve["error"].isnull().all():
-            continue  # too slow for a single point, or its points were not kept
+            continue  # too slow for a single point, or its points were not stored
         look = PEERS | {"label": named}
         if name in SOLVER_NAMES:
             look = _look(name) | {"lw": 1.2, "zorder": 2}
@@ -70,7 +70,7 @@ def _draw_case(axes: Axes, case: xr.Dataset) -> None:
 
 
 def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
-    """Draw the ratios, the fastest peer below; a peer that never came so close has no mark."""
+    """Draw the ratios, with the fastest peer at the bottom; peers without a ratio have no mark."""
     data = data.isel(peer=data["ratio"].mean("case").fillna(np.inf).argsort().values)
     rows = np.arange(data.sizes["peer"])
     for i, look in zip(range(data.sizes["case"]), ROWS, strict=False):

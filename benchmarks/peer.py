@@ -1,4 +1,4 @@
-"""What a peer (an integrator by other people) is given, and the pieces that several share."""
+"""The interface of peers, which are integrators by others, and what several of them share."""
 
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -15,11 +15,11 @@ from pendula.problem import AMPLITUDES, PENDULA, PaperProblem
 HALF = Reduction(even=True, synchronised=False)
 
 Solve = Callable[[float], tuple[np.ndarray, float]]
-"""From a tolerance (or a step) to the final state of the chain and the seconds of the run."""
+"""A function from a tolerance (or a step) to the final state of the chain and the time in s."""
 
 
 class Peer(NamedTuple):
-    """Someone else's integrator: `why_absent` says in words what it lacks, None when nothing."""
+    """An integrator by others; `why_absent` returns what it lacks here, None if nothing."""
 
     title: str
     why_absent: Callable[[], str | None]
@@ -27,7 +27,7 @@ class Peer(NamedTuple):
 
 
 def needs(module: str, package: str) -> Callable[[], str | None]:
-    """Return a function that says what is missing where a Python module cannot be imported."""
+    """Return a function `why_absent` for a peer that imports this Python module."""
     missing = f"the Python package {package} is not installed"
     return lambda: None if find_spec(module) else missing
 
@@ -35,14 +35,14 @@ def needs(module: str, package: str) -> Callable[[], str | None]:
 def begin(
     problem: PaperProblem, reduction: Reduction = FULL_CHAIN
 ) -> tuple[Any, np.ndarray, float]:
-    """Return system, initial state with ghosts and end time, as the library's kernels take them.
+    """Return the system, the initial state with ghosts and the end time, for the library's kernels.
 
-    Raises ValueError at what peers do not cover; some integrate half of a chain.
+    Raises ValueError for problems that peers do not support.
     """
     if problem.boundary != "dirichlet":
-        raise ValueError(f"peers know only the boundary dirichlet, not {problem.boundary}")
+        raise ValueError(f"peers support only the boundary dirichlet, not {problem.boundary}")
     if reduction == HALF and not find_reduction(problem.amplitudes).even:
-        raise ValueError("half a chain needs data that are even in n")
+        raise ValueError("integrating half of a chain requires initial data that are even in n")
     equations = problem.equations
     end = float(equations.times[-1])
     return equations.system(reduction), equations.start(reduction), end
@@ -59,27 +59,27 @@ def final_of(
 
 
 def with_ghosts(inner: np.ndarray) -> np.ndarray:
-    """Return the state of four rows whose sites are `inner`, with ghosts that stand still."""
+    """Return the state of four rows with the sites `inner`, and with ghosts at rest."""
     return np.pad(inner.reshape(4, -1), ((0, 0), (1, 1)))
 
 
 @kernel
-def hold_ghosts(dy):
-    """Let the ghosts of a state stand still."""
+def hold_ghosts(dy: np.ndarray) -> None:
+    """Set the rates of the ghosts to zero."""
     for row in range(4):
         dy[row, 0] = dy[row, dy.shape[1] - 1] = 0.0
 
 
 @kernel
-def flat_rates(chain, t, flat, slope):
-    """Write the right-hand side of a vector with ghosts."""
+def flat_rates(chain: Any, t: float, flat: np.ndarray, slope: np.ndarray) -> None:
+    """Write the rates of a flat state with ghosts to `slope`."""
     y, dy = flat.reshape(4, -1), slope.reshape(4, -1)
     rates(chain, y, dy)
     hold_ghosts(dy)
 
 
 @kernel
-def flat_rates_of_pendula(pendula, t, flat, slope):
+def flat_rates_of_pendula(pendula: Any, t: float, flat: np.ndarray, slope: np.ndarray) -> None:
     y, dy = flat.reshape(4, -1), slope.reshape(4, -1)
     pendula_rates(at_time(pendula, t), y, dy)
     hold_ghosts(dy)

@@ -1,7 +1,7 @@
-"""A Taylor method in C++: this project's once more, by hand (taylor.cpp).
+"""A Taylor method in C++: this project's method written by hand (taylor.cpp).
 
-It shows how near the compiled Python comes to it. It goes through four sites at a time, and where
-the processor has AVX-512 also through eight.
+It shows how close compiled Python comes to C++. It computes four sites at a time, or eight if the
+processor has AVX-512.
 """
 
 import ctypes
@@ -9,9 +9,11 @@ import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Callable
 from functools import cache, partial
 from pathlib import Path
 
+import numpy as np
 from pendula.problem import PaperProblem
 
 from .peer import HALF, Peer, Solve, begin, final_of, with_ghosts
@@ -28,7 +30,7 @@ OPTIONS = ("-std=c++17", "-O3", "-shared", "-fPIC")
 
 
 def target() -> str:
-    """Return the option that lets GCC compile for the processor that numba compiles for."""
+    """Return the option by which GCC compiles for the same processor as numba."""
     name = os.environ.get("NUMBA_CPU_NAME", "native")
     return f"-march={'x86-64' if name == 'generic' else name}"
 
@@ -38,24 +40,24 @@ def lacks_avx512() -> str | None:
     """Return why vectors of eight numbers cannot be used here, or None if they can."""
     if why := lacks_compiler():
         return why
-    asked = ["g++", target(), "-dM", "-E", "-x", "c++", os.devnull]
-    done = subprocess.run(asked, capture_output=True, text=True)
+    command = ["g++", target(), "-dM", "-E", "-x", "c++", os.devnull]
+    done = subprocess.run(command, capture_output=True, text=True)
     return None if "__AVX512F__" in done.stdout else "code for this processor has no AVX-512"
 
 
 @cache
-def compiled(contract: str, lanes: int, rest: bool):
+def compiled(contract: str, lanes: int, rest: bool) -> Callable[..., int]:
     """Return the C function `solve` with vectors of `lanes` numbers.
 
-    GCC joins a product and a sum where `contract` is "fast". With `rest`, tiny numbers count as
-    zero, as in this project's solvers.
+    If `contract` is "fast", GCC fuses products and sums. With `rest`, tiny numbers count as zero,
+    as in this project's solvers.
     """
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder) / "taylor.so"
         chosen = [target(), f"-DLANES={lanes}", f"-ffp-contract={contract}", *["-DREST"] * rest]
         command = ["g++", *OPTIONS, *chosen, str(SOURCE), "-o", str(library)]
         subprocess.run(command, check=True, capture_output=True)
-        function = ctypes.CDLL(str(library)).solve  # stays loaded when the folder goes
+        function = ctypes.CDLL(str(library)).solve  # stays loaded after the folder is deleted
     number, integer = ctypes.c_double, ctypes.c_long
     function.restype = integer
     function.argtypes = [*[number] * 3, integer, ctypes.c_void_p, *[number] * 3]
@@ -65,16 +67,16 @@ def compiled(contract: str, lanes: int, rest: bool):
 def prepare_taylor(
     problem: PaperProblem, contract: str, lanes: int = 4, rest: bool = False
 ) -> Solve:
-    """Return the solver of half the chain, compiled into a temporary folder."""
+    """Return the solver of half of the chain, compiled with these options of `compiled`."""
     _, start, end = begin(problem, HALF)
     function, numbers = compiled(contract, lanes, rest), tuple(problem.constants)
 
-    def solve(rtol):
+    def solve(rtol: float) -> tuple[np.ndarray, float]:
         y = start[:, 1:-1].copy()
         where, sites = y.ctypes.data, y.shape[1]
         steps, seconds = timed(lambda: function(*numbers, sites, where, end, rtol, rtol))
         if steps < 0:
-            raise RuntimeError("the Taylor method in C++ gave up")
+            raise RuntimeError("the Taylor method in C++ failed: its step became too small")
         return final_of(problem, with_ghosts(y), HALF), seconds
 
     return solve

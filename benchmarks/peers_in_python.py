@@ -1,14 +1,15 @@
-"""Integrators by other people that are Python packages.
+"""Integrators by others that are Python packages.
 
 They are SciPy's (with a right-hand side in NumPy or compiled by this project), heyoka's Taylor
 method (Biscani and Izzo 2021), CVODE of SUNDIALS (Hindmarsh et al. 2005) through scikit-sundae, and
-numbalsoda's DOP853 (Hairer's, in Fortran). SciPy is among this project's requirements; the other
-packages are imported when a problem is prepared, so that none of them is needed. SciPy and heyoka
-take Newton's equations too.
+numbalsoda's DOP853 (Hairer's, in Fortran). SciPy is a requirement of this project. The other
+packages are optional, because they are imported only when a problem is prepared. SciPy and heyoka
+also integrate Newton's equations.
 """
 
 from dataclasses import asdict
 from functools import partial
+from typing import Any
 
 import numba
 import numpy as np
@@ -23,8 +24,10 @@ from .timing import timed
 # SciPy
 
 
-def plain_rates(tau, u, epsilon, gamma, omega):
-    """Equations (4) of the complex vector (A, B) as most people would write them in NumPy."""
+def plain_rates(
+    tau: float, u: np.ndarray, epsilon: float, gamma: float, omega: float
+) -> np.ndarray:
+    """Return the rates by (4) of the complex vector (A, B), in ordinary NumPy."""
     n = len(u) // 2
     a, b = u[:n], u[n:]
     left_a, right_a = np.concatenate([[0], a[:-1]]), np.concatenate([a[1:], [0]])
@@ -47,16 +50,16 @@ def factors_of(problem: PaperProblem) -> dict[str, float]:
 
 
 def prepare_scipy(problem: PaperProblem, method: str, compiled: bool) -> Solve:
-    """Return a method of `solve_ivp`; RK45 gets the paper's ratio of its two tolerances.
+    """Return a method of `solve_ivp`; RK45 has the paper's ratio of its two tolerances.
 
-    Its right-hand side is in NumPy, or it is the library's kernel on a state with ghosts.
+    The right-hand side is in NumPy, or if `compiled` the library's kernel on a state with ghosts.
     """
     system, start, end = begin(problem)
     absolute = 0.01 if method == "RK45" else 1.0
     if compiled:
         kernel = FLAT_RATES[problem.model.name]
 
-        def rates(t, u):
+        def rates(t: float, u: np.ndarray) -> np.ndarray:
             slope = np.empty_like(u)
             kernel(system, t, np.ascontiguousarray(u), slope)  # Radau gives strided columns
             return slope
@@ -66,13 +69,13 @@ def prepare_scipy(problem: PaperProblem, method: str, compiled: bool) -> Solve:
         start = problem.amplitudes
         rates = partial(plain_rates, **asdict(problem.constants))
 
-    def solve(rtol):
+    def solve(rtol: float) -> tuple[np.ndarray, float]:
         options = {"method": method, "rtol": rtol, "atol": absolute * rtol}
         run, seconds = timed(
             lambda: solve_ivp(rates, (0.0, end), start.ravel(), t_eval=[end], **options)
         )
         if not run.success:
-            raise RuntimeError(f"{method} of SciPy gave up: {run.message}")
+            raise RuntimeError(f"SciPy's {method} failed: {run.message}")
         final = run.y[:, -1]
         return final_of(problem, final) if compiled else final.reshape(start.shape), seconds
 
@@ -82,16 +85,16 @@ def prepare_scipy(problem: PaperProblem, method: str, compiled: bool) -> Solve:
 # heyoka
 
 
-def neighbours(u, j: int):
-    """Return the sum of the neighbours of site j of half an even chain, which mirrors its first."""
+def neighbours(u: np.ndarray, j: int) -> Any:
+    """Return the sum of the neighbours of site j on half of an even chain; u_-1 is u_1."""
     after = [u[j + 1]] if j + 1 < len(u) else []
     return sum([*after, u[j - 1] if j > 0 else u[1]])
 
 
 def equations(problem: PaperProblem, n: int) -> list:
-    """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B of the n sites of half a chain.
+    """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B on the n sites of half a chain.
 
-    Both rates of a site share |A|^2 and |B|^2.
+    The rates of Re A and Im A share |A|^2, those of Re B and Im B share |B|^2.
     """
     import heyoka
 
@@ -100,7 +103,7 @@ def equations(problem: PaperProblem, n: int) -> list:
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
     squares = rows[0::2] ** 2 + rows[1::2] ** 2
 
-    def component_rate(row, j, drive):
+    def component_rate(row: int, j: int, drive: float) -> Any:
         u = rows[row]
         linear = epsilon * (neighbours(u, j) - 2.0 * u[j]) + omega * u[j]
         linear = linear + drive * (rows[(row + 2) % 4][j] - u[j])
@@ -115,7 +118,7 @@ def equations(problem: PaperProblem, n: int) -> list:
 
 
 def equations_of_pendula(problem: PaperProblem, n: int) -> list:
-    """Return the same of the rows x, x', y, y', with the drive as a function of t."""
+    """Return [(variable, rate)] of the rows x, x', y, y', with the drive as a function of t."""
     import heyoka
 
     factors = factors_of(problem)
@@ -123,7 +126,7 @@ def equations_of_pendula(problem: PaperProblem, n: int) -> list:
     names = [f"{row}_{site}" for row in ("x", "u", "y", "v") for site in range(n)]
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
 
-    def force(x, partner, j):
+    def force(x: np.ndarray, partner: np.ndarray, j: int) -> Any:
         bonds = factors["coupling"] * (neighbours(x, j) - 2.0 * x[j])
         return bonds + drive * (partner[j] - x[j]) - heyoka.sin(x[j])
 
@@ -137,16 +140,16 @@ def equations_of_pendula(problem: PaperProblem, n: int) -> list:
 def prepare_heyoka(problem: PaperProblem) -> Solve:
     """Return heyoka's integrator of half the chain, compiled for each tolerance before it is timed.
 
-    It runs in compact mode, because the default one compiles for minutes.
+    It uses compact mode, because the default mode compiles for minutes.
     """
     _, start, end = begin(problem, HALF)
     import heyoka
 
     start, compiled = start[:, 1:-1], {}
-    written = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model.name]
-    system = written(problem, start.shape[1])
+    make_system = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model.name]
+    system = make_system(problem, start.shape[1])
 
-    def solve(rtol):
+    def solve(rtol: float) -> tuple[np.ndarray, float]:
         if rtol not in compiled:
             compiled[rtol] = heyoka.taylor_adaptive(
                 system, start.ravel(), tol=rtol, compact_mode=True
@@ -156,7 +159,7 @@ def prepare_heyoka(problem: PaperProblem) -> Solve:
         integrator.state[:] = start.ravel()
         outcome, seconds = timed(lambda: integrator.propagate_until(end))
         if outcome[0] != heyoka.taylor_outcome.time_limit:
-            raise RuntimeError(f"heyoka gave up: {outcome[0]}")
+            raise RuntimeError(f"heyoka failed: {outcome[0]}")
         return final_of(problem, with_ghosts(integrator.state), HALF), seconds
 
     return solve
@@ -169,9 +172,9 @@ HEYOKA = Peer("heyoka, half chain", needs("heyoka", "heyoka"), prepare_heyoka)
 
 
 def prepare_cvode(problem: PaperProblem) -> Solve:
-    """Return CVODE's Adams method with GMRES in its implicit steps, on the compiled kernel.
+    """Return CVODE's Adams method on the compiled kernel, with GMRES in its implicit steps.
 
-    GMRES needs no Jacobian, least of all a dense one.
+    GMRES needs no Jacobian matrix.
     """
     chain, start, end = begin(problem)
     from sksundae.cvode import CVODE
@@ -179,27 +182,27 @@ def prepare_cvode(problem: PaperProblem) -> Solve:
     start = start.ravel()
     y = start.copy()
 
-    def rates(tau, u, slope):
-        y[:] = u  # CVODE's own vector is read-only, and the kernel fills its ghosts
+    def rates(tau: float, u: np.ndarray, slope: np.ndarray) -> None:
+        y[:] = u  # CVODE's vector is read-only, but the kernel writes ghosts
         flat_rates(chain, tau, y, slope)
 
     rates(0.0, start, start.copy())
 
-    def solve(rtol):
-        # a plain limit, because the default of 500 steps is meant for each of many outputs
+    def solve(rtol: float) -> tuple[np.ndarray, float]:
+        # there is one output, and the default limit of steps between outputs is 500
         solver = CVODE(
             rates, method="Adams", linsolver="gmres", rtol=rtol, atol=rtol, max_num_steps=10**8
         )
         result, seconds = timed(lambda: solver.solve([0.0, end], start))
         if not result.success:
-            raise RuntimeError(f"CVODE gave up: {result.message}")
+            raise RuntimeError(f"CVODE failed: {result.message}")
         return final_of(problem, result.y[-1]), seconds
 
     return solve
 
 
 def prepare_numbalsoda(problem: PaperProblem) -> Solve:
-    """Return DOP853 on the library's real state of half the chain."""
+    """Return numbalsoda's DOP853 on the library's real state of half the chain."""
     chain, start, end = begin(problem, HALF)
     from numbalsoda import dop853
 
@@ -207,17 +210,17 @@ def prepare_numbalsoda(problem: PaperProblem) -> Solve:
     size, pointer = start.size, types.CPointer(types.float64)
 
     @numba.cfunc(types.void(types.float64, pointer, pointer, pointer), error_model="numpy")
-    def rates(tau, u, slope, nothing):
+    def rates(tau: float, u: Any, slope: Any, unused: Any) -> None:
         flat_rates(chain, tau, numba.carray(u, (size,)), numba.carray(slope, (size,)))
 
-    times, nothing = np.array([0.0, end]), np.zeros(1)
+    times, unused = np.array([0.0, end]), np.zeros(1)
 
-    def solve(rtol):
+    def solve(rtol: float) -> tuple[np.ndarray, float]:
         (u, success), seconds = timed(
-            lambda: dop853(rates.address, start, times, data=nothing, rtol=rtol, atol=rtol)
+            lambda: dop853(rates.address, start, times, data=unused, rtol=rtol, atol=rtol)
         )
-        if not success:  # it then returns plausible numbers all the same
-            raise RuntimeError("numbalsoda's dop853 gave up")
+        if not success:  # the returned numbers look plausible even then
+            raise RuntimeError("numbalsoda's dop853 failed")
         return final_of(problem, u[-1], HALF), seconds
 
     solve(1e-3)  # compiles the driver
@@ -246,4 +249,4 @@ OF_PENDULA = {
     "scipy_dop853": PEERS["scipy_dop853"],
     "heyoka_half": HEYOKA,
 }
-"""Those that take Newton's equations."""
+"""The peers that integrate Newton's equations."""

@@ -1,6 +1,6 @@
-"""Speed against error for Newton's equations: every solver that takes them, and peers.
+"""Speed against error for Newton's equations: all solvers that integrate them, and peers.
 
-All follow the paper's regular cases to one t, and are compared at equal error.
+They are compared on the paper's regular cases up to one time, at equal error.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,9 +15,9 @@ from .problems import until
 from .work_precision import POINT_FIELDS, by_pair, by_point, name_contestants
 
 MU, END_TIME, TARGET = 0.1, 1.0, 1e-10
-"""Of the comparison: the small parameter, the slow time at the end, and the error in rad."""
+"""Small parameter, slow time at the end, and error in rad of the comparison."""
 AGREED = 1e-12
-"""Rad by which two methods at their tightest may differ: so exact is what errors are taken from."""
+"""Difference in rad below which two methods with small errors count as exact."""
 OURS = {name: SOLVERS[name] for name in ("taylor", "dop853", "ode45", "kahan_li")}
 FIELDS = POINT_FIELDS | {"error": ("error of an angle or a velocity, the largest", "rad")}
 
@@ -28,9 +28,9 @@ def as_pendula(problem: PaperProblem) -> PaperProblem:
 
 
 def exact_state(problem: PaperProblem) -> np.ndarray:
-    """Return angles and velocities at the end, on which two methods agree.
+    """Return the angles and velocities at the end, on which two methods agree within AGREED.
 
-    Raises RuntimeError where they do not.
+    Raises RuntimeError if they do not.
     """
     tight = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}
     finals = [
@@ -38,24 +38,27 @@ def exact_state(problem: PaperProblem) -> np.ndarray:
         for solver in (tight, {"name": "kahan_li", "step": 0.05})
     ]
     if not error_of(*finals) < AGREED:
-        raise RuntimeError(f"two methods differ by {error_of(*finals):.1e} rad: nothing is exact")
+        raise RuntimeError(
+            f"no exact state: two methods differ by {error_of(*finals):.1e} rad, not by less than"
+            f" {AGREED:g} rad"
+        )
     return finals[0]
 
 
 def measure(
     problems: Mapping[str, PaperProblem],
     peers: Mapping[str, Contestant],
-    say: Callable[[str], None],
+    report: Callable[[str], None],
 ) -> dict[str, Variable]:
-    """Return the variables of the dataset on these cases, which are of the amplitudes."""
+    """Return the variables of the dataset; `problems` are cases of the amplitudes by name."""
     points, pairs = {}, {}
     for case, cases in problems.items():
         problem = as_pendula(cases)
-        for contestant in OURS.values():  # what compiles now is not timed
+        for contestant in OURS.values():  # compile now, outside of the timed runs
             contestant.prepare(until(problem, 1e-3))(contestant.accuracies[0])
         exact = exact_state(problem)
         points[case], pairs[case] = compete(
-            problem, exact, TARGET, OURS, peers, lambda who, case=case: say(f"{case}: {who}")
+            problem, exact, TARGET, OURS, peers, lambda title, case=case: report(f"{case}: {title}")
         )
     return {
         "case": Variable(("case",), np.array(list(problems))),

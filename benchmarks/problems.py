@@ -1,18 +1,21 @@
-"""Which problems solvers are compared on: the paper's cases up to times that precede chaos.
+"""The problems on which solvers are compared: the paper's cases, up to times before chaos.
 
-An error says something about a solver only while the motion is regular, so each kind of motion
-has a time at which errors are taken. The regimes are plain values: the workflow reads them without
-importing kernels.
+Errors characterise a solver only while the motion is regular, so each kind of motion has its own
+time at which errors are taken. Regimes are plain values: the workflow reads them without importing
+kernels.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pendula.problem import PaperProblem
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 class Regime(NamedTuple):
-    """A kind of motion: its cases, the time tau of the errors, and the error asked for."""
+    """A kind of motion: its cases, the time tau of the errors, and the error of the comparison."""
 
     cases: tuple[str, ...]
     horizon: float
@@ -27,13 +30,13 @@ REGIMES = {
 REGIME_OF = {case: name for name, regime in REGIMES.items() for case in regime.cases}
 
 
-def until(problem: PaperProblem, end_time: float, **changes) -> PaperProblem:
-    """Return the problem up to another time, with no outputs between its start and its end."""
+def until(problem: PaperProblem, end_time: float, **changes: Any) -> PaperProblem:
+    """Return the problem with another end time, without outputs before it, and with `changes`."""
     return problem.changed(end_time=end_time, output_step=end_time, snapshot_every=0, **changes)
 
 
-def read_reference(dataset, horizon: float) -> np.ndarray:
-    """Return the amplitudes (component, site) of a multiprecision study (an xarray.Dataset)."""
+def read_reference(dataset: "xr.Dataset", horizon: float) -> np.ndarray:
+    """Return the amplitudes (component, site) of a multiprecision reference at tau = `horizon`."""
     at = dataset["snapshot_tau"].values == horizon
     re, im = dataset["amplitude"].isel(snapshot=at).squeeze("snapshot").values
     return re + 1j * im

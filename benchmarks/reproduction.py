@@ -1,6 +1,6 @@
-"""How long a whole reproduction takes and how much disk: from nothing, with kernels, without work.
+"""Time and disk space of a whole reproduction: from scratch, with kernels, and up to date.
 
-It works on a copy of the project in a temporary folder, with a cache of kernels of its own.
+It runs in a copy of the project in a temporary folder, with its own cache of kernels.
 """
 
 import json
@@ -28,9 +28,9 @@ RUNS = {
 
 
 def run(project: Path) -> dict:
-    """Run snakemake in `project`; return its wall time and processor time.
+    """Run snakemake in `project`, and return its wall time and processor time in s.
 
-    Where it fails, what it said goes to the log of this measurement, since the copy is removed.
+    If it fails, its output is printed, because the copy of the project is deleted.
     """
     environment = {**os.environ, "LATTICODE_CACHE": str(project.with_name("kernels"))}
     command = [sys.executable, "-m", "snakemake"]
@@ -47,13 +47,13 @@ def run(project: Path) -> dict:
 
 
 def _processor_time() -> float:
-    """Return the processor time of all that this process started, at any depth."""
+    """Return the processor time in s of all descendants of this process."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def measure(project: Path) -> dict:
-    """Run everything twice in `project`, and once more with nothing to do."""
+    """Return the figures of runs in `project`: from scratch, up to date, and with kernels."""
     runs = {}
     for name in RUNS:
         if name == "warm":
@@ -72,7 +72,7 @@ def _megabytes(folder: Path) -> int:
 
 
 def measure_reproduction(data: str) -> None:
-    """Measure in a copy of the project, and write what was measured as JSON."""
+    """Measure in a copy of the project, and write the figures to the JSON file `data`."""
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder) / "project"
         shutil.copytree(ROOT, project, ignore=LEFT_OUT)

@@ -1,6 +1,6 @@
-"""What large computations take: a survey of many runs, and one very long chain.
+"""The cost of large computations: a survey of many runs, and one very long chain.
 
-They take minutes and gigabytes, so no rule makes them. `python -m benchmarks.scale` measures them
+They take minutes and gigabytes, so no rule runs them. `python -m benchmarks.scale` measures them
 one after another on one core, each in a process of its own, and writes benchmarks/scale.json, which
 docs/source quotes.
 """
@@ -13,6 +13,7 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from time import process_time
+from typing import Any
 
 import numpy as np
 from latticode.kernels.sources import describe_machine
@@ -29,7 +30,7 @@ HALF_CHAIN, END_TIME = 500_000, 10.0
 
 
 def survey() -> dict[str, float]:
-    """Return what a map of the paper's chain over Omega and the first amplitude takes."""
+    """Return the cost of a map of the paper's chain over Omega and A_0."""
     case = Case(omega=-4, half_width=30, end_time=50)
     problem, plan = case.kind.of(case.problem()), Survey(MAP, ("max_l2", "mean_l2"), (10.0, 50.0))
     simulate(problem)  # compiles
@@ -44,7 +45,7 @@ def survey() -> dict[str, float]:
 
 
 def chain(solver: str) -> dict[str, float]:
-    """Return what a long chain takes whose sites all move from the start."""
+    """Return the cost of a long chain on which all sites move from the start."""
     simulate(noisy_chain(1001, solver))  # compiles
     long = noisy_chain(2 * HALF_CHAIN + 1, solver).changed(end_time=END_TIME, output_step=END_TIME)
     _, seconds = timed(lambda: simulate(long))
@@ -58,21 +59,21 @@ def chain(solver: str) -> dict[str, float]:
 JOBS = {"survey": (survey,), "dop853": (chain, "dop853"), "taylor": (chain, "taylor")}
 
 
-def timed(action: Callable):
-    """Return what `action()` returns, and its processor time in seconds."""
+def timed(action: Callable[[], Any]) -> tuple[Any, float]:
+    """Return the result of `action()`, and its processor time in seconds."""
     start = process_time()
     return action(), process_time() - start
 
 
-def measured(measure: Callable, *arguments) -> dict[str, float]:
-    """Return what `measure` returns, with all its processor time and the largest memory in MB."""
+def measured(measure: Callable[..., dict], *arguments: Any) -> dict[str, Any]:
+    """Return the figures of `measure(*arguments)`, the largest memory in MB, and the machine."""
     figures = measure(*arguments)
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return figures | {"megabytes": kilobytes / 1e3, "machine": describe_machine()}
 
 
 def main(*names: str) -> None:
-    """Measure what is named, or all, and write it into the file."""
+    """Measure the JOBS with these names, or all, and write the figures to scale.json."""
     figures = json.loads(WRITTEN.read_text(encoding="utf-8")) if WRITTEN.exists() else {}
     for name in names or JOBS:
         with ProcessPoolExecutor(1, get_context("spawn")) as pool:

@@ -1,9 +1,9 @@
 // The Taylor method of integrators/taylor.py and models/amplitudes_series.py on half a chain, by hand.
 //
-// The sites 0..M go in blocks of LANES, which the compiler is told (4 or 8), and all that a block holds lies together, so that every
-// coefficient is at a distance from the block's start that the compiler knows. Orders go in pairs:
-// one pass over a block sums the Cauchy products of an even order in registers, and those of the
-// odd order above it but for the terms that hold its own coefficients: each load serves twice.
+// The sites 0..M are divided into blocks of LANES sites (4 or 8, by -DLANES). The numbers of a block
+// are contiguous, so the compiler knows their offsets. Orders are computed in pairs: one pass over a
+// block sums in registers the Cauchy products of an even order, and those of the next order without
+// the terms that contain its own coefficients. Each loaded number is thus used twice.
 
 #include <cmath>
 #include <utility>
@@ -28,7 +28,7 @@ struct Block {
 
 struct Chain {
     double epsilon, gamma, omega;
-    std::vector<Block> blocks;  // and one at rest, which the last block sees beyond the end
+    std::vector<Block> blocks;  // the last one is at rest, beyond the end of the chain
     Mask inside;                // the lanes of the last block that are sites
 
     const Block *first() const { return blocks.data(); }
@@ -36,7 +36,8 @@ struct Chain {
     Block *begin() { return blocks.data(); }
 };
 
-// Numbers below `level` as zero, where this is compiled in: subnormal numbers are slow (see integrators/rest.py).
+// If compiled with -DREST, replace numbers below `level` by zero, because subnormal numbers are slow
+// (see integrators/rest.py).
 static inline Vec without_tiny(Vec value, double level) {
 #ifdef REST
     return (Vec)((Mask)value & ~((value < level) & (value > -level)));
@@ -45,14 +46,14 @@ static inline Vec without_tiny(Vec value, double level) {
 #endif
 }
 
-// Load into a register once: left alone, GCC loads anew for each product.
+// Load into a register once; otherwise GCC loads again for each product.
 static inline Vec load(const Vec &source) {
     Vec value = source;
     asm("" : "+v"(value));
     return value;
 }
 
-// Coefficient k + 1 of row `row` from the row `of` of order k and its cubic term, `factor` times.
+// Return a coefficient of order k + 1 from row `of` at order k and the cubic term, times `factor`.
 static inline Vec next(const Chain &s, const Block *b, int k, int of, double drive, double factor,
                        Vec cubic) {
     const double aside = factor * s.epsilon, coupling = factor * drive, half = 0.5 * factor;
@@ -72,12 +73,12 @@ static inline void extend(const Chain &s, Block *b, int k, int re, Vec cubic_re,
     b->c[k + 1][re + 1] = next(s, b, k, re, s.gamma, -share, cubic_re);
 }
 
-// Order K, even; what is known of the cubic terms of order K + 1 waits in the rows of K + 2.
+// Compute an even order K. The rows of order K + 2 store partial sums of the cubic terms of K + 1.
 template <int K> static inline void even_order(Chain &s, Block *b, int re) {
     auto x = [=](int k) -> Vec & { return b->c[k][re]; };
     auto y = [=](int k) -> Vec & { return b->c[k][re + 1]; };
     auto density = [=](int k) -> Vec & { return b->density[k][re / 2]; };
-    // eight sums side by side: the processor adds long before one sum is ready
+    // independent sums, because the processor can start an addition before the last one is complete
     Vec sum_x = 0.5 * x(K / 2) * x(K / 2), sum_y = 0.5 * y(K / 2) * y(K / 2);
     Vec later_x = ZERO, later_y = ZERO, low_x = load(x(0)), low_y = load(y(0));
 #pragma GCC unroll 16
@@ -108,7 +109,7 @@ template <int K> static inline void even_order(Chain &s, Block *b, int re) {
     extend(s, b, K, re, now_x + here * x(0), now_y + here * y(0));
 }
 
-// Order k, odd: add the terms that hold its own coefficients.
+// Compute an odd order k: add the terms that contain its own coefficients.
 static inline void odd_order(Chain &s, Block *b, int k, int re) {
     Vec x0 = b->c[0][re], y0 = b->c[0][re + 1], x = b->c[k][re], y = b->c[k][re + 1];
     Vec half = x0 * x + y0 * y, density = without_tiny(b->density[k][re / 2] + (half + half), 1e-150);
@@ -134,7 +135,7 @@ template <int... PAIR> static void expand(Chain &s, std::integer_sequence<int, P
     (two_orders<2 * PAIR>(s), ...);
 }
 
-// The largest modulus of a component in order k.
+// Return the largest modulus of a coefficient of order k.
 static double size(Chain &s, int k) {
     double largest = 0.0;
     Vec top = ZERO, sum = ZERO;
@@ -151,7 +152,7 @@ static double size(Chain &s, int k) {
     return std::sqrt(largest);
 }
 
-// Replace order 0 by the sum of the series at the distance h.
+// Replace order 0 by the sum of the series after a step h.
 static void advance(Chain &s, double h) {
     const double h2 = h * h, h3 = h2 * h, h4 = h2 * h2;
     for (Block *b = s.begin(); b < s.end(); b++)
@@ -164,7 +165,7 @@ static void advance(Chain &s, double h) {
         }
 }
 
-// The step that the last two orders allow; NaN where they are not finite.
+// Return the step that the last two orders allow, NaN if they are not finite.
 static double step(Chain &s, double rtol, double atol) {
     expand(s, std::make_integer_sequence<int, ORDER / 2>());
     const double allowed = atol + rtol * size(s, 0);

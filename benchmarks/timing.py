@@ -1,7 +1,7 @@
-"""The one timer of all benchmarks: repetitions after a warm-up, and two runs that take turns.
+"""The timer of all benchmarks: repetitions after a warm-up, and two runs in turns.
 
-`timeit` measures a callable from outside. Here a run tells its own seconds, because other
-integrators must be reset between runs, which is not part of what they are measured at.
+`timeit` measures a whole callable. Here a run returns its own time, because some integrators must
+be reset between runs, and this reset must not count.
 """
 
 import signal
@@ -13,35 +13,34 @@ from typing import Any
 import numpy as np
 
 Run = Callable[[], float]
-"""A run that returns the seconds that it took."""
+"""A function that makes a run and returns its time in seconds."""
 
 
 class TooLongError(Exception):
-    """A run that was broken off."""
+    """Raised in a run that exceeds its limit of time."""
 
 
 def timed(action: Callable[[], Any]) -> tuple[Any, float]:
-    """Return what `action()` returns, and the seconds that it took."""
+    """Return the result of `action()`, and its time in seconds."""
     start = perf_counter()
     result = action()
     return result, perf_counter() - start
 
 
 def repeat(run: Run, count: int) -> float:
-    """Return the median of the seconds of `count` runs."""
+    """Return the median time of `count` runs in seconds."""
     return float(np.median([run() for _ in range(count)]))
 
 
 def in_turns(first: Run, second: Run, turns: int, block: float) -> np.ndarray:
     """Return `turns` ratios of the time of `first` to that of `second`, measured alternately.
 
-    What slows the machine down slows both of a pair, so that ratios scatter less than times. Short
-    runs are repeated until one side of a pair takes about `block` seconds. Each run is first made
-    once to warm up.
+    A load on the machine slows down both runs of a pair, so ratios scatter less than times. Short
+    runs are repeated until one side of a pair takes about `block` seconds.
     """
     counts = []
     for run in (first, second):
-        run()  # what is not compiled yet is compiled before the first turn
+        run()  # warm-up: this may compile
         seconds = run()
         counts.append(max(1, round(block / seconds)) if seconds > 0.0 else 1)
 
@@ -53,9 +52,9 @@ def in_turns(first: Run, second: Run, turns: int, block: float) -> np.ndarray:
 
 @contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Break the block off with TooLongError; a compiled run ends at its next step."""
+    """Stop the block by TooLongError after `seconds`; compiled code stops at its next step."""
 
-    def stop(*_):
+    def stop(*_: Any) -> None:
         raise TooLongError
 
     before = signal.signal(signal.SIGALRM, stop)

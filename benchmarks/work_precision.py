@@ -1,4 +1,4 @@
-"""The dataset of speed against error: each solver and peer, each case, each accuracy."""
+"""The dataset of speed against error, by case, contestant and accuracy."""
 
 from collections.abc import Callable, Mapping
 from itertools import product
@@ -27,19 +27,19 @@ def measure(
     problems: Mapping[str, PaperProblem],
     references: Mapping[str, np.ndarray],
     peers: Mapping[str, Contestant],
-    say: Callable[[str], None],
+    report: Callable[[str], None],
 ) -> dict[str, Variable]:
     """Return the variables of the dataset.
 
-    `problems` are the cases by name, each up to the time of the errors and without outputs;
-    `references` their multiprecision solutions there, (component, site). `say` is called with the
-    name of each measurement before it starts. The published least times and mean ratios are stored
-    beside the measurements from which they follow.
+    `problems` are the cases by name, which end at the time of the errors and have no outputs.
+    `references` are their multiprecision solutions at this time, (component, site). `report` is
+    called with the name of each measurement before it starts. The dataset also has the published
+    least times and mean ratios.
     """
     points, pairs, best = {}, {}, []
     for case, problem in problems.items():
         target = REGIMES[REGIME_OF[case]].target
-        announce = lambda who, case=case: say(f"{case}: {who}")  # noqa: E731
+        announce = lambda title, case=case: report(f"{case}: {title}")  # noqa: E731
         exact = references[case]
         points[case], pairs[case] = compete(problem, exact, target, OURS, peers, announce)
         reached = [cheapest(points[case][name], target) for name in OURS]
@@ -69,7 +69,7 @@ def measure(
 
 
 def name_contestants(contestants: Mapping[str, Contestant]) -> dict[str, Variable]:
-    """Return the coordinate `contestant` and the titles in tables."""
+    """Return the coordinate `contestant`, and the titles in tables."""
     titles = np.array([contestant.title for contestant in contestants.values()])
     return {
         "contestant": Variable(("contestant",), np.array(list(contestants)), "solver or peer"),
@@ -80,9 +80,9 @@ def name_contestants(contestants: Mapping[str, Contestant]) -> dict[str, Variabl
 def by_point(
     fields: Mapping[str, tuple], points: Mapping[str, Mapping[str, list[Point]]]
 ) -> dict[str, Variable]:
-    """Return one variable a field over (case, contestant, point), NaN beyond the last point.
+    """Return a variable for each field, (case, contestant, point), NaN beyond the last point.
 
-    `points` has the points by case and by name, each in the order of `fields`.
+    `points` are by case and by name, each with its numbers in the order of `fields`.
     """
     rows = [list(rows.values()) for rows in points.values()]
     longest = max(len(points) for rows in rows for points in rows)
@@ -99,7 +99,7 @@ def by_point(
 def by_pair(
     pairs: Mapping[str, Mapping[str, np.ndarray | None]], peers: list[str]
 ) -> dict[str, Variable]:
-    """Return how the peers compare with our best solver."""
+    """Return the variables that compare peers with our best solver; `pairs` are time ratios."""
     table = np.full((len(PAIR_FIELDS), len(pairs), len(peers)), np.nan)
     for (i, case), (j, name) in product(enumerate(pairs), enumerate(peers)):
         if (ratios := pairs[case][name]) is not None:

@@ -5,7 +5,7 @@ import pytest
 from latticode.simulation.simulate import simulate
 from latticode.simulation.sweep import pair_l2
 from pendula.studies.chaos.ensembles import draw_swept, measure_ensembles, measure_second_solver
-from pendula.studies.chaos.settings import steps_beside
+from pendula.studies.chaos.settings import second_solver_steps
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
@@ -51,4 +51,4 @@ def test_runs_of_the_second_solver_have_its_steps_and_draws_of_their_own():
 )
 def test_steps_of_the_second_solver_rise_and_none_comes_twice(step, steps):
     """A coordinate of a dataset that did not rise would tell its readers nothing."""
-    assert steps_beside(step, 0.025) == steps
+    assert second_solver_steps(step, 0.025) == steps

@@ -1,4 +1,4 @@
-"""What is measured of the solvers, and what decides the sentences on them."""
+"""What is measured of the solvers, and which numbers decide the claims on them."""
 
 import numpy as np
 import pytest
@@ -48,14 +48,14 @@ def test_a_drift_by_each_reading(measured):
     ("drift", "start", "verdict", "said"),
     [
         ({}, 1.0, Verdict.CONFIRMED, ""),
-        ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "decides in case1"),
+        ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "on the definition in case1"),
         (
             {("case1",): 3e-6},
             1.0,
             Verdict.NOT_REPRODUCED,
             "larger in case1 (absolute or relative, with complex or real unknowns)",
         ),
-        ({("case1",): 3e-6}, 100.0, Verdict.UNDECIDED, "decides in case1"),
+        ({("case1",): 3e-6}, 100.0, Verdict.UNDECIDED, "on the definition in case1"),
         ({("case0", "ode45"): 3e-6, ("case1",): 3e-4}, 100.0, Verdict.NOT_REPRODUCED, "case1"),
     ],
 )

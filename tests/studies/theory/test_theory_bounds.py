@@ -144,7 +144,7 @@ def test_a_share_of_a_bound_is_not_rounded_up_to_the_whole():
         for theorem in claims_nonlinear.SIZES
     }
     words = claims_nonlinear._by_energy_alone(constants | {"by_energy_theorem_3": 0.999895})
-    assert "at least 99.98% of each bound is reached" in words
+    assert "at least 99.98% of each bound in terms of H is attained" in words
 
 
 def test_the_largest_power_of_an_energy_has_that_energy():

@@ -71,7 +71,7 @@ def test_rows_on_lemma_2_are_decided_by_every_cell(check):
         sources = {"checks/identities": identities, "checks/well_posed": check}
         finding = decide(claims[name], sources)
         assert finding.verdict == "confirmed with a caveat"
-        assert "P up to 1000 and" in finding.because and "rests on the proof" in finding.because
+        assert "P up to 1000 and" in finding.because and "relies on the proof" in finding.because
         changed = check[variable].copy()
         changed[dict.fromkeys(changed.dims, 0)] = value
         sources["checks/well_posed"] = check.assign({variable: changed})

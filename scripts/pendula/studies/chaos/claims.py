@@ -1,11 +1,12 @@
 """The paper's claims on chaotic figures against time, decided by ensembles instead of single runs.
 
-A single run is one random sample, and the next may differ. So a claim holds if the confidence
-limits of its ensemble satisfy the criterion.
+A single run is one random sample, and the next may differ. A claim therefore holds if the
+confidence limits of its ensemble satisfy the criterion.
 """
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -65,21 +66,21 @@ def members_of(members: xr.Dataset, case: str) -> xr.Dataset:
 
 
 def mean_limits_of(
-    members: xr.Dataset, case: str, reduce: Callable, *arguments
+    members: xr.Dataset, case: str, reduce: Callable, *arguments: Any
 ) -> ConfidenceInterval:
-    """Return the mean over the members of a case, with confidence limits.
+    """Return the mean of a number over the members of a case, with confidence limits.
 
-    `reduce` returns one number for each member, from the dataset of the case and `arguments`.
+    `reduce` returns the number of each member from the dataset of the case and `arguments`.
     """
     return mean_limits(reduce(members_of(members, case), *arguments), LEVEL.value)
 
 
 def largest_limit(limit: ConfidenceInterval) -> float:
-    """Return the modulus of the limit that is farther from zero."""
+    """Return the larger modulus of the two limits."""
     return max(abs(limit.low), abs(limit.high))
 
 
-# Numbers of each member, (member,), from the dataset of a case
+# Functions that return a number of each member, (member,), from the dataset of a case
 
 
 @once
@@ -89,12 +90,12 @@ def level(case: xr.Dataset, norm: str, window: str = LATER, quantity: str = "pai
 
 
 def over_start(case: xr.Dataset, norm: str) -> np.ndarray:
-    """Return the late mean of a norm over its initial value, (member,)."""
+    """Return the late mean of a norm divided by its initial value, (member,)."""
     return level(case, norm) / float(case[f"{norm}_start"])
 
 
 def change(case: xr.Dataset, norm: str) -> np.ndarray:
-    """Return the relative change of a norm between the two halves, (member,)."""
+    """Return the relative change of a norm from the EARLIER to the LATER window, (member,)."""
     return level(case, norm) / level(case, norm, EARLIER) - 1.0
 
 
@@ -115,7 +116,7 @@ WORDS = {
 
 
 def wrong_case(right: str, wrong: str) -> ClaimControl:
-    """Return a control: the members of another case in place of those of `right`."""
+    """Return the control with the members of the case `wrong` in place of those of `right`."""
     fed = {"members": repeat("case", wrong, at=right)}
     return ClaimControl(WORDS[wrong], fed, on=(right, wrong))
 
@@ -124,10 +125,9 @@ def wrong_case(right: str, wrong: str) -> ClaimControl:
 
 
 def fig3(statement: str, *wrongs: str) -> Callable:
-    """Return the decorator of a claim whose controls are the members of these other cases.
+    """Return the decorator of a claim with the members of these other cases as controls.
 
-    The claim also needs the shares of runs that spread. As another control, shares far from the
-    data are given as those close to them.
+    The claim also needs the shares of runs that spread; FAR_AS_NEAR is a control for them.
     """
     place, needs = "Section 5, Fig 3 lower, in ensembles", (*NEEDS, SENSITIVITY)
     controls = (*(wrong_case("fig3_large", wrong) for wrong in wrongs), FAR_AS_NEAR)
@@ -148,7 +148,7 @@ def ensemble_fig3_grows(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding
 def ensemble_fig3_excites(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
-    def excited(case: xr.Dataset):
+    def excited(case: xr.Dataset) -> np.ndarray:
         amplitudes = pendula(case)
         neighbours = np.delete(amplitudes, amplitudes.shape[2] // 2, axis=2)
         return (neighbours > float(case["linf_start"]) / MUCH.value).sum(axis=(1, 2))
@@ -162,10 +162,10 @@ def ensemble_fig3_excites(members: xr.Dataset, sensitivity: xr.Dataset) -> Findi
 def ensemble_fig3_mixes(members: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
-    def ratio(case: xr.Dataset):
+    def ratio(case: xr.Dataset) -> np.ndarray:
         return level(case, "l2", LATER, "A") / level(case, "l2", LATER, "B")
 
-    def correlation(case: xr.Dataset):
+    def correlation(case: xr.Dataset) -> np.ndarray:
         return case["norm_correlation"].sel(window=LATER).values
 
     ratios = mean_limits_of(members, "fig3_large", ratio)
@@ -197,7 +197,7 @@ fig4 = partial(claim, "Section 5, Fig 4, in ensembles", needs=NEEDS, on=BOTH)
 
 
 def lows(members: xr.Dataset, name: str, reduce: Callable) -> dict[str, float]:
-    """Return the lower confidence limits of both panels of Fig 4, as measured numbers."""
+    """Return the lower confidence limits of a number in both cases of Fig 4, by their names."""
     return {f"{case}_{name}_low": mean_limits_of(members, case, reduce).low for case in BOTH}
 
 
@@ -229,14 +229,14 @@ def ensemble_fig4_settles(members: xr.Dataset) -> Finding:
     on=BOTH,
 )
 def ensemble_fig4_many(members: xr.Dataset) -> Finding:
-    def share(case: xr.Dataset):
+    def share(case: xr.Dataset) -> np.ndarray:
         amplitudes = pendula(case)
         centre = amplitudes[:, :, amplitudes.shape[2] // 2].max(axis=1)[:, None, None]
         large = amplitudes > float(case["linf_start"]) / MUCH.value
         return ((amplitudes > centre / FACTOR.value) & large).mean(axis=(1, 2))
 
     measured = lows(members, "share", share)
-    label = "lower confidence limit of the share above half of the centre and A_0 / 3"
+    label = "lower confidence limit of the share of amplitudes above half of the centre's and A_0/3"
     return judge(measured, Above(MANY, *measured, label=label))
 
 
@@ -253,10 +253,9 @@ def ensemble_fig4_many(members: xr.Dataset) -> Finding:
     ),
 )
 def ensemble_fig4_alike(members: xr.Dataset) -> Finding:
-    """Compare the means of both panels with the scatter of runs.
+    """Compare the difference of both panels' means with the scatter of runs.
 
-    Each panel shows a single run, so a difference is visible only if it is wider than their
-    scatter.
+    Each panel shows a single run, so only a difference wider than this scatter is visible.
     """
     upper, lower = (members_of(members, case) for case in BOTH)
     small, large = (level(case, "l2") for case in (upper, lower))
@@ -283,12 +282,12 @@ def ensemble_fig4_alike(members: xr.Dataset) -> Finding:
     on=("fig4_small",),
 )
 def ensemble_equilibrium(members: xr.Dataset) -> Finding:
-    def least(case: xr.Dataset):
+    def least(case: xr.Dataset) -> np.ndarray:
         amplitudes = pendula(case)
         share = float(case["l2_start"]) / np.sqrt(amplitudes[0].size)
         return amplitudes.min(axis=(1, 2)) / share
 
-    def power_change(case: xr.Dataset):
+    def power_change(case: xr.Dataset) -> np.ndarray:
         return np.square(change(case, "l2") + 1.0) - 1.0
 
     measured = {
@@ -298,8 +297,8 @@ def ensemble_equilibrium(members: xr.Dataset) -> Finding:
     everywhere = Above(
         FACTOR,
         "least_low",
-        label=f"lower confidence limit of the least amplitude of all pendula on {LATER}, over that"
-        " of the initial power spread evenly",
+        label=f"lower confidence limit of the least amplitude of all pendula on {LATER}, over the"
+        " amplitude if the initial power were evenly spread",
     )
     settled = Below(CHANGE, "change", label=f"confidence limit of the change of P to {LATER}")
     caveat = "only a finite chain reaches equilibrium everywhere; a longer chain takes longer"
@@ -307,7 +306,7 @@ def ensemble_equilibrium(members: xr.Dataset) -> Finding:
 
 
 def slower_from_one(lifetimes: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with later transitions from the smallest amplitude, as a control."""
+    """Return, as a control, the dataset with later transitions from the smallest amplitude."""
     smallest = lifetimes["start_amplitude"].values.min()
     return scale("transition", 2.5, start_amplitude=smallest)(lifetimes)
 
@@ -322,15 +321,15 @@ def slower_from_one(lifetimes: xr.Dataset) -> xr.Dataset:
     ),
 )
 def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
-    """Require the same time of the transition, and the same final state, from each amplitude.
+    """Require similar transition times and late norms from all amplitudes.
 
     A centre that stays excited inside the chaotic chain is a caveat.
     """
     a0, end = lifetimes["start_amplitude"].values, float(lifetimes.attrs["window_end"])
     if end < END or a0.size < 2 or a0.min() >= PAPERS_LARGEST or lifetimes.sizes["member"] < FEWEST:
         raise UndecidableError(
-            f"this requires {FEWEST} members, runs to tau = {END:g}, and another amplitude below"
-            f" {PAPERS_LARGEST:g}"
+            f"{FEWEST} members are required, runs to tau = {END:g}, and two amplitudes, one of them"
+            f" below {PAPERS_LARGEST:g}"
         )
     limits = limits_of(lifetimes, LEVEL.value)
     times, norms = limits["transition"], limits["l2"]
@@ -348,7 +347,7 @@ def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
 
 
 def excited_centre(lifetimes: xr.Dataset, share: ConfidenceInterval) -> str:
-    """Return a sentence on the amplitudes from which the centre keeps a larger share."""
+    """Return the caveat on the amplitudes from which the centre keeps more than an average pair."""
     a0, pairs = lifetimes["start_amplitude"].values, 2 * int(lifetimes.attrs["half_width"]) + 1
     excited = a0[share.low > FACTOR.value / pairs]
     if not excited.size:

@@ -1,11 +1,11 @@
 """The paper's claims on Figs 5 and 6, right, decided by ensembles at each half-width M.
 
-A single sweep is one random sample at each M, and chaos amplifies rounding into scatter of its
-points. Means over ensembles scatter less, by amounts that Student's t estimates.
+A single sweep is one random sample at each M: chaos amplifies rounding errors, and its points
+scatter. Means over ensembles scatter less, and Student's t estimates by how much.
 
-On a fixed time window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
-and on a chain whose ends the front does not reach within the window the norm is that of the
-infinite chain. So a sweep can show growth with M, but neither growth in time nor divergence with M.
+In a fixed time window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
+and the norm on a chain equals it if the front does not reach the ends within the window. A sweep
+can therefore show growth with M, but neither growth in time nor divergence with M.
 """
 
 from collections.abc import Callable
@@ -57,13 +57,13 @@ CASE = runs("fig3_large")
 DATA_POWER = 26.0
 """P of the paper's large initial condition, A_0 = 5 and B_0 = 1."""
 TEXT_5 = "[10, 50]"
-"""The window of the maxima in the text on Fig 5."""
+"""The time window of the maxima in Fig 5, in the text."""
 READINGS_6 = {"text": ("max", "[10, 70]"), "caption": ("mean", "[10, 40]")}
-"""The statistic and the window of Fig 6 according to the text and to the caption."""
+"""The statistic and the time window of Fig 6, in the text and in the caption."""
 
 
 class Means(NamedTuple):
-    """Means over the members at each half-width, with standard errors, all (half_width,)."""
+    """Means over the members at each half-width and their standard errors, (half_width,)."""
 
     half_width: np.ndarray
     mean: np.ndarray
@@ -71,14 +71,14 @@ class Means(NamedTuple):
     members: int
 
     @property
-    def off(self) -> np.ndarray:
-        """Half of each confidence interval, (half_width,)."""
+    def half_interval(self) -> np.ndarray:
+        """Half of the confidence interval of each mean, (half_width,)."""
         return student(self.members - 1, LEVEL.value) * self.error
 
     def over(
         self, below: slice, above: slice, confidence: float | None = None
     ) -> ConfidenceInterval:
-        """Return the mean over the half-widths `above` over that on `below`, with limits."""
+        """Return the ratio of the means over half-widths, `above` to `below`, with limits."""
         value = [self.mean[half_widths].mean() for half_widths in (below, above)]
         errors = [self.error[half_widths] for half_widths in (below, above)]
         error = [
@@ -88,20 +88,21 @@ class Means(NamedTuple):
 
     @property
     def largest_before(self) -> int:
-        """Index of the largest mean, without that on the longest chain."""
+        """Index of the largest mean on all chains but the longest."""
         return int(np.argmax(self.mean[:-1]))
 
     def last_growth(self) -> ConfidenceInterval:
-        """Return the mean on the longest chain over the largest before it, with wide limits."""
+        """Return the ratio of the last mean to the largest before it, with wide limits."""
         before = self.largest_before
         return self.over(slice(before, before + 1), slice(-1, None), 1.0 - RARE.value)
 
 
 @once
 def means_of(ensembles: xr.Dataset, sweep: str, norm: str = "l2", reading: str = "text") -> Means:
-    """Return the means of a norm of the pair, by the reading of the text or the caption.
+    """Return the ensemble means of a norm of the pair in a sweep.
 
-    By the text these are means of maxima. Raises UndecidableError if there are too few.
+    The norm is the maximum over its window if `reading` is "text", the average if it is "caption".
+    Raises UndecidableError if there are too few half-widths.
     """
     if sweep not in ensembles["sweep"].values:
         raise UndecidableError(f"there is no ensemble of {sweep}")
@@ -116,12 +117,12 @@ def means_of(ensembles: xr.Dataset, sweep: str, norm: str = "l2", reading: str =
 
 
 def flat(name: str) -> ClaimControl:
-    """Return a control: all means of the l2 norm of a sweep equal that on its shortest chain.
+    """Return the control with all means of l2 in a sweep equal to the mean on its shortest chain.
 
     Their relative errors stay the same.
     """
 
-    def changed(ensembles: xr.Dataset):
+    def changed(ensembles: xr.Dataset) -> xr.Dataset:
         to_shortest = ensembles["l2_mean"].isel(half_width=0) / ensembles["l2_mean"]
         return scale(("l2_mean", "l2_error"), to_shortest, sweep=name)(ensembles)
 
@@ -129,14 +130,14 @@ def flat(name: str) -> ClaimControl:
 
 
 def at_the_start(ensembles: xr.Dataset) -> xr.Dataset:
-    """Return the ensembles with all means at the initial norm of the large data, as a control."""
+    """Return, as a control, ensembles with all means at the initial norm of the large data."""
     to_start = np.sqrt(DATA_POWER) / ensembles["l2_mean"]
     return scale("l2_mean", to_start, sweep="fig6_right")(ensembles)
 
 
 SMALL = ClaimControl("means that stay at the initial norm", {NEEDS[0]: at_the_start})
 CROSSED = keep(half_width=slice(None, 100))
-"""Chains whose ends the front reaches within the time window."""
+"""Keep the chains with ends that the front reaches within the time window."""
 
 
 # --- Fig 5, right ---------------------------------------------------------------------------------
@@ -184,7 +185,7 @@ def last_growth_of(means: Means) -> dict[str, float]:
 
 
 def explain_no_growth(means: Means) -> str:
-    """Return half a sentence on a sweep that levels off."""
+    """Return a clause that explains why a sweep levels off."""
     last, longest = means.last_growth(), means.half_width[-1]
     largest = means.half_width[means.largest_before]
     return (
@@ -214,7 +215,7 @@ def ensemble_fig5_conjecture(ensembles: xr.Dataset) -> Finding:
     grows, fails = Above(1.0, "growth_low", label=label), ""
     if grows.holds(measured):
         fails = (
-            f"growth with M is no growth in time: {explain_no_growth(means)}; whether the norm"
+            f"growth with M is not growth in time: {explain_no_growth(means)}; whether the norm"
             " grows in time is decided on the infinite chain"
         )
     caveat = f"in a fixed time window, and on chains up to M = {means.half_width[-1]:.0f}"
@@ -228,7 +229,7 @@ def ensemble_fig5_conjecture(ensembles: xr.Dataset) -> Finding:
     ),
 )
 def ensemble_fig5_maximum(ensembles: xr.Dataset) -> Finding:
-    """Compare the level on long chains with that on short ones: single means are too uncertain."""
+    """Compare long chains with short ones, because single means are too uncertain."""
     means = means_of(ensembles, "fig5_right", "linf")
     half = len(means.mean) // 2
     ratio = means.over(slice(half), slice(half, None))
@@ -249,7 +250,7 @@ def fig6(
 ) -> Callable:
     """Return the decorator of a claim that also needs the shares of runs that spread.
 
-    Its controls are `wrong`, and shares far from the data given as those close to them.
+    Its controls are `wrong` and FAR_AS_NEAR.
     """
     controls = (wrong, FAR_AS_NEAR)
     return claim(place, statement, (*NEEDS, SENSITIVITY, *more_needs), controls, ("fig6_right",))
@@ -292,7 +293,7 @@ def ensemble_fig6_diverges(ensembles: xr.Dataset) -> Finding:
     """Require that the norm still grows on the longest chains."""
     means = means_of(ensembles, "fig6_right")
     fails = (
-        "no sweep over a fixed time window can show it, however long its chains:"
+        "no sweep over a fixed time window can show divergence, however long its chains:"
         f" {explain_no_growth(means)}; the paper does not give its largest M"
     )
     return judge(last_growth_of(means), STILL_GROWS, fails=fails)
@@ -309,7 +310,7 @@ def ensemble_fig6_not_technical(
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
     c_0 = theorem_2_constants(Constants.of(run.attrs))[1]
     means = means_of(ensembles, "fig6_right")
-    low = np.square(means.mean[-1] - means.off[-1]) / total_power(run)[0]
+    low = np.square(means.mean[-1] - means.half_interval[-1]) / total_power(run)[0]
     fixed = "a fixed time window cannot show growth without bound"
     label = "lower confidence limit of the largest P over its initial value"
     return near.judge({"low": low, "C_0": c_0}, Above(c_0, "low", label=label), caveat=fixed)
@@ -324,7 +325,7 @@ def ensemble_fig6_not_technical(
 def ensemble_fig6_time(ensembles: xr.Dataset, sensitivity: xr.Dataset, run: xr.Dataset) -> Finding:
     near = almost_equal(sensitivity, ensembles.attrs["perturbation"])
     means = means_of(ensembles, "fig6_right")
-    measured = {"low": (means.mean - means.off).min() / np.sqrt(total_power(run)[0])}
+    measured = {"low": (means.mean - means.half_interval).min() / np.sqrt(total_power(run)[0])}
     label = "lower confidence limit of l2 over its initial value, at every M"
     return near.judge(measured, Above(FACTOR, "low", label=label))
 
@@ -342,7 +343,7 @@ def ensemble_fig6_time(ensembles: xr.Dataset, sensitivity: xr.Dataset, run: xr.D
     on=("fig6_left", "fig6_right"),
 )
 def fig6_caption(left: xr.Dataset, ensembles: xr.Dataset) -> Finding:
-    """Compare both readings: l2 is constant on the left, and grows on the right."""
+    """Require that l2 is constant on the left and grows on the right, by the caption only."""
     measured, criteria = {}, {}
     for reading, quantity in READINGS_6.items():
         right = means_of(ensembles, "fig6_right", "l2", reading)
@@ -353,6 +354,6 @@ def fig6_caption(left: xr.Dataset, ensembles: xr.Dataset) -> Finding:
             Above(1.0, f"low_by_{reading}", label="lower confidence limit of growth on the right"),
         )
     if criteria["text"].holds(measured) == criteria["caption"].holds(measured):
-        why = "the text is right on the figure by both readings or by neither"
+        why = "the figure agrees with the text by both readings, or by neither"
         return undecided(measured, why, AllOf(*criteria.values()))
     return judge(measured, criteria["caption"])

@@ -1,6 +1,6 @@
 """Names of the numbers measured in each run from an initial amplitude, and their medians and means.
 
-The module imports no solver, so that figures and claims do not depend on the code that integrated.
+The module imports no solver: figures and claims do not depend on the code of solvers.
 """
 
 import numpy as np
@@ -16,13 +16,13 @@ NUMBERS = {
 }
 """Numbers measured in each run."""
 TIMES = ("transition", "life")
-"""Times, which may not come within a run: the ensemble has their medians instead of means."""
+"""Times, which may be later than the run: the ensemble has their medians instead of means."""
 
 
 def limits_of(
     lifetimes: xr.Dataset, confidence: float = CONFIDENCE
 ) -> dict[str, ConfidenceInterval]:
-    """Return medians of times, means of other numbers, with limits (start_amplitude,)."""
+    """Return medians of times and means of other numbers, with limits, (start_amplitude,)."""
     return {
         name: ConfidenceInterval(
             *np.transpose(

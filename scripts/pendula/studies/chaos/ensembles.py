@@ -1,6 +1,6 @@
 """Seeded ensembles of sweeps: many runs at each half-width, from slightly perturbed data.
 
-In chaotic motion one run is one random sample. Another computer reproduces only the distribution.
+A single run of a chaotic case is a random sample: another computer reproduces the distribution.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,7 +22,7 @@ from pendula.problem import PaperProblem, by_name
 
 NORMS = ("l2", "linf")
 READINGS = {"text": "max", "caption": "mean"}
-"""Statistics of the figures according to the text of the paper, and according to the captions."""
+"""The statistic in the figures according to the text of the paper, and according to captions."""
 MOMENTS = {
     "mean": "ensemble mean",
     "deviation": "standard deviation over the ensemble",
@@ -33,10 +33,10 @@ MOMENTS = {
 def draw_swept(
     problem: PaperProblem, half_widths: Sequence[int], size: float, members: int, seed: int
 ) -> list[PaperProblem]:
-    """Return the members of a sweep, all of one half-width and then of the next.
+    """Return the members of a sweep, ordered by half-width.
 
-    Each half-width has its own draws. The same data would give the same motion on all chains that
-    are too long for the front, so that their means would not be independent of each other.
+    Each half-width has its own draws. Equal data would move equally on all chains with ends that
+    the front does not reach, and the means on these chains would not be independent.
     """
     chains = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
@@ -45,7 +45,7 @@ def draw_swept(
 def read_norms(
     problem: PaperProblem, windows: Sequence[tuple[float, float]]
 ) -> dict[str, np.ndarray]:
-    """Return both READINGS of the pair's norms in a run, (reading,), each over its window."""
+    """Return by norm both READINGS for the pair in a run, each over its window, (reading,)."""
     norms, pair = windowed(simulate(problem, conserved=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]
     return {name: norms[name][pair, places, range(len(places))] for name in NORMS}
@@ -54,8 +54,8 @@ def read_norms(
 def measure_ensembles(swept: Mapping[str, Mapping], size: float, seed: int) -> ManyRuns:
     """Return the runs of all sweeps, for the dataset of moments of their norms.
 
-    `swept` gives for each sweep its problem as plain values, half-widths, members at each of them,
-    and the windows of the READINGS. Moments are NaN at half-widths that only other sweeps have.
+    `swept` maps each sweep to its problem as plain values, half-widths, number of members at each,
+    and windows of the READINGS. Moments are NaN at half-widths that only other sweeps have.
     """
     problem_of = by_name({name: sweep["problem"] for name, sweep in swept.items()})
     windows = {
@@ -88,7 +88,7 @@ def _ensembles_dataset(
     described = as_xarray(*describe_cases(problem_of)).rename(case="sweep")
     described["sweep"].attrs["long_name"] = NAMES["sweep"]
     data = xr.merge([described, xr.concat(moments_by_sweep, described["sweep"], join="outer")])
-    title = "Ensembles of the chaotic sweeps, from almost equal data"
+    title = "Ensembles of the chaotic sweeps, from slightly perturbed data"
     return data.assign_attrs({**described.attrs, "title": title})
 
 
@@ -102,11 +102,11 @@ def measure_second_solver(
     first_members: int,
     seed: int,
 ) -> ManyRuns:
-    """Return the runs by the paper's second solver, for the dataset of maxima of l2 over a window.
+    """Return the runs of a sweep by two solvers, for the dataset of maxima of l2 over a window.
 
-    `second` are its problems, which differ in the step, and `first` is the problem of the solver of
-    the ensembles, as plain values. Each has its own draws at each half-width: `members` for each of
-    `second`, and `first_members` for `first`.
+    All problems are plain values: `first` has the solver of the ensembles, and `second` the paper's
+    second solver with different steps. Each problem has its own draws at each half-width:
+    `first_members` for `first`, and `members` for each of `second`.
     """
     sizes = [first_members, *(members for _ in second)]
     drawn = [
@@ -119,7 +119,7 @@ def measure_second_solver(
         values = np.split(norms["l2"][:, 0], np.cumsum([len(ensemble) for ensemble in drawn])[:-1])
         data = _second_solver_dataset(values, half_widths, second)
         _, shared = describe_cases({"sweep": PaperProblem.of(first)})
-        title = "A chaotic sweep by the paper's second solver, from almost equal data"
+        title = "A chaotic sweep by the paper's second solver, from slightly perturbed data"
         return data.assign_attrs({**shared, **attributes, "title": title, **CHAOTIC})
 
     return ManyRuns(
@@ -132,7 +132,7 @@ def measure_second_solver(
 def _second_solver_dataset(
     values: Sequence[np.ndarray], half_widths: Sequence[int], second: Sequence[Mapping]
 ) -> xr.Dataset:
-    """Return the dataset of the maxima of l2 by both solvers, from those of each problem."""
+    """Return the dataset of the maxima of l2; `values` has those of the first solver first."""
     of_first, *of_second = (maxima.reshape(len(half_widths), -1) for maxima in values)
     long_name = f"{NAMES['l2']} of the pair, largest over the window"
     steps = [problem["solver"]["step"] for problem in second]

@@ -1,4 +1,4 @@
-"""The figure of the transition at Omega = 0: two times, and the share of the centre."""
+"""The figure of the transition at Omega = 0: its two times, and the share of P on the centre."""
 
 import numpy as np
 import xarray as xr
@@ -25,16 +25,16 @@ CAPTION = (
     "first holds at most the mean power of a pair. (b) Share of P on the central pair, mean over "
     "[{window_start}, {window_end}], and the mean share of a pair (dotted). Pale: {members} runs "
     "from each A₀, perturbed by {perturbation}. Dark: medians in (a) and means in (b), with "
-    "confidence intervals; an arrow ends at the end of the runs, above which the upper limit is. A "
-    "run in which the centre keeps more until τ = {end_time} is drawn at this time."
+    "confidence intervals; an arrow means that the upper limit is later than the end of the runs. "
+    "If the centre keeps more than the mean power until τ = {end_time}, the run is drawn there."
 )
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
     """Return times and shares of the runs, and their medians or means with confidence limits.
 
-    A time later than the end of the runs is drawn at the end. Such medians and upper limits are
-    rows of their own, so that the figure has the same curves whether there are any or not.
+    Times later than the end of the runs are drawn at the end. Such medians and upper limits have
+    rows of their own, so that the figure always has the same curves.
     """
     names, end = [*CLOCKS, "centre_share"], float(lifetimes.attrs["end_time"])
     drawn, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
@@ -70,7 +70,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
-    """Draw both times against A_0 on the left, and the share of P on the centre on the right."""
+    """Draw both times against A_0 on the left, the centre's share of P on the right."""
     figure = style.new_figure(style.WIDTH, 2.5)
     left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     for name, label in (("transition", "chain"), ("life", "central pair")):

@@ -1,20 +1,22 @@
-"""The transition to the chaotic state at Omega = 0, by two times, against the amplitude.
+"""Two times of the transition to the chaotic state at Omega = 0, against the initial amplitude.
 
 Zero is unstable, so the chain around the centre is always set in motion. The *transition* of the
-chain is over when P first reaches half of its final value, the mean over a window of time. The
-*life* of the centre ends when the central pair first holds at most a multiple of P / N, the mean
-power of a pair. From a large amplitude the centre outlives the transition: it stays excited inside
-a chaotic chain. Lives that outlast the run are censored.
+chain is over when P first reaches half of its final value, its mean over a time window. The *life*
+of the centre ends when the central pair first holds at most a multiple of P / N, the mean power of
+a pair. From a large amplitude the centre outlives the transition, and stays excited inside a
+chaotic chain. Lives longer than the run are censored.
 """
 
 from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from latticode.datasets.netcdf import Variable, as_xarray
 from latticode.datasets.trajectories import Contents
 from latticode.equations.ensembles import draw_members
+from latticode.measures.confidence import ConfidenceInterval
 from latticode.simulation.runs import ManyRuns
 from latticode.simulation.simulate import Trajectory, simulate
 from replication.variables import CHAOTIC
@@ -26,17 +28,17 @@ from pendula.varied import NamedNumber, as_dataset, vary_several
 from .clocks import NUMBERS, TIMES, limits_of
 
 SPAN = 10.0
-"""After the window the centre is checked once in this many units of tau, and the run stops with its
-life. Each interval starts from the state at the end of the one before."""
+"""After the window the run goes on in intervals of this length in tau. The centre is checked after
+each interval, and the run stops once its life has ended."""
 
 
 def follow(
     problem: PaperProblem, window: Sequence[float], level: float, multiple: float = 1.0
 ) -> dict[str, float]:
-    """Run a problem until its centre first holds at most `multiple` of P / N, or to the end.
+    """Return NUMBERS of a run until its centre holds at most `multiple` P / N, or to its end.
 
-    Returns NUMBERS of the run; the transition is over at the share `level` of the final P. `window`
-    must end before the run.
+    The transition is over when P reaches `level` times its final value. `window` must end before
+    the run.
     """
     first = simulate(problem.changed(end_time=window[1], snapshot_every=1), conserved=False)
     numbers = in_window(first, window, level)
@@ -63,9 +65,9 @@ def in_window(run: Trajectory, window: Sequence[float], level: float) -> dict[st
 def measure_later_life(
     problem: PaperProblem, run: Trajectory, start: float, multiple: float
 ) -> float:
-    """Return when the centre first holds its share of P after `start`, the end of `run`.
+    """Return the end of the centre's life after `start`, the end of `run`.
 
-    It is infinite if that does not happen before the end time of the problem.
+    It is infinite if the centre outlives the end time of the problem.
     """
     remaining = problem.end_time - start
     if remaining <= 0.0:
@@ -81,7 +83,7 @@ def measure_later_life(
 
 
 def centre_is_average(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
-    """Return whether the central pair holds at most `multiple` / N of P, (time,).
+    """Return whether the central pair holds at most `multiple` P / N, (time,).
 
     `modulus` is (component, site, time), with an odd number N of sites.
     """
@@ -102,7 +104,7 @@ def measure_lifetimes(
 ) -> ManyRuns:
     """Return the runs of all members from each A_0, with B_0 = `ratio` A_0.
 
-    `size` is the relative perturbation; see `follow` for the others.
+    `size` is the relative perturbation. `window`, `level` and `multiple` are as in `follow`.
     """
     starts = [problem.changed(initial=[[a0], [ratio * a0]]) for a0 in amplitudes]
     drawn = [member for start in starts for member in draw_members(start, size, members, seed)]
@@ -129,8 +131,8 @@ def _lifetimes_of(
     variables = {
         "start_amplitude": Variable(over, np.array(amplitudes), "initial amplitude A_0"),
         **{
-            name: Variable((*over, "member"), numbers[name].reshape(-1, members), words)
-            for name, words in NUMBERS.items()
+            name: Variable((*over, "member"), numbers[name].reshape(-1, members), long_name)
+            for name, long_name in NUMBERS.items()
         },
     }
     _, shared = describe_cases({"centre": problem})
@@ -148,7 +150,9 @@ def vary_lifetimes(
 ) -> xr.Dataset:
     """Return the medians and means of `limits_of`, measured again with each choice changed."""
 
-    def measure(tolerance, output_step, size, seed, **clocks):
+    def measure(
+        tolerance: float, output_step: float, size: float, seed: float, **clocks: Any
+    ) -> dict[str, ConfidenceInterval]:
         solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
         start = problem.changed(solver=solver, output_step=output_step)
         runs = measure_lifetimes(start, amplitudes, ratio, size, members, int(seed), **clocks)

@@ -3,8 +3,8 @@
 The largest exponent of a case is the growth rate of random tangent vectors along an ensemble of its
 runs, with confidence limits by Student's t over the members.
 
-All exponents are computed on a short chain. Those of a Hamiltonian flow come in pairs of opposite
-sign, sum to zero, and two of them vanish: those along the flow and across the energy.
+The full spectrum is computed on a short chain. The exponents of a Hamiltonian flow come in pairs of
+opposite sign, and two of them vanish: along the flow, and across surfaces of constant energy.
 """
 
 import numpy as np
@@ -41,10 +41,9 @@ def largest_exponents(
     size: float,
     seed: int,
 ) -> Contents:
-    """Return the dataset of the mean growth rates on `span` along members of each case.
+    """Return the dataset of the mean growth rates over `span` along members of each case.
 
-    `problems` are given by case; each is integrated at the tolerance of its solver to the end of
-    the span.
+    `problems`, by case, are integrated to the end of the span at the tolerance of their solver.
     """
     start, end_time = span
     runs = [follow_members(problem, end_time, members, size, seed) for problem in problems.values()]
@@ -53,7 +52,7 @@ def largest_exponents(
     l2 = np.array([[run.size for run in members_of_case] for members_of_case in runs])
     rates = [mean_limits(mean_rate(tau, log_growth, start)) for log_growth in growth]
     described, shared = describe_cases(problems)
-    long_name, over = "largest exponent of Lyapunov on the span, per unit of tau", ("case",)
+    long_name, over = "largest Lyapunov exponent over the span, per unit of tau", ("case",)
     variables = {
         **described,
         "exponent": Variable(over, [rate.value for rate in rates], long_name),
@@ -62,7 +61,7 @@ def largest_exponents(
         "chaotic": Variable(
             over,
             is_chaotic(tau, growth, l2).any(axis=1).astype(int),
-            "one where tangent vectors grow exponentially",
+            "1 if tangent vectors grow exponentially, else 0",
         ),
     }
     attributes = {"start": start, "end_time": end_time, "perturbation": size}
@@ -75,10 +74,10 @@ def measure_spectrum(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return all exponents of a chain in order, and half of the confidence interval of each.
 
-    Rates are means over the last three quarters of time, their errors follow from PARTS of it. The
-    upper half of the exponents is measured. The lower half has the opposite signs, since the flow
-    conserves the symplectic product of any two tangent vectors. Each vector is orthogonalised to
-    those before it.
+    Rates are means over the last three quarters of the run, with errors from INTERVALS of it. Each
+    tangent vector is orthogonalised to the ones before it. The larger half of the exponents is
+    measured; the smaller half has the opposite signs, because the flow conserves the symplectic
+    product of any two tangent vectors.
     """
     rng = np.random.default_rng(seed)
     basis = np.array([random_tangent(problem.sites, rng) for _ in range(2 * problem.sites)])
@@ -99,8 +98,8 @@ def measure_lyapunov(
 ) -> Contents:
     """Return the largest exponents of `problems`, and all exponents of `short_problems`.
 
-    The latter are also integrated without a drive, to `undriven_end`: then the l2 norm is a second
-    integral. `seed` draws perturbations and tangent vectors.
+    The short chains are also integrated without a drive, to `undriven_end`: then the l2 norm is a
+    second integral. Perturbations and tangent vectors are drawn with `seed`.
     """
     variables, attributes = largest_exponents(problems, span, members, size, seed)
     driven = [
@@ -111,14 +110,14 @@ def measure_lyapunov(
         for problem in short_problems.values()
     ]
     sites = next(iter(short_problems.values())).sites
-    by_index, words = ("spectrum_case", "index"), "all Lyapunov exponents of a short chain"
+    by_index, spectrum = ("spectrum_case", "index"), "all Lyapunov exponents of a short chain"
     variables |= {
-        "spectrum_case": Variable(("spectrum_case",), list(short_problems), "case, on that chain"),
+        "spectrum_case": Variable(("spectrum_case",), list(short_problems), "case, on this chain"),
         "index": Variable(("index",), np.arange(1, 1 + 4 * sites), "number of the exponent"),
     }
     for name, exponents, of in (
-        ("", driven, words),
-        ("_undriven", undriven, f"{words} at gamma = 0"),
+        ("", driven, spectrum),
+        ("_undriven", undriven, f"{spectrum} at gamma = 0"),
     ):
         rates, errors = map(np.array, zip(*exponents, strict=True))
         half = f"{of}: half of the confidence interval"

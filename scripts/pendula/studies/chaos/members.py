@@ -1,8 +1,8 @@
 """Ensembles of every case: bands of the norms, and numbers of each member that decide claims.
 
-The paper speaks of levels, of growth, and of the number of pendula that move. In a chaotic case
-such a number differs from run to run, and only an ensemble decides, by confidence limits. Regular
-cases are included as negative controls: a statement about chaos must not hold for them.
+The paper makes statements on levels, on growth, and on the number of pendula that move. In a
+chaotic case such a number differs from run to run, and only an ensemble decides, by confidence
+limits. Regular cases are negative controls: a statement about chaos must not hold for them.
 """
 
 from functools import partial
@@ -42,9 +42,9 @@ Window = tuple[float, float]
 
 
 def reduce_run(problem: PaperProblem, windows: list[Window], reach: int) -> dict[str, np.ndarray]:
-    """Run a problem that stores all moduli; return norms (quantity, time) and REDUCED.
+    """Return the norms of a run, (quantity, time), and the numbers REDUCED.
 
-    Moduli are padded with NaN to the sites -reach..reach.
+    The problem must store all moduli, which are padded with NaN to the sites -reach..reach.
     """
     run = simulate(problem, conserved=False)
     inside = [(run.tau >= start) & (run.tau <= end) for start, end in windows]
@@ -62,7 +62,7 @@ def reduce_run(problem: PaperProblem, windows: list[Window], reach: int) -> dict
 
 
 def relative_width(late: np.ndarray) -> float:
-    """Return the deviation over members of series (member, time), relative to their mean."""
+    """Return the standard deviation over members of series (member, time), relative to the mean."""
     return np.sqrt(late.var(axis=0, ddof=1).mean()) / late.mean()
 
 
@@ -75,7 +75,7 @@ def measure_members(
 ) -> ManyRuns:
     """Return the runs of all members of each case, for the dataset of bands and of REDUCED.
 
-    `problems` are given by case, and store all moduli; the sites are those of the longest chain.
+    `problems`, by case, store all moduli. The dataset has the sites of the longest chain.
     """
     reach = max(problem.half_width for problem in problems.values())
     drawn = [m for problem in problems.values() for m in draw_members(problem, size, members, seed)]
@@ -114,8 +114,8 @@ def _members_contents(
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
-        "l2_start": Variable(("case",), l2, "l2 norm of the data, of the pair", attributes=REGULAR),
-        "linf_start": Variable(("case",), linf, "l-infinity norm of the data", attributes=REGULAR),
+        "l2_start": Variable(("case",), l2, "initial l2 norm of the pair", attributes=REGULAR),
+        "linf_start": Variable(("case",), linf, "initial l-infinity norm", attributes=REGULAR),
         "relative_width": Variable(
             ("case",), list(map(relative_width, late)), width, attributes=SCATTERED
         ),
@@ -132,5 +132,5 @@ def _members_contents(
         variables[name] = Variable(
             ("case", "member", *dimensions), values, long_name, attributes=attributes
         )
-    title = "Ensembles of every case, from almost equal data"
+    title = "Ensembles of every case, from slightly perturbed data"
     return variables, {"title": title, **shared}

@@ -1,6 +1,6 @@
 """The keys of config/chaos.yaml: cases, run times, tolerances and seeds."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal
 
 from latticode.configuration.values import (
@@ -25,9 +25,9 @@ from pendula.configuration.schema import PAPER_CASES, Faults, PaperConfiguration
 
 
 class SpectrumSection(Section):
-    """All Lyapunov exponents, on a short chain; `duration_factor` times the latest end time.
+    """All Lyapunov exponents on a short chain, to `duration_factor` times the latest end time.
 
-    The chain is also integrated without a drive, for `undriven_duration_factor`.
+    Without a drive the chain is integrated to `undriven_duration_factor` times the same time.
     """
 
     cases: Names
@@ -38,13 +38,12 @@ class SpectrumSection(Section):
 
 
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
-"""Keys that all ensembles have: the solver's tolerance, the relative perturbation `size`, and the
-seed."""
+"""Keys of all ensembles; `size` is the relative perturbation."""
 
 VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", "multiple"]
-"""Choices of a study that its long runs change."""
+"""Choices of the study of lifetimes that its long runs vary."""
 
-# The largest exponents of every case, on a span of time.
+# The largest exponent of every case, over a time span.
 Lyapunov = section_of(
     span=Window,
     members=Annotated[Integer, Field(ge=2)],
@@ -71,7 +70,7 @@ SecondSolver = section_of(
     seed=Natural,
 )
 
-# Ensembles of every case, each member reduced to numbers over windows of time.
+# Ensembles of every case, with each member reduced to numbers over time windows.
 Members = section_of(
     windows=Annotated[list[Window], Field(min_length=2, max_length=2), Distinct],
     output_step=Positive,
@@ -80,17 +79,16 @@ Members = section_of(
 )
 
 
-def steps_beside(step: float, output_step: float) -> list[float]:
-    """Return the step of the second solver and a coarse one, rounded up, or one if both are equal.
+def second_solver_steps(step: float, output_step: float) -> list[float]:
+    """Return the step of the second solver and a coarse one, in order, or one if they are equal.
 
-    A coarse run takes two steps from one output time to the next, so that any output step is
-    possible.
+    The coarse step is half of the output step, so it divides any output step.
     """
     return sorted({step, output_step / 2})
 
 
 class Lifetimes(Section):
-    """The transition measured by two times, against the initial amplitude of the central pair."""
+    """Two times of the transition, against the initial amplitude of the central pair."""
 
     case: Name
     amplitudes: Annotated[list[Positive], Field(min_length=2), Distinct]
@@ -117,7 +115,7 @@ class Settings(Section):
     lifetimes: Lifetimes
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield faults of cases, sweeps and windows, and of runs that take too long."""
+        """Yield errors in cases, sweeps and windows, and for runs that take too long."""
         absent = [
             *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
             *settings.absent("sweeps", "ensembles.sweeps", list(self.ensembles.sweeps)),
@@ -129,16 +127,16 @@ class Settings(Section):
         windows |= {"lyapunov.span": self.lyapunov.span, "lifetimes.window": self.lifetimes.window}
         for key, (start, end) in windows.items():
             if not 0 <= start < end:
-                yield key, f"[{start:g}, {end:g}] does not run forward"
+                yield key, f"[{start:g}, {end:g}] must have 0 <= start < end"
         if (last := self.lifetimes.window[1]) > self.lifetimes.end_time:
-            yield "lifetimes.window", f"ends at {last:g}, after the runs; make end_time larger"
+            yield "lifetimes.window", f"ends at {last:g}, after the runs; increase end_time"
         if not absent:
             for runs in self.runs_of(settings):
                 yield from settings.faults_of_runs(runs)
             yield from settings.excess("lyapunov.spectrum.duration_factor", self._spectra(settings))
 
     def member_of(self, settings: PaperConfiguration, sweep: str) -> dict:
-        """Return the problem of a sweep's ensemble as plain values, and the drawn windows."""
+        """Return the problem of a sweep's ensemble as plain values, and the windows in figures."""
         drawn = settings.sweeps[sweep].drawn
         windows = [list(window) for window in (drawn.max, drawn.mean)]
         times = {
@@ -149,15 +147,15 @@ class Settings(Section):
         return {"problem": settings.run_of(case, tolerance, **times), "windows": windows}
 
     def by_second_solver(self, settings: PaperConfiguration, sweep: str) -> list[dict]:
-        """Return a sweep's problems by the paper's second solver: its step, and a coarse one."""
+        """Return a sweep's problems by the second solver, with its step and a coarse one."""
         problem = settings.swept_problem(sweep, "crank_nicolson")
         end_time = self.member_of(settings, sweep)["problem"]["end_time"]
         problem |= {"end_time": end_time, "snapshot_every": 0}
-        steps = steps_beside(problem["solver"]["step"], problem["output_step"])
+        steps = second_solver_steps(problem["solver"]["step"], problem["output_step"])
         return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
 
     def shorter_chains(self, settings: PaperConfiguration, case: str) -> dict[str, int]:
-        """Return by its key the least half-width on which each ensemble integrates a case."""
+        """Return by key the least half-width on which each ensemble integrates a case."""
         spectrum = self.lyapunov.spectrum
         half_widths = {"lyapunov.spectrum": spectrum.half_width} if case in spectrum.cases else {}
         for name, swept in self.ensembles.sweeps.items():
@@ -169,7 +167,7 @@ class Settings(Section):
         return half_widths
 
     def runs_of(self, settings: PaperConfiguration) -> Iterator[Runs]:
-        """Yield the runs of each ensemble. A tangent vector costs as much as its trajectory."""
+        """Yield the runs of each ensemble; a tangent vector costs as much as its trajectory."""
         paper = [case for case in PAPER_CASES if case in settings.cases]
         longest = max((settings.cases[case].end_time for case in paper), default=1.0)
         followed = self.lyapunov
@@ -199,7 +197,14 @@ class Settings(Section):
         yield Runs(*every, "members.size", ensembles.size)
         yield self._lives(settings)
 
-    def _swept(self, settings, key: str, name: str, half_widths, members: int) -> Runs:
+    def _swept(
+        self,
+        settings: PaperConfiguration,
+        key: str,
+        name: str,
+        half_widths: Sequence[int],
+        members: int,
+    ) -> Runs:
         """Return the runs of the members of a sweep by the solver of the ensembles."""
         drawn, sweep = self.ensembles, settings.sweeps[name]
         ends = {"end_time": max(sweep.drawn.max[1], sweep.drawn.mean[1])}
@@ -220,14 +225,14 @@ class Settings(Section):
             )
             for a in lifetimes.amplitudes
         ]
-        larger = "ratio" if lifetimes.ratio > 1.0 else "amplitudes"  # of A_0 and B_0
+        larger = "ratio" if lifetimes.ratio > 1.0 else "amplitudes"  # key of the larger of A_0, B_0
         short = max(map(estimate, runs)).seconds < 60.0
         many = "members" if short else "ratio" if lifetimes.ratio > 1.0 else "end_time"
         keys = f"lifetimes.{many}", f"lifetimes.{larger}"
         return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
     def _spectra(self, settings: PaperConfiguration) -> list[RunCost]:
-        """Return the costs of exponents: half as many tangent vectors as a state has numbers."""
+        """Return the costs of spectra: as many tangent vectors as half of a state's numbers."""
         spectrum, costs = self.lyapunov.spectrum, []
         for case in spectrum.cases:
             cost = estimate(settings.problem(case, half_width=spectrum.half_width))

@@ -182,7 +182,7 @@ def with_growth_of(run: xr.Dataset, growing: xr.Dataset) -> xr.Dataset:
         ),
     ),
 )
-def stable_oscillations(*trajectories) -> Finding:
+def stable_oscillations(*trajectories: xr.Dataset) -> Finding:
     """Require bounded norms in the cases that Theorem 1 or 2 covers.
 
     Rest is stable in all four cases, but below the band the paper claims stable oscillations only

@@ -1,6 +1,6 @@
-"""What is kept of a long run on an infinite chain: the norms, and the places of both fronts.
+"""Long runs on an infinite chain, reduced to the norms and the sites of both fronts.
 
-The library integrates the sites in motion; a state holds S and D (see `sums`).
+The library integrates the active sites; a state consists of S and D (see `sums`).
 """
 
 from collections.abc import Sequence
@@ -23,17 +23,17 @@ def run_long(
 ) -> dict[str, np.ndarray]:
     """Return the series of a run of `problem` on an infinite chain.
 
-    By `tau` these are l2 and linf of the pair (A, B). By `piece_tau` they are the site of the
-    front, those of the second front at all `levels`, -1 if there is none, and `means`, see
-    `region_means`, at all `edges`, whose regions end at the second front of the first level. A
-    single level or edge has no axis. If the data are not even in n, all but the norms are those of
-    the sites 0..W.
+    At the times `tau` these are l2 and linf of the pair (A, B). At the times `piece_tau` they are
+    the site of the front, the site of the second front at all `levels`, -1 if there is none, and
+    `means` by `region_means` at all `edges`, with the second front at the first level. A single
+    level or edge has no axis. If the data are not even in n, all but the norms refer to the sites
+    0..W.
     """
-    outputs, looks = [], []
+    outputs, states = [], []
     for times, record, _, sites in integrate_intervals(
         in_sums(problem), rest_threshold, SLICE_LENGTH
     ):
-        first = 1 if outputs else 0  # the first output is the last one of the interval before
+        first = 1 if outputs else 0  # the first output repeats the last one of the interval before
         outputs.append(np.array([times, *_norms(record)])[:, first:])
         power = site_powers(sites[:2])
         front, second = (
@@ -41,10 +41,10 @@ def run_long(
             [find_front(power, level) for level in levels],
         )
         means = [region_means(sites, front, second[0], edge) for edge in edges]
-        looks.append((times[-1], front, _one_or_all(second), _one_or_all(means)))
+        states.append((times[-1], front, _one_or_all(second), _one_or_all(means)))
     series = dict(zip(("tau", "l2", "linf"), np.concatenate(outputs, axis=1), strict=True))
     names = ("piece_tau", "front", "second_front", "means")
-    return series | dict(zip(names, map(np.array, zip(*looks, strict=True)), strict=True))
+    return series | dict(zip(names, map(np.array, zip(*states, strict=True)), strict=True))
 
 
 def _one_or_all(values: list) -> np.ndarray:

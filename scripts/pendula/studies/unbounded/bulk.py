@@ -1,28 +1,28 @@
-"""The sites of the fronts in a state, and the mean powers of the regions behind them.
+"""The sites of both fronts in a state, and the mean powers in the regions behind them.
 
 `sites` are four rows on the sites 0..W, (row, site): Re and Im of S and D (see `sums`).
 """
 
 import numpy as np
 
-POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, its mean"
-PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero: no front is pulled"
-"""Names of these quantities in every dataset of this study."""
+POWER = "mean power P = |A_n|^2 + |B_n|^2 of a pair"
+PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero without a front"
+"""Long names of these quantities in all datasets of this study."""
 
 SLICE_LENGTH = 2.0
-"""Largest interval between two states that are measured, in tau; it is a whole number of outputs.
-"""
+"""Largest interval in tau between two states that are measured; it is a multiple of the output
+step."""
 
 LEVEL = 1e-2
-"""Powers of a pair at which the fronts are found: that of P for the first, that of |S|^2 for the
-second."""
+"""Power of a pair that a front has passed: P for the first front, |S|^2 for the second."""
 
 BEHIND, BETWEEN = REGIONS = ("behind the second front", "between the fronts")
 KINDS = ("P", "|S|^2")
 SHARE, EDGE, AHEAD = 0.9, 40, 10
-"""A site counts as behind a front up to this fraction of its distance. Sites near the first and the
-second front, as many as EDGE, do not count as between them: there the state still relaxes.
-Behind the first front this takes some hundred sites, so that long runs leave out more than EDGE."""
+"""Sites up to the fraction SHARE of the second front's site count as behind it. EDGE sites behind
+the first front and AHEAD sites ahead of the second do not count as between the fronts, because the
+state still relaxes there. Behind the first front this takes some hundred sites, so that long runs
+leave out more than EDGE."""
 
 
 def site_powers(sites: np.ndarray) -> np.ndarray:

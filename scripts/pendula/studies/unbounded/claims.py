@@ -1,8 +1,8 @@
 """Claims on the paper's conjecture: growth in time on infinite chains.
 
-No run reaches infinity. The claims decide whether l2 has grown by a factor, and with which exponent
-of tau over the last octaves of a run in which the front never met an end. The offset of l2^2 is
-fitted as well, and all limits are those of Student's t over the members of an ensemble.
+No run reaches infinite time. The claims decide whether l2 has grown by a factor, and with which
+exponent of tau over the last octaves of a run, without ends that a front could reach. An offset of
+l2^2 is fitted as well. All limits are by Student's t over the members of an ensemble.
 """
 
 from collections.abc import Callable
@@ -31,13 +31,12 @@ from pendula.claims import (
 SECTION = 5
 
 # ASSUME: l2 "grows" in time if it grows by the paper's factor of 2 after its time windows begin,
-# and if its exponent over the last octaves is above that of diffusion. A front that moves steadily
-# makes it 1/2.
+# and if its exponent over the last octaves is above that of diffusion. A steady front gives 1/2.
 SURE = Cutoff(0.95, "the customary level of confidence, 95 %", 1.0)
 SLOW = Cutoff(0.25, "the exponent of l2 in diffusion; a steady front gives 1/2")
 HALF = 0.5
 SHORTEST = 100.0
-"""Shorter runs do not test growth in time."""
+"""Runs that end before this tau do not test growth in time."""
 
 OCTAVES = 3
 """Octaves of time at the end of a run over which an exponent is fitted: at Omega = -4, where the
@@ -46,7 +45,7 @@ and by 0.32 over three."""
 
 
 def sure(tries: int = 1) -> float:
-    """Return the confidence of each of `tries` limits that hold together at SURE (Bonferroni)."""
+    """Return the confidence level of each of `tries` limits if all hold at SURE (Bonferroni)."""
     return 1.0 - (1.0 - SURE.value) / tries
 
 
@@ -72,9 +71,9 @@ def exponents_of(run: xr.Dataset, variant: int) -> np.ndarray:
 
 
 def growths_of(run: xr.Dataset) -> tuple[list[ConfidenceInterval], list[float]]:
-    """Return for each variant the exponent, and the lower limit of the growth since tau = SETTLED.
+    """Return the exponent, and the lower limit of the growth since tau = SETTLED, by variant.
 
-    They are limits of the mean over members, and hold for all variants together.
+    The limits are of the mean over members, and hold for all variants together.
     """
     variants = range(run.sizes["variant"])
     confidence = sure(len(variants))
@@ -82,7 +81,7 @@ def growths_of(run: xr.Dataset) -> tuple[list[ConfidenceInterval], list[float]]:
     for variant in variants:
         l2 = curves_of(run, "l2", variant)
         factors.append(mean_limits(l2[:, -1] / l2[:, start], confidence).low)
-    return [mean_limits(exponents_of(run, values), confidence) for values in variants], factors
+    return [mean_limits(exponents_of(run, variant), confidence) for variant in variants], factors
 
 
 GROWS = AllOf(
@@ -91,11 +90,11 @@ GROWS = AllOf(
         FACTOR, "factor_at_least", label=f"least factor by which l2 grew since tau = {SETTLED:g}"
     ),
 )
-"""Criteria on lower limits that hold if l2 grows."""
+"""The criterion that l2 grows, on lower limits."""
 
 
 def growth_of(run: xr.Dataset) -> dict[str, float]:
-    """Return the measured numbers of the growth of l2 of a run with one variant."""
+    """Return the measured numbers of the growth of l2 in a run with one variant."""
     (exponent,), (factor,) = growths_of(run)
     return {
         "exponent": exponent.value,
@@ -107,7 +106,10 @@ def growth_of(run: xr.Dataset) -> dict[str, float]:
 
 
 def late_growths(run: xr.Dataset, name: str) -> np.ndarray:
-    """Return the relative growth of a norm to the last octave from two before, (member,)."""
+    """Return the relative growth of a norm's mean from (T/8, T/4] to (T/2, T], (member,).
+
+    T is the end of the run.
+    """
     tau, curves = times_of(run), curves_of(run, name)
     before = curves[:, (tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)].mean(axis=1)
     return curves[:, tau > tau[-1] / 2.0].mean(axis=1) / before - 1.0
@@ -117,9 +119,9 @@ def late_growths(run: xr.Dataset, name: str) -> np.ndarray:
 
 
 def following(law: Callable) -> Callable:
-    """Return a change that lets both norms of a run follow law(tau), keeping their scatter."""
+    """Return a change after which both norms of a run follow law(tau), with the same scatter."""
 
-    def changed(run: xr.Dataset):
+    def changed(run: xr.Dataset) -> xr.Dataset:
         curve = law(run["tau"].clip(min=1.0))
         return run.assign(
             {name: run[name] / run[name].mean("member") * curve for name in ("l2", "linf")}
@@ -136,7 +138,7 @@ SLOWEST = ClaimControl(
     "the norm follows tau^(1/8), slower than in diffusion",
     following(lambda tau: 20.0 * np.sqrt(np.sqrt(np.sqrt(tau)))),
 )
-"""At the limit itself, chance would decide whether an exponent is rejected."""
+"""For tau^(1/4), the limit itself, chance would decide whether an exponent is rejected."""
 
 
 @claim(
@@ -171,7 +173,7 @@ def unbounded_band(run: xr.Dataset) -> Finding:
     caveat = f"tested at {len(omegas)} values of Omega from {omegas.min():g} to {omegas.max():g}"
     off = [f"{at:g}" for at, q in zip(omegas, growths, strict=True) if not q.low < HALF < q.high]
     if off:
-        caveat += f"; at Omega = {', '.join(off)} the exponent is significantly off 1/2"
+        caveat += f"; at Omega = {', '.join(off)} the exponent differs significantly from 1/2"
     return judge(measured, GROWS, caveat)
 
 
@@ -188,8 +190,8 @@ def unbounded_band(run: xr.Dataset) -> Finding:
 def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     """Require that the median member grows, and still grows over the last octaves.
 
-    Of the members, whose initial data differ by 1e-6, some do not spread: they would decide a mean
-    and its limits, though most members grow.
+    Initial data of members differ by 1e-6, and some members do not spread. These would decide a
+    mean and its limits, although most members grow.
     """
     near = almost_equal(sensitivity, run.attrs["perturbation"])
     tau, l2 = times_of(run), curves_of(run, "l2")
@@ -204,7 +206,7 @@ def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
         Above(
             CHANGE,
             "median_late_growth",
-            label="median growth of the mean of l2 of an octave of tau within two octaves",
+            label="median relative growth of the octave mean of l2 within two octaves of tau",
         ),
         Below(-2.0 * run.attrs["gamma"], "omega", label="Omega of the run"),
     )
@@ -213,14 +215,14 @@ def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
 
 @claim(
     "Beyond the paper, Fig 6 right",
-    "At the detuning of Fig 6, right, the norm grows from other initial conditions of the central "
-    "pair too on the unbounded lattice.",
+    "On the unbounded lattice at the detuning of Fig 6, right, the norm also grows from other "
+    "initial conditions of the central pair.",
     unbounded("starts"),
     (ClaimControl("the stable run fig3_small", "fig3_small"), SLOWER),
     origin=Origin.OWN,
 )
 def unbounded_starts(run: xr.Dataset) -> Finding:
-    """Require that most runs grow, over all members: not all perturbed runs spread."""
+    """Require that most runs of all members grow, because some perturbed runs do not spread."""
     tau, norms = times_of(run), run["l2"].transpose("tau", "variant", "member").values
     factors = norms[-1] / norms[np.searchsorted(tau, SETTLED)]
     share = share_limits(int((factors > FACTOR.value).sum()), factors.size)
@@ -247,7 +249,7 @@ def unbounded_starts(run: xr.Dataset) -> Finding:
 )
 def unbounded_stable(run: xr.Dataset) -> Finding:
     measured = {"growth": late_growths(run, "l2").max()}
-    label = "largest relative growth of the mean of l2 of an octave of tau within two octaves"
+    label = "largest relative growth of the octave mean of l2 within two octaves of tau"
     return judge(measured, Below(CONSTANT, "growth", label=label))
 
 
@@ -264,14 +266,14 @@ def unbounded_maximum(run: xr.Dataset) -> Finding:
     """Require that the norm hardly changes while the front moves on.
 
     The largest amplitude of N sites in thermal equilibrium has no bound: an amplitude m has the
-    weight exp(-beta m^4 / 4), so that the largest grows as the fourth root of ln N.
+    weight exp(-beta m^4 / 4), so the largest of N grows as the fourth root of ln N.
     """
     growth = mean_limits(late_growths(run, "linf"), SURE.value)
     measured = {
         "growth": growth.value,
         "growth_at_most": growth.high,
     }
-    label = "upper confidence limit of the relative growth of the mean of an octave within two"
+    label = "upper confidence limit of the relative growth of the octave mean within two octaves"
     caveat = (
         f"shown up to tau = {times_of(run)[-1]:.0f}; this does not exclude a growth as the fourth "
         "root of ln tau, which the largest of many amplitudes has in thermal equilibrium"

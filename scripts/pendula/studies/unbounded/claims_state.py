@@ -1,6 +1,6 @@
 """Claims on the fronts of infinite chains and on the states behind them.
 
-Only the errors of measured numbers count: limits of means over members, by Student's t.
+Only the errors of measured numbers are considered: Student's t limits of means over members.
 """
 
 import numpy as np
@@ -29,13 +29,13 @@ SECTION = 5
 
 RESOLVED = Cutoff(1.0, "the place of a front is known to half a site, over the time of the fit")
 FEW = 3
-"""Fewer values show no dependence on Omega."""
+"""Fewer values of Omega decide nothing."""
 
 OMEGAS = "unbounded/omegas"
 
 
 def a_stop(run: xr.Dataset) -> xr.Dataset:
-    """Return the run with fronts that stop at half of the time, as a control."""
+    """Return, as a control, the run with fronts that stop at half of the time."""
     tau = run["piece_tau"]
     middle = run["front"].sel(piece_tau=0.5 * float(tau[-1]), method="nearest")
     return run.assign(front=run["front"].where(tau < 0.5 * tau[-1], middle))
@@ -56,15 +56,15 @@ def unbounded_front(run: xr.Dataset) -> Finding:
     known = resolution(run["piece_tau"].values)
     measured = {"furthest": off, "furthest_over_resolution": off / known}
     label = (
-        "largest difference of the speed, with the known delay of a pulled front added back, from "
-        "that of linear spreading, over the resolution"
+        "largest difference between the speed, corrected for the delay of a pulled front, and that "
+        "of linear spreading, over the resolution"
     )
     fails = "not every front moves at the speed of linear spreading"
     return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", label=label), fails=fails)
 
 
 def both_between(run: xr.Dataset) -> xr.Dataset:
-    """Return the run with equal powers of both fields between the fronts, as a control."""
+    """Return, as a control, the run with equal powers of S and D between the fronts."""
     means = run["region_mean"]
     half = 0.5 * means.sel(kind=KINDS[0], drop=True)
     chosen = (means["region"] == BETWEEN) & (means["kind"] == KINDS[1])
@@ -73,8 +73,8 @@ def both_between(run: xr.Dataset) -> xr.Dataset:
 
 @claim(
     "Beyond the paper",
-    "Without noise A = -B behind the front, until both fields are excited behind a second front, "
-    "which is slower where a region between the fronts forms.",
+    "Without noise A = -B behind the first front, and both fields are excited only behind a second "
+    "front, which is slower wherever a region between the fronts forms.",
     unbounded("omegas"),
     (
         ClaimControl("second fronts as fast as the first", take(second_front="front")),
@@ -88,13 +88,13 @@ def second_front(run: xr.Dataset) -> Finding:
     between, omegas = mean_powers(run, BETWEEN).mean(axis=1), run["omega"].values
     is_comparable = np.isfinite(between) & np.isfinite(speed)
     if is_comparable.sum() < FEW:
-        raise UndecidableError("fewer than three second fronts have formed apart from the first")
+        raise UndecidableError("fewer than three second fronts have a region ahead of them")
     measured = {
         "fastest": ((speed + error) / run["predicted_speed"].values)[is_comparable].max(),
         "share_between": np.nanmax(mean_powers(run, BETWEEN, KINDS[1]).mean(axis=1) / between),
     }
     slower = "largest upper limit of the speed of a second front over that of the first"
-    filled = "largest share of |A + B|^2 / 2 in P between"
+    filled = "largest share of |A + B|^2 / 2 in P between the fronts"
     criterion = AllOf(
         Below(1.0, "fastest", label=slower), Below(CONSTANT, "share_between", label=filled)
     )
@@ -104,7 +104,7 @@ def second_front(run: xr.Dataset) -> Finding:
 
 
 def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[ConfidenceInterval]:
-    """Return P (variant, member) over that of thermal states, with limits, where both are known."""
+    """Return the known ratios of P (variant, member) to thermal P, with limits."""
     ratios = [
         ConfidenceInterval(*(bound / state for bound in mean_limits(power, sure(tries))))
         for power, state in zip(powers, expected, strict=True)
@@ -116,7 +116,7 @@ def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[Conf
 
 
 def next_states(thermal: xr.Dataset) -> xr.Dataset:
-    """Return the thermal states with the powers of the next Omega, as a control."""
+    """Return, as a control, the thermal states with the powers of the next Omega."""
     return roll(("power", "antisymmetric_power"), {"omega": 1})(thermal)
 
 
@@ -129,10 +129,10 @@ def next_states(thermal: xr.Dataset) -> xr.Dataset:
     origin=Origin.OWN,
 )
 def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
-    """Require that P behind the second fronts is near that of the thermal state.
+    """Require that P behind the second front is near that of the thermal state.
 
-    Between the fronts P relaxes over hundreds of sites, of which short runs have few: these runs
-    cannot decide there.
+    Between the fronts P relaxes over hundreds of sites, which short runs do not have: they cannot
+    decide there.
     """
     times_of(run)
     omegas, tries = run["omega"].values, run.sizes["variant"]
@@ -149,7 +149,8 @@ def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
         np.abs(thermal_powers(thermal, run, "antisymmetric_power") / expected - 1.0)
     )
     caveat = (
-        f"P alone hardly tells this state from that with A = -B, whose P is within {difference:.0%}"
+        "P alone hardly distinguishes this state from the one with A = -B, with a P that differs by"
+        f" at most {difference:.0%}"
     )
     if absent := ", ".join(f"{omega:g}" for omega in omegas[~formed]):
         caveat += f"; no second front has formed at Omega = {absent}"
@@ -157,7 +158,7 @@ def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
 
 
 def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
-    """Return the largest change of the law's slope if both fronts had one state behind them."""
+    """Return the largest relative change of the law's slope with one state behind both fronts."""
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     first, second = run["predicted_speed"].values, np.nan_to_num(second_speeds(run)[0])
     law = second * both + (first - second) * alone
@@ -172,7 +173,7 @@ def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
     (
         ClaimControl("the thermal states of the next Omega", {"thermal": next_states}),
         ClaimControl(
-            "a first front that is half as fast again", {OMEGAS: scale("predicted_speed", 1.5)}
+            "a first front that is 1.5 times as fast", {OMEGAS: scale("predicted_speed", 1.5)}
         ),
     ),
     origin=Origin.OWN,
@@ -191,9 +192,10 @@ def unbounded_slope(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
         if ratio.low > 1.0 or ratio.high < 1.0
     ]
     caveat = (
-        "these runs test the size of the slope, and hardly that there are two states: with p or p' "
-        f"behind both fronts the law would change by at most {largest_change(run, thermal):.0%}"
+        "these runs test the slope, but hardly that there are two states: with p or p' behind both"
+        f" fronts the slope would change by at most {largest_change(run, thermal):.0%}"
     )
-    caveat += f"; significantly off at Omega = {', '.join(deviating)}" if deviating else ""
-    label = "slope of l2^2 over that of its law"
+    if deviating:
+        caveat += f"; the slope differs significantly at Omega = {', '.join(deviating)}"
+    label = "slope of l2^2 divided by the slope of its law"
     return judge(measured, Near(1.0, CHANGE, "least", "largest", label=label), caveat)

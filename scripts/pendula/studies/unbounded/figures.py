@@ -24,14 +24,14 @@ LOOKS = {
 }
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
 CHAOTIC = ("fig4_small", "fig3_large")
-"""The cases whose members differ visibly, so that bands are drawn."""
+"""The cases with visibly different members, for the legend of the bands."""
 BAND_ALPHA = 0.3
 FIRST_TAU, POINTS = 10.0, 120
 BAND = ("lowest", "mean", "highest")
 GROWTH_CAPTION = (
     "The infinite chain against τ. (a): the square of the ℓ² norm. (b): the ℓ∞ norm. "
-    "(c): the square of the ℓ² norm over the law, where its states were solved. "
-    "The dashed law follows from the thermal states behind the two fronts and the speeds of these. "
+    "(c): the square of the ℓ² norm divided by the law, if its states were solved. "
+    "The dashed law follows from the thermal states behind the two fronts and the fronts' speeds. "
     "Bands reach from the lowest to the highest run of an ensemble."
 )
 
@@ -39,7 +39,7 @@ GROWTH_CAPTION = (
 def gather_growth_law(runs: Sequence[xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
     """Return the norms of the first variant of each run at times equally spaced in log tau.
 
-    The law of l2^2 is added where the states of a case were solved.
+    The law of l2^2 is added for cases with solved thermal states.
     """
     cases = xr.Variable("case", [run.attrs["name"] for run in runs])
     bands = xr.concat([_bands_of(run, thermal) for run in runs], cases, join="outer")
@@ -67,7 +67,7 @@ def _bands_of(run: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2^2 with its law, l-infinity, and l2^2 over its law on a scale of its own."""
+    """Draw l2^2 with its law, l-infinity, and the ratio of l2^2 to its law."""
     figure = style.new_figure(style.WIDTH, 2.8)
     square, linf, ratio = figure.subplots(1, 3, sharex=True)
     for case in data["case"].values:
@@ -98,7 +98,9 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_band(axes: Axes, tau, bands: xr.DataArray, look: dict, label: str | None = None) -> None:
+def _draw_band(
+    axes: Axes, tau: xr.DataArray, bands: xr.DataArray, look: dict, label: str | None = None
+) -> None:
     """Draw the mean of an ensemble and the range of its members."""
     mean, low, high = (bands.sel(band=bound) for bound in ("mean", "lowest", "highest"))
     axes.plot(tau, mean, label=label, **look)
@@ -112,19 +114,19 @@ FIRST = {**DOTS, "color": style.RED}
 SECOND = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
 LINE = LAW | {"ls": "-"}
 CHAIN = ("epsilon", "gamma")
-"""Attributes that two studies must share to be of the same chain."""
+"""Attributes that are equal if two studies are of the same chain."""
 FRONTS_CAPTION = (
-    "The two fronts on the infinite chain. (a): their speeds; the lines are the predicted ones, of "
-    "the second (dotted) by a longer study. (b): the power per pair behind the second front and "
-    "between the fronts over that of the thermal state of both fields; dashed: the same ratio for "
-    "the thermal state with A = −B. Bars are confidence intervals of the mean."
+    "The two fronts on the infinite chain. (a): their speeds; lines are predictions, dotted for "
+    "the second front from a longer study. (b): the power per pair behind the second front and "
+    "between the fronts, divided by that of the thermal state of both fields; dashed: the same "
+    "ratio for the thermal state with A = −B. Bars are confidence intervals of the mean."
 )
 
 
 def gather_fronts(fronts: xr.Dataset, long: xr.Dataset | None = None) -> xr.Dataset:
     """Return the dataset of `measure_fronts` with the predicted speed of the second front.
 
-    The prediction is that of the `long` study, NaN if it is of another chain.
+    The prediction is from the `long` study, NaN if that is of another chain.
     """
     speed = xr.full_like(fronts["linear_speed"], np.nan, float)
     if long is not None and all(long.attrs[name] == fronts.attrs[name] for name in CHAIN):
@@ -137,7 +139,7 @@ def gather_fronts(fronts: xr.Dataset, long: xr.Dataset | None = None) -> xr.Data
 
 @style.styled
 def draw_fronts(data: xr.Dataset) -> Figure:
-    """Draw the speeds of both fronts over Omega, and the powers behind them over thermal ones."""
+    """Draw the speeds of both fronts, and the ratios of powers to thermal ones, against Omega."""
     figure = style.new_figure(style.WIDTH, 2.2)
     speeds, powers = figure.subplots(1, 2)
     omega, thermal = data["omega"], data["thermal_power"]

@@ -1,11 +1,11 @@
 """The speed of the front on the infinite chain, by the linearised equations.
 
 D = A - B moves as exp(s t + i k n) with s^2 = 4 gamma^2 - kappa(k)^2 and kappa = 2 epsilon (1 - cos
-k) - Omega. The solution is an integral over k of entire functions, so its path may be moved to Im k
-= decay: |D_n| <= C exp(t max Re s - decay n). The minimum of max Re s / decay is the speed v of
+k) - Omega. The solution is an integral over k of entire functions. Its path can be moved to Im k =
+decay, so |D_n| <= C exp(t max Re s - decay n). The minimum of max Re s / decay is the speed v of
 linear spreading (van Saarloos, Physics Reports 386 (2003) 29).
 
-A pulled front approaches v from below: its place is v tau - delay log tau plus an offset, with
+A pulled front approaches v from below: its site is v tau - delay log tau plus an offset, with
 delay = 3 / (2 decay) (Ebert and van Saarloos, Physica D 146 (2000) 1).
 """
 
@@ -25,25 +25,26 @@ from pendula.problem import Constants
 
 WAVES = np.linspace(0.0, np.pi, 6401)
 FINER, NARROWER = 8, 0.3
-"""Grids in the decay around the best value so far, each narrower than the one before."""
+"""Number of finer grids around the best decay so far, and the width of each relative to the one
+before."""
 
 
 class LinearFront(NamedTuple):
-    """Speed v in sites per unit of tau, and decay of the leading edge; zero without a front."""
+    """Speed v in sites per unit of tau, and decay of the leading edge; both 0 without a front."""
 
     speed: float
     decay: float
 
     @property
     def delay(self) -> float:
-        """Coefficient of -log tau in the place of the front, in sites."""
+        """Coefficient of -log tau in the site of the front."""
         return 1.5 / self.decay if self.decay else 0.0
 
 
 def linear_front(constants: Constants) -> LinearFront:
-    """Return the front of data of finite extent on the linearised infinite chain.
+    """Return the front from localised data on the linearised infinite chain.
 
-    If the chain at rest is stable (Lemma 1) no front is pulled.
+    If the chain at rest is stable (Lemma 1) there is no front.
     """
     epsilon, gamma, omega = constants
     if not -2.0 * gamma < omega < 2.0 * gamma + 4.0 * epsilon:
@@ -57,7 +58,7 @@ def linear_front(constants: Constants) -> LinearFront:
     return LinearFront(speed, decay)
 
 
-def growth_rate(wave, decay, constants: Constants):
+def growth_rate(wave: np.ndarray, decay: np.ndarray, constants: Constants) -> np.ndarray:
     """Return Re s of the growing branch at the complex wave numbers wave + i decay."""
     epsilon, gamma, omega = constants
     s, c = sine_and_cosine(wave)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -19,15 +20,15 @@ from .bulk import EDGE, KINDS, LEVEL, PREDICTED_SPEED, REGIONS
 from .front import linear_front
 
 SCANS = ("omegas", "starts")
-"""Ensembles over detunings or initial conditions, which belong to no case of the paper."""
+"""Ensembles over Omega or initial conditions, which are not of one case of the paper."""
 
 
 def member(problem: PaperProblem, perturbation: float, seed: int, number: int) -> PaperProblem:
     """Return the problem of an ensemble's member; number 0 has the unperturbed initial data.
 
-    Members differ by `perturbation` times normal draws, relative to the data: chaos makes this of
-    order one within some ten units of tau. All sites of a component share a factor, so that even
-    data stay even.
+    The data of others differ by `perturbation` times normal draws, relative to the data: chaos
+    amplifies this to order one within some ten units of tau. All sites of a component have the same
+    draw, so that even data stay even.
     """
     if number == 0:
         return problem
@@ -43,9 +44,9 @@ def members_of(
 
 
 def attributes(
-    title: str, name: str, problems: list[PaperProblem], rest_threshold: float, **ensemble
+    title: str, name: str, problems: list[PaperProblem], rest_threshold: float, **ensemble: Any
 ) -> dict:
-    """Return the attributes that all `problems` share; varied parameters are left out."""
+    """Return the attributes that all `problems` share, without parameters that differ."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
     shared = shared_by(described, "half_width", "snapshot_every")
     ends = {"boundary": "none: sites are added as the front moves", "rest": rest_threshold}
@@ -82,7 +83,7 @@ def run_variables(
     levels: Sequence[float] = (LEVEL,),
     edges: Sequence[int] = (EDGE,),
 ) -> dict[str, Variable]:
-    """Return the variables of series (variant, member, ...), one variant for each problem."""
+    """Return the variables of `series` (variant, member, ...), with a variant for each problem."""
     predicted = [linear_front(problem.constants) for problem in problems]
 
     def of_variants(values: list[float], long_name: str = "") -> Variable:
@@ -92,18 +93,18 @@ def run_variables(
         dimensions = ("variant", "member", *axes)
         return Variable(dimensions, series[name], long_name, attributes=attributes)
 
-    both, place = "of A and B together", "site of the front"
+    both = "of A and B together"
     level = ("level",) if len(levels) > 1 else ()
     edge = ("edge",) if len(edges) > 1 else ()
     axes = {
         "level": Variable(level, levels, "least |S|^2 of a pair that the second front has passed"),
-        "edge": Variable(edge, edges, "sites behind the front that do not count as between both"),
+        "edge": Variable(edge, edges, "sites behind the first front that are not between both"),
     }
     return {
         **{name: axis for name, axis in axes.items() if axis.dimensions},
         "tau": Variable(("tau",), series["tau"][0, 0]),
         "piece_tau": Variable(
-            ("piece_tau",), series["piece_tau"][0, 0], "slow time at the end of a piece of the run"
+            ("piece_tau",), series["piece_tau"][0, 0], "slow time at the end of each interval"
         ),
         "region": Variable(("region",), list(REGIONS), "region of the chain"),
         "kind": Variable(
@@ -112,8 +113,10 @@ def run_variables(
         "omega": of_variants([p.constants.omega for p in problems]),
         "l2": of_runs("l2", ("tau",), f"{NAMES['l2']}, {both}"),
         "linf": of_runs("linf", ("tau",), f"{NAMES['linf']}, {both}"),
-        "front": of_runs("front", ("piece_tau",), place),
-        "second_front": of_runs("second_front", ("piece_tau", *level), f"{place}, second one"),
+        "front": of_runs("front", ("piece_tau",), "site of the first front"),
+        "second_front": of_runs(
+            "second_front", ("piece_tau", *level), "site of the second front, -1 if there is none"
+        ),
         "region_mean": of_runs(
             "means",
             ("piece_tau", *edge, "region", "kind"),
@@ -123,6 +126,6 @@ def run_variables(
         "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
         "predicted_delay": of_variants(
             [front.delay for front in predicted],
-            "sites lost per unit of log tau on the way to that speed",
+            "delay of a pulled front, in sites per unit of log tau",
         ),
     }

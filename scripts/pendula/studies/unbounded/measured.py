@@ -1,11 +1,11 @@
 """Numbers measured on infinite chains: speeds of fronts, powers behind them, and the law of l2.
 
 If the chain at rest is unstable, a front moves at the speed v_1 of linear spreading. Behind it A =
--B, up to a second front, whose speed is v_2. With the powers P' between the fronts and P behind the
-second one the norm is l2 = (2 (v_2 P + (v_1 - v_2) P') tau)^(1/2).
+-B, up to a second front with the speed v_2. With the powers P' between the fronts and P behind the
+second one, l2^2 = 2 (v_2 P + (v_1 - v_2) P') tau.
 
-Energy is conserved and zero at rest, so the states behind the fronts have none on average. In
-equilibrium they are distributed as exp(-beta H), and their energy fixes beta. Nothing is fitted.
+Energy is conserved and zero at rest, so the states behind the fronts have zero energy on average.
+In equilibrium they are distributed as exp(-beta H), and the energy determines beta without a fit.
 The module `thermal` solves these states.
 """
 
@@ -26,8 +26,8 @@ LATE = 0.5
 """Fraction of a run, at its end, over which powers are averaged."""
 
 SETTLED = 1 / 3
-"""Fraction of a run, at its start, that is left out of speeds, which approach their limits from
-below."""
+"""Fraction of a run, at its start, in which speeds are not measured, because they approach their
+limits from below."""
 
 FIRST_OF_LINE = 0.25
 """The line through l2^2 starts at this fraction of a run."""
@@ -36,9 +36,9 @@ FIRST_OF_LINE = 0.25
 def mean_powers(
     run: xr.Dataset, region: str, kind: str = KINDS[0], late: float = LATE
 ) -> np.ndarray:
-    """Return a mean over a region and the fraction `late` of a run, at its end, (variant, member).
+    """Return a mean over a region and the last fraction `late` of a run, (variant, member).
 
-    States in which the region has no sites are left out; it is NaN if there are no others.
+    It is over the states in which the region has sites, NaN if there are none.
     """
     tau, values = run["piece_tau"], run["region_mean"].sel(region=region, kind=kind)
     at_end = values.isel(piece_tau=np.flatnonzero(tau > (1.0 - late) * tau[-1]))
@@ -54,52 +54,52 @@ def with_first_choices(run: xr.Dataset) -> xr.Dataset:
 
 
 def resolution(tau: np.ndarray, settled: float = SETTLED) -> float:
-    """Return the error of the speed of a front that follows from its places being whole sites.
+    """Return the error of a front's speed because its sites are whole numbers.
 
-    Places that are off by half a site in either direction change the slope of least squares by at
-    most 3/2 sites over the time of the fit, equally in all members.
+    An error of half a site either way changes the slope of least squares by at most 3/2 sites over
+    the time of the fit, equally in all members.
     """
     return 1.5 / ((1.0 - settled) * float(tau[-1]))
 
 
 def speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the speed of the first front of each variant, with limits.
+    """Return the speed of the first front of each variant, and its error.
 
-    The delay of a pulled front is added back.
+    The speed is corrected for the predicted delay of a pulled front.
     """
     lost = run["predicted_delay"] * xr.DataArray(log(run["piece_tau"].values), dims="piece_tau")
     return _slopes(run, run["front"] + lost, settled)
 
 
 def second_speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the speed of the second front with its error, NaN if |S|^2 stays below LEVEL."""
+    """Return the speed of the second front and its error, NaN if |S|^2 stays below LEVEL."""
     filled = mean_powers(run, BEHIND, KINDS[1]).mean(axis=1) > LEVEL
     slopes = level_speeds(run, settled)
     return tuple(np.where(filled, speeds, np.nan) for speeds in slopes)
 
 
 def level_speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the speed of the last site where |S|^2 has reached a level, NaN if there is none."""
+    """Return the speed of the last site with |S|^2 above a level, and its error, NaN if none."""
     reached = (run["second_front"].isel(piece_tau=-1) >= 0.0).all("member").values
     slopes = _slopes(run, run["second_front"], settled)
     return tuple(np.where(reached, speeds, np.nan) for speeds in slopes)
 
 
-def _slopes(run, way, settled: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the slope of a front's place over the late time, its mean over members, and limits.
+def _slopes(run: xr.Dataset, sites: xr.DataArray, settled: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mean over members of the late slope of a front's sites, and its error, (variant,).
 
-    The limits are those of the mean by Student's t, and at least the `resolution`.
+    The error is half of the confidence interval, and at least the `resolution`.
     """
     tau = run["piece_tau"].values
     late = tau >= settled * tau[-1]
-    ways = way.transpose("variant", "member", "piece_tau").values[:, :, late]
-    slopes = [[lay_line(tau[late], places).slope for places in members] for members in ways]
+    late_sites = sites.transpose("variant", "member", "piece_tau").values[:, :, late]
+    slopes = [[lay_line(tau[late], series).slope for series in members] for members in late_sites]
     limits = mean_limits(np.transpose(slopes))
     return limits.value, np.maximum(_known(limits.half, 0.0), resolution(tau, settled))
 
 
-def _known(halves, otherwise: float = np.nan):
-    """Return limits, with another value in place of infinite ones of a single member."""
+def _known(halves: np.ndarray, otherwise: float = np.nan) -> np.ndarray:
+    """Return halves of confidence intervals, `otherwise` if infinite due to a single member."""
     return np.where(np.isfinite(halves), halves, otherwise)
 
 
@@ -109,7 +109,7 @@ def _known(halves, otherwise: float = np.nan):
 def thermal_powers(thermal: xr.Dataset, run: xr.Dataset, name: str = "power") -> np.ndarray:
     """Return P of the thermal states at each Omega of a run, (variant,), NaN if none was solved.
 
-    That of A = -B has the name "antisymmetric_power".
+    For the states with A = -B, `name` is "antisymmetric_power".
     """
     return thermal[name].reindex(omega=run["omega"].values, method="nearest", tolerance=1e-9).values
 
@@ -117,9 +117,9 @@ def thermal_powers(thermal: xr.Dataset, run: xr.Dataset, name: str = "power") ->
 def law_of(run: xr.Dataset, thermal: xr.Dataset, second: np.ndarray | None = None) -> np.ndarray:
     """Return l2^2 by thermal states and speeds of fronts, (variant, tau), without a fit.
 
-    It is 2 (v_2 P + (v_1 - v_2) P') tau minus 2 P' delay ln tau, the delay of a pulled front; v_1
-    is predicted, v_2 is `second` (variant,) if given, otherwise measured, and zero if no second
-    front has formed. NaN if no front is pulled or no state was solved.
+    It is 2 (v_2 P + (v_1 - v_2) P') tau - 2 P' delay ln tau, with the delay of a pulled front and
+    the predicted v_1. v_2 is `second` (variant,) if given, else measured, and zero if no second
+    front has formed. The law is NaN without a front or without thermal states.
     """
     delay, first = run["predicted_delay"].values, run["predicted_speed"].values
     second = np.nan_to_num(second_speeds(run)[0] if second is None else second)
@@ -137,7 +137,7 @@ def slope_ratios(
     second: np.ndarray | None = None,
     first: float = FIRST_OF_LINE,
 ) -> list[ConfidenceInterval]:
-    """Return the slope of l2^2 over that of its law for each variant, with limits over the members.
+    """Return the ratio of the slopes of l2^2 and of its law, with limits, for each variant.
 
     The time at which the law begins is unknown, so an offset is fitted. For `second` see `law_of`.
     """
@@ -161,13 +161,13 @@ def measure_fronts(omegas: xr.Dataset, thermal: xr.Dataset) -> xr.Dataset:
     formed = np.where(np.isfinite(second), 1.0, np.nan)
     behind = mean_limits((mean_powers(omegas, BEHIND) * formed[:, None]).T)
     between = mean_limits(mean_powers(omegas, BETWEEN).T)
-    of_speed, limits = "in sites per unit of tau", "half of the 95 % limits of that"
+    of_speed, limits = "in sites per unit of tau", "half of the 95 % confidence interval"
     measured = {
         "omega": (omegas["omega"].values, ""),
-        "front_speed": (first, f"speed of the first front with its delay added back, {of_speed}"),
+        "front_speed": (first, f"speed of the first front, corrected for its delay, {of_speed}"),
         "front_speed_error": (
             first_error,
-            f"{limits}, or what the places of the front resolve",
+            f"{limits}, or the resolution by whole sites",
             SCATTERED,
         ),
         "linear_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED, REGULAR),

@@ -1,10 +1,11 @@
 """The second front if noise starts the growth of A + B behind the first front.
 
-Noise of the relative size sigma of |D|, drawn anew at every site and every stored state, is added
-to S. Runs in A and B have the noise of their own rounding errors, which is about 1e-16 of |D|.
+Noise of size sigma |D| is added to S, with new draws for every site and every stored state. Runs in
+the unknowns A and B have their own rounding errors as noise, about 1e-16 |D|.
 """
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -22,11 +23,11 @@ from .long_runs import members_of
 from .sums import in_sums, turned
 
 ROUNDING = "A and B in doubles"
-"""In place of a size of noise: the run is made in A and B, whose rounding errors are the noise."""
+"""In place of a size of noise: a run in the unknowns A and B, with rounding errors as noise."""
 
 LEVELS, LATE, SHORTER = (LEVEL, 1.0), (0.5, 0.25), (1.0, 0.5)
-"""Least |S|^2 behind the second front; the fraction of a run, at its end, over which the front is
-fitted; and the fraction of the run that is used. The second value of each is a variation."""
+"""Least |S|^2 behind the second front; fraction of a run, at its end, over which the front is
+fitted; fraction of the run that is used. The second value of each is a variation."""
 CHOICES = {"part of the run": SHORTER, "part fitted": LATE, "level": LEVELS}
 MEANINGS = {
     "noisy_second_speed": "speed of the second front with noise, in sites per unit of tau",
@@ -43,10 +44,10 @@ def follow_noise(
     tolerances: list[float],
     seed: int,
 ) -> ManyRuns:
-    """Return the runs that give the speed of the second front and its distance from the first.
+    """Return the runs for the speed of the second front and its distance from the first.
 
-    Both are (noise, omega), and the last noise is ROUNDING. Printed are those at the first of
-    `tolerances`; the others are variations.
+    Both are (noise, omega), and the last noise is ROUNDING. The printed numbers have the first
+    tolerance; the others give variations.
     """
     runs = []
     for tolerance in tolerances:
@@ -67,9 +68,9 @@ def follow_noise(
 def _numbers_by_noise(
     problems: list[PaperProblem], noises: list[float], tolerances: list[float], numbers: np.ndarray
 ) -> xr.Dataset:
-    """Return the dataset of the numbers (tolerance, problem, member, noise, number, ...)."""
+    """Return the dataset of `numbers` (tolerance, problem, member, noise, number, ...)."""
 
-    def measure(tolerance, **choices) -> dict[str, Estimate]:
+    def measure(tolerance: float, **choices: Any) -> dict[str, Estimate]:
         place = tuple(CHOICES[name].index(value) for name, value in choices.items())
         of_choices = numbers[tolerances.index(tolerance)][
             (..., *place)
@@ -82,7 +83,7 @@ def _numbers_by_noise(
     printed = {name: NamedNumber(along, varied[name], MEANINGS[name]) for name in MEANINGS}
     labels = np.array([f"{noise:g}" for noise in noises] + [ROUNDING], object)
     coordinates = {
-        "noise": ("noise", labels, {"long_name": "noise added to A + B, a part of |A - B|"}),
+        "noise": ("noise", labels, {"long_name": "noise added to A + B, relative to |A - B|"}),
         "omega": (
             "omega",
             [problem.constants.omega for problem in problems],
@@ -99,7 +100,7 @@ def _numbers_by_noise(
 
 
 def follow_front(
-    problem: PaperProblem, noises: list, rest_threshold: float, seed: int
+    problem: PaperProblem, noises: list[float | str], rest_threshold: float, seed: int
 ) -> dict[str, np.ndarray]:
     """Return the numbers of MEANINGS for each noise under all CHOICES, (noise, number, ...)."""
     return {
@@ -124,9 +125,9 @@ def _numbers_of(
 def places_of(
     problem: PaperProblem, noise: float | str, rest_threshold: float, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return times, places of the first front, and places of the second one, (time, level).
+    """Return the times, the sites of the first front, and those of the second, (time, level).
 
-    Each member draws its own noise: its initial data enter the seed.
+    Each member draws its own noise, because its initial data are part of the seed.
     """
     in_doubles = noise == ROUNDING
     rng = np.random.default_rng([seed, *problem.initial.view(np.uint64).ravel()])

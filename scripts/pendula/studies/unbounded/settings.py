@@ -1,6 +1,6 @@
-"""The keys of config/unbounded.yaml, and the problems of infinite chains that follow from them.
+"""The keys of config/unbounded.yaml, and the problems on infinite chains that follow from them.
 
-A full run makes the study `short`, and `snakemake unbounded` the study `long`.
+A full run makes the study `short`, and `snakemake unbounded` makes the study `long`.
 """
 
 from collections.abc import Mapping
@@ -32,31 +32,30 @@ from pendula.configuration.schema import Faults, PaperConfiguration
 from .bulk import SLICE_LENGTH
 
 SPEED = 5.0
-"""Upper bound of the speeds of fronts in the paper's cases, in sites per unit of tau and of the
-coupling."""
+"""Upper bound on the speeds of fronts in the paper's cases, in sites per unit of epsilon tau."""
 
 GROWTH_CASES = ("fig4_small", "fig3_large", "fig2_large", "fig3_small")
-"""The cases of the figure growth_law, and of claims."""
+"""The cases that the figure growth_law and the claims need."""
 
 OMEGAS = "omegas"
-"""Name of the ensemble over Omega, next to those of cases."""
+"""Name of the ensemble over Omega. Ensembles of one case have its name."""
 STARTS = "starts"
 """Name of the ensemble over initial conditions of the central pair."""
 
 
 class Size(Section):
-    """Solver, threshold of rest, end times and members of a study."""
+    """Solver, threshold of rest, end times and numbers of members of a study."""
 
     solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
-    rest_threshold: Positive  # of the largest amplitude
+    rest_threshold: Positive  # relative to the largest amplitude
     runs: dict[Name, section_of(end_time=Positive, members=Count)]
 
 
 class Transverse(Section):
-    """Runs that measure the growth of a small A + B; the first of several values is printed."""
+    """Runs that measure the growth of a small A + B; the first of each list is printed."""
 
     end_time: Positive
-    slow_from: Number  # Omega from which on runs end later
+    slow_from: Number  # Omega from which runs last until slow_end_time
     slow_end_time: Positive
     members: Count
     tolerances: list[Tolerance]
@@ -70,7 +69,7 @@ class Transverse(Section):
 
 
 class Noise(Section):
-    """Runs with noise added to A + B; the first tolerance is printed."""
+    """Runs with noise added to A + B; numbers at the first tolerance are printed."""
 
     omegas: Numbers
     end_times: list[Positive]  # one for each Omega
@@ -80,12 +79,10 @@ class Noise(Section):
 
 
 class LongSize(Size):
-    """The long study, and the choices that vary its numbers; the first of each is printed."""
+    """The long study, with choices for variations of its numbers; the first of each is printed."""
 
     levels: Positives  # of |S|^2 behind the second front
-    edges: (
-        Counts  # sites behind the first front that are left out of the region between both fronts
-    )
+    edges: Counts  # sites behind the first front that do not count as between the fronts
     coarse: Tolerance  # tolerance of the repeated runs
     transverse: Transverse
     noise: Noise
@@ -113,7 +110,7 @@ class Settings(Section):
     long: LongSize
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield faults of cases and ensembles, and of runs that take too long."""
+        """Yield errors in cases and ensembles, and for runs that take too long."""
         used = [("omegas.case", self.omegas.case), ("starts.case", self.starts.case)]
         used += [("cases", case) for case in self.cases]
         absent = [fault for key, case in used for fault in settings.absent("cases", key, [case])]
@@ -121,7 +118,7 @@ class Settings(Section):
         for label, size in sizes.items():
             unknown = size.runs.keys() - {*self.names, *settings.cases}
             missing = [name for name in self.names if name not in size.runs]
-            message = "is no ensemble of cases, over Omega or over initial conditions"
+            message = f"is not an ensemble: {OMEGAS}, {STARTS} or the name of a case"
             absent += [(f"{label}.runs.{name}", message) for name in sorted(unknown)]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
         for case in GROWTH_CASES:
@@ -133,17 +130,14 @@ class Settings(Section):
         yield from self._faults_of_band(settings)
         if self.output_step > SLICE_LENGTH:
             text = f"is {self.output_step:g}; it must be at most {SLICE_LENGTH:g}"
-            yield (
-                "output_step",
-                f"{text}: sites are added where an output shows that they are needed",
-            )
+            yield "output_step", f"{text}, because sites are added only at outputs"
             return
         for label, size in sizes.items():
             yield from self._faults_of_size(settings, label, size)
         yield from self._faults_of_noise()
 
     def _faults_of_band(self, settings: PaperConfiguration) -> Faults:
-        """Yield the Omegas outside of the unstable band, where no front spreads."""
+        """Yield an error if no Omega is in the unstable band, where fronts spread."""
         case = settings.cases[self.omegas.case]
         low, high = -2.0 * abs(case.gamma), 2.0 * abs(case.gamma) + 4.0 * max(case.epsilon, 0.0)
         if not any(low < omega < high for omega in self.omegas.values):
@@ -151,20 +145,20 @@ class Settings(Section):
             yield "omegas.values", f"{text} (for epsilon and gamma of cases.{self.omegas.case})"
 
     def _faults_of_noise(self) -> Faults:
-        """Yield a fault unless there is one end time for each Omega."""
+        """Yield an error unless there is one end time for each Omega."""
         noise = self.long.noise
         if len(noise.end_times) != len(noise.omegas):
-            text = f"has {len(noise.end_times)} values; give one for each of the omegas"
-            yield "long.noise.end_times", f"{text}, of which there are {len(noise.omegas)}"
+            text = f"has {len(noise.end_times)} values; it must have {len(noise.omegas)}"
+            yield "long.noise.end_times", f"{text}, one for each of the omegas"
 
     def _faults_of_size(self, settings: PaperConfiguration, label: str, size: Size) -> Faults:
         for name, run in size.runs.items():
             if not is_multiple(run.end_time, self.output_step):
-                text = f"{run.end_time:g} is not a whole number of output steps"
-                yield f"{label}.runs.{name}.end_time", f"{text} of {self.output_step:g}"
+                text = f"{run.end_time:g} is not a multiple of output_step"
+                yield f"{label}.runs.{name}.end_time", f"{text} = {self.output_step:g}"
             if run.end_time <= SLICE_LENGTH:
                 text = f"is {run.end_time:g}; it must be above {SLICE_LENGTH:g}"
-                yield f"{label}.runs.{name}.end_time", f"{text}, so that a front has a speed"
+                yield f"{label}.runs.{name}.end_time", f"{text} to measure the speed of a front"
         for name in self.names:
             run = size.runs[name]
             problems = self.problems(settings.problem(self.case_of(name)), name, size)
@@ -174,7 +168,7 @@ class Settings(Section):
             if unfit := list(drawn.faults()):
                 yield from unfit
                 return
-            # the front moves at SPEED, so that the mean width is half of its reach
+            # the front moves at SPEED, so the mean half-width is half of its final distance
             reach = 0.5 * SPEED * abs(problems[0]["epsilon"]) * run.end_time
             cost = estimate(problems[0] | {"half_width": max(1.0, reach), "snapshot_every": 0})
             count = len(problems) * run.members
@@ -183,11 +177,11 @@ class Settings(Section):
 
     @property
     def names(self) -> list[str]:
-        """The ensembles: those of cases, and those over Omega and over initial conditions."""
+        """The names of all ensembles: of cases, over Omega, and over initial conditions."""
         return [*self.cases, OMEGAS, STARTS]
 
     def case_of(self, name: str) -> str:
-        """Return the case of the paper from which an ensemble starts."""
+        """Return the case of the paper that an ensemble is based on."""
         return {OMEGAS: self.omegas.case, STARTS: self.starts.case}.get(name, name)
 
     def problems(self, case: Mapping[str, Any], name: str, size: Size) -> list[dict]:
@@ -208,7 +202,7 @@ class Settings(Section):
     def timed(
         self, case: Mapping[str, Any], omegas: list[float], end_times: list[float]
     ) -> list[dict]:
-        """Return the problems of the long study at each of `omegas`, each with its end time."""
+        """Return the problems of the long study at `omegas`, each with its own end time."""
         base = self.problems(case, self.omegas.case, self.long)[0]
         pairs = zip(omegas, end_times, strict=True)
         return [base | {"omega": omega, "end_time": end} for omega, end in pairs]

@@ -1,11 +1,12 @@
 """The equations (4) in the unknowns S = (A + B) / sqrt 2 and D = (A - B) / sqrt 2.
 
-The drive acts on D alone. So the chain that it excites has A = -B, and S is tiny there. In A and B
-it is lost in rounding errors, which at 1e-16 of D are larger and grow like S, so that S seems to
-fill the chain too early. As an unknown of its own S keeps all of its digits.
+The drive acts on D alone: the chain that it excites has A = -B, and S is tiny. In the unknowns A
+and B, S is smaller than rounding errors, which are 1e-16 of D. These grow like S, so that S seems
+to fill the chain too early. As an unknown of its own, S keeps all of its digits.
 """
 
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 from latticode.equations.model import Model, Value, abs2, conj, lap
@@ -15,7 +16,7 @@ from pendula.problem import PaperProblem
 ROOT = np.sqrt(0.5)
 
 
-def i_dt(p, s: Value, d: Value) -> list[Value]:
+def i_dt(p: Any, s: Value, d: Value) -> list[Value]:
     """Return i dS_n/dtau and i dD_n/dtau."""
     mean = 0.25 * (abs2(s) + abs2(d))
     both = 0.5 * Value((s * conj(d)).re)
@@ -31,12 +32,12 @@ EQUATIONS = Model(
 
 
 def halves(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first half of the rows and the second."""
+    """Return the first half of the rows, and the second half."""
     return rows[: len(rows) // 2], rows[len(rows) // 2 :]
 
 
 def turned(values: np.ndarray) -> np.ndarray:
-    """Return S and D of A and B, or A and B of S and D, in the two halves of the rows.
+    """Return (S, D) from (A, B), or (A, B) from (S, D), in the two halves of the rows.
 
     `values` are complex (component, ...), or rows of real and imaginary parts (row, ...).
     """

@@ -1,11 +1,11 @@
 """The thermal states exp(-beta H) of the infinite chain, solved by its transfer operator.
 
 Nothing is sampled: an eigenvector of the operator (see `transfer`) gives the means of a site. Their
-error is that of the grid, which a coarser and wider grid measures.
+error is due to the grid, and a coarser and wider grid measures it.
 
-The energy needs no bond. The mean of y dH/dy is f / beta for a site with f coordinates, and y dH/dy
-is 2 H plus twice the quartic term: the energy per site is f / (2 beta) - <quartic>. Two fields have
-four coordinates a site, and the chain with A = -B has two.
+The energy per site is f / (2 beta) - <quartic> for f coordinates per site, because the mean of
+y dH/dy is f / beta, and y dH/dy is 2 H plus twice the quartic term. Two fields have f = 4, and the
+chain with A = -B has f = 2.
 """
 
 from typing import NamedTuple
@@ -22,14 +22,14 @@ from . import transfer
 from .bulk import POWER
 
 HOT, COLD = 1e-3, 1e5
-"""Largest and smallest temperature 1 / beta: states are searched between these beta."""
+"""beta at the highest and at the lowest temperature of the search."""
 
 HALVINGS, SECANTS = 7, 12
-"""Steps to a rough beta on a coarse grid, and the most steps from there on a finer one."""
+"""Bisections to a rough beta on the coarsest grid, and the most secant steps on each grid."""
 
 
 class NoThermalStateError(ValueError):
-    """No thermal state between HOT and COLD has the energy."""
+    """No thermal state with beta between HOT and COLD has the required energy."""
 
 
 class ThermalState(NamedTuple):
@@ -44,12 +44,11 @@ class ThermalState(NamedTuple):
 def state_of_energy(
     constants: Constants, energy: float, nodes: int, antisymmetric: bool = False
 ) -> ThermalState:
-    """Return the thermal state with this energy per site, on `nodes` half-nodes a coordinate.
+    """Return the thermal state with this energy per site, on `nodes` half-nodes per coordinate.
 
-    It is that of both fields, or that of the chain with A = -B. Three grids are used: one with half
-    of the nodes gives a rough beta and the extent of the distribution, one with three quarters the
-    error, the last one the state. Raises NoThermalStateError if no state between HOT and COLD has
-    this energy.
+    It has both fields, or A = -B if `antisymmetric`. A grid with half of the nodes gives a rough
+    beta and the extent of the distribution, one with three quarters the error, and the full grid
+    the state. Raises NoThermalStateError if no state between HOT and COLD has this energy.
     """
     few, some = nodes // 2, 3 * nodes // 4
 
@@ -58,9 +57,9 @@ def state_of_energy(
         return _excess(constants, beta, grid, energy)[0] < 0.0
 
     if not is_too_hot(HOT) or is_too_hot(COLD):
-        state_text = f"{energy:g} at Omega = {constants.omega:g}"
         raise NoThermalStateError(
-            f"no thermal state between the temperatures tried has the energy {state_text}"
+            f"no thermal state with beta from {HOT:g} to {COLD:g} has the energy {energy:g} at"
+            f" Omega = {constants.omega:g}"
         )
     hot, cold = HOT, COLD
     for _ in range(HALVINGS):
@@ -76,16 +75,24 @@ def state_of_energy(
     return ThermalState(beta, powers[-1], abs(powers[-1] - powers[-2]), operator)
 
 
-def _excess(constants, beta, grid, energy, vector=None) -> tuple:
-    """Return beta (energy - that of the state at beta), which rises with beta; operator, vector."""
+def _excess(
+    constants: Constants,
+    beta: float,
+    grid: tuple[np.ndarray, ...],
+    energy: float,
+    vector: np.ndarray | None = None,
+) -> tuple[float, transfer.Operator, np.ndarray]:
+    """Return beta (energy - energy at beta), which rises with beta; operator and vector."""
     operator = transfer.make_operator(constants, beta, grid)
     vector = transfer.leading(operator, vector)
     quartic = float(np.sum(vector * vector * operator.quartic))
     return beta * (energy + quartic) - 0.5 * operator.freedom, operator, vector
 
 
-def _refined(constants, beta, grid, energy) -> tuple:
-    """Return beta, operator and vector at which the excess vanishes, by secants in log beta."""
+def _refined(
+    constants: Constants, beta: float, grid: tuple[np.ndarray, ...], energy: float
+) -> tuple[float, transfer.Operator, np.ndarray]:
+    """Return the beta at which the excess vanishes, by secants in log beta; operator and vector."""
     old, (excess, operator, vector) = beta, _excess(constants, beta, grid, energy)
     beta *= 1.01
     for _ in range(SECANTS):
@@ -95,13 +102,13 @@ def _refined(constants, beta, grid, energy) -> tuple:
             return beta, operator, vector
         slope = (excess - before) / log(beta / old)
         old, beta = beta, beta * float(exp(np.clip(-excess / slope, -0.5, 0.5)))
-    raise ArithmeticError("no temperature with this energy was found")
+    raise ArithmeticError(f"no beta with the energy {energy:g} was found in {SECANTS} secant steps")
 
 
 def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int) -> Contents:
-    """Return the dataset of the states of zero energy at `omegas`, both fields and A = -B.
+    """Return the dataset of thermal states of zero energy at `omegas`: both fields, and A = -B.
 
-    An Omega at which one has no such state is left out.
+    An Omega without one of the two states is omitted.
     """
     states = []
     for omega in omegas:
@@ -117,13 +124,13 @@ def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int)
             print(f"left out: {error}")
     known = [both.operator.constants.omega for both, _ in states]
     variables, along = {"omega": Variable(("omega",), known, attributes=FEW_CHOICES)}, ("omega",)
-    for number, prefix, words in (
-        (0, "", f"{POWER} in the thermal state of no energy"),
-        (1, "antisymmetric_", f"{POWER} in that of the chain with A = -B"),
+    for number, prefix, power in (
+        (0, "", f"{POWER} in the thermal state of zero energy"),
+        (1, "antisymmetric_", f"{POWER} in the thermal state of zero energy with A = -B"),
     ):
         powers, errors = np.reshape([pair[number][1:3] for pair in states], (-1, 2)).T
-        variables[f"{prefix}power"] = Variable(along, powers, words)
-        long_name = f"change of the {words} from a coarser and wider grid"
+        variables[f"{prefix}power"] = Variable(along, powers, power)
+        long_name = f"change from a coarser and wider grid of the {power}"
         variables[f"{prefix}power_error"] = Variable(along, errors, long_name, attributes=SCATTERED)
     title = "Thermal states of the infinite chain, by its transfer operator"
     return variables, {

@@ -1,17 +1,17 @@
 """The transfer operator of a bond of the infinite chain at a given temperature.
 
-A bond couples neighbours alone, so the sum over all states of a ring is the trace of a power of one
+Only neighbours are coupled, so the partition function of a ring is the trace of a power of one
 operator, which multiplies by the weight of a site and smooths over its four coordinates. With
 A_n -> (-1)^n A_n and B_n -> (-1)^n B_n its kernel is positive, sqrt(w(y)) exp(-beta epsilon
-|y - y'|^2) sqrt(w(y')), so that the largest eigenvalue is single; the square of its eigenvector psi
-is the distribution of a site of the infinite chain.
+|y - y'|^2) sqrt(w(y')), and the largest eigenvalue is simple. The square of its eigenvector psi is
+the distribution of a site of the infinite chain.
 
 The coordinates are y = (s, t, p, q) = (Re, Re, Im, Im) of (A + B, A - B, A + B, A - B) / sqrt 2. In
 them P = |y|^2, the quartic term is (P^2 + 4 (st + pq)^2) / 8 and the drive -2 gamma (t^2 - q^2).
-A bond is a product of four factors, one a coordinate, so that an integral over a site is four
-small sums, by the midpoint rule. H keeps its value under changes of signs that keep the sign of
-s t p q. Therefore the nodes with s, t, p, q > 0 suffice, with two values at each: that of
-(s, t, p, q), and that of (s, t, p, -q). On the chain with A = -B s and p have the one node zero.
+A bond is a product of four factors, one per coordinate: an integral over a site is four small sums,
+by the midpoint rule. H is invariant under changes of signs that preserve the sign of s t p q. The
+nodes with s, t, p, q > 0 therefore suffice, with two values at each: for (s, t, p, q), and for
+(s, t, p, -q). On the chain with A = -B, s and p have a single node at zero.
 """
 
 from typing import NamedTuple
@@ -23,26 +23,25 @@ from latticode.numerics.elementary import exp
 from pendula.problem import Constants
 
 TAIL = 1e-9
-"""A grid ends where the density of a coordinate falls below this fraction of its largest value."""
+"""A grid ends where the density of a coordinate is below this fraction of its largest value."""
 
 REACH = 25.0
 """The first grid ends where the weight of a site is below exp(-REACH) of its largest value."""
 
 SETTLED = 1e-9
-"""The power iteration ends when the mean quartic energy changes by less than this fraction of it.
-"""
+"""The power iteration ends if the mean quartic energy changes by less than this relative amount."""
 
 
 class Operator(NamedTuple):
-    """The operator at one beta on m^4 nodes; an array (2, m, m, m, m) holds both signs of q.
+    """The operator at one beta on m^4 nodes; arrays (2, m, m, m, m) have both signs of q.
 
     With A = -B there are m^2 nodes, (2, 1, m, 1, m).
     """
 
     constants: Constants
     beta: float
-    nodes: tuple[np.ndarray, ...]  # of each coordinate the positive half, (m,)
-    bonds: tuple[np.ndarray, ...]  # of each coordinate on even and odd functions, (parity, m, m)
+    nodes: tuple[np.ndarray, ...]  # positive nodes of each coordinate, (m,)
+    bonds: tuple[np.ndarray, ...]  # by coordinate, on even and odd functions, (parity, m, m)
     roots: np.ndarray  # square roots of the weights
     quartic: np.ndarray  # quartic energy of a site
     power: np.ndarray  # (m, m, m, m): |y|^2
@@ -54,7 +53,7 @@ class Operator(NamedTuple):
 
 
 def widest(constants: Constants, beta: float) -> np.ndarray:
-    """Return a bound of the coordinates: beyond it the weight of a site is below exp(-REACH).
+    """Return a bound on the coordinates beyond which a site's weight is below exp(-REACH).
 
     The energy of a site is above P^2 / 8 - c P with c as below.
     """
@@ -65,7 +64,7 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
 
 
 def half_nodes(reach: np.ndarray, count: int, antisymmetric: bool) -> tuple[np.ndarray, ...]:
-    """Return `count` midpoints between 0 and each of `reach`; s and p are zero if A = -B."""
+    """Return `count` midpoints from 0 to each of `reach`; s and p are zero if `antisymmetric`."""
     nodes = [length * (np.arange(count) + 0.5) / count for length in reach]
     if antisymmetric:
         nodes[0] = nodes[2] = np.zeros(1)
@@ -94,7 +93,7 @@ def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ..
 
 
 @kernel
-def pass_through(bond, values, row, result):
+def pass_through(bond: np.ndarray, values: np.ndarray, row: np.ndarray, result: np.ndarray) -> None:
     """Write the sum over j of bond[i, j] values[j, r] to result[r, i]: the first axis goes last.
 
     `row` is workspace for a row of `values`.
@@ -112,7 +111,7 @@ def pass_through(bond, values, row, result):
 def smoothed(bonds: tuple[np.ndarray, ...], values: np.ndarray) -> np.ndarray:
     """Return the integral of a bond times a function over a site.
 
-    The part of the function that is even in q is even in s, t and p too, and the part that is odd
+    The part of the function that is even in q is even in all coordinates, and the part that is odd
     in q is odd in all.
     """
     even_and_odd = 0.5 * (values[0] + values[1]), 0.5 * (values[0] - values[1])
@@ -150,11 +149,11 @@ def leading(operator: Operator, vector: np.ndarray | None = None, most: int = 20
         if abs(quartic - before) < SETTLED * quartic:
             return vector
         before = quartic
-    raise ArithmeticError("the transfer operator has no gap that an iteration can use")
+    raise ArithmeticError(f"the power iteration has not converged after {most} iterations")
 
 
 def reach_of(operator: Operator, vector: np.ndarray) -> np.ndarray:
-    """Return for each coordinate the node beyond which its density is below TAIL of its largest."""
+    """Return by coordinate the node beyond which its density is below TAIL times its maximum."""
     chance = (vector * vector).sum(axis=0)
     lengths = []
     for axis, nodes in enumerate(operator.nodes):

@@ -1,20 +1,22 @@
 """Growth and spreading of a small A + B on the chaotic chain with A = -B.
 
-To first order in S = (A + B) / sqrt 2, D = (A - B) / sqrt 2 moves alone behind the first front, and
-S obeys a linear equation with D in its coefficients. At a site that moves at a velocity v, |S|
-grows as exp(lambda(v) tau). Without noise S spreads at the velocity v_2 at which lambda vanishes,
-as errors do in chaotic media (Cencini and Torcini, Phys. Rev. E 63 (2001) 056201), or at that of
-the first front if lambda is positive up to there.
+To first order in S = (A + B) / sqrt 2, D = (A - B) / sqrt 2 does not depend on S, and S obeys a
+linear equation with D in its coefficients. At a site that moves at a velocity v, |S| grows as
+exp(lambda(v) tau). Without noise S spreads at the velocity v_2 at which lambda vanishes, as errors
+do in chaotic media (Cencini and Torcini, Phys. Rev. E 63 (2001) 056201), or with the first front
+if lambda is positive up to its speed.
 
-Noise of the relative size sigma of |D| starts S at every site that the first front has passed. From
-there S grows along all velocities. So at d sites behind the front, whose speed is v_1, it has grown
-by exp(kappa d), where kappa is the largest lambda(v) / (v_1 - v). If kappa > 0, S is of order one
-at ln(1 / sigma) / kappa sites behind the first front, and the second front follows the first.
+Noise of size sigma |D| starts the growth of S at every site that the first front has passed. S then
+grows at all velocities. At d sites behind the front, which has the speed v_1, it has grown by
+exp(kappa d), where kappa is the largest lambda(v) / (v_1 - v). If kappa > 0, S is of order one at
+ln(1 / sigma) / kappa sites behind the first front, and the second front follows the first.
 
 The equations are those of `sums`, with S so small that its squares are lost in rounding errors.
 """
 
+from collections.abc import Mapping
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -33,16 +35,15 @@ from .long_runs import members_of
 from .sums import in_sums
 
 SMALL, LEAST = 1e-20, 1e-300
-"""|S| is scaled down to the first number after each interval; values below the second have too few
-digits."""
+"""After each interval |S| is scaled down to SMALL; values below LEAST have too few digits."""
 
 VELOCITIES = 64
-"""Number of intervals of the velocities from 0 to that of the first front."""
+"""Number of intervals of velocity from 0 to the speed of the first front."""
 
 NEAR, LATE, SHORTER = (8, 16), (0.5, 0.25), (1.0, 0.5)
-"""Sites to each side over which the largest |S| is taken, since |S| has zeros; the fraction of a
-run, at its end, over which growth is fitted; and the fraction of the run that is used. The
-second value of each is a variation."""
+"""Number of sites to each side for the largest |S|, which is used because |S| has zeros; fraction
+of a run, at its end, over which growth is fitted; fraction of the run that is used. The second
+value of each is a variation."""
 
 
 def solve_transverse(
@@ -53,9 +54,9 @@ def solve_transverse(
     tolerances: list[float],
     seed: int,
 ) -> ManyRuns:
-    """Return the runs that give predicted speeds of the second front, exponents, and kappa.
+    """Return the runs for predicted speeds of the second front, exponents, and kappa.
 
-    Printed are those of the first of `perturbations` and `tolerances`; the others are variations.
+    The printed numbers have the first perturbation and tolerance; the others give variations.
     """
     settings = [(tolerances[0], perturbation) for perturbation in perturbations]
     settings += [(tolerance, perturbations[0]) for tolerance in tolerances[1:]]
@@ -73,10 +74,18 @@ def solve_transverse(
     return ManyRuns(runs, partial(exponents_of, rest_threshold=rest_threshold), conclude)
 
 
-def as_numbers(problems, by_setting, tolerances, perturbations) -> xr.Dataset:
-    """Return the dataset of exponents (omega, member, ...) by tolerance and perturbation."""
+def as_numbers(
+    problems: list[PaperProblem],
+    by_setting: Mapping[tuple[float, float], np.ndarray],
+    tolerances: list[float],
+    perturbations: list[float],
+) -> xr.Dataset:
+    """Return the dataset of MEANINGS.
 
-    def measure(tolerance, perturbation, **choices) -> dict[str, Estimate]:
+    `by_setting` maps (tolerance, perturbation) to exponents (omega, member, ...).
+    """
+
+    def measure(tolerance: float, perturbation: float, **choices: Any) -> dict[str, Estimate]:
         shape = (len(problems), -1, *map(len, CHOICES.values()), VELOCITIES)
         exponents = by_setting[tolerance, perturbation].reshape(shape)
         place = tuple(CHOICES[name].index(value) for name, value in choices.items())
@@ -103,9 +112,9 @@ MEANINGS = {
 
 
 def exponents_of(problem: PaperProblem, rest_threshold: float) -> dict[str, np.ndarray]:
-    """Return the exponent of |S| at each velocity under all CHOICES, flat, from a small S.
+    """Return the exponents of a small |S| at each velocity and for all CHOICES, as a flat array.
 
-    It is NaN where |S| falls below LEAST.
+    An exponent is NaN if |S| falls below LEAST.
     """
     start, speed = in_sums(problem), linear_front(problem.constants).speed
     d = start.initial[1]
@@ -123,7 +132,7 @@ def exponents_of(problem: PaperProblem, rest_threshold: float) -> dict[str, np.n
 
 
 def velocities() -> np.ndarray:
-    """Return the velocities of the exponents, over that of the first front."""
+    """Return the velocities of the exponents, relative to the speed of the first front."""
     return np.arange(VELOCITIES) / VELOCITIES
 
 
@@ -134,7 +143,7 @@ def _log_near(sizes: np.ndarray, places: np.ndarray, near: int) -> np.ndarray:
 
 
 def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
-    """Return the slopes of logs (time, near, velocity): (fraction, fitted, near, velocity)."""
+    """Return the slopes of `logs` (time, near, velocity), (SHORTER, LATE, near, velocity)."""
     return np.array(
         [
             [_slopes_within(tau, logs, fraction * tau[-1], late) for late in LATE]
@@ -144,7 +153,7 @@ def _slopes(tau: np.ndarray, logs: np.ndarray) -> np.ndarray:
 
 
 def _slopes_within(tau: np.ndarray, logs: np.ndarray, end: float, late: float) -> np.ndarray:
-    """Return the slopes over the fraction `late` before `end`, (near, velocity)."""
+    """Return the slopes over the last fraction `late` of the time to `end`, (near, velocity)."""
     is_fitted = (tau > (1.0 - late) * end) & (tau <= end)
     curves = logs[is_fitted].reshape(is_fitted.sum(), -1).T
     return np.array([lay_line(tau[is_fitted], curve).slope for curve in curves]).reshape(
@@ -160,9 +169,9 @@ def numbers_of(
 ) -> dict[str, Estimate]:
     """Return the numbers of MEANINGS with their errors, from exponents (omega, member, velocity).
 
-    The errors are half of the 95 % limits of the mean over the members. If no exponent is above
-    `least` (omega,), |S| grew by less than a factor of e, which is indistinguishable from a power
-    of tau, and no second front is predicted.
+    Errors are half of the 95 % confidence interval of the mean over the members. If no exponent is
+    above `least` (omega,), |S| grew by less than a factor of e. This may be a power of tau, so no
+    second front is predicted.
     """
     fronts = np.array([linear_front(problem.constants).speed for problem in problems])
     means = exponents.mean(axis=1)
@@ -186,9 +195,10 @@ def numbers_of(
 
 
 def crossing_of(exponents: np.ndarray) -> float:
-    """Return the velocity above which exponents (velocity,) are negative, over the front's.
+    """Return the relative velocity above which exponents (velocity,) are negative.
 
-    It is interpolated: one if the last is positive, and zero if none is. NaN counts as negative.
+    It is interpolated. If the last exponent is positive, it is one; if none is, zero. NaN counts as
+    negative.
     """
     positive = np.flatnonzero(exponents > 0.0)
     if not positive.size:
@@ -202,5 +212,5 @@ def crossing_of(exponents: np.ndarray) -> float:
 
 
 def largest_ratio(exponents: np.ndarray) -> float:
-    """Return the largest exponent, each over the distance of its velocity from the front speed."""
+    """Return the largest exponent / (1 - velocity), with velocities relative to the front's."""
     return float(np.nanmax(exponents / (1.0 - velocities())))

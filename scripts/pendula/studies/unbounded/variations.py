@@ -1,11 +1,12 @@
 """The numbers of long runs on infinite chains, each measured again with its choices changed.
 
-A long study is made with two tolerances. Its other choices belong to the measurement: the fraction
-of a run that is used or fitted, the level at which the second front is found, and the number of
-sites behind the first front that do not count as between both.
+The long study is run at two tolerances. Its other choices belong to the measurement: the fraction
+of a run that is used or fitted, the level of the second front, and the number of sites behind the
+first front that do not count as between the fronts.
 """
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -47,7 +48,7 @@ def vary_numbers(
 ) -> xr.Dataset:
     """Return the numbers of long runs over Omega and of fig3_large, with their variations.
 
-    Predicted numbers, which have variations of their own, are added.
+    The dataset also has the predicted numbers, with variations of their own.
     """
     over_omega = by_tolerance(omegas, omegas_coarse)
     numbers = {
@@ -81,7 +82,7 @@ SHARED_ATTRIBUTES = ("epsilon", "gamma", "members", "solver", "solver_rtol", "so
 
 
 def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]:
-    """Return counted numbers, and those computed without a choice, over Omega."""
+    """Return the numbers over Omega without a choice: counts and predictions."""
     last = omegas["front"].isel(piece_tau=-1).max("member").values
     both, alone = (thermal_powers(thermal, omegas, f"{of}power") for of in ("", "antisymmetric_"))
     state = f"{POWER} in the thermal state"
@@ -92,14 +93,14 @@ def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]
         "thermal_antisymmetric_power": (alone, f"{state} of the chain with A = -B"),
     }
     return {
-        name: ("omega", values, {"long_name": words}) for name, (values, words) in numbers.items()
+        name: ("omega", values, {"long_name": label}) for name, (values, label) in numbers.items()
     }
 
 
 def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> NamedNumber:
     """Return ln(1 / noise) / kappa, the distance of the second front from the first, with noise.
 
-    The noise of A and B in doubles is a rounding error.
+    The noise of runs in A and B is a rounding error.
     """
     sizes = [
         ROUNDING_ERROR if noise_level == ROUNDING else float(noise_level)
@@ -113,16 +114,16 @@ def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> NamedNumber:
         str(variation["variation"].item()): logs / variation.values for variation in variations.T
     }
     number = VariedNumber(logs / kappa, logs * error / (kappa * kappa), {}, varied_kappa)
-    words = "predicted distance of the second front with noise from the first, in sites"
-    return NamedNumber(("noise", "omega"), number, words)
+    long_name = "predicted distance of the second front with noise from the first, in sites"
+    return NamedNumber(("noise", "omega"), number, long_name)
 
 
 def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, NamedNumber]:
-    """Return the distance with the first size of noise minus that with the second.
+    """Return the distance with the first size of noise minus the distance with the second.
 
-    The prediction is ln(second / first) / kappa: the unknown constant of both distances cancels,
-    since growth does not start at one site. The errors of both measured distances are taken as
-    independent.
+    The prediction is ln(second / first) / kappa. An unknown constant of both distances, because
+    growth does not start at one site, cancels. The errors of the two measured distances are assumed
+    to be independent.
     """
     first, second = (noise.isel(noise=n) for n in (0, 1))
     predicted = predict_distances(noise, transverse).number
@@ -140,10 +141,10 @@ def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, NamedNum
         {},
         {label: values[0] - values[1] for label, values in predicted.variations.items()},
     )
-    words = "difference of the distances with the first and the second size of noise, in sites"
+    label = "difference of the distances with the first and the second size of noise, in sites"
     return {
-        "distance_difference": NamedNumber(("omega",), measured, words),
-        "predicted_distance_difference": NamedNumber(("omega",), computed, f"predicted {words}"),
+        "distance_difference": NamedNumber(("omega",), measured, label),
+        "predicted_distance_difference": NamedNumber(("omega",), computed, f"predicted {label}"),
     }
 
 
@@ -159,19 +160,19 @@ def select_fraction(run: xr.Dataset, fraction: float, **at: float) -> xr.Dataset
 
 
 def _first(run: xr.Dataset) -> dict[str, float]:
-    """Return the level and the edge that come first."""
+    """Return the first level and the first edge of a run, by name."""
     return {name: run[name].values[0] for name in ("level", "edge")}
 
 
 def varied(
     runs: Mapping[float, xr.Dataset], measure: Callable[..., Estimate], **choices: list
 ) -> VariedNumber:
-    """Return the results of `measure(run, ...)` for all choices, fractions and tolerances of runs.
+    """Return `measure(run, ...)`, varied by `choices` and by fractions and tolerances of runs.
 
-    A level or an edge selects the fronts and regions of the run.
+    A level or an edge in `choices` selects the fronts and regions of the run.
     """
 
-    def measured(**chosen) -> Estimate:
+    def measured(**chosen: Any) -> Estimate:
         run = runs[chosen.pop("tolerance")]
         at = {key: chosen.pop(key, first) for key, first in _first(run).items()}
         return measure(select_fraction(run, chosen.pop("part_of_run"), **at), **chosen)
@@ -187,7 +188,7 @@ def _with_half(limits: ConfidenceInterval) -> Estimate:
 
 
 def numbers_of_fronts(runs: Mapping[float, xr.Dataset]) -> dict[str, NamedNumber]:
-    """Return the speeds of both fronts, and of the places where |S|^2 has reached each level."""
+    """Return the speeds of both fronts, and of the last sites with |S|^2 above each level."""
     levels = [float(level) for level in next(iter(runs.values()))["level"].values]
     fitted = [SETTLED, 0.5 * SETTLED, 2.0 * SETTLED]
     first = varied(runs, _by_part(speeds), left_out_part=fitted)
@@ -200,7 +201,7 @@ def numbers_of_fronts(runs: Mapping[float, xr.Dataset]) -> dict[str, NamedNumber
         "level_speed": NamedNumber(
             ("level",),
             of_levels,
-            f"speed at which sites with |S|^2 above a level spread, at the largest Omega, {SPEED}",
+            f"speed of the last site with |S|^2 above a level, at the largest Omega, {SPEED}",
         ),
     }
 
@@ -210,7 +211,7 @@ def _by_part(measure: Callable[..., Estimate]) -> Callable[..., Estimate]:
 
 
 def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> VariedNumber:
-    """Return the speeds of the last sites above each level at the largest Omega, (level,)."""
+    """Return the speed of the last site above each level, at the largest Omega, (level,)."""
 
     def measured(tolerance: float, part_of_run: float, left_out_part: float) -> Estimate:
         run = runs[tolerance].isel(variant=[int(runs[tolerance]["omega"].values.argmax())])
@@ -227,7 +228,7 @@ def varied_levels(runs: Mapping[float, xr.Dataset], fitted: list[float]) -> Vari
 def numbers_of_states(
     runs: Mapping[float, xr.Dataset], thermal: xr.Dataset
 ) -> dict[str, NamedNumber]:
-    """Return the powers behind both fronts, and their ratios to those of thermal states."""
+    """Return the powers behind both fronts, and their ratios to thermal powers."""
     edges = [int(edge) for edge in next(iter(runs.values()))["edge"].values]
     numbers = {}
     for name, region, state, choices in (
@@ -237,7 +238,7 @@ def numbers_of_states(
         for quantity, expected in (("power", None), ("ratio", state)):
             measure = _power_of(region, thermal, expected)
             number = varied(runs, measure, averaged_part=[LATE, 0.5 * LATE], **choices)
-            over = " over that of the thermal state" if expected else ""
+            over = ", divided by that of the thermal state" if expected else ""
             numbers[f"{quantity}_{name}"] = NamedNumber(
                 ("omega",), number, f"{POWER} {region}{over}"
             )
@@ -245,7 +246,7 @@ def numbers_of_states(
 
 
 def _power_of(region: str, thermal: xr.Dataset, state: str | None) -> Callable[..., Estimate]:
-    """Return a function that measures the power in a region, over that of a thermal state."""
+    """Return a function that measures the power in a region, divided by that of `state` if any."""
 
     def measure(run: xr.Dataset, averaged_part: float) -> Estimate:
         limits = mean_limits(mean_powers(run, region, late=averaged_part).T)
@@ -259,7 +260,7 @@ def _power_of(region: str, thermal: xr.Dataset, state: str | None) -> Callable[.
 def numbers_of_growth(
     runs: Mapping[float, xr.Dataset], thermal: xr.Dataset, transverse: xr.Dataset
 ) -> dict[str, NamedNumber]:
-    """Return exponents of tau in l2, and the slope of l2^2 over that of its law."""
+    """Return the growth of l-infinity, exponents of tau in l2, and l2^2 compared with its law."""
     octaves = [OCTAVES, OCTAVES // 2, 2 * OCTAVES]
     with_offset = varied(runs, exponents, octaves=octaves)
     exponents_without_law = varied(runs, plain_exponents, octaves=octaves)
@@ -280,13 +281,13 @@ def numbers_of_growth(
     along = ("omega",)
     return {
         "maximum_growth": NamedNumber(
-            along, maximum, "relative growth of the mean l-infinity norm of an octave within two"
+            along, maximum, "relative growth, in two octaves of tau, of the octave mean of linf"
         ),
         "exponent": NamedNumber(
             along, with_offset, "exponent of tau in l2, with a free offset of l2^2"
         ),
         "plain_exponent": NamedNumber(along, exponents_without_law, "slope of log l2 over log tau"),
-        "slope_ratio": NamedNumber(along, law, "slope of l2^2 over that of its law"),
+        "slope_ratio": NamedNumber(along, law, "slope of l2^2 divided by the slope of its law"),
     }
 
 
@@ -309,7 +310,7 @@ def plain_exponents(run: xr.Dataset, octaves: int) -> Estimate:
 
 
 def growths_of_maximum(run: xr.Dataset) -> Estimate:
-    """Return the relative growth of the mean of l-infinity in the last octave from two before."""
+    """Return the relative growth of l-infinity's mean from (T/8, T/4] to (T/2, T], T the end."""
     tau = run["tau"]
     before = run["linf"].sel(tau=(tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)).mean("tau")
     growth = run["linf"].sel(tau=tau > tau[-1] / 2.0).mean("tau") / before - 1.0
@@ -317,7 +318,7 @@ def growths_of_maximum(run: xr.Dataset) -> Estimate:
 
 
 def exponent_of_case(runs: Mapping[float, xr.Dataset]) -> NamedNumber:
-    """Return the exponent of tau in l2 of a case."""
+    """Return the exponent of tau in l2 of the large case at Omega = -4."""
 
     def measure(run: xr.Dataset, octaves: int) -> Estimate:
         value, error = exponents(run, octaves)
