@@ -245,8 +245,5 @@ PEERS = {
         "numbalsoda DOP853, half chain", needs("numbalsoda", "numbalsoda"), prepare_numbalsoda
     ),
 }
-OF_PENDULA = {
-    "scipy_dop853": PEERS["scipy_dop853"],
-    "heyoka_half": HEYOKA,
-}
+OF_PENDULA = {"scipy_dop853": PEERS["scipy_dop853"], "heyoka_half": HEYOKA}
 """The peers that integrate Newton's equations."""

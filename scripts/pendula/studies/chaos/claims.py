@@ -44,9 +44,7 @@ BAND = Cutoff(1.0, '"no visible differences": smaller than the band over which r
 SEVERAL = Cutoff(3.0, '"other pendula": more than three')
 MANY = Cutoff(0.25, '"many pendula": a quarter of all')
 ANTICORRELATED = Cutoff(
-    -0.8,
-    '"mix up": not an exchange, in which |A|^2 and |B|^2 are anticorrelated',
-    -1.0,
+    -0.8, '"mix up": not an exchange, in which |A|^2 and |B|^2 are anticorrelated', -1.0
 )
 
 END = 50.0

@@ -22,7 +22,7 @@ from pendula.problem import PaperProblem, by_name
 
 NORMS = ("l2", "linf")
 READINGS = {"text": "max", "caption": "mean"}
-"""The statistic in the figures according to the text of the paper, and according to captions."""
+"""The statistic that the figures show, by the paper's text and by its captions."""
 MOMENTS = {
     "mean": "ensemble mean",
     "deviation": "standard deviation over the ensemble",
@@ -35,8 +35,8 @@ def draw_swept(
 ) -> list[PaperProblem]:
     """Return the members of a sweep, ordered by half-width.
 
-    Each half-width has its own draws. Equal data would move equally on all chains with ends that
-    the front does not reach, and the means on these chains would not be independent.
+    Each half-width has its own draws. With equal draws the motion would be the same on all chains
+    that are too long for the front, and their means would not be independent.
     """
     chains = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]

@@ -30,10 +30,7 @@ REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
     "norm_correlation": (("window",), "correlation in time of the squared l2 norms of A and B"),
-    "rms": (
-        ("window", "component", "site"),
-        "root mean square of an amplitude over the window",
-    ),
+    "rms": (("window", "component", "site"), "root mean square of an amplitude over the window"),
 }
 """Numbers of each member: dimensions after case and member, and long name."""
 ATTRIBUTES = {"norm_correlation": SCATTERED, "rms": missing("the chain has no such site")}
@@ -67,11 +64,7 @@ def relative_width(late: np.ndarray) -> float:
 
 
 def measure_members(
-    problems: dict[str, PaperProblem],
-    windows: list[Window],
-    size: float,
-    members: int,
-    seed: int,
+    problems: dict[str, PaperProblem], windows: list[Window], size: float, members: int, seed: int
 ) -> ManyRuns:
     """Return the runs of all members of each case, for the dataset of bands and of REDUCED.
 

@@ -45,10 +45,7 @@ VARIED = Literal["tolerance", "output_step", "size", "seed", "window", "level", 
 
 # The largest exponent of every case, over a time span.
 Lyapunov = section_of(
-    span=Window,
-    members=Annotated[Integer, Field(ge=2)],
-    spectrum=SpectrumSection,
-    **RANDOM,
+    span=Window, members=Annotated[Integer, Field(ge=2)], spectrum=SpectrumSection, **RANDOM
 )
 
 # Sweeps of ensembles: on chains of each half-width, `members` runs from slightly perturbed data.

@@ -30,7 +30,7 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
 
     The paper gives the order of the drift and the tolerances of the solver. It does not say whether
     the drift is absolute or relative to H(0), and whether the solver's unknowns are complex or
-    real. A case counts only if all these definitions agree on whether it keeps the order.
+    real. A case counts only if all these definitions agree on whether its drift is of the order.
     """
     if (end := float(solvers["tau"][-1])) < EARLIEST:
         raise UndecidableError(f"the runs end at tau = {end:g}, before {EARLIEST:g}")
@@ -38,17 +38,13 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
     for (unknowns, solver), reading in product(UNKNOWNS.items(), solvers["of"].values):
         read = solvers["largest_drift"].sel(solver=solver, of=reading)
         for case in (name for name in map(str, solvers["case"].values) if name.endswith(size)):
-            # the default of the figures, absolute with complex unknowns, is not in the names
+            # names omit the definitions of the figures: complex unknowns, absolute drift
             words = (word for word in (unknowns, reading) if word not in ("complex", "absolute"))
             name = "_".join([case, *words])
             measured[name] = float(read.sel(case=case))
             by_case.setdefault(case, []).append(measured[name] <= allowed)
-    beyond = [case for case, within_order in by_case.items() if not any(within_order)]
-    open_ = [
-        case
-        for case, within_order in by_case.items()
-        if any(within_order) and not all(within_order)
-    ]
+    beyond = [case for case, within in by_case.items() if not any(within)]
+    open_ = [case for case, within in by_case.items() if any(within) and not all(within)]
     each = "absolute or relative, with complex or real unknowns"
     words = [f"it is larger in {', '.join(beyond)} ({each})"] if beyond else []
     words += [f"the answer depends on the definition in {', '.join(open_)}"] if open_ else []

@@ -128,10 +128,8 @@ def compare_solvers(
 
 def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
     runs = {name: run for name, run in runs.items() if name != HALVED}
-    run, values = (
-        runs[FIRST],
-        np.array([drift(trajectory["energy"]) for trajectory in runs.values()]),
-    )
+    run = runs[FIRST]
+    values = np.array([drift(trajectory["energy"]) for trajectory in runs.values()])
     largest = values.max(axis=1)
     both = np.stack([largest, largest / abs(float(run["energy"][0]))], axis=1)
     return xr.Dataset(
@@ -148,16 +146,12 @@ def _second_solver_differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """Return the second solver's differences from the first, by its step, and its l2 norm."""
     differences = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
     run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
+    largest = [float(over_time.max()) for over_time in differences]
+    divergence = [float(divergence_time(over_time)) for over_time in differences]
     return xr.Dataset(
         {
-            "second_difference": (
-                "second_step",
-                [float(difference_in_time.max()) for difference_in_time in differences],
-            ),
-            "second_divergence": (
-                "second_step",
-                [float(divergence_time(difference_in_time)) for difference_in_time in differences],
-            ),
+            "second_difference": ("second_step", largest),
+            "second_divergence": ("second_step", divergence),
             "second_l2": ("tau", np.sqrt(total_power(run))),
         },
         {"tau": run["tau"], "second_step": steps},

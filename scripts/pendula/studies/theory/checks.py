@@ -1,4 +1,4 @@
-"""All checks, computed by one job: most of them take less time than to start a job."""
+"""All checks of the theory, in one job, because most of them take less time than its start."""
 
 from collections.abc import Iterator
 

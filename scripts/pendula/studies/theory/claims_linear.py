@@ -15,8 +15,7 @@ from .claims_model import by_algebra
 SECTION = 3
 
 RESOLVED = Cutoff(
-    0.15,
-    "bounded oscillations change a slope by up to 6 / tau in the second half of a run",
+    0.15, "bounded oscillations change a slope by up to 6 / tau in the second half of a run"
 )
 HALF = Cutoff(0.5, "instability means growth at half of the predicted rate or faster")
 RESOLVED_EXPONENT = Cutoff(0.05, "exponents are measured to one decimal")

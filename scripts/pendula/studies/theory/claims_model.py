@@ -126,7 +126,7 @@ def one_integral(lyapunov: xr.Dataset) -> Finding:
     level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(INTERVALS - 1, level) / student(INTERVALS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
-    # an exponent vanishes for sure if it lies within the mean spacing of exponents from zero
+    # count exponents with confidence intervals within one mean spacing of zero
     between = 2.0 * size.max("index") / size.sizes["index"]
     vanishing = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}

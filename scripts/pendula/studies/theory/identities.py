@@ -44,8 +44,8 @@ from .polynomials import (
 
 HALF = fmpq(1, 2)
 TURN = fmpq(3, 5), fmpq(4, 5)
-"""Cosine and sine of an irrational fraction of a turn: a symmetry under its multiples, which come
-close to any angle, is one under all angles."""
+"""Cosine and sine of an irrational fraction of a turn. Its multiples are dense, so that a symmetry
+under this angle is one under all angles."""
 
 # --- The paper's other forms of the equations, as it prints them ----------------------------------
 

@@ -24,7 +24,7 @@ TINY = 1e-5
 SQUARES = (20.0, 25.0, 40.0, 60.0)
 """Values of x^2 for A = -B = (-1)^n x at Omega = -4: 20, where H is least, and larger ones."""
 LONG, SIZES = 513, (11, 81)
-"""Numbers of sites: of the chain on which bounds are approached, and of two that are compared."""
+"""Sites of a chain on which data nearly attain the bounds, and of two chains that are compared."""
 
 
 def check_sharpness() -> dict:
@@ -38,9 +38,9 @@ def check_sharpness() -> dict:
 
     The paper prints no constants for bounds in terms of delta = P(0). The wave needs P <=
     `least_constant` delta. For small delta the inequalities of the proofs give P <=
-    `proof_constant` delta: the largest |H| at this delta over the least |H| at this P. They are H
-    <= (Omega + 2 gamma) delta for Theorem 1; |H| <= C delta and C delta / (|Omega| - 2 gamma - C_0
-    delta / 4) <= C_0 delta for Theorem 2.
+    `proof_constant` delta: the largest |H| at this delta over the least |H| at this P. These
+    inequalities are H <= (Omega + 2 gamma) delta for Theorem 1; for Theorem 2 |H| <= C delta and C
+    delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta.
     """
     above, below = constants_at(8.0), constants_at(-4.0)
     high, low = (TINY * edge_wave(constants.omega, LONG) for constants in (above, below))

@@ -116,10 +116,7 @@ def check_well_posed() -> dict:
     ratios, rates = zip(*(dependence(*cell) for cell in cells), strict=True)
     near = {"direction": DIRECTIONS, "perturbation_size": SIZES}
     distances = {
-        "distance_ratio": (
-            ratios,
-            "distance between two solutions, divided by its initial value",
-        ),
+        "distance_ratio": (ratios, "distance between two solutions, divided by its initial value"),
         "rate": (rates, "growth of the log of the distance, divided by (2 gamma + M^2 / 2) tau"),
     }
     data = table(

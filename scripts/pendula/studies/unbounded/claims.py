@@ -269,10 +269,7 @@ def unbounded_maximum(run: xr.Dataset) -> Finding:
     weight exp(-beta m^4 / 4), so the largest of N grows as the fourth root of ln N.
     """
     growth = mean_limits(late_growths(run, "linf"), SURE.value)
-    measured = {
-        "growth": growth.value,
-        "growth_at_most": growth.high,
-    }
+    measured = {"growth": growth.value, "growth_at_most": growth.high}
     label = "upper confidence limit of the relative growth of the octave mean within two octaves"
     caveat = (
         f"shown up to tau = {times_of(run)[-1]:.0f}; this does not exclude a growth as the fourth "

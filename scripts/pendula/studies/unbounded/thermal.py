@@ -24,6 +24,9 @@ from .bulk import POWER
 HOT, COLD = 1e-3, 1e5
 """beta at the highest and at the lowest temperature of the search."""
 
+Grid = tuple[np.ndarray, ...]
+"""The nodes of each coordinate."""
+
 HALVINGS, SECANTS = 7, 12
 """Bisections to a rough beta on the coarsest grid, and the most secant steps on each grid."""
 
@@ -76,11 +79,7 @@ def state_of_energy(
 
 
 def _excess(
-    constants: Constants,
-    beta: float,
-    grid: tuple[np.ndarray, ...],
-    energy: float,
-    vector: np.ndarray | None = None,
+    constants: Constants, beta: float, grid: Grid, energy: float, vector: np.ndarray | None = None
 ) -> tuple[float, transfer.Operator, np.ndarray]:
     """Return beta (energy - energy at beta), which rises with beta; operator and vector."""
     operator = transfer.make_operator(constants, beta, grid)
@@ -90,7 +89,7 @@ def _excess(
 
 
 def _refined(
-    constants: Constants, beta: float, grid: tuple[np.ndarray, ...], energy: float
+    constants: Constants, beta: float, grid: Grid, energy: float
 ) -> tuple[float, transfer.Operator, np.ndarray]:
     """Return the beta at which the excess vanishes, by secants in log beta; operator and vector."""
     old, (excess, operator, vector) = beta, _excess(constants, beta, grid, energy)
