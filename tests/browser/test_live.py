@@ -243,14 +243,14 @@ def test_a_slider_is_answered_while_a_long_run_is_solved(live):
 
 @pytest.mark.parametrize(("slowed", "least"), [(1, 30), (6, 5)])
 def test_a_long_chain_plays_without_solving_it_again(live, slowed, least):
-    """Frames per second at M = 100 near tau = 90, by the browser's clock; a busy machine may halve
-    them."""
+    """Frames per second at M = 100 around tau = 90, by the browser's clock; a busy machine may
+    halve them, and -s prints them."""
     change(live, half_width=100, end_time=100, omega=0, a_re=1, b_re=0.1)
     live.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": slowed})
     try:
         frames = live.execute_async_script("""
         const [done] = arguments;
-        moveTo(85);
+        moveTo(88.5);
         let frames = 0;
         const [draw, start] = [drawPendula, performance.now()];
         drawPendula = () => { frames += 1; draw(); };
@@ -262,6 +262,7 @@ def test_a_long_chain_plays_without_solving_it_again(live, slowed, least):
         """)
     finally:
         live.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": 1})
+    print(f"{frames:.1f} frames per second on a processor {slowed} times slower")
     assert frames > least / 2
 
 

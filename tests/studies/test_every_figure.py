@@ -206,7 +206,7 @@ def smallest(figure) -> tuple[float, float]:
 
 def test_letters_are_legible_in_print_and_everything_is_on_the_page(plot):
     letters, indices = smallest(plot.figure)
-    assert letters >= 7 and indices >= (5 if plot.name in USER_FIGURES else 7)
+    assert letters >= 7 and indices >= 7
     assert min(margins(plot.figure)) >= 0
 
 

@@ -95,7 +95,7 @@ def _draw_fields(
         else:
             image = axes.pcolormesh(times, sites, field, shading="nearest", **look)
         symbol = style.symbol(field["component"].item(), "n")
-        axes.set_title(title.format(field=symbol, name=name), loc="left")
+        style.set_title(axes, title.format(field=symbol, name=name).removesuffix(",  "))
     return image
 
 
@@ -136,7 +136,7 @@ def draw_sweep(axes: Axes, panel: xr.Dataset, fields: str) -> None:
     bars have one. `fields` says on the axis what the norms are of.
     """
     norms = [name for name in reversed(NORMS) if name in panel]
-    label = f"mean ± standard deviation of {int(panel.get('members', 0))} runs"
+    label = f"mean ± SD of {int(panel.get('members', 0))} runs"
     for name in norms:
         for reading in panel["reading"].values:
             statistic = panel.sel(reading=reading)

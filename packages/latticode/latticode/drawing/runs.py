@@ -28,8 +28,8 @@ COLOURS = ("red", "blue")
 """Of the first two fields, as captions name them."""
 RUNS = [Strip("", ""), Strip("second_", "second run, by another method")]
 DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
-LONGEST = 46
-"""A formula with more characters leaves no room for the rest of a title."""
+LONGEST, LONGEST_FIELDS = 46, 12
+"""A formula with more characters leaves no room for the rest of a title, or of an axis' label."""
 NORMS_CAPTION = (
     "Norms of {fields} against τ: ℓ∞ on the left and ℓ² on the right. If a run by another method "
     "differs visibly, a dashed line marks the time, and the other run is shown below."
@@ -117,8 +117,8 @@ def draw_norms(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
     """
     has_strip = strips.diverges(data)
     figure, (grid,) = strips.draw_cases([data], [RUNS if has_strip else [Strip("", "")]])
-    grid[0, 0].set_title(name_parameters(data.attrs, naming), loc="left")
-    grid[0, 1].set_title(name_data_and_ends(data, naming), loc="left")
+    style.set_title(grid[0, 0], name_parameters(data.attrs, naming))
+    style.set_title(grid[0, 1], name_data_and_ends(data, naming))
     strips.name_legend(figure, data["component"].values, DIVERGED if has_strip else "")
     return figure
 
@@ -171,7 +171,7 @@ def draw_breather(data: xr.Dataset) -> Figure:
         left.plot(data["site"], data["breather"].sel(component=component), **look)
     left.set(xlabel="site $n$", ylabel="modulus", ylim=(0, None))
     left.xaxis.get_major_locator().set_params(integer=True)
-    left.set_title(name_parameters(data.attrs), loc="left")
+    style.set_title(left, name_parameters(data.attrs))
     turns = float(data["breather_frequency"]) != 0.0
     quantity = "multipliers" if turns else "exponents"
     points = data[f"breather_{quantity}"].values
@@ -207,12 +207,14 @@ def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
     row = figure.subplots(1, 2, sharex=True)
     fields = [style.symbol(field) for field in data.attrs["fields"].split(", ")]
     label = f"$({', '.join(fields)})$" if len(fields) > 1 else f"${fields[0]}$"
+    if style.count_letters(label) > LONGEST_FIELDS:
+        label = "all fields"
     for axes, name in zip(row, NORMS, strict=True):
         panel = data.isel(panel=0).drop_vars([norm for norm in NORMS if norm != name])
         panels.draw_sweep(axes, panel, label)
     _mark_widths(row[0], data["half_width"].values)
-    row[0].set_title(name_parameters(data.attrs, naming), loc="left")
-    row[1].set_title(name_data_and_ends(data, naming), loc="left")
+    style.set_title(row[0], name_parameters(data.attrs, naming))
+    style.set_title(row[1], name_data_and_ends(data, naming))
     style.name_legend(figure, *row)
     return figure
 

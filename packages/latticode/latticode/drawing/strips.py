@@ -123,4 +123,8 @@ def name_legend(
     if mark:
         lines.append(Line2D([], [], **DIVERGED | {"lw": 1.0}))
         labels.append(mark)
-    style.legend_above(figure, lines, labels, ncols=len(lines))
+    size = style.size_of(*labels)
+    columns = style.count_columns(figure, labels, len(labels), size)
+    more_rows = -(-len(labels) // columns) - 1
+    figure.set_figheight(figure.get_figheight() + more_rows * 1.6 * size / 72)
+    style.legend_above(figure, lines, labels, ncols=columns, fontsize=size)

@@ -1,10 +1,11 @@
 """One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
 
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from textwrap import fill
+from textwrap import fill, wrap
 
 import matplotlib
 import numpy as np
@@ -38,8 +39,13 @@ WIDTH = 16.4 / 2.54
 NOTE = 110
 """The width of a note below the panels, in letters."""
 
-WITH_INDICES = 10
-"""The size in points of text with indices and powers: mathtext draws these at 0.7 of it."""
+WITHOUT_INDICES, WITH_INDICES = 8, 10
+"""Sizes of text in points. Mathtext draws indices and powers at 0.7 of the size."""
+INDEX = re.compile(r"\$[^$]*[_^]")
+LETTER, HANDLE = 0.5, 4.8
+"""Mean width of a letter, and width of a legend's line with the space around it, by the size."""
+MARGIN = 0.55
+"""Inches between two panels, for the ticks and labels of the right one."""
 
 ON_COLOURS = {
     "color": "white", "lw": 1.0, "ls": (0, (3, 1.5)),
@@ -66,13 +72,13 @@ def colour_of(field: int) -> str:
 def symbol(name: str, site: str = "") -> str:
     """Return the name of a field in TeX, to stand between dollars, and as an index its site.
 
-    What follows an underscore is an index too. A name that is no formula stands as it is.
+    What follows an underscore is an index too. A long name, or no formula, stands as it is.
 
     >>> symbol("u"), symbol("u", "n"), symbol("psi_1", "n"), symbol("u__1", "n")
     ('u', 'u_n', 'psi_{1,n}', '\\\\text{u__1}_n')
     """
     stem, *indices = pieces = name.split("_")
-    if not all(
+    if len(name) > LONGEST_SYMBOL or not all(
         piece_of_name.isalnum() and max(piece_of_name) <= LAST_IN_MATHTEXT
         for piece_of_name in pieces
     ):
@@ -87,13 +93,15 @@ def plain_text(text: str) -> str:
     return text.replace("$", r"\$")
 
 
+LONGEST_SYMBOL = 12
+"""Letters in the name of a field that is printed as a symbol with indices."""
 LAST_IN_MATHTEXT = "\U0001ffff"
 """Mathtext takes no letter beyond this one."""
 
 # the library's own defaults first: a reader's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
     "font.family": "DejaVu Sans",
-    "font.size": 8,
+    "font.size": WITHOUT_INDICES,
     "axes.titlesize": "medium",
     "axes.labelsize": WITH_INDICES,
     "legend.fontsize": "medium",
@@ -141,6 +149,54 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+def size_of(*texts: str) -> int:
+    """Return the size in points at which the indices of texts, if any, have seven points."""
+    return WITH_INDICES if any(map(INDEX.search, texts)) else WITHOUT_INDICES
+
+
+def count_letters(text: str) -> int:
+    """Return about how many letters wide a text with formulas is."""
+    symbols = re.sub(r"\\[a-zA-Z]+", "x", text.replace(r"\text", ""))
+    return len(re.sub(r"[${}_^\\]", "", symbols))
+
+
+def letters_above(axes: Axes, size: float) -> int:
+    """Return about how many letters of a size in points fit above or below a panel."""
+    columns = axes.get_subplotspec().get_gridspec().ncols
+    return int(72 * (axes.figure.get_figwidth() / columns - MARGIN) / (LETTER * size))
+
+
+def set_title(axes: Axes, title: str) -> None:
+    """Put a title above a panel, at the left; a new line may begin after a comma with two blanks.
+
+    A part that is no formula begins new lines wherever it has to. The figure grows by these lines.
+    """
+    size = size_of(title)
+    room, lines = letters_above(axes, size), []
+    for part in title.split(",  "):
+        if lines and count_letters(f"{lines[-1]},  {part}") <= room:
+            lines[-1] += f",  {part}"
+            continue
+        if lines:
+            lines[-1] += ","
+        lines += [part] if "$" in part else wrap(part, room)
+    highest = max(other.get_title(loc="left").count("\n") for other in axes.figure.axes)
+    more = max(0, len(lines) - 1 - highest)
+    axes.figure.set_figheight(axes.figure.get_figheight() + more * 1.2 * size / 72)
+    axes.set_title("\n".join(lines), loc="left", fontsize=size)
+
+
+def count_columns(figure: Figure, labels: Sequence[str], most: int, size: float) -> int:
+    """Return how many columns of a legend with these labels fit above the panels."""
+    widths = [size * (LETTER * count_letters(label) + HANDLE) for label in labels]
+    for columns in range(min(most, len(labels)), 1, -1):
+        rows = -(-len(labels) // columns)
+        starts = range(0, len(labels), rows)
+        if sum(max(widths[i : i + rows]) for i in starts) <= 72 * figure.get_figwidth():
+            return -(-len(labels) // rows)
+    return 1
+
+
 def name_legend(
     figure: Figure, *panels: Axes, columns: int = 7, fontsize: float | None = None
 ) -> None:
@@ -154,11 +210,10 @@ def name_legend(
             named.setdefault(label, handle)
     if not named:
         return
-    rows = -(-len(named) // columns)
-    look = {"loc": "outside upper center", "ncols": -(-len(named) // rows)}
-    legend = figure.legend(
-        named.values(), named.keys(), columnspacing=1.2, fontsize=fontsize, **look
-    )
+    size = fontsize or size_of(*named)
+    look = {"loc": "outside upper center", "fontsize": size, "columnspacing": 1.2}
+    look["ncols"] = count_columns(figure, [*named], columns, size)
+    legend = figure.legend(named.values(), named.keys(), **look)
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
 

@@ -13,6 +13,8 @@ from latticode.measures.confidence import mean_limits
 from . import style
 
 MOST_PANELS = 4
+IN_HEIGHT = 28
+"""So many letters fit beside a panel."""
 WORDS = {
     "line": "against {x}",
     "map": "over {x} and {y}",
@@ -72,7 +74,7 @@ def _draw_lines(axes: Axes, kept_number: xr.DataArray) -> None:
             axes.errorbar(x, middle, [middle - low, high - middle], label=_label(field), **look)
         else:
             axes.plot(x, field.values, label=_label(field), **look)
-    axes.set_xlabel(str(kept_number[along].attrs.get("long_name", along)))
+    _name_x(axes, kept_number[along])
     axes.set_ylabel(_words(kept_number))
     if "component" in kept_number.dims and kept_number.sizes["component"] > 1:
         axes.legend()
@@ -87,9 +89,9 @@ def _draw_maps(figure: Figure, row: np.ndarray, number: xr.DataArray) -> None:
         x, y = values.dims[:2]
         places = [_places(values[name].values) for name in (x, y)]
         image = axes.pcolormesh(*places, values.values.T, shading="nearest", cmap="viridis")
-        axes.set_xlabel(str(values[x].attrs.get("long_name", x)))
-        axes.set_ylabel(str(values[y].attrs.get("long_name", y)))
-        axes.set_title(_label(field))
+        _name_x(axes, values[x])
+        axes.set_ylabel(fill(str(values[y].attrs.get("long_name", y)), IN_HEIGHT))
+        axes.set_title(fill(_label(field), style.letters_above(axes, style.WITHOUT_INDICES)))
         figure.colorbar(image, ax=axes, label=_words(number))
 
 
@@ -101,7 +103,12 @@ def _fields_of(number: xr.DataArray) -> list[xr.DataArray]:
 
 def _words(number: xr.DataArray) -> str:
     words = str(number.attrs["long_name"]).replace("l-infinity", "ℓ∞").replace("l2", "ℓ²")
-    return fill(words, 28)
+    return fill(words, IN_HEIGHT)
+
+
+def _name_x(axes: Axes, values: xr.DataArray) -> None:
+    room = style.letters_above(axes, style.WITH_INDICES)
+    axes.set_xlabel(fill(str(values.attrs.get("long_name", values.name)), room))
 
 
 def _label(field: xr.DataArray) -> str:

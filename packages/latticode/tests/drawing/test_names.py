@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from latticode import Case, Model, check, lap, notebook, simulate, survey, sweep
 from latticode.drawing import style
 from matplotlib.mathtext import MathTextParser
+from matplotlib.text import Text
 
 
 def is_name(text):
@@ -70,6 +71,20 @@ def test_no_formula_begins_in_the_name_of_a_file(file):
 def test_all_figures_are_drawn_of_any_names(fields, parameter, file):
     for figure in figures_of(fields, parameter, file):
         figure.draw_without_rendering()
+
+
+LONG = (["displacement_of_the_left_chain", "psi_2"], "strength_of_the_coupling_of_rows", 9 * "abc_")
+
+
+@pytest.mark.parametrize("names", [LONG, (["psi_1", "psi_2"], "kappa", "short.py")])
+def test_all_text_is_inside_its_figure_and_indices_have_seven_points(names):
+    for figure in figures_of(*names):
+        figure.draw_without_rendering()
+        page, needed = figure.bbox_inches, figure.get_tightbbox()
+        assert page.x0 <= needed.x0 and needed.x1 <= page.x1
+        for text in figure.findobj(Text):
+            has_index = style.INDEX.search(text.get_text())
+            assert text.get_fontsize() >= (style.WITH_INDICES if has_index else 7)
 
 
 def test_what_follows_an_underscore_is_an_index():

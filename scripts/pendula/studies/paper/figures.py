@@ -207,7 +207,7 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
         panels.draw_sweep(axes, data.sel(panel=name), "$(A, B)$")
         name_above = name_case(data.sel(panel=name))
         axes.set_title(name_above, loc="left", fontsize=style.WITH_INDICES)
-    style.name_legend(figure, *row, columns=2, fontsize=style.WITH_INDICES)
+    style.name_legend(figure, *row, columns=3)
     return figure
 
 

@@ -17,10 +17,10 @@ from pendula.drawing import name_initial
 HEAT = "YlOrRd"  # light for slow growth, so that the thresholds are seen
 CHART = ["measured", "infinite_curve", "finite_curve", "sites"]
 CURVES = {
-    "finite_curve": {"color": style.BLUE, "lw": 1.1, "label": "threshold of the finite chain"},
+    "finite_curve": {"color": "#4f86e8", "lw": 2.0, "label": "threshold of the finite chain"},
     "infinite_curve": {
         "color": "black",
-        "lw": 1.4,
+        "lw": 0.9,
         "dashes": (4, 2),
         "label": "threshold of the infinite chain",
     },
