@@ -7,9 +7,9 @@ names are listed in `pendula.__all__` and explained in `help(pendula.notebook)`.
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from . import sources  # noqa: F401, so that hashes of code follow the imports of this package
+from . import sources  # noqa: F401, registers the folders whose code is hashed
 
-if TYPE_CHECKING:  # what type checkers and editors read; a test compares it with _HOMES
+if TYPE_CHECKING:  # for type checkers and editors; a test compares it with _HOMES
     from latticode.configuration.files import ConfigurationError as ConfigurationError
     from latticode.datasets import DatasetError as DatasetError
     from latticode.datasets.netcdf import save as save
@@ -47,8 +47,8 @@ _HOMES = {
     "latticode.simulation.simulate": "IntegrationError",
     "pendula.notebook": _NOTEBOOK,
 }
-"""The public names by their module. A module is imported when one of its names is first used,
-because a job would else wait for modules that it does not need."""
+"""The public names by their module. A module is imported when one of its names is first used, so
+that jobs do not wait for modules that they do not need."""
 
 __all__ = sorted(name for names in _HOMES.values() for name in names.split())
 

@@ -1,4 +1,4 @@
-"""A case of the paper as text for pages: its detuning and its initial conditions."""
+"""Text that describes a case of the paper on pages: its detuning and its initial data."""
 
 import xarray as xr
 from latticode.equations.initial_values import read_initial
@@ -13,7 +13,7 @@ def case_of(dataset: xr.Dataset) -> str:
 
 
 def case_in_words(omega: float, initial: str) -> str:
-    """Return the detuning and the initial conditions of a case as text."""
+    """Return the detuning and the initial data of a case as text."""
     sites = read_initial(initial)
     if len(sites) != 1:
         return f"Ω = {number(omega)}, data on {len(sites)} sites"

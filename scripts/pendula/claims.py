@@ -1,13 +1,13 @@
 """Cut-offs, names of datasets and helpers that the claims of several studies share.
 
-Runs with relative perturbations of 1e-6 cannot show that one of 1e-2 would end the motion. The
-study of breathers measures the share of runs that spread, by the size of the perturbation. A claim
-on perturbed runs holds only if most runs with perturbations of that size spread, and it has a
-caveat if most runs with some larger perturbation do not.
+Runs with relative perturbations of 1e-6 do not show the effect of perturbations of 1e-2. The study
+of breathers measures the share of runs that spread for each size of the perturbation. A claim on
+perturbed runs holds only if most runs with perturbations of its size spread. It gets a caveat if
+most runs with some larger perturbation do not.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -23,8 +23,8 @@ from replication.ledger.criterion import (
 )
 from replication.ledger.cutoff import Cutoff
 
-# ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
-# that none is fitted to the numbers of one row.
+# ASSUME: one number for each of the paper's words for sizes. All claims share it, so that it is not
+# fitted to the data of one claim.
 FACTOR = Cutoff(2.0, '"comparable", "the same level", "mix up", "grows": a factor of 2')
 MUCH = Cutoff(3.0, '"large", "significantly larger": a factor of 3')
 CHANGE = Cutoff(0.25, '"do not change much", "saturates": by less than a quarter')
@@ -32,9 +32,9 @@ CONSTANT = Cutoff(0.02, '"does not change": by less than 2 %, which a figure of 
 NEARLY_ALL = Cutoff(0.75, '"nearly monotonic": three of four steps go up', 1.0)
 
 SETTLED = 10.0
-"""The paper takes its statistics from here on: its time windows start at tau = 10."""
+"""The tau from which the paper takes its statistics: its time windows start here."""
 FEWEST = 6
-"""A sweep with fewer half-widths decides nothing."""
+"""The smallest number of half-widths with which a sweep decides a claim."""
 
 
 def _in(folder: str) -> Callable[..., tuple[str, ...]]:
@@ -63,7 +63,7 @@ def swept(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the half-widths of a sweep and a statistic of a norm at each.
 
-    Raises UndecidableError if the sweep has not the window, or fewer than FEWEST half-widths.
+    Raises UndecidableError if the sweep lacks the window or has fewer than FEWEST half-widths.
     """
     if window not in sweep["window"].values:
         raise UndecidableError(f"the sweep has no window {window}")
@@ -73,13 +73,13 @@ def swept(
     return sweep["half_width"].values, values
 
 
-def at_one_omega(one, other) -> None:
-    """Raise an error unless two runs or sweeps are at one Omega, as a comparison of them is."""
-    if one.attrs["omega"] != other.attrs["omega"]:
-        raise UndecidableError("these data are at two values of Omega")
+def at_one_omega(first: xr.Dataset, second: xr.Dataset) -> None:
+    """Raise UndecidableError if two runs or sweeps differ in Omega and cannot be compared."""
+    if first.attrs["omega"] != second.attrs["omega"]:
+        raise UndecidableError("the compared datasets have different values of Omega")
 
 
-def number(check, name: str, **selection) -> float:
+def number(check: xr.Dataset, name: str, **selection: Any) -> float:
     """Return one number of a check's dataset."""
     return float(check[name].sel(selection).values)
 
@@ -103,21 +103,22 @@ class PerturbedShare(NamedTuple):
         return judge(measured | self.measured, every, "; ".join(caveats))
 
 
-def almost_equal(sensitivity, within: float) -> PerturbedShare:
-    """Return the share of runs that spread with relative perturbations up to `within`.
+def almost_equal(sensitivity: xr.Dataset, within: float) -> PerturbedShare:
+    """Return the smallest share of runs that spread, over relative perturbations up to `within`.
 
-    If no perturbation was that small, the smallest one is used.
+    If all perturbations are larger than `within`, only the smallest one counts.
     """
     sizes = sensitivity["size"].values
     share, high = (sensitivity[name].values for name in ("share", "share_high"))
     near = sizes <= max(within * 1.001, sizes.min())
     least, caveat = float(share[near].min()), ""
-    lost = [high < MAJORITY.value, share <= MAJORITY.value]  # surely, or as far as is known
-    if found := [np.flatnonzero(one & ~near)[0] for one in lost if (one & ~near).any()]:
+    # preferably where the whole confidence interval lies below one half
+    below = [~near & (high < MAJORITY.value), ~near & (share <= MAJORITY.value)]
+    if firsts := [np.flatnonzero(sizes_below)[0] for sizes_below in below if sizes_below.any()]:
         caveat = (
             "only near the printed amplitudes: the share of runs that spread is"
             f" {least:.0%} for perturbations up to {sizes[near].max():g}, but"
-            f" {share[found[0]]:.0%} for {sizes[found[0]]:g}"
+            f" {share[firsts[0]]:.0%} for {sizes[firsts[0]]:g}"
         )
     label = "least share of equally perturbed runs that spread"
     return PerturbedShare(
@@ -129,4 +130,4 @@ FAR_AS_NEAR = ClaimControl(
     "the shares that spread, with the sizes of the perturbation in reverse order",
     {SENSITIVITY: exchange("size", names=("share", "share_low", "share_high"))},
 )
-"""A wrong case for every claim that rests on `almost_equal`."""
+"""The control of every claim that uses `almost_equal`."""

@@ -16,7 +16,7 @@ def draw_cases(
 ) -> Figure:
     """Return a figure with a panel for each case, drawn by `draw_panel`, and one legend above.
 
-    Each figure of the paper has a column, with its small initial data in the upper row.
+    A column is a figure of the paper, with the small initial data in the upper row.
     """
     figure, count = style.new_figure(style.WIDTH, 3.2), data.sizes["case"]
     grid = figure.subplots(min(count, 2), -(-count // 2), sharex=True, sharey=True, squeeze=False)
@@ -44,5 +44,5 @@ def name_case(case: xr.Dataset) -> str:
 
 
 def name_initial(initial: str) -> str:
-    """Return initial data as titles show them, from a dataset's text "{site: [A, B]}"."""
+    """Return the title's text for initial data, which a dataset holds as "{site: [A, B]}"."""
     return runs.name_initial(initial, ("A", "B"))

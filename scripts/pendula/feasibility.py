@@ -1,4 +1,4 @@
-"""Limits on problems of the paper's equations that a solver can integrate."""
+"""Whether a solver can integrate a problem of the paper's equations."""
 
 from collections.abc import Mapping
 
@@ -12,9 +12,9 @@ from pendula.models.equations import Constants
 def find_fault(
     constants: Constants, peak: float, span: float, solver: Mapping, mu: float | None = None
 ) -> Obstacle | None:
-    """Return the key because of which no solver can integrate a problem, or None.
+    """Return the key that prevents the integration of a problem and the reason, or None.
 
-    The amplitudes start at up to `peak`, and the problem lasts `span` in tau; `mu` is for pendula.
+    `peak` bounds the initial amplitudes, `span` is the duration in tau, and only pendula have `mu`.
     """
     clock = 1.0 if mu is None else clock_of(mu)
     rates = rates_of(constants, peak, mu)
@@ -22,15 +22,15 @@ def find_fault(
 
 
 def clock_of(mu: float) -> float:
-    """Return the units of t in one of tau, 2 / mu^2."""
+    """Return dt/dtau = 2 / mu^2."""
     return 2.0 / (mu * mu) if mu * mu > 0.0 else np.inf
 
 
 def rates_of(constants: Constants, peak: float, mu: float | None = None) -> dict[str, float]:
-    """Return bounds on the relative rates at which data up to `peak` turn or grow, by key.
+    """Return bounds on relative rates of change per unit of tau, by the key that causes them.
 
-    They are per unit of tau. Pendula of (1) swing at the rate 1 per unit of t; over the top they
-    turn at a rate of the size of their velocity.
+    The amplitudes are at most `peak`. Pendula of (1) swing at the rate 1 per unit of t; over the
+    top they rotate at about their velocity.
     """
     if mu is not None:
         couplings = {"epsilon": 8.0 * abs(constants.epsilon), "gamma": 8.0 * abs(constants.gamma)}
@@ -45,5 +45,5 @@ def rates_of(constants: Constants, peak: float, mu: float | None = None) -> dict
 
 
 def rate(constants: Constants, peak: float, mu: float | None = None) -> float:
-    """Return a bound on the relative rate, per unit of tau, at which data up to `peak` change."""
+    """Return a bound on the relative rate of change of amplitudes up to `peak`, per unit of tau."""
     return sum(rates_of(constants, peak, mu).values())

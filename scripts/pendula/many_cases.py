@@ -14,10 +14,10 @@ COMPONENTS = Variable(("component",), ["A", "B"])
 
 
 def describe_cases(problems: Mapping[str, PaperProblem]) -> Contents:
-    """Return names, detunings and initial data of several cases as variables, and attributes.
+    """Return variables and attributes that describe several cases.
 
-    The attributes hold each value that is the same in all cases, under the names that a dataset of
-    a single case has. Constants that differ are variables too.
+    The variables are names, detunings, initial data, and the constants in which the cases differ.
+    The attributes are the values that all cases share, named as in the dataset of a single case.
     """
     each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
     variables = {

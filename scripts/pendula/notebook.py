@@ -2,7 +2,7 @@
 
 Everything is dimensionless, as in the paper (Phys. Lett. A 381 (2017) 3884, arXiv 1708.06134):
 time is tau = mu^2 t / 2 of its expansion (3), amplitudes are A_n and B_n of its equations (4).
-Datasets have the variables of the workflow's, and are computed by the same code. The components of
+Datasets have the workflow's variables, and are computed by the same code. The components of
 amplitudes are "A" and "B", and a run has the energy H of equation (8). The components of pendula
 are "x" and "y" in rad, with the parts "angle" and "velocity", without energy. Figures are
 matplotlib's.
@@ -68,14 +68,15 @@ class Case(cases.PaperCaseSection):
         function of the sites, a run or a file: see `latticode.Case`.
     start_time: in tau. 0, or the end of the run in `initial`.
     end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
-    snapshot_step: in tau; how often moduli on all sites are kept. Left out, 200 times or more.
-    times: in place of it, a list of the times at which they are kept.
-    keep: "moduli", "state" (beside them both parts of each amplitude, in double precision) or
+    snapshot_step: in tau, between snapshots of the moduli on all sites. By default there are at
+        least 200 snapshots.
+    times: the times of the snapshots, instead of snapshot_step.
+    keep: "moduli", "state" (moduli, and both parts of each amplitude in double precision) or
         "norms" (no snapshots).
     solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre" or "auto",
-        or a dict with the controls. The pendula have "kahan_li", and no energy-conserving schemes.
-    model: "amplitudes", or "pendula", which need the small parameter mu; or a `latticode.Model` or
-        the path of its file, and then `parameters` in place of the constants.
+        or a dict with the controls. Pendula have "kahan_li", but no energy-conserving schemes.
+    model: "amplitudes"; "pendula", which also requires the small parameter mu; or a
+        `latticode.Model` or the path of its file, with `parameters` instead of the constants.
 
     Raises ConfigurationError, whose message lists every invalid key.
 
@@ -103,7 +104,7 @@ class Case(cases.PaperCaseSection):
         """
         known = self.model_dump()
         if end_of_run(keys.get("initial")) is not None:
-            del known["start_time"]  # that of the run
+            del known["start_time"]  # the run sets it
         return Case(**{**known, **keys})
 
 
@@ -111,10 +112,10 @@ show_keys(Case, ("omega", "epsilon", "gamma", "initial"))
 
 
 def check(case: library_cases.CaseSection, run: xr.Dataset | None = None) -> xr.Dataset:
-    """Return how a run compares with the paper's theorems, and until when it can be trusted.
+    """Compare a run with the paper's theorems, and find until when it can be trusted.
 
     `run` is the result of `simulate(case)`; without it the case is integrated here. The
-    xarray.Dataset has numbers with a long_name and units each; pendula.own_cases.checks describes
+    returned dataset has numbers, each with long_name and units; pendula.own_cases.checks describes
     how they are computed.
 
     >>> checks = check(Case(omega=8, end_time=10))
@@ -129,8 +130,8 @@ def check(case: library_cases.CaseSection, run: xr.Dataset | None = None) -> xr.
 def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
     """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
 
-    With `checks`, the result of `pendula.check`, the run by a second solver is drawn below it in
-    pale colours, and a mark shows the divergence time.
+    With `checks`, the result of `pendula.check`, pale curves show the run by a second solver, and a
+    mark shows the divergence time.
 
     >>> from pendula import Case, simulate
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)

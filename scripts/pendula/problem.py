@@ -1,7 +1,7 @@
 """Problems of the paper's equations: (4) of the amplitudes, and Newton's (1) of the pendula.
 
-Their plain values have the keys of a case in the configuration: omega, epsilon and gamma, and for
-pendula also `model` and `mu`.
+The plain values of a problem have the keys of a case in the configuration: omega, epsilon and
+gamma, and for pendula also `model` and `mu`.
 """
 
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from latticode.simulation.equations import Equations
 
 BOUNDARIES = ("dirichlet", "free", "periodic")
-"""The ends for which the paper's equations have an energy, bounds and proofs."""
+"""The boundary conditions for which the paper's equations have an energy, bounds and proofs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -38,7 +38,7 @@ class PaperProblem(problem.Problem):
     `model` may be a name, "amplitudes" or "pendula". Initial data and times are those of (4) for
     both: pendula start from the angles and velocities of (3) at A and B, and time is tau.
 
-    Raises ValueError as its base does, and if no model has the name, or mu is missing.
+    Raises ValueError as its base class does, and for an unknown model or a missing or invalid mu.
     """
 
     model: Model | str = AMPLITUDES
@@ -50,13 +50,13 @@ class PaperProblem(problem.Problem):
         if self.model.name in MODELS:
             self._require_mu()
             if kind_of(self.boundary) == ANTIPERIODIC:
-                text = f"the paper's equations take {', '.join(BOUNDARIES)}"
-                raise ValueError(f"{self.boundary}: {text}; give a model of your own")
+                text = f"the boundary of the paper's equations is one of {', '.join(BOUNDARIES)}"
+                raise ValueError(f"{text}, not {self.boundary}; or give a model of your own")
 
     def _require_mu(self) -> None:
         mu, omega = self.mu, self.constants.omega
         if self.model.name == PENDULA and not (mu is not None and 0.0 < mu < np.inf):
-            raise ValueError(f"the pendula need a positive mu, not {mu}")
+            raise ValueError(f"the pendula require a positive mu, not {mu}")
         if self.model.name == PENDULA and not 1.0 + mu * mu * omega > 0.0:
             raise ValueError(f"1 + mu^2 Omega must be positive: mu is {mu:g}, Omega {omega:g}")
 
@@ -73,7 +73,7 @@ class PaperProblem(problem.Problem):
         return super().of({**plain_values, "model": model, "parameters": parameters})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values; without the key `model` they are of (4)."""
+        """Return the problem as plain values; those of (4) have no key `model`."""
         values = super().plain()
         if self.model.name in MODELS:
             values |= {"model": self.model.name} | values.pop("parameters")
@@ -81,7 +81,7 @@ class PaperProblem(problem.Problem):
                 del values["model"]
         return values
 
-    def changed(self, **changes) -> Self:
+    def changed(self, **changes: Any) -> Self:
         """Return the problem with some values changed; `constants` changes all three."""
         if "constants" in changes:
             changes["parameters"] = vars(changes.pop("constants"))
@@ -91,8 +91,8 @@ class PaperProblem(problem.Problem):
 
     @cached_property
     def equations(self) -> "Equations":
-        """The integration of the problem: compiled by hand for (4) and (1), else from the trace."""
-        # imported here: the configuration makes problems without kernels, which are slow to import
+        """How the problem is integrated: (4) and (1) have own classes, other models are traced."""
+        # here: kernels are slow to import, and the configuration does not need them
         from pendula.models.integrations import AmplitudeEquations, PendulumEquations
 
         if self.model is AMPLITUDE_MODEL:
@@ -112,10 +112,10 @@ class PaperProblem(problem.Problem):
 
 def _model_of(name: str) -> Model:
     if name not in MODEL_NAMED:
-        raise ValueError(f"there is no model {name!r}; there are {', '.join(MODEL_NAMED)}")
+        raise ValueError(f"unknown model {name!r}; the models are {', '.join(MODEL_NAMED)}")
     return MODEL_NAMED[name]
 
 
 def by_name(problems: Mapping[str, Mapping]) -> dict[str, PaperProblem]:
-    """Return the problems of mappings of plain values, by name."""
+    """Return the problems that plain values describe, by name."""
     return {name: PaperProblem.of(values) for name, values in problems.items()}

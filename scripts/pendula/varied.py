@@ -1,4 +1,4 @@
-"""Numbers beyond the paper, measured again with each of their choices changed.
+"""Numbers that are not in the paper, measured again with each of their choices changed.
 
 A choice is a tolerance, a length, a margin, a seed or a definition. `vary` uses the first value of
 every choice for the printed number, and changes one choice at a time for its variations. The error
@@ -30,7 +30,7 @@ class VariedNumber(NamedTuple):
     statistical_error: np.ndarray  # of the shape of `value`
     choices: Mapping[str, Any]  # those of the printed number, by name
     variations: Mapping[str, np.ndarray]  # the number again, by "choice = value"
-    limits: ConfidenceInterval | None = None  # given if it may be asymmetric about the number
+    limits: ConfidenceInterval | None = None  # for an interval that may be asymmetric
 
     @property
     def widened(self) -> tuple[np.ndarray, np.ndarray]:
@@ -42,7 +42,7 @@ class VariedNumber(NamedTuple):
     @property
     def error(self) -> np.ndarray:
         """The larger of the statistical error and the largest change under a variation."""
-        with np.errstate(invalid="ignore"):  # infinite is a time that is never reached
+        with np.errstate(invalid="ignore"):  # two times may be infinite: never reached
             changes = np.abs(np.array(list(self.variations.values())) - self.value)
         return np.fmax(self.statistical_error, np.fmax.reduce(changes, axis=0))
 
@@ -191,7 +191,7 @@ def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
 
 
 def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield name and dataset of each single number with variations, one for each of its labels."""
+    """Yield the name and dataset of each number with variations; of arrays, of each entry."""
     for name in numbers_in(data):
         dims = data[name].dims
         for place in np.ndindex(data[name].shape):

@@ -49,8 +49,8 @@ def test_pendula_that_are_not_driven_keep_their_energy(boundary):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"mu": None}, "need a positive mu"),
-        ({"mu": -0.1}, "need a positive mu"),
+        ({"mu": None}, "require a positive mu"),
+        ({"mu": -0.1}, "require a positive mu"),
         ({"mu": 0.5, "omega": -4.0}, "must be positive"),
         ({"model": "amplitudes"}, "mu requires model: pendula"),
         ({"model": "springs"}, "no model 'springs'"),

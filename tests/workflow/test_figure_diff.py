@@ -79,7 +79,7 @@ def test_a_quick_run_cannot_replace_the_committed_baseline(full_run, clone):
 
 def test_a_value_of_bits_that_means_nothing_is_told(full_run, clone):
     result = snakemake(clone, full_run, "figure_diff", "--config", "bits=all")
-    assert result.returncode != 0 and "the only value is bits=any" in said(result)
+    assert result.returncode != 0 and "the only allowed value is any" in said(result)
 
 
 def test_it_compares_the_figures_of_the_list_alone(full_run, clone):

@@ -44,7 +44,7 @@ def test_a_default_storage_is_refused_by_a_sentence(tmp_path):
         command, env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True
     )
     assert done.returncode == 1 and "Traceback" not in done.stderr
-    assert "--default-storage-provider made-up does not work here" in done.stderr
+    assert "--default-storage-provider made-up is not supported here" in done.stderr
     assert "UndefinedPathvarException" not in done.stderr
 
 
@@ -122,5 +122,5 @@ def test_a_copy_of_the_project_with_the_packages_of_another_is_refused(clone, tm
     result = snakemake(clone, tmp_path, "--dry-run", "fig1", PYTHONPATH="")
     output = result.stdout + result.stderr
     assert result.returncode == 1 and "Traceback" not in output
-    assert f"Python imports the code of {ROOT}, not that of this copy" in output
+    assert f"Python imports the project from {ROOT}, not from this copy" in output
     assert f"pip install -e {clone}" in output

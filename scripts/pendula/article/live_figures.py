@@ -22,7 +22,7 @@ from .values import LONG_STUDIES
 THIS_FOLDER = Path(__file__).parent
 OF_LIVE, OF_ARTICLE = ("runs.js", "panels.js"), ("figures.js", "maps.js")
 FIGURES = {2: "fig2", 3: "fig3", 4: "fig4"}
-"""The paper's cases below each figure of the article, by how their names begin."""
+"""By figure of the article, the prefix of the names of the paper's cases below it."""
 FATES = "figure-8"
 BREATHERS = next(name for name in LONG_STUDIES if name.endswith("breathers"))
 STEP = 0.1
@@ -30,15 +30,15 @@ STEP = 0.1
 FULL_SCALE = np.iinfo(np.uint16).max
 NORMS = ("linf", "l2")
 BLOCK = '<script type="{}" id="{}">{}</script>'
-"""What a page holds that its script reads: kind, id and content."""
+"""Data of the page for its script: type, id and content."""
 IN_A_BYTE = 4
-"""So many fates, of two bits each."""
+"""Number of fates in a byte, of two bits each."""
 
 
 def gather_live_parts(results: Results, live: str, references: list[str]) -> LiveParts:
-    """Return the interactive parts of the article's page, with solver and cases of the page `live`.
+    """Return the interactive parts of the article, with solver and cases of the page `live`.
 
-    `references` are the trajectories in multiprecision of these cases.
+    `references` are the paths of these cases' trajectories in multiprecision.
     """
     page = Path(live).read_text(encoding="utf-8")
     data = data_of(page)

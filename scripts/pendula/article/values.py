@@ -38,7 +38,7 @@ LONG_STUDIES: LongStudies = {
     SPEED: LongStudy("snakemake speed"),
     TIMES: LongStudy("snakemake reproduction", "benchmarks.reproduction.measure_reproduction"),
 }
-"""By the name, or by the folder, of the copies that the article quotes."""
+"""The long studies, by the file or folder of the copies that the article quotes."""
 
 FRONTS = "unbounded/fronts"
 UPWARD = 1.05
@@ -46,7 +46,7 @@ UPWARD = 1.05
 
 
 def gather(results: Results) -> dict[str, Any]:
-    """Return all names of the template: functions of `Numbers`, and numbers made from several."""
+    """Return the template's names: functions of `Numbers`, and numbers derived from several."""
     numbers = Numbers(results)
     compared, study = results["checks/solvers"], results[UNBOUNDED]
     diverging = int(np.isfinite(compared["second_divergence"][:, 0]).sum())
@@ -87,7 +87,7 @@ def gather(results: Results) -> dict[str, Any]:
 
 
 def times_as_long(speed: xr.Dataset, *peers: str) -> Printed:
-    """Return the range over the cases of the fastest of such peers' times over our solver's."""
+    """Return how many times longer the fastest of `peers` takes than our solver, over the cases."""
     ratios = speed["ratio"].sel(peer=list(peers)).min("peer")
     text = f"{enclosing_span(float(ratios.min()), float(ratios.max()), 2)}{MARK}"
     return printed(text, SPEED, "ratio", {"peer": list(peers)})
@@ -102,13 +102,13 @@ def wins_of_taylor(speed: xr.Dataset) -> Printed:
 
 
 def spread_from(study: xr.Dataset) -> float:
-    """Return the time from which the speeds at which A + B spreads are measured."""
+    """Return the time from which the speed of spreading of A + B is measured."""
     left_out = re.search(r"left_out_part = ([\d.]+)", study["level_speed"].attrs["choices"])[1]
     return float(left_out) * float(study.attrs["end_time"])
 
 
 def least_between(fronts: xr.Dataset) -> float:
-    """Return the least power between the fronts over that of the thermal state with A = -B."""
+    """Return the smallest ratio of P between the fronts to P of the thermal state with A = -B."""
     return float((fronts["power_between"] / fronts["thermal_antisymmetric_power"]).min())
 
 
@@ -119,7 +119,7 @@ def grown(numbers: Numbers) -> Printed:
 
 
 def counts(rows: list[dict]) -> dict[str, Printed]:
-    """Return how many claims of the paper are of each kind and have each verdict, and controls."""
+    """Return the numbers of the paper's claims, by kind and by verdict, and of controls."""
     of_paper = Counter(tally(rows).get(Origin.PAPER, {}))
     kinds = Counter(row["kind"] for row in rows if row["origin"] == Origin.PAPER)
     controls = [control["passes"] for row in rows for control in row["controls"]]
@@ -160,7 +160,7 @@ def upward(bound: float) -> str:
 
 
 def full_run(results: Results) -> dict[str, str]:
-    """Return the wall times of whole runs in seconds, as measured once, and on how many cores."""
+    """Return the wall times of full runs in s, as measured once, and the number of cores."""
     measured = json.loads(results.path(TIMES).read_text(encoding="utf-8"))
     times = {name: f"{run['wall']:.0f}" for name, run in measured["runs"].items()}
     return times | {"cores": str(measured["machine"]["cores"])}

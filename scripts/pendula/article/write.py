@@ -1,4 +1,4 @@
-"""The article on this replication: its form, and the job that writes it."""
+"""The article on this replication: its settings, and the job that writes it."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -37,11 +37,11 @@ def write_article(
     live: str,
     references: list[str],
 ) -> None:
-    """Write the three files of the article, and `quoted`, copies of `committed_results` beside it.
+    """Write the three files of the article, and `quoted`, copies of `committed_results`.
 
     `differs` holds the differences of the configuration from the paper's. If there are any, a
-    notice replaces the article, which is about the paper's cases. `live` is the live page, whose
-    solver runs below figures, and `references` are the trajectories in multiprecision.
+    notice replaces the article, which is about the paper's cases. `live` is the live page with the
+    solver that runs below figures. `references` are the trajectories in multiprecision.
     """
     copy_quoted(committed_results, quoted)
     results = Results([*datasets, *pictures, ledger, *quoted], html, differs=differs)

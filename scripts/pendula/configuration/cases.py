@@ -59,17 +59,17 @@ class PaperCaseSection(cases.CaseSection):
     @classmethod
     def _without_parameters(cls, raw: Any) -> Any:
         if isinstance(raw, dict) and "parameters" in raw:
-            text = "belong to a model of your own; give omega, epsilon and gamma as they are"
+            text = "only a model of your own has them; give omega, epsilon and gamma as keys"
             raise faults([("parameters", text)])
         if isinstance(raw, dict) and raw.get("sites") is not None:
-            text = "has no meaning: the paper's chains have the sites -M..M; give half_width: M"
+            text = "is not allowed: the paper's chains have the sites -M..M; give half_width: M"
             raise faults([("sites", text)])
         return raw
 
     @field_validator("solver")
     @classmethod
     def _always_by_series(cls, solver: Solver) -> Solver:
-        """Return the default as if it were named: all of these equations have power series."""
+        """Replace the default solver by `taylor`: these equations always have power series."""
         return Taylor(**solver.model_dump(exclude={FLAG})) if hasattr(solver, FLAG) else solver
 
     @property
@@ -79,17 +79,17 @@ class PaperCaseSection(cases.CaseSection):
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """The names of the amplitudes, which the pendula start from too."""
+        """The names of the amplitudes, which are also the initial data of the pendula."""
         return "A", "B"
 
     @classmethod
     def solvers_taking(cls, model: str) -> list[str]:
-        """Return the solvers that take the equations of this name."""
+        """Return the solvers that can integrate the equations of this name."""
         return [*METHODS_OF[model], "auto"]
 
     @property
     def ordinary(self) -> Mapping[str, Mapping]:
-        """Values, at which a run is short, of the keys that decide a cost."""
+        """For each key that determines the cost, values at which a run is short."""
         return cost.ORDINARY if self.mu is None else cost.OF_PENDULA
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
@@ -97,17 +97,16 @@ class PaperCaseSection(cases.CaseSection):
         if self.model == AMPLITUDES and mu is not None:
             yield "mu", "requires model: pendula; add it, or leave mu out"
         if self.model == PENDULA and self.start_time:
-            text = "the pendula start at 0, where (3) gives their angles; leave it out"
-            yield "start_time", text
+            yield "start_time", "pendula start at tau = 0, where (3) holds; leave start_time out"
         if self.model == PENDULA and mu is None:
-            yield "mu", "is missing: Newton's equations need it, for example 0.1"
+            yield "mu", "is missing: Newton's equations require it; give for example 0.1"
         if self.model == PENDULA and mu is not None and not 1.0 + mu * mu * self.omega > 0.0:
             largest = 1.0 / sqrt(-self.omega)
-            text = "the square of the pendula's frequency, 1 + mu^2 Omega, is not positive"
-            yield "mu", f"{text}; with omega {self.omega:g} it must be less than {largest:.4g}"
+            text = "the square of the pendula's frequency, 1 + mu^2 Omega, must be positive"
+            yield "mu", f"{text}; with omega {self.omega:g}, give a mu below {largest:.4g}"
 
     def _values_by_name(self) -> dict[str, Any]:
-        return {}  # the constants stand as keys of their own
+        return {}  # the constants are keys of the case
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -124,8 +123,8 @@ class PaperCaseSection(cases.CaseSection):
         obstacle = find_fault(constants, peak, span, solver, self.mu)
         return obstacle, rate(constants, peak, self.mu)
 
-    def problem(self, **changes) -> dict:
-        """Return the case as plain values of a `PaperProblem`, some of them changed.
+    def problem(self, **changes: Any) -> dict:
+        """Return the case as plain values of a `PaperProblem`, with `changes`.
 
         The constants come first, as in datasets.
         """
@@ -145,19 +144,19 @@ class PaperCaseSection(cases.CaseSection):
 
 
 def takes_model(value: Any) -> bool:
-    """Return whether the key `model` holds a model or its file, not the paper's equations."""
+    """Return whether the value of `model` is a model or its file, not the paper's equations."""
     named = isinstance(value, str) and value.endswith(OF_MODELS)
     return named or isinstance(value, Mapping | Model)
 
 
 def of_its_kind(raw: dict) -> type[cases.CaseSection]:
-    """Return the kind of a case by its keys: of the paper's equations, or of a user's model.
+    """Return the class for the keys of a case: of the paper's equations, or of a user's model.
 
-    Raises an error for each of the paper's constants that is given together with a model.
+    Raises an error that lists the paper's constants if they are given together with a model.
     """
     if not takes_model(raw.get("model")):
         return PaperCaseSection
-    text = "belongs to the paper's equations; give the model's own below parameters"
+    text = "belongs to the paper's equations; put the model's constants under parameters"
     if constants := [(key, text) for key in CONSTANTS if key in raw]:
         raise faults(constants)
     return cases.CaseSection
@@ -169,7 +168,7 @@ def _validated(value: Any, handler: Callable) -> cases.CaseSection:
         return handler(value)
     try:
         return kind.model_validate(value)
-    except ValidationError as error:  # of keys that are no keys of the paper's cases
+    except ValidationError as error:  # as text: a case of the paper does not have these keys
         lines = lines_of(error, Configuration, ("cases", "case"))
         raise faults([line.partition(": ")[::2] for line in lines]) from None
 

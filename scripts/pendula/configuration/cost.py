@@ -11,7 +11,8 @@ from latticode.integrators.methods import METHODS
 from pendula.feasibility import clock_of
 
 SWING = 1.7
-"""The rate of pendula in t, for the steps of the explicit methods: a sine has terms of its own."""
+"""The rate of pendula per unit of t that sets the steps of explicit methods; above the frequency 1
+because of the terms of the sine."""
 ORDINARY = cost.ORDINARY | {
     "omega": {"omega": 1.0},
     "epsilon": {"epsilon": 1.0},
@@ -19,7 +20,7 @@ ORDINARY = cost.ORDINARY | {
     "initial": {"initial": {0: (1.0, 0.1)}},
 }
 OF_PENDULA = ORDINARY | {"mu": {"mu": 0.1}}
-"""Values at which a run of the amplitudes, and one of the pendula, is short."""
+"""Values at which a run is short, by key: ORDINARY for the amplitudes, OF_PENDULA for pendula."""
 
 
 def demand(problem: Mapping) -> Demand:
@@ -32,9 +33,9 @@ estimate = partial(cost.estimate, measure=demand)
 
 
 def with_checks(problem: Mapping) -> RunCost:
-    """Return the cost of a user's case: of its run, and of the checks that own_cases makes of it.
+    """Return the cost of a user's case: its run, and the runs of the checks in own_cases.
 
-    Those of pendula are two runs and the amplitudes.
+    The checks of pendula are two runs of them and one run of the amplitudes.
     """
     checks = cost.runs_of_checks(problem)
     if problem.get("mu"):
@@ -45,11 +46,11 @@ def with_checks(problem: Mapping) -> RunCost:
 
 
 def fastest_rate(problem: Mapping) -> float:
-    """Return the rate at which the data turn: of linear waves, and of the largest amplitude.
+    """Return the fastest rate of the phases: of linear waves, and of the largest amplitude.
 
-    Small data of an unstable chain grow until the cubic terms turn them as fast as the linear ones.
-    The chain at rest is unstable where the frequency of a wave is less than twice the drive.
-    Pendula swing at a rate of 1 in t, whatever their slow motion does.
+    On an unstable chain small data grow until the cubic terms are as large as the linear ones. The
+    chain at rest is unstable if the frequency of a wave is less than twice the drive. Pendula swing
+    at the rate 1 per unit of t, however slowly their amplitudes change.
     """
     peak = max(max(map(abs, values)) for values in problem["initial"].values())
     if problem.get("mu"):
@@ -66,9 +67,9 @@ def fastest_rate(problem: Mapping) -> float:
 
 
 def integrated_pairs(problem: Mapping) -> float:
-    """Return the number of pairs that are integrated: half of a chain for even data.
+    """Return the number of pairs that are integrated: half of the chain for even data.
 
-    If A = B only one component is integrated, so that a pair counts half.
+    If A = B, only one component is integrated, and a pair counts half.
     """
     initial, half_width = problem["initial"], problem["half_width"]
     even = all(initial.get(-site, (0, 0)) == pair for site, pair in initial.items())

@@ -44,14 +44,14 @@ def load(raw: dict) -> PaperConfiguration:
 def require(
     settings: PaperConfiguration, cases: list[str], sweeps: list[str], solvers: list[str]
 ) -> None:
-    """Raise ConfigurationError unless all that the figures need is there and fits.
+    """Raise ConfigurationError if something that the figures need is missing or invalid.
 
-    Each of `cases` is integrated by each of `solvers`, whose steps must fit its outputs.
+    Each of `cases` is integrated by each of `solvers`, whose step must divide the output step.
     """
     absent = [study for study in STUDIES if getattr(settings, study) is None]
     absent += [f"cases.{name}" for name in cases if name not in settings.cases]
     absent += [f"sweeps.{name}" for name in sweeps if name not in settings.sweeps]
-    lines = [f"{path}: is missing or empty, and the figures need it" for path in absent]
+    lines = [f"{path}: is missing or empty, but the figures need it" for path in absent]
     steps: dict[str, str] = {}
     for name in [name for name in cases if name in settings.cases]:
         lines += _faults_of_figures(name, settings.cases[name])
@@ -70,35 +70,35 @@ def require(
 
 def _faults_of_figures(name: str, case: CaseSection) -> Iterator[str]:
     """Yield an error for each reason why a case cannot replace one of the paper's."""
-    way_out = "give a case of another name"
+    way_out = "use another name for this case"
     if case.model != AMPLITUDES:
-        yield f"cases.{name}.model: the figures of the paper are of the amplitudes; {way_out}"
+        yield f"cases.{name}.model: the figures of the paper show amplitudes; {way_out}"
         return
     if not any(z for pair in case.data.values() for z in pair):
-        yield f"cases.{name}.initial: is zero everywhere, and figures show what moves; {way_out}"
+        yield f"cases.{name}.initial: is zero everywhere, so nothing would move; {way_out}"
     if case.epsilon < 0.0:
-        text = "and pendula that push each other apart speed up without bound"
+        text = "but pendula that repel each other speed up without bound"
         yield f"cases.{name}.epsilon: is {case.epsilon:g}, {text}; {way_out}"
     if case.half_width == 0:
-        yield f"cases.{name}.half_width: is 0, and the figures are of a chain of pairs; {way_out}"
+        yield f"cases.{name}.half_width: is 0, but the figures need several pairs; {way_out}"
 
 
 def _faults_of_short_chains(name: str, settings: PaperConfiguration) -> Iterator[str]:
-    """Yield an error if a case has initial data beyond the shorter chains of a study."""
+    """Yield an error if a case has initial data beyond the ends of a study's shorter chains."""
     reach = max(map(abs, settings.cases[name].data), default=0)
     shorter = settings.chaos.shorter_chains(settings, name) if settings.chaos else {}
     for key, half_width in shorter.items():
         if half_width < reach <= settings.cases[name].half_width:
-            text = f"the chains of chaos.{key} end at {half_width}: start nearer to the centre"
-            yield f"cases.{name}.initial: has the site {reach}, and {text}"
+            text = f"the chains of chaos.{key} end at {half_width}; use sites nearer to the centre"
+            yield f"cases.{name}.initial: has the site {reach}, but {text}"
             return
 
 
 def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterator[str]:
     """Yield an error for a tolerance of ode45 at which runs of the paper's cases may blow up.
 
-    The relative error of a step is up to `rtol`. Once the errors add up to the size of the data,
-    ode45 may gain energy until its steps vanish: this was observed at 1.75 times the data.
+    The relative error of a step is up to `rtol`. Once these errors add up to the size of the data,
+    ode45 may gain energy until its step is too small, as a run at 1.75 times the data did.
     """
     runs = {}
     for case in names:
@@ -114,7 +114,7 @@ def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterato
         while _sum_of_errors(runs[name], most) > 1.0:
             most *= 0.1
         text = f"add up to {total:.2g} times the data of cases.{name} by tau = {span:g}"
-        words = f"is {rtol:g}, and the errors of its steps {text}; give at most {most:.0e}"
+        words = f"is {rtol:g}, but the errors of its steps {text}; give at most {most:.0e}"
         yield f"solvers.ode45.rtol: {words}"
 
 
@@ -125,11 +125,11 @@ def _sum_of_errors(problem: dict, rtol: float) -> float:
 
 
 def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:
-    """Return the faults of panels whose windows are not those of the panel to their left."""
+    """Return an error for each panel whose windows differ from those of the panel to its left."""
     left_panels = {name: f"{name.partition('_')[0]}_left" for name in names}
     return [
-        f"sweeps.{name}.draw: has other windows than sweeps.{left}, the panel beside it: give both "
-        "the same windows and draw"
+        f"sweeps.{name}.draw: differs from sweeps.{left}, the panel to its left: give both the same"
+        " windows and draw"
         for name, left in left_panels.items()
         if {name, left} <= set(sweeps) and sweeps[name].drawn != sweeps[left].drawn
     ]

@@ -1,4 +1,4 @@
-"""Lyapunov spectra and sections in a configuration: of which case, and what is measured."""
+"""The sections `spectra` and `sections` of a configuration: Lyapunov spectra and crossings."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -13,20 +13,20 @@ from latticode.equations.model_file import run_file
 from pydantic import AfterValidator
 
 Texts = list[tuple[str, str]]
-"""Keys, each with what is wrong with its value."""
+"""Keys, each with the error in its value."""
 
 
 def read_function(place: str) -> Callable:
-    """Return the function that a text such as mine.py:plane names.
+    """Return the function that `place` names, such as "mine.py:plane".
 
-    Raises ModelError where there is none.
+    Raises ModelError if the file cannot be read or has no such function.
     """
     file, _, name = place.rpartition(":")
     path = Path(file)
     try:
         names = run_file(path, path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
-        why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
+        why = getattr(error, "strerror", None) or "it is not UTF-8 text"
         raise ModelError(f"{path} cannot be read: {why}") from None
     if not callable(names.get(name)):
         raise ModelError(f"{path.name} has no function {name}")
@@ -40,22 +40,22 @@ def _as_function(place: str) -> str:
     return place
 
 
-class SpectrumSection(Section):
+class LargestExponentsSection(Section):
     """The `count` largest Lyapunov exponents of a case."""
 
     case: Name
     count: Count = 1
 
     def faults_of(self, case: CaseSection) -> Texts:
-        """Return what keeps the spectrum from being measured, and under which key."""
-        from latticode.localised.spectra import count_directions  # imports the compiler
+        """Return an error if the case has fewer than `count` exponents."""
+        from latticode.localised.spectra import count_directions  # here: imports the compiler
 
         most = count_directions(case.kind.of(case.problem()))
         text = f"is {self.count}; give a whole number from 1 to {most}"
         return [("count", text)] if self.count > most else []
 
     def cost(self, case: CaseSection) -> RunCost:
-        """Return what the exponents of a case take."""
+        """Return the cost of the exponents."""
         run = case.cost(case.problem(solver=OF_TANGENTS))
         return RunCost((1 + self.count) * run.seconds, (1 + self.count) * run.memory)
 
@@ -69,7 +69,7 @@ class CrossingsSection(Section):
     site: Integer = 0
 
     def faults_of(self, case: CaseSection) -> Texts:
-        """Return what keeps the section from being found, and under which key."""
+        """Return the invalid keys of the section, with their errors."""
         ends = f"{case.chain[0]} to {case.chain[-1]}"
         text = f"is {self.site}; the sites run from {ends}"
         all_faults = [] if self.site in case.chain else [("site", text)]
@@ -80,7 +80,7 @@ class CrossingsSection(Section):
         return all_faults
 
     def plain_when(self, case: CaseSection) -> dict[str, Any]:
-        """Return the function as plain values: those of a model whose one density it is."""
+        """Return the plain values of a model whose only conserved density is the function."""
         traced = isinstance(case.model, Model)
         model = case.model if traced else case.kind.of(case.problem()).model
         name, density = self.when.rpartition(":")[2], model.trace(read_function(self.when))
@@ -91,5 +91,5 @@ class CrossingsSection(Section):
         return observed.plain
 
     def cost(self, case: CaseSection) -> RunCost:
-        """Return what the run of a case takes, from output to output."""
+        """Return the cost of the run of the case."""
         return case.cost(case.problem())

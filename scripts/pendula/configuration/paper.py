@@ -22,8 +22,8 @@ TOLERATED = Tolerated(
     at_most=frozenset({"tolerance"}),
     single=frozenset({"initial"}),
 )
-"""Keys that change no statement: seeds, windows in figures, longer studies, larger ensembles and
-grids, and smaller tolerances."""
+"""Changes that affect no claim: of seeds and windows in figures, to longer studies, larger
+ensembles and grids, and smaller tolerances."""
 
 DATA = ("model", "epsilon", "gamma", "omega", "initial")
 """Keys of a case that determine a solution on an infinite chain."""
@@ -47,7 +47,7 @@ def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
 def _in_words(place: tuple, was: Any, now: Any) -> str:
     keys = place[1:] if place[0] in ("cases", "sweeps") else place
     short, of_paper = _short(now), _short(was)
-    value = str(now) if short == of_paper else short  # else they seem the same
+    value = str(now) if short == of_paper else short  # print all digits if both look the same
     return f"{'.'.join(keys)} ({value} in place of {of_paper})"
 
 
@@ -68,7 +68,7 @@ def _short(value: Any) -> str:
 
 
 def constants_differ(differs: Mapping[str, str], cases: Iterable[str]) -> bool:
-    """Return whether a case has other constants of (4) than in the paper."""
+    """Return whether the constants of (4) differ from the paper's in one of `cases`."""
     constants = ("epsilon", "gamma", "omega")
     return any(f"cases.{case}.{key}" in differs for case in cases for key in constants)
 
@@ -83,8 +83,8 @@ ALL_CASES = ("cases", "lyapunov", "members", "solvers", "trust", "remainder")
 def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     """Return the keys of the configuration that a dataset depends on, as dotted paths.
 
-    A dataset depends on all keys of a case that is integrated on its chain. `on` restricts a
-    dataset of many cases and sweeps to these.
+    A dataset depends on all keys of a case that is integrated on a finite chain. Of the cases and
+    sweeps in a dataset, only those in `on` count, or all if `on` is empty.
     """
     folder, _, name_in_folder = name.partition("/")
     stem, _, solver = name_in_folder.partition(".")
@@ -126,7 +126,7 @@ def _sections(folder: str, stem: str) -> list[str]:
     if stem == "second_solver":
         return ["solvers.crank_nicolson", "chaos.ensembles", "chaos.second_solver"]
     if folder == "checks":
-        return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # those of the theory rest on none
+        return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # the theory's depend on none
     if folder == "breathers":
         return [f"breathers.{key}" for key in ("epsilon", "gamma", stem)]
     if folder == "pendula":
@@ -143,7 +143,7 @@ def _at(path: str) -> Any:
 
 
 def from_paper(words: Mapping[str, str]) -> Differences:
-    """Return sentences on differences from the paper, by key, with what datasets depend on."""
+    """Return the differences from the paper, with the keys that each dataset depends on."""
     return Differences(words, rests_on)
 
 
@@ -155,5 +155,5 @@ def concerning(
 
 
 def reason(differs: Mapping[str, str], names: Iterable[str], on: Iterable[str] = ()) -> str:
-    """Return why datasets are not of the paper's cases; an empty text if they are."""
+    """Return why datasets are not of the paper's cases, or an empty text if they are."""
     return from_paper(differs).reason(names, on)

@@ -16,10 +16,11 @@ from .cost import estimate
 
 
 class Runs(NamedTuple):
-    """Problems as plain values, and the keys of a study that decide whether they can be run.
+    """Problems as plain values, and the keys of a study under which their errors are reported.
 
-    `many` makes them fewer or shorter. At `tolerance` a fault is reported of the data as they are,
-    and at `perturbed` one of data whose relative differences are normal draws times `size`.
+    `many` is the key of the number or duration of the runs. If the unperturbed data cannot be
+    integrated, the error is reported under `tolerance`; if only perturbed data cannot, under
+    `perturbed`. Relative perturbations are normal draws times `size`.
     """
 
     many: str
@@ -30,17 +31,17 @@ class Runs(NamedTuple):
     size: float = 0.0
 
     def faults(self) -> Iterator[tuple[str, str]]:
-        """Yield the first key that prevents the integration of a run to its end, and the reason."""
+        """Yield the first key that prevents a run from reaching its end, and the reason."""
         for problem in self.problems:
             if fault := fault_of(problem):
                 yield self.many if fault[0] == "end_time" else self.tolerance, fault[1]
                 return
             if self.size and (fault := fault_of(enlarged(problem, 1.0 + FARTHEST * self.size))):
-                yield self.perturbed, f"is {self.size:g}, and {fault[1]}"
+                yield self.perturbed, f"is {self.size:g}: {fault[1]}"
                 return
 
     def costs(self) -> list[RunCost]:
-        """Return the cost of each problem, with data as large as those of members on average."""
+        """Return the cost of each problem, with the mean size of perturbed initial data."""
         mean = sqrt(1.0 + 2.0 * self.size * self.size)
         return [estimate(enlarged(problem, mean)) for problem in self.problems]
 
@@ -57,7 +58,7 @@ def enlarged(problem: Mapping, factor: float) -> dict:
 
 
 def fault_of(problem: Mapping) -> Obstacle | None:
-    """Return the key that prevents the integration of a problem to its end, and the reason."""
+    """Return the key that prevents a problem's integration to its end and the reason, or None."""
     amplitudes = [z for data in problem["initial"].values() for z in data]
     peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
     constants, solver = Constants.of(problem), problem["solver"]

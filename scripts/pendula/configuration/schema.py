@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from pendula.problem import AMPLITUDES
 
 from .cases import AnyCase
-from .motions import CrossingsSection, SpectrumSection
+from .motions import CrossingsSection, LargestExponentsSection
 from .runs import Runs
 
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
@@ -26,7 +26,7 @@ class PaperConfiguration(schema.Configuration):
     """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
     cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
-    spectra: dict[Name, SpectrumSection] = {}
+    spectra: dict[Name, LargestExponentsSection] = {}
     sections: dict[Name, CrossingsSection] = {}
     SECTIONS_WITH_FILES: ClassVar[tuple[str, ...]] = (
         *schema.Configuration.SECTIONS_WITH_FILES,
@@ -55,8 +55,8 @@ class PaperConfiguration(schema.Configuration):
             raise faults(all_faults)
         return self
 
-    def _faults_of_motion(self, entry: SpectrumSection | CrossingsSection) -> Faults:
-        """Yield what keeps a spectrum or a section from being made, and under which key."""
+    def _faults_of_motion(self, entry: LargestExponentsSection | CrossingsSection) -> Faults:
+        """Yield the invalid keys of a spectrum or section, with their errors."""
         if entry.case not in self.cases:
             yield from super().absent("cases", "case", [entry.case])
             return
@@ -67,37 +67,37 @@ class PaperConfiguration(schema.Configuration):
             yield "count" if hasattr(entry, "count") else "case", cost.refusal(total, limits)
 
     def cost_of_motion(self, section: str, name: str) -> RunCost:
-        """Return what one of the `spectra` or of the `sections` takes."""
+        """Return the cost of an entry of `spectra` or `sections`."""
         entry = getattr(self, section)[name]
         return entry.cost(self.cases[entry.case])
 
     def plain_when(self, section: str) -> dict[str, Any]:
-        """Return as plain values the function that crosses zero at one of the `sections`."""
+        """Return as plain values the function whose zeros define an entry of `sections`."""
         entry = self.sections[section]
         return entry.plain_when(self.cases[entry.case])
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
-        """Yield an error for each of `names`, listed at `key`, that is no case or sweep of (4)."""
+        """Yield an error for each of `names`, values of `key`, that is no case or sweep of (4)."""
         yield from super().absent(section, key, names)
         for name in names:
             if name in getattr(self, section):
                 case = self.sweeps[name].case if section == "sweeps" else name
-                if section == "sweeps" or name not in PAPER_CASES:  # `require` tells of those
+                if section == "sweeps" or name not in PAPER_CASES:  # `require` checks those
                     yield from self._not_amplitudes(key, case)
 
     def _not_amplitudes(self, key: str, name: str) -> Faults:
-        """Yield an error for a case that is not of (4) where only (4) makes sense."""
+        """Yield an error for a case that is not of (4) under a key that requires (4)."""
         if self.cases[name].model != AMPLITUDES:
             text = f"case {name!r} is of {self.cases[name].equations}"
-            yield key, f"{text}, and this is about the amplitude equations"
+            yield key, f"{text}; give a case of the amplitude equations"
 
     def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], RunCost]]:
-        """Return in words what is made of a case: those of a user are checked after their run."""
+        """Return what is computed for a case, as text, and a function that estimates its cost."""
         if name in PAPER_CASES:
             return super().cost_estimate(name)
         return "the run and its checks", self.cases[name].cost_with_checks
 
-    def run_of(self, case: str, tolerance: float, solver: str = "taylor", **changes) -> dict:
+    def run_of(self, case: str, tolerance: float, solver: str = "taylor", **changes: Any) -> dict:
         """Return a case as a study runs it, as plain values of a `PaperProblem`."""
         controls = {"name": solver, "rtol": tolerance, "atol": tolerance}
         return {**self.problem(case), "solver": controls, "snapshot_every": 0, **changes}
@@ -132,11 +132,11 @@ class PaperConfiguration(schema.Configuration):
         if faults and runs.size:
             unperturbed = runs._replace(size=0.0)
             if not list(self.excess(runs.many, unperturbed.costs(), runs.times)):
-                faults = [(runs.perturbed, f"is {runs.size:g}, and {faults[0][1]}")]
+                faults = [(runs.perturbed, f"is {runs.size:g}: {faults[0][1]}")]
         yield from faults
 
     def long_runs(self) -> list[str]:
-        """Return a sentence on each case and each study whose runs will take minutes."""
+        """Return a line on each case and each study whose runs will take minutes."""
         sections = {name: getattr(self, name) for name in type(self).model_fields}
         totals = {
             f"{name}.{runs.many}: its runs together take": runs.total()
@@ -156,5 +156,5 @@ class PaperConfiguration(schema.Configuration):
         limits = self.limits.model_dump()
         limits["hours"] *= AS_A_STUDY
         if total.excess(limits) > 1.0:
-            text = cost.refusal(total, limits).replace("allows", "allows a study")
-            yield key, text.replace("the run would take", "its runs together would take")
+            text = cost.refusal(total, limits, "its runs together")
+            yield key, text.replace("allows", "allows a study")

@@ -11,8 +11,8 @@ argument, and the annotation in the function's signature decides what the functi
 | a mapping to these | paths, or values by name | a dictionary, of datasets by their stems |
 | anything else | a path or plain values | the same |
 
-The job waits for an input without a name, which is no argument. None and an empty list of files
-are omitted if the function has a default.
+An input without a name is not an argument; the job only waits for it. None and an empty list of
+files are omitted if the function has a default.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -53,7 +53,7 @@ def function_of(call: list[str]) -> Callable:
 
 
 def gather_for(draw: Callable) -> Callable:
-    """Return the function gather_x of the module of draw_x: it gathers what the figure shows."""
+    """Return gather_x of the module of draw_x, which returns the data of the figure."""
     topic = draw.__name__.removeprefix("draw")
     return getattr(import_module(draw.__module__), f"gather{topic}")
 
@@ -77,7 +77,7 @@ def load_arguments(function: Callable, job: Any, kinds: Mapping[type, Callable])
 
 
 def _named(function: Callable, job: Any) -> dict[str, Any]:
-    """Return the values of a rule by the names of the function's parameters, after a check."""
+    """Return the rule's values for the function's parameters, by name, after a check."""
     parameters = signature(function).parameters
     places = [dict(place.items()) for place in (job.input, job.params, job.output)]
     values: dict[str, Any] = {}
@@ -105,7 +105,7 @@ def check_names(function: Callable, names: Iterable[str], rule: str) -> None:
             raise RuleError(f"{rule}: {called} has no parameter {name!r}{meant} ({parameter_list})")
     required = [name for name, parameter in parameters.items() if not _has_default(parameter)]
     if missing := [name for name in required if name not in names]:
-        raise RuleError(f"{rule} does not give {', '.join(missing)}, which {called} needs")
+        raise RuleError(f"{rule} does not give {', '.join(missing)}, which {called} requires")
 
 
 def _is_left_out(value: Any) -> bool:
@@ -121,7 +121,7 @@ def _rule(job: Any) -> str:
 
 
 def _kind_of(hint: Any) -> tuple[str, Any]:
-    """Return how values of an annotation are held ("one", "list" or "mapping"), and their type."""
+    """Return the container of an annotation ("one", "list" or "mapping") and its values' type."""
     if get_origin(hint) in (Union, UnionType):
         hint = next(alternative for alternative in get_args(hint) if alternative is not NoneType)
     origin, inner = get_origin(hint), get_args(hint)
@@ -133,7 +133,7 @@ def _kind_of(hint: Any) -> tuple[str, Any]:
 
 
 def _load(value: Any, container: str, make: Callable) -> Any:
-    """Return what `make` returns of each value, in a container."""
+    """Apply `make` to each value, and return the results in the container."""
     if value is None or container == "one":
         return value if value is None else make(value)
     if isinstance(value, Mapping):
@@ -145,27 +145,24 @@ def _load(value: Any, container: str, make: Callable) -> Any:
 
 
 def _paths_in(value: Any) -> list[str]:
-    """Return the paths that an argument consists of; none if it is plain values."""
+    """Return the paths in an argument; none if it consists of plain values."""
     entries = value if isinstance(value, list) else [value]
     return entries if all(isinstance(entry, str) for entry in entries) else []
 
 
 COMMITTED = "committed"
-"""Key of the path of a file of the project, in a parameter that has its digest too."""
+"""Key of the path of a file of the project, in a parameter that also has its digest."""
 
 
 def locate(value: Any) -> Any:
-    """Return a value of a rule with the absolute paths of the project's files in place of entries.
-
-    A rule names a file of the project by `committed`, with its digest.
-    """
+    """Return a rule's value with each `committed` entry replaced by the file's absolute path."""
     if isinstance(value, Mapping) and COMMITTED in value:
         return str(SCRIPTS.parent / value[COMMITTED])
     return [locate(entry) for entry in value] if isinstance(value, list) else value
 
 
 def name_of(path: str) -> str:
-    """Return the name of a dataset: its path below the folder of results, or the project's."""
+    """Return the name of a dataset: its path below the results or below the project's folder."""
     place = Path(path).with_suffix("")
     if place.is_relative_to(SCRIPTS.parent):
         return place.relative_to(SCRIPTS.parent).as_posix()

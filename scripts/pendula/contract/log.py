@@ -64,7 +64,7 @@ class _Output:
         self.shown = time.monotonic()
 
     def log(self, text: str) -> bool:
-        """Write to the log alone; return whether this succeeded."""
+        """Write only to the log; return whether this succeeded."""
         if self.file is None:
             return False
         try:
@@ -150,7 +150,7 @@ def time_left(seconds: float) -> str:
 
 
 def log_step(text: str) -> None:
-    """Write a line on the progress of a job to its log, and now and then to the screen."""
+    """Write a line on the progress of a job to its log, and sometimes to the screen."""
     if isinstance(sys.stdout, _Output):
         sys.stdout.step(f"{text}\n")
     else:

@@ -2,7 +2,7 @@
 
     python -m pendula.jobs.compare tests/baseline RESULTS...
 
-measures the scatter of chaotic numbers on folders of results of right runs, such as those of
+measures the scatter of chaotic numbers among folders of valid results, such as those of
 `.ci/elsewhere moved`, and writes it into the baseline.
 """
 
@@ -20,7 +20,7 @@ TRUST = Trust(
     time="tau",
     steps=("tau", "snapshot", "snapshot_tau"),
 )
-"""The errors of the Taylor method against the references; they are rounding errors alone."""
+"""Errors of the Taylor method against the references, which are only rounding errors."""
 
 
 def compare_results(
@@ -32,7 +32,7 @@ def compare_results(
     html: str,
     verdict: str,
 ) -> None:
-    """Compare files of a run in the folder `made` with a baseline, and write page and verdict."""
+    """Compare the files of a run, in the folder `made`, with a baseline; write page and verdict."""
     comparison_page.compare_results(
         results, made, baseline, configuration, any_bits, html, verdict, TRUST
     )

@@ -10,14 +10,14 @@ from pendula.studies import modules_with_prefix
 def all_claims(*prefixes: str) -> tuple[Claim, ...]:
     """Return the claims of all studies, in the order of the paper's sections.
 
-    With `prefixes`, such as "theory/claims" and "paper/claims_norms", only the claims of modules
-    whose names start so. Raises ValueError if a prefix fits no module.
+    `prefixes`, such as "theory/claims" and "paper/claims_norms", restrict them to modules whose
+    names begin with one of these. Raises ValueError if no module begins with a prefix.
     """
     modules = []
     for prefix in prefixes or ("claims",):
         named = list(modules_with_prefix(prefix))
         if not named:
-            raise ValueError(f"no study has a module {prefix}: correct DECIDED_IN of ledger.smk")
+            raise ValueError(f"no study has a module that begins with {prefix}")
         modules += named
     return claims_of(modules)
 
@@ -27,7 +27,7 @@ def decide_claims(
 ) -> None:
     """Write the rows of the ledger on the claims in `modules` of studies into the file `part`.
 
-    `names` are those that the claims have for `datasets`, in their order. `differs` says where the
-    configuration is not the paper's.
+    `names` are the claims' names for `datasets`, in the same order. `differs` holds the differences
+    of the configuration from the paper's.
     """
     decide.decide_claims(all_claims(*modules), datasets, names, part, from_paper(differs))

@@ -14,7 +14,7 @@ PAPER = ReportedPaper(
     introduction="""\
 <p>These are all figures, claims and datasets of one run on the paper of E. Destyl, S. P. Nuiro, D. E. Pelinovsky and
 P. Poullet, <a href="https://doi.org/10.1016/j.physleta.2017.10.021">Physics Letters A</a>
-(<a href="https://arxiv.org/abs/1708.06134">arXiv</a>). <a href="article.html">The article</a> says what they mean,
+(<a href="https://arxiv.org/abs/1708.06134">arXiv</a>). <a href="article.html">The article</a> explains them,
 <a href="live.html">the live page</a> integrates Figs 2 to 4 in your browser, and
 <a href="tables/claims.md">a table</a> has all claims as text.</p>""",  # noqa: E501, as in HTML
 )

@@ -27,7 +27,7 @@ EXPERIMENTS = (
         link="case=fig4_small&omega=0&mu=0.1",
         question="The same push at exact resonance. How far does the motion spread, and how large"
         " does it get?",
-        observation="The drive feeds a disorder that reaches both ends before τ = 20. From then on"
+        observation="The drive feeds a disordered motion that reaches both ends before τ = 20. Then"
         " all pendula swing, the ℓ² norms stay near a level, and no amplitude exceeds 8.",
     ),
     Experiment(
@@ -49,7 +49,7 @@ EXPERIMENTS = (
         link="case=fig4_large&perturbation=1e-6",
         question="A second run (dashed) starts from initial data that differ by one part in a"
         " million. For how long do the two agree?",
-        observation="The curves lie on one another until about τ = 8, and then have nothing in"
-        " common. Start them a million times closer (1e-12): they agree only until about τ = 16.",
+        observation="The curves coincide until about τ = 8, and then have nothing in common. If"
+        " they start a million times closer (1e-12), they agree only until about τ = 16.",
     ),
 )

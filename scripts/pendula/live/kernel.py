@@ -1,8 +1,7 @@
 """The page's solver: ode45 on (4), which stores the full state at every output, not only moduli.
 
-The page then shows any time of a run without integrating again.
-
-Started as a program it writes the WebAssembly of the solver.
+The page can then show any time of a run without integrating again. As a program, this module writes
+the WebAssembly of the solver.
 """
 
 import os
@@ -11,6 +10,7 @@ import sys
 
 import numpy as np
 from latticode.equations.ends import DIRICHLET, MIRROR
+from latticode.integrators import Outcome
 from latticode.integrators.methods import METHODS
 from latticode.kernels.compiled import kernel
 from latticode.kernels.webassembly import WebAssemblyError, webassembly
@@ -35,12 +35,20 @@ solve_keeping_states = ODE45.build(rates, observe_states)
 
 
 @kernel
-def run_keeping_states(chain, y, times, controls, work, record, stop):
+def run_keeping_states(
+    chain: AmplitudeChain,
+    y: np.ndarray,
+    times: np.ndarray,
+    controls: tuple[float, ...],
+    work: np.ndarray,
+    record: ObservableRecord,
+    stop: np.ndarray,
+) -> Outcome:
     return solve_keeping_states(chain, y, times, controls, work, record, stop)
 
 
 def compile_to_webassembly() -> bytes:
-    """Return the WebAssembly of the solver on half a chain; its sizes are arguments of it."""
+    """Return the WebAssembly of the solver on half a chain, which takes its sizes as arguments."""
     y = np.zeros((4, 4))
     chain = AmplitudeChain(1.0, 1.0, 0.0, MIRROR, DIRICHLET)
     record = blank_record(2, 2, 2, 1, quantities=1, parts=2)
@@ -50,10 +58,10 @@ def compile_to_webassembly() -> bytes:
 
 
 def compile_for_any_processor() -> bytes:
-    """Return the WebAssembly of the solver, with the same bytes on processors of all makes.
+    """Return the WebAssembly of the solver, with the same bytes on every processor.
 
     numba orders operations for one processor, chosen once per process. This function therefore
-    starts a separate Python process. Raises WebAssemblyError with the reason if that fails.
+    starts another Python process. Raises WebAssemblyError with the reason if that process fails.
     """
     variables = os.environ | ANY_PROCESSOR | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     command = [sys.executable, "-m", __name__]

@@ -1,4 +1,4 @@
-"""The page on which a reader runs the cases of Figs 2 to 4, and compares the bits with these runs.
+"""The page on which a reader runs the cases of Figs 2 to 4, and compares the bits with ours.
 
 A mark is a hash of all values of a run at an output time. `runs.js` computes the marks of its own
 run, and the page reports the first time at which a bit differs.
@@ -42,7 +42,7 @@ def write_live(runs: list[str], trust: str, chart: str, html: str) -> None:
     """Write the page `html` on the trajectories `runs` by ode45.
 
     `trust` and `chart` are the datasets checks/trust and checks/chart. A case with initial data
-    beside the central pair is left out, since the page cannot set them.
+    outside the central pair is left out, because the page cannot set them.
     """
     by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
     trusted = read(trust).sel(solver="ode45")
@@ -91,7 +91,7 @@ def hash_outputs(run: xr.Dataset) -> np.ndarray:
     hashes = np.full(run.sizes["tau"], OFFSET)
     retained = [(1, values) for values in (*run["linf"], *run["l2"], run["energy"])]
     if every := int(run.attrs["snapshot_every"]):
-        half = run["modulus"].sel(site=slice(0, None))  # the data are even, and so is the run
+        half = run["modulus"].sel(site=slice(0, None))  # enough, since the run is even in n
         retained += [(every, values) for component in half for values in component]
     for step, values in retained:
         for words in np.ascontiguousarray(values).view("<u4").reshape(values.size, -1).T:

@@ -1,8 +1,8 @@
 """Kernels of the coupled dNLS equations (4) of the paper on a finite chain, and their energy (8).
 
-From the traced model (`equations`) follow right-hand sides, power series, and the mean over a step
-for `delfour_fortin_payre`. A state has the rows Re A, Im A, Re B, Im B, or the first two alone
-where A = B (see `latticode.generation.chain`).
+Right-hand sides, power series, and the mean over a step for `delfour_fortin_payre` are generated
+from the traced model (`equations`). A state has the rows Re A, Im A, Re B, Im B, or only the first
+two if A = B (see `latticode.generation.chain`).
 """
 
 from typing import NamedTuple
@@ -33,7 +33,7 @@ class AmplitudeChain(NamedTuple):
 def system_of_tile(chain: AmplitudeChain, at_left_end: bool, at_right_end: bool) -> AmplitudeChain:
     """Return the chain of a tile: the ends of the full chain where the tile reaches them.
 
-    At the other ends any kind will do: the error that it makes stays in the margin of the tile.
+    Elsewhere the kind of an end does not matter: its error stays in the margin of the tile.
     """
     left = chain.left if at_left_end else DIRICHLET
     right = chain.right if at_right_end else DIRICHLET
@@ -44,9 +44,9 @@ def system_of_tile(chain: AmplitudeChain, at_left_end: bool, at_right_end: bool)
 
 _re_rate, _im_rate = AMPLITUDE_MODEL.rates[:2]
 field = load_function((neg(_im_rate), _re_rate))
-"""The function (constants, seen) -> (Re F, Im F) for A, where i A' = F; for B with both exchanged.
+"""The function (constants, seen) -> (Re F, Im F) for A, where i A' = F; for B, exchange A and B.
 
-See `generated.load_function`; `seen` counts A as field 0 and B as field 1."""
+See `generation.modules.load_function`; in `seen`, A is field 0 and B is field 1."""
 continue_series = load_series(AMPLITUDE_MODEL).continue_in_waves
 """The function (chain, series) that writes the coefficients of all orders from those of order 0."""
 write_rates = at_every_site(load_rule(AMPLITUDE_MODEL.rates, "y"))
@@ -125,9 +125,9 @@ def fill_bond_terms(y: np.ndarray, out: np.ndarray) -> None:
 def energy_with_scratch(chain: AmplitudeChain, y: np.ndarray, scratch: np.ndarray) -> float:
     """Return H of equation (8) for the full chain; `y` may hold half of it, or one component.
 
-    Beyond a Dirichlet end is a site at rest: its bond is |A_M|^2 (|A_{-M}|^2 on the other side). A
-    free end has no bond, a ring has one bond that joins its ends. The sums run from the centre
-    outwards in pairs of sites, because half a chain then gives the same bits as the full one.
+    A Dirichlet end has a bond with a site at rest, |A_M|^2 (|A_{-M}|^2 on the other side). A free
+    end has no bond, a ring has one bond that joins its ends. The sums run from the centre outwards
+    in pairs of sites, because half a chain then gives the same bits as the full one.
     `scratch` has two rows of as many columns as `y`.
     """
     close(chain, y)

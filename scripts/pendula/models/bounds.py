@@ -11,8 +11,8 @@ P(0) < 2 a and -H < a^2 stay below the smaller root, P <= 2 a (1 - sqrt(1 + H / 
 -H <= c delta, this covers delta < delta_0 = a^2 / c (below 2 a since a <= c), and
 1 - sqrt(1 - x) <= x on [0, 1] gives P <= C_0 delta with C_0 = 2 c / a.
 
-The paper has epsilon > 0. With epsilon < 0 the same holds of (-1)^n A_n, (-1)^n B_n, for which
-epsilon is -epsilon and Omega is Omega - 4 epsilon: see `with_positive_coupling`.
+The paper has epsilon > 0. With epsilon < 0 the same holds for (-1)^n A_n and (-1)^n B_n, which obey
+(4) with -epsilon and Omega - 4 epsilon: see `with_positive_coupling`.
 
 Theorem 3 (N sites): H >= P^2 / (8 N) - c P, hence P <= C_N = 4 N (c + sqrt(c^2 + H / (2 N))).
 """
@@ -62,7 +62,7 @@ def theorem_2_constants(constants: Constants) -> tuple[float, float]:
 def theorem_2_bound(energy: float, start: float, constants: Constants) -> float:
     """Return the bound of Theorem 2 on P, the smaller root of f(P) = -H, where P(0) = `start`.
 
-    It is infinite where P(0) or H is beyond the barrier.
+    It is infinite if P(0) or H is beyond the barrier.
     """
     a = theorem_2_gap(constants)
     if not (start < 2.0 * a and -energy < a * a):
@@ -80,7 +80,7 @@ def widened_barrier(constants: Constants) -> tuple[float, float]:
 
 
 def widened_bound(energy: float, start: float, constants: Constants) -> float:
-    """Return a bound on P for more data than Theorem 2 has: a P - P^3 / (64 epsilon) <= -H.
+    """Return a bound on P for more initial data than Theorem 2: a P - P^3 / (64 epsilon) <= -H.
 
     It is the smaller root of the equality, found by bisection, and infinite beyond the barrier.
 
@@ -113,7 +113,7 @@ def theorem_3_bound(energy: float, sites: int, constants: Constants) -> float:
 def find_bounds(
     energy: float, start: float, sites: int, constants: Constants, boundary: str
 ) -> dict[str, float]:
-    """Return each bound on P for data with this H and P(0); infinite where it does not apply."""
+    """Return each bound on P for this H and P(0) = `start`; infinite if it does not apply."""
     at_rest = kind_of(boundary) == DIRICHLET
     return {
         "theorem_1": theorem_1_bound(energy, constants),
@@ -133,8 +133,8 @@ def proven_region(energy: float, start: float, constants: Constants, boundary: s
 def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:
     """Return how close the norms `l2` of a trajectory, (component, time), come to the bound (19).
 
-    `from_start`: largest P(tau) / (P(0) e^{4 |gamma| tau}) over tau > 0; `steepest`: largest
-    |change of log P| over 4 |gamma| times its duration. Both must be at most one.
+    `from_start` is the largest P(tau) / (P(0) e^{4 |gamma| tau}) over tau > 0. `steepest` is the
+    largest |change of log P| / (4 |gamma| duration). Both must be at most one.
     """
     rise = log(np.sum(np.asarray(l2) ** 2, axis=0))
     allowed = 4.0 * abs(gamma) * np.asarray(tau, dtype=float)

@@ -1,4 +1,4 @@
-"""The paper's equations as traced models, and their constants. No kernel is needed to read them.
+"""The paper's equations as traced models, and their constants; this imports no kernels.
 
 The coupled dNLS equations (4) of the amplitudes on a finite chain are
 
@@ -16,6 +16,7 @@ omega^2 = 1 + mu^2 Omega. A change of the order of operations here changes every
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from latticode.equations.graph import node
 from latticode.equations.model import Model, Value, abs2, conj, cos, lap, sin, sqrt
@@ -49,20 +50,20 @@ class Constants:
 # --- The amplitudes -----------------------------------------------------------------------------
 
 
-def linear(p, u: Value, v: Value) -> Value:
+def linear(p: Any, u: Value, v: Value) -> Value:
     """Return the linear terms of i dA_n/dtau, where u is A and v is B, or the other way round."""
     return p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u))
 
 
-def i_dt(p, a: Value, b: Value) -> list[Value]:
+def i_dt(p: Any, a: Value, b: Value) -> list[Value]:
     """Return i dA_n/dtau and i dB_n/dtau."""
     return [linear(p, u, v) + 0.5 * abs2(u) * u for u, v in ((a, b), (b, a))]
 
 
-def mean_i_dt(p, *fields: Value) -> list[Value]:
-    """Return the mean over a step from one pair of fields to a second; the third is their mean.
+def mean_i_dt(p: Any, *fields: Value) -> list[Value]:
+    """Return the mean of `i_dt` over a step; `fields` are the old, the new and the mean A and B.
 
-    The linear terms act on the mean state, the cubic one is the mean of |A|^2 times the mean of A.
+    The linear terms act on the mean state. The cubic term is the mean of |A|^2 times the mean A.
     """
     old, new, mean = fields[:2], fields[2:4], fields[4:]
     return [0.0] * 4 + [
@@ -83,19 +84,19 @@ CONSERVING_MODEL = Model(fields=MEANS, parameters=COEFFICIENTS, i_dt=mean_i_dt)
 
 
 def accelerations(coupling: Value, drive: Value, x: Value, y: Value) -> list[Value]:
-    """Return the second derivatives of x and y, under C and D at one time."""
+    """Return the second derivatives of x and y; `coupling` is C, and `drive` is D at this time."""
     return [coupling * lap(u) + drive * (v - u) - sin(u) for u, v in ((x, y), (y, x))]
 
 
-def d2_dt2(p, x: Value, y: Value) -> list[Value]:
+def d2_dt2(p: Any, x: Value, y: Value) -> list[Value]:
     """Return the second derivatives of x and y by t, from the constants of (4) and mu."""
     square = p.mu * p.mu
     drive = cos(2.0 * sqrt(1.0 + square * p.omega) * p.t)
     return accelerations(p.epsilon * square, 2.0 * p.gamma * square * drive, x, y)
 
 
-def driven(p, x: Value, y: Value) -> list[Value]:
-    """Return the second derivatives of x and y from C, with D(t) computed by `at_time`."""
+def driven(p: Any, x: Value, y: Value) -> list[Value]:
+    """Return the second derivatives of x and y, with a drive D(t) that `at_time` computes."""
     return accelerations(p.coupling, Value(node("clock", "drive")), x, y)
 
 

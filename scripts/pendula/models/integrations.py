@@ -1,7 +1,7 @@
-"""Integrations of the paper's equations, by kernels with more than a traced model has.
+"""How the paper's equations are integrated: by kernels that do more than those of a traced model.
 
-(4) has both symmetries, the energy (8) at every output, and two more schemes. Pendula start from
-amplitudes, have the time t, and their modulus is the angle to which they swing.
+The kernels of (4) use both symmetries, compute the energy (8) at every output, and add two methods.
+Pendula start from amplitudes and have the time t; their modulus is the angle to which they swing.
 """
 
 from collections.abc import Sequence
@@ -73,7 +73,7 @@ class AmplitudeEquations(PaperEquations):
         return dict(self.problem.parameters)
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds on the rates at which amplitudes up to `peak` turn or grow, by key."""
+        """Return bounds on relative rates of change of amplitudes up to `peak`, by key."""
         return rates_of(self.constants, peak)
 
     def system(self, cut: Reduction) -> AmplitudeChain:
@@ -128,17 +128,17 @@ class PendulumEquations(PaperEquations):
         return {"model": PENDULA, **self.problem.parameters}
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds on the rates per unit of tau, for amplitudes up to `peak`, by key."""
+        """Return bounds on relative rates per unit of tau, for amplitudes up to `peak`, by key."""
         return rates_of(self.constants, peak, self.mu)
 
     @property
     def clock(self) -> float:
-        """Units of t in one of tau, 2 / mu^2."""
+        """dt/dtau = 2 / mu^2."""
         return clock_of(self.mu)
 
     @property
     def atol_scale(self) -> float:
-        """2 mu, by which absolute tolerances are scaled: they are given for the amplitudes."""
+        """2 mu, the scale of absolute tolerances, which are given for the amplitudes."""
         return 2.0 * self.mu
 
     def system(self, cut: Reduction) -> Pendula:
@@ -163,7 +163,7 @@ class PendulumEquations(PaperEquations):
         """Return swings, angles and velocities of the full chain."""
         snapshots = np.array([unfold(part, cut) for part in record.snapshots])
         return {
-            # at a snapshot all pendula are at the same phase, so the angle alone depends on it
+            # all pendula have the same phase at a snapshot, on which the angles alone would depend
             "modulus": swings_of(*snapshots, self.constants.omega, self.mu),
             "final": np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)]),
             "state": snapshots,

@@ -2,8 +2,8 @@
 
 The lattice Laplacian has real orthonormal modes with the eigenvalues -lambda_k, and the modes
 decouple: the sum S = A + B obeys i S' = -kappa S, the difference D = A - B obeys
-i D' = -kappa D - 2 gamma conj(D), where kappa = epsilon lambda_k - Omega as in (14). Lemma 1
-follows: the dispersion relation (15), the threshold gamma_0 (12), and those of finite chains.
+i D' = -kappa D - 2 gamma conj(D), where kappa = epsilon lambda_k - Omega as in (14). This gives
+Lemma 1: the dispersion relation (15), the threshold gamma_0 (12), and thresholds of finite chains.
 Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N sites it takes N values.
 """
 
@@ -41,8 +41,8 @@ def _read_only(values: np.ndarray) -> np.ndarray:
 def driven(kappa: np.ndarray, gamma: float, tau: float) -> tuple[np.ndarray, np.ndarray]:
     """Return (C, S) with D'' = (4 gamma^2 - kappa^2) D: C = cosh(s tau), S = sinh(s tau) / s.
 
-    Where 4 gamma^2 < kappa^2 these are cosine and sine; at equality C = 1 and S = tau, the growth
-    linear in time at the threshold of Lemma 1.
+    If 4 gamma^2 < kappa^2, these are cosine and sine. At equality, the threshold of Lemma 1, C = 1
+    and S = tau: the growth is linear in time.
     """
     square = (2 * gamma - kappa) * (2 * gamma + kappa)
     rate = np.sqrt(np.abs(square))
@@ -62,7 +62,7 @@ def flow(
     """Return the solution (A, B) of the linear equations at `tau`, shape (2, N), from `amplitudes`.
 
     `amplitudes` is complex, shape (2, N), and `tau` may be negative. The result is exact up to
-    rounding. For an array `omega` its shape is (..., 2, N).
+    rounding. If `omega` is an array, the result has the shape (..., 2, N).
     """
     sites = amplitudes.shape[1]
     basis = modes(sites, boundary)
@@ -80,7 +80,7 @@ def flow(
 
 
 def growth_rate(kappa: Reals, gamma: Reals) -> Reals:
-    """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 where it is stable."""
+    """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 if the mode is stable."""
     return np.sqrt(np.maximum(0.0, (2.0 * np.abs(gamma) - kappa) * (2.0 * np.abs(gamma) + kappa)))
 
 

@@ -4,13 +4,13 @@ For epsilon = 0 a steady state of (4) obeys
 
     (Omega + |A|^2 / 2) A = gamma (conj A - conj B) = -(Omega + |B|^2 / 2) B.
 
-Proof that the list below is complete (gamma > 0, not both zero). If both factors Omega + |.|^2 / 2
-vanish, so does the middle, and A = B on the circle |A|^2 = -2 Omega. If not, say the factor of A
-does not. For B = 0 the right side vanishes, hence A too; so B is not zero, and A = r B with r real,
-or the factor of B vanishes, then so does the left side, and A = 0 in contradiction. For r = 1 the
-middle vanishes: the circle again. For any other r the middle is a real multiple of conj A, so that
-A^2 is real: A and B are both real or both imaginary. With A = a, B = b or A = i a, B = i b, and
-s = gamma in the real, s = -gamma in the imaginary case (the drive acts on conjugates),
+Proof that the list below is complete (gamma > 0, A and B not both zero). If both factors
+Omega + |.|^2 / 2 vanish, so does the middle, and A = B on the circle |A|^2 = -2 Omega. Otherwise
+let the factor of A be nonzero. If the right side vanished, then A = 0, and the middle would give
+B = 0. So both sides are nonzero, and A = r B with a real r. For r = 1 the middle vanishes: the
+circle again. For any other r the middle is a real multiple of conj A, so A^2 is real: A and B are
+both real or both imaginary. Let A = a, B = b, s = gamma in the real case, and A = i a, B = i b,
+s = -gamma in the imaginary case, because the drive acts on conjugates. Then
 
     (Omega - s) a + s b + a^3 / 2 = 0,     (Omega - s) b + s a + b^3 / 2 = 0.
 
@@ -31,7 +31,7 @@ class Family(NamedTuple):
     kind: str  # "opposite" for a = -b, "equal" for a = b, "asymmetric"
 
     def drive(self, gamma: float) -> float:
-        """Return s, the strength of the drive on a and b with its sign."""
+        """Return s, the signed strength of the drive on a and b."""
         return -gamma if self.imaginary else gamma
 
 
@@ -42,11 +42,11 @@ FAMILIES = (
     Family("A = -B imaginary", True, "opposite"),
     Family("asymmetric imaginary", True, "asymmetric"),
 )
-"""All families; the real state represents the circle A = B, whose phase is free."""
+"""All families; the circle A = B, of any phase, is represented by its real state."""
 
 
 def pair(family: Family, gamma: float, omega: float) -> tuple[float, float] | None:
-    """Return (a, b) of a family, a >= |b|, or None where the family does not exist."""
+    """Return (a, b) of a family, a >= |b|, or None if the family does not exist."""
     s = family.drive(gamma)
     if family.kind == "equal":
         return _same(-2.0 * omega, 1.0)

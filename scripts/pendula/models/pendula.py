@@ -1,14 +1,14 @@
 """Kernels of Newton's equations (1) of the pendula on a finite chain, and their drive.
 
-Time is t = 2 tau / mu^2 (`times_of`). A state has the rows x, x', y, y', or the first two alone
-where x = y (see `latticode.generation.chain`); x is an angle in rad.
+Time is t = 2 tau / mu^2 (`times_of`). A state has the rows x, x', y, y', or only the first two if
+x = y (see `latticode.generation.chain`); x is an angle in rad.
 
 Initial data are amplitudes: x = 2 mu Re A and x' = -2 mu omega Im A at t = 0, the leading terms of
 (3).
 
 Sines and cosines use only + - *, in a fixed order, and have the same bits on every machine. The
-phase of the drive is reduced to a fraction of a turn before it is rounded. Its error is about 1e-16
-at every t; the product 2 omega t would be wrong by 1e-11 at t = 1e5.
+phase of the drive is reduced to a fraction of a turn before it is rounded. Its error is then about
+1e-16 at every t; the rounded product 2 omega t would be wrong by 1e-11 at t = 1e5.
 """
 
 from decimal import Decimal, localcontext
@@ -26,7 +26,7 @@ from latticode.numerics import elementary
 from latticode.numerics.elementary import SPLITTER, complex_of, modulus, product
 from latticode.simulation.observables import observe_angles
 
-from .equations import KERNEL_MODEL
+from .equations import KERNEL_MODEL, Constants
 
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"
@@ -39,7 +39,7 @@ class Clock(NamedTuple):
 
     strength: float  # 2 gamma mu^2
     frequency: float  # 2 omega
-    turns: float  # turns in a unit of t, omega / pi, rounded
+    turns: float  # turns per unit of t, omega / pi, rounded
     turns_rest: float  # the rounding error of `turns`
 
 
@@ -60,15 +60,15 @@ def frequency(omega: float, mu: float) -> float:
 
 
 def turns_of_drive(omega: float, mu: float) -> tuple[float, float]:
-    """Return omega / pi, the turns of the drive in a unit of t, and the rounding error of it."""
+    """Return omega / pi, the turns of the drive per unit of t, and its rounding error."""
     with localcontext() as context:
         context.prec = 50
         turns = (1 + Decimal.from_float(mu) ** 2 * Decimal.from_float(omega)).sqrt() / Decimal(PI)
         return float(turns), float(turns - Decimal(float(turns)))
 
 
-def make_pendula(constants, mu: float, ends: tuple[int, int]) -> Pendula:
-    """Return the parameters of the kernels from the `Constants` of (4) and mu."""
+def make_pendula(constants: Constants, mu: float, ends: tuple[int, int]) -> Pendula:
+    """Return the parameters of the kernels from the constants of (4) and mu."""
     square = mu * mu
     strength, omega = 2.0 * constants.gamma * square, frequency(constants.omega, mu)
     clock = Clock(strength, 2.0 * omega, *turns_of_drive(constants.omega, mu))
@@ -78,14 +78,14 @@ def make_pendula(constants, mu: float, ends: tuple[int, int]) -> Pendula:
 def angles_of(amplitudes: np.ndarray, omega: float, mu: float) -> np.ndarray:
     """Return angles and velocities (part, ...) at t = 0: x = 2 mu Re A and x' = -2 mu omega Im A.
 
-    `omega` is Omega.
+    The argument `omega` is the detuning Omega.
     """
     size = 2.0 * mu
     return np.array([size * amplitudes.real, (-size * frequency(omega, mu)) * amplitudes.imag])
 
 
 def swings_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: float) -> np.ndarray:
-    """Return sqrt(x^2 + (x' / omega)^2): the angle that a harmonic pendulum would swing to.
+    """Return sqrt(x^2 + (x' / omega)^2): the angle to which a harmonic pendulum would swing.
 
     For the leading terms of (3) it is 2 mu |A| at every phase.
     """
@@ -93,7 +93,7 @@ def swings_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: floa
 
 
 def leading_angles(amplitudes: np.ndarray, omega: float, mu: float, tau: float) -> np.ndarray:
-    """Return the angles 2 mu Re(A e^{i omega t}) of the expansion (3) at one tau, shaped as A."""
+    """Return the angles 2 mu Re(A e^{i omega t}) of the expansion (3) at one tau, shaped like A."""
     turns, rest = turns_of_drive(omega, mu)
     t = float(times_of(tau, mu))
     half = Decimal.from_float(t) * (Decimal.from_float(turns) + Decimal.from_float(rest)) / 2

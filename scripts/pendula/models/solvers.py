@@ -1,4 +1,4 @@
-"""The library's methods with the kernels of the paper's equations, compiled and cached, by name."""
+"""The library's methods, compiled with the kernels of the paper's equations and cached, by name."""
 
 from latticode.simulation.traced import load_runs
 

@@ -9,14 +9,14 @@ from replication.words import number, percent
 
 from pendula.problem import PENDULA
 
-# ASSUME: a bound is violated if the norms exceed it by more than their error and by more than this.
+# ASSUME: a bound is violated if the norms exceed it by more than their error and more than SLACK.
 SLACK = 1e-6
-TOO_LARGE = "broken: the errors of the run are too large"
+TOO_LARGE = "violated: the errors of the run are too large"
 Answers = list[tuple[str, str]]
 
 
 def answer_questions(checks: xr.Dataset, moves: bool) -> Answers:
-    """Return questions and answers on a case; `moves` is False if all sites stay at rest."""
+    """Return questions on a case, with answers; `moves` is False if all sites stay at rest."""
     if checks.attrs.get("model") == PENDULA:
         specific, at_rest = _answer_for_pendula, []
     elif "model_text" in checks.attrs:
@@ -88,7 +88,7 @@ def _answer_chaos(checks: xr.Dataset) -> tuple[str, str]:
 
 
 def _answer_lemma_1(checks: xr.Dataset) -> Answers:
-    """Return whether the chain at rest is stable, and the chains to which the statements apply."""
+    """Return whether the chain at rest is stable and, if epsilon < 0, which chain is meant."""
     stable = {True: "unstable", False: "no growing mode"}
     rows = [
         ("Lemma 1, infinite chain at rest", stable[bool(checks["infinite_rate"] > 0)]),
@@ -107,7 +107,7 @@ def _answer_lemma_1(checks: xr.Dataset) -> Answers:
 
 def _answer_for_amplitudes(checks: xr.Dataset) -> Answers:
     error = np.nan_to_num(float(checks["largest_difference"]))
-    limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
+    limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both of its values have errors
     growth, bound = (
         "holds" if checks[name] <= limit else TOO_LARGE for name in ("from_start", "ratio")
     )

@@ -1,9 +1,9 @@
-"""Checks of a user's case: those of any run, and the paper's statements about the case.
+"""Checks of a user's case: the library's checks of any run, and the paper's statements about it.
 
 For amplitudes these are Lemma 1 for the chain at rest, and the growth of Lemma 2 and Theorems 1 to
 3 for the trajectory. For pendula, the amplitude equations (4) are solved from the same data, and
-the angles of the expansion (3) at the end are compared with the run's. A pendulum that passes the
-top has left the range of (3) for good.
+the angles of the expansion (3) at the end are compared with the run's. The expansion no longer
+applies once a pendulum has passed the top.
 """
 
 from collections.abc import Mapping
@@ -21,9 +21,9 @@ from pendula.models.pendula import leading_angles
 from pendula.problem import AMPLITUDES, PENDULA, PaperProblem
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 
-TITLE = "A case beside the paper's statements"
+TITLE = "A case compared with the paper's statements"
 READ_VARIABLES: Mapping[str, tuple[str, ...]] = {AMPLITUDES: ("energy",), PENDULA: ("final",)}
-"""Variables of a run, besides its norms, that the checks read."""
+"""Variables of a run that the checks read, in addition to its norms."""
 
 
 def compare_with_bounds(run: xr.Dataset) -> dict:
@@ -40,7 +40,7 @@ def compare_with_bounds(run: xr.Dataset) -> dict:
 
 
 def measure_rest(problem: PaperProblem) -> dict:
-    """Return the threshold and growth rates of a chain at rest, infinite and of this length."""
+    """Return the threshold and growth rates at rest, of the infinite and of this finite chain."""
     epsilon, gamma, omega = problem.constants
     rate, unit = infinite_rate(omega, gamma, epsilon), "per unit of tau"
     finite = finite_rate(omega, gamma, epsilon, problem.sites, problem.boundary)
@@ -60,7 +60,7 @@ def compare_with_statements(problem: PaperProblem, run: xr.Dataset) -> xr.Datase
 
 # --- The pendula ----------------------------------------------------------------------------------
 
-TITLE_OF_PENDULA = "A case of the pendula beside the expansion (3)"
+TITLE_OF_PENDULA = "A case of the pendula compared with the expansion (3)"
 
 
 def find_time_over_the_top(run: xr.Dataset) -> float:
@@ -70,7 +70,7 @@ def find_time_over_the_top(run: xr.Dataset) -> float:
 
 
 def compare_with_expansion(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
-    """Return the largest angle, and how far the angles at the end are from those of (3)."""
+    """Return the largest angle, the time over the top, and the distance from (3) at the end."""
     angles = run["final"].sel(part="angle").values
     solver = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
     changed = problem.changed(model=AMPLITUDES, solver=solver, snapshot_every=0)
@@ -78,7 +78,7 @@ def compare_with_expansion(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset
         amplitudes = simulate(changed).final
         expected = leading_angles(amplitudes, problem.constants.omega, problem.mu, problem.end_time)
         distance = float(np.abs(angles - expected).max())
-    except IntegrationError:  # data of (4) may be refused that pendula can be followed from
+    except IntegrationError:  # (4) may fail for data from which pendula can be integrated
         distance = np.nan
     top = "first tau at which an angle exceeds pi, infinite: at no output"
     numbers = {

@@ -3,14 +3,14 @@
 import numpy as np
 import xarray as xr
 from latticode.drawing import runs
-from latticode.drawing.runs import Naming, gather_sweep  # noqa: F401, beside what draws it
+from latticode.drawing.runs import Naming, gather_sweep  # noqa: F401, for `draw_sweep`
 from matplotlib.figure import Figure
 
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA
 
 EIGHT = 8.0
-"""Outputs in a period of the pendula that show how they swing."""
+"""Outputs per period of the pendula that resolve their swing."""
 SYMBOLS = {
     "omega": r"\Omega",
     "gamma": r"\gamma",
@@ -29,7 +29,7 @@ SWING_CAPTION = (
 
 
 def naming_of(data: xr.Dataset) -> Naming:
-    """Return the constants as titles print them; pendula start from amplitudes."""
+    """Return the symbols in titles; the initial data of pendula are amplitudes A and B."""
     return Naming(SYMBOLS, ("A", "B") if data.attrs.get("model") == PENDULA else ())
 
 

@@ -22,9 +22,9 @@ def write_report(
     sections: dict[str, str],
     files: list[str],
 ) -> None:
-    """Write the page `html` on `cases`, and on all else with the case of each.
+    """Write the page `html` on the user's cases, sweeps, surveys, spectra and sections.
 
-    Their `files` are below the folder of the page.
+    All but `cases` map a name to its case. `files` are all files, below the folder of the page.
     """
     folder, written = Path(html).parent, set(files)
     page = [_case(name, folder, written) for name in cases]
@@ -45,7 +45,7 @@ def write_table(data: str, table: str) -> None:
 
 
 def _table(path: str, folder: Path) -> list[str]:
-    """Return a line with a link to the table of a dataset, empty if there is none."""
+    """Return a line with a link to the table of a dataset, or no line if there is no table."""
     link = f"own/tables/{Path(path).with_suffix('.csv')}"
     line = Markup('The numbers as CSV: <a href="{0}">{0}</a>').format(link)
     return [line] if (folder / link).exists() else []
@@ -59,7 +59,7 @@ def _case(name: str, folder: Path, written: set[str]) -> PageSection:
         f"case-{name}",
         f"The case {name}",
         lines=_table(f"trajectories/{name}.nc", folder),
-        tables=[PageTable("What the checks say", ("question", "answer"), answered)],
+        tables=[PageTable("Results of the checks", ("question", "answer"), answered)],
         figures=[figure(path, folder) for path in drawn if str(path) in written],
         datasets={"Datasets": [dataset(run, folder), dataset(checks, folder)]},
     )

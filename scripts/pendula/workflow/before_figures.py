@@ -6,10 +6,10 @@ from latticode.drawing import style
 
 
 @style.styled
-def draw_something() -> None:
-    """Draw a picture that is discarded, to load fonts, the grammar of formulas and both backends.
+def draw_and_discard() -> None:
+    """Draw a picture and discard it, to load fonts, the grammar of formulas and both backends.
 
-    The figures' own formulas would not help: matplotlib parses them again for each picture.
+    The figures' own formulas are not drawn: matplotlib would parse them again for each picture.
     """
     figure = style.new_figure(1.0, 1.0)
     figure.add_subplot(yscale="log", xlabel=r"$\tau$")
@@ -17,4 +17,4 @@ def draw_something() -> None:
         figure.savefig(io.BytesIO(), format=kind)
 
 
-draw_something()
+draw_and_discard()

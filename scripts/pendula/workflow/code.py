@@ -24,8 +24,8 @@ def script_digest(name: str) -> str:
 def function(name: str, *, modules: Iterable[str] = (), also: Iterable[str] = ()) -> list[str]:
     """Return the dotted name of a function, and a hash of all code that it depends on.
 
-    `modules` are further modules that it imports by name. `also` are further values whose change
-    reruns the job, such as versions of packages.
+    `modules` are further modules that it imports by name. A change of a value in `also`, such as
+    the version of a package, also reruns the job.
     """
     names = [name.rpartition(".")[0], *modules]
     files = tuple(file for module in names for file in files_of_module(module))
@@ -40,8 +40,8 @@ def code_of_jobs() -> list[str]:
 
 
 def committed(path: str) -> dict[str, str]:
-    """Return a file of the project as a parameter: its path in the project, and a digest.
+    """Return the parameter that stands for a file of the project: its relative path and digest.
 
-    As an input its path would differ between copies of the project, and the job would run again.
+    As an input, its path would differ between copies of the project and rerun the job.
     """
     return {COMMITTED: path, "sha256": digest_of(PROJECT / path)}

@@ -5,7 +5,7 @@
     >>> threshold.arguments["mus"]
     >>> variables, attributes = threshold.call()
 
-So a debugger, a profiler or a notebook sees what the job does.
+Use it to run the job in a debugger, a profiler or a notebook.
 """
 
 import os
@@ -52,9 +52,9 @@ class Job(NamedTuple):
     draw: Callable | None = None
 
     def call(self) -> Any:
-        """Return the result of the function, with all runs of a study, or the drawn figure.
+        """Return the result of the function after all runs of a study, or the drawn figure.
 
-        Files are written only by functions that write their files themselves.
+        No file is written, unless the function itself writes one.
         """
         result = self.function(**self.arguments)
         if isinstance(result, ManyRuns):
@@ -63,10 +63,10 @@ class Job(NamedTuple):
 
 
 def job(target: str, *options: str) -> Job:
-    """Return the job that makes a file, such as results/checks/lyapunov.nc.
+    """Return the job that writes a file, such as results/checks/lyapunov.nc.
 
     `options` are those of Snakemake, such as "--configfile", "mine.yaml". Raises ValueError if no
-    rule makes the file, with Snakemake's reason, and FileNotFoundError if an input does not exist.
+    rule writes the file, with Snakemake's reason, and FileNotFoundError if an input is missing.
     """
     absent, rule, script, inputs, params, outputs = _planned(target, options)
     if absent:
@@ -80,7 +80,7 @@ def job(target: str, *options: str) -> Job:
 
 
 def _planned(target: str, options: tuple[str, ...]) -> tuple:
-    """Return absent inputs, rule, script, inputs, params and outputs of a planned job."""
+    """Return missing inputs, rule, script, inputs, params and outputs of a planned job."""
     with TemporaryDirectory() as folder:
         file, snakefile = Path(folder, "job"), Path(folder, "Snakefile")
         values = {"snakefile": str(SCRIPTS.parent / "Snakefile"), "target": target}

@@ -12,32 +12,32 @@ from snakemake.logging import DefaultFormatter
 FAILED_JOB = (
     r"(?m)^( *)(?:Error in )?(?:rule|group) (\S+?):\n(?=((?:(?:\1 +|sbatch: |For fur).*\n)*))"
 )
-"""An error in Snakemake's log with its details, which are indented further, as in groups of jobs.
+"""An error in Snakemake's log with its details, which are indented further, also in groups of jobs.
 
-Only the first line of sbatch's output is indented."""
+Of sbatch's output only the first line is indented."""
 REASON_IN_LOG = r"(?ms)^failed: (.*?)\nTraceback"
 """The reason in the log of a job, see pendula/contract/log.py."""
 REASON_OF_SLURM = r"(?m)^.*?((?:srun|slurmstepd\S*|sbatch): error: .*|\w+(?:Error|Exception): .*)$"
-"""A reason in the log that Slurm keeps of a job's screen."""
+"""A reason in the log in which Slurm keeps a job's output."""
 SLURM_STATE_HINTS = {
-    "TIMEOUT": "its limit of time: give it more by --set-resources {rule}:runtime=MINUTES",
-    "OUT_OF_MEMORY": "its limit of memory: give it more by --set-resources {rule}:mem_mb=MB",
-    "CANCELLED": "scancel, or the limit of the partition",
-    "NODE_FAIL": "its node was lost: run the same command again",
+    "TIMEOUT": "at its time limit: raise it with --set-resources {rule}:runtime=MINUTES",
+    "OUT_OF_MEMORY": "at its memory limit: raise it with --set-resources {rule}:mem_mb=MB",
+    "CANCELLED": "by scancel or at the limit of the partition",
+    "NODE_FAIL": "because its node failed: run the same command again",
 }
 """Meanings of Slurm's states, with hints."""
 SIGNAL = r"died with <Signals\.\w+: (\d+)>|returned non-zero exit status (1[3-5]\d)\b"
-"""Snakemake's message on a script that a signal ended, or on its shell, which adds 128."""
+"""Snakemake's message on a script that a signal ended, or on its shell, which adds 128 to it."""
 SIGNAL_HINTS = {
-    signal.SIGKILL: ": the system does this if memory runs out: try fewer --cores",
-    signal.SIGTERM: ": a person or the machine ended it: run the same command again",
+    signal.SIGKILL: " (out of memory?): try fewer --cores",
+    signal.SIGTERM: " (by a user or the system): run the same command again",
     signal.SIGSEGV: ": a library crashed: run the same command again, and report it if it recurs",
 }
 """Possible meanings of signals, with hints."""
 STATUS_OF_NO_LOG = rf"\bexit status {os.EX_IOERR}\b"
 NO_LOG = (
-    "its log could not be written, so that its reason is above alone (is the disk full?): make "
-    "room, and run the same command again"
+    "its log could not be written (disk full?), and the reason is printed only above: free some "
+    "space, and run the same command again"
 )
 """The reason of jobs that end with this exit status, see pendula/contract/log.py."""
 NO_REASON = "no reason found: its log may be lost, or the system killed it (out of memory?)"
@@ -57,7 +57,7 @@ class Errors(logging.Handler):
 
 
 def causes_of_failures(errors: str) -> list[tuple[str, str]]:
-    """Return from Snakemake's errors why each job failed, and the file with more."""
+    """Return the reason and the log of each failed job in the text of Snakemake's errors."""
     causes = {}
     for _, rule, details in re.findall(FAILED_JOB, errors):
         listed = re.search(r"(?m)^ +log: (.*?) \(check", details)
@@ -75,19 +75,19 @@ def causes_of_failures(errors: str) -> list[tuple[str, str]]:
 
 
 def _reasons_of_slurm(rule: str, details: str, logs: list[str]) -> list[str]:
-    """Return what Slurm reports: a refused request, a limit, or an error on the screen."""
+    """Return what Slurm reports: a rejected request, a limit, or an error in a job's output."""
     state = re.search(r"SLURM status is: '(\w+)", details)
     job = re.search(r"SLURM-job '(\S+)'", details)
     reasons = re.findall(r"(?m)(sbatch: error: .*?)'?$", details)
     if hint := SLURM_STATE_HINTS.get(state[1]) if state else None:
-        reasons.append(f"Slurm ended job {job[1]} ({state[1]}): {hint.format(rule=rule)}")
+        reasons.append(f"Slurm ended job {job[1]} ({state[1]}) {hint.format(rule=rule)}")
     reasons += [reason for log in logs[1:] for reason in _reasons_of_signals(_text_of(log))]
     reasons += [reason for log in logs[1:] for reason in _matches(log, REASON_OF_SLURM)]
     return reasons + ([f"Slurm: job {job[1]} is {state[1]}"] if state and job else [])
 
 
 def _reasons_of_executor(rule: str, errors: str) -> list[str]:
-    """Return what the executor or Snakemake reports of a job that a signal ended."""
+    """Return what the executor or Snakemake reports on a job that a signal ended."""
     forked = re.findall(rf"(?m)^forked: rule {re.escape(rule)} failed: (.*)$", errors)
     numbers = [number for line in forked for number in re.findall(r"by signal (\d+)", line)]
     in_forks = _reasons_of_signals("\n".join(forked)) + _hints_on_signals(numbers)
@@ -95,14 +95,14 @@ def _reasons_of_executor(rule: str, errors: str) -> list[str]:
 
 
 def _reasons_of_signals(text: str) -> list[str]:
-    """Return which signals ended scripts, with hints, or that a job could not write its log."""
+    """Return NO_LOG if a job could not write its log, and a line on each signal that ended one."""
     no_log = [NO_LOG] if re.search(STATUS_OF_NO_LOG, text) else []
     ends = re.findall(SIGNAL, text)
     return no_log + _hints_on_signals(number or int(status) - 128 for number, status in ends)
 
 
 def _hints_on_signals(numbers: Iterable[str | int]) -> list[str]:
-    """Return a sentence for each number of a signal."""
+    """Return a line on each signal, given by its number."""
     signals = (signal.Signals(int(number)) for number in numbers)
     return [f"it was killed by {each.name}" + SIGNAL_HINTS.get(each, "") for each in signals]
 

@@ -40,9 +40,9 @@ def kernels(*solvers: str) -> list[str]:
 
 
 def kernels_for(problem: Mapping, *solvers: str) -> list[str]:
-    """Return the records of compiled solvers for a problem, of its own solver or of `solvers`.
+    """Return the records of compiled solvers that a problem waits for: its own, or `solvers`.
 
-    Solvers of other equations than (4) are compiled by the first job that needs them.
+    Solvers of equations other than (4) are compiled by the first job that needs them.
     """
     return [] if "model" in problem else kernels(*solvers or [problem["solver"]["name"]])
 
@@ -57,15 +57,15 @@ CHUNK = r"(\.parts/\d+-of-\d+)?"
 
 
 def chunks_of(gather: Any, pattern: str, process: str = "runs") -> Callable:
-    """Return an input function: the chunks of a study's runs, none if they are made in one job.
+    """Return an input function: the chunks of a study's runs, none if one job makes all runs.
 
-    `pattern` is the path of the dataset below results/ without its ending. `gather` is Snakemake's
-    object, and `process` one of the workflow's `scattergather`. Both may have wildcards.
+    `pattern` is the path of the dataset below results/ without its ending, `process` the name of a
+    `scattergather` process; both may have wildcards. `gather` is Snakemake's object.
     """
 
     def files(wildcards: Any) -> list[str]:
         values = dict(wildcards.items())
-        if values["chunk"]:  # a chunk itself
+        if values["chunk"]:  # this job makes a chunk
             return []
         stem = f"<results>/{pattern.format(**values)}.parts"
         chunks = getattr(gather, process.format(**values))(f"{stem}/{{scatteritem}}.nc")
@@ -86,7 +86,7 @@ CHUNKS_OF_A_SURVEY = 8
 def chunks_of_surveys(surveys: Mapping[str, Any], overwritten: Mapping[str, int]) -> dict[str, int]:
     """Return the number of chunks of each survey, by the name of its scattergather process.
 
-    It is the survey's own, else that of `--set-scatter runs=`, and at most its number of runs.
+    It is the survey's `chunks`, else that of `--set-scatter runs=`, but at most its runs.
     """
     default = overwritten.get("runs", CHUNKS_OF_A_SURVEY)
     return {
@@ -111,9 +111,9 @@ def runs_by(settings: PaperConfiguration, solver: str) -> list[str]:
 
 
 def own_files(settings: PaperConfiguration) -> list[str]:
-    """Return every figure, table and dataset of a user's cases, sweeps and surveys.
+    """Return all figures, tables and datasets of a user's cases, sweeps and surveys.
 
-    Raises ConfigurationError if there are none.
+    Raises ConfigurationError if the user has none.
     """
     cases = [case for case in settings.cases if case not in PAPER_CASES]
     sweeps = [sweep for sweep in settings.sweeps if sweep not in PAPER_SWEEPS]
@@ -122,8 +122,8 @@ def own_files(settings: PaperConfiguration) -> list[str]:
     motions += [f"sections/{name}" for name in settings.sections]
     if not any([*names_by_folder.values(), motions]):
         raise ConfigurationError(
-            "the configuration has no case, sweep or survey of your own: give some by "
-            "--configfile, as docs/own_cases.md shows"
+            "the configuration has no case, sweep or survey of your own: add some with "
+            "--configfile (see docs/own_cases.md)"
         )
     places = [f"{folder}/{name}" for folder, names in names_by_folder.items() for name in names]
     of_models = [case for case in cases if settings.cases[case].model not in MODELS]
@@ -139,9 +139,9 @@ def own_files(settings: PaperConfiguration) -> list[str]:
 
 
 def differs_of(differs: Differences, wildcards: Any, input: Iterable[str]) -> list[str]:
-    """Return sentences on where a figure shows another configuration than the paper's.
+    """Return the differences from the paper's configuration that affect a figure, as sentences.
 
-    Of the datasets of many cases it shows those of its trajectories and sweeps, if it has such.
+    If the inputs include trajectories or sweeps, only those count in a dataset of many cases.
     """
     names = [name_of(path) for path in input if path.endswith(".nc")]
     names = [name for name in names if not name.startswith(("long/", "own/"))]

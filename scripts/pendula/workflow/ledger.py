@@ -18,8 +18,8 @@ CLAIMS = "claims"
 def parts_of_ledger() -> dict[str, list[str]]:
     """Return the prefixes of the modules of claims in each part, such as "theory/claims".
 
-    Each study with claims is a part, but for `paper`, which has two: its claims on the figures, and
-    all others. So each module of a study whose name begins with "claims" is in a part.
+    Each study with claims is a part, except `paper`, which has two: its claims on the figures, and
+    all others. Every module of a study belongs to a part if its name begins with "claims".
     """
     modules_by_part: dict[str, list[str]] = {"figures": [], "solvers": []}
     for path in files_with_prefix(f"{PAPER}/{CLAIMS}"):

@@ -1,4 +1,4 @@
-"""The configuration of a call of Snakemake, and the options that belong to this call alone."""
+"""The configuration of a call of Snakemake, and the options that are only for this call."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -9,11 +9,11 @@ from latticode.configuration.files import ConfigurationError, gather, read_entri
 from pendula.configuration.messages import STUDIES
 
 NAMES = ("baseline", "bits", "accept")
-"""Options of a call, given by --config alone: in a file they would send results elsewhere."""
+"""Options of one call. They are read only from --config, never from a file."""
 
 
 class Options(NamedTuple):
-    """The baseline to compare with, whether numbers suffice, and what of a run to accept."""
+    """The baseline to compare with, whether equal numbers suffice, and which results to accept."""
 
     baseline: str | None
     any_bits: bool
@@ -23,7 +23,7 @@ class Options(NamedTuple):
 def take_options(config: dict[str, Any], values: Mapping[str, Any]) -> Options:
     """Return the options in `values`, the values of --config, and remove them from `config`.
 
-    Raises ConfigurationError for a value that an option cannot have.
+    Raises ConfigurationError for an invalid value.
     """
     for name in NAMES:
         config.pop(name, None)
@@ -33,14 +33,12 @@ def take_options(config: dict[str, Any], values: Mapping[str, Any]) -> Options:
         raise ConfigurationError(f"--config baseline={baseline}: {text}")
     if bits not in (None, "any"):
         raise ConfigurationError(
-            f"--config bits={bits}: the only value is bits=any: compare numbers where bits differ. "
-            "By default such files fail in the accepted environment"
+            f"--config bits={bits}: the only allowed value is any, to compare numbers where bits "
+            "differ. By default such files fail in the accepted environment"
         )
     if "chunks" in values:
-        text = "the number of chunks is an option of Snakemake now"
-        raise ConfigurationError(
-            f"--config chunks={values['chunks']}: {text}: --set-scatter runs=8"
-        )
+        text = "is no longer an option; give the number of chunks by --set-scatter runs=8"
+        raise ConfigurationError(f"--config chunks={values['chunks']}: {text}")
     return Options(baseline, bits == "any", str(accept or "").split())
 
 
@@ -52,9 +50,9 @@ def project_files(project: Path) -> list[str]:
 def read_configuration(project: Path, files: Iterable[str], entries: Iterable[str]) -> dict:
     """Return the project's files, then --configfile, then --config, each overriding those before.
 
-    `entries` are the words after --config. We read them here, not with `configfile:`, because
-    Snakemake gives no line number for invalid YAML, silently takes the last of two duplicate keys,
-    reads 010 as ten, and merges initial data.
+    `entries` are the values of --config. They are not read by `configfile:`, because Snakemake
+    gives no line number for invalid YAML, silently takes the last of two duplicate keys, reads 010
+    as ten, and merges initial data.
     """
     from_command_line = read_entries(
         entry for entry in entries if entry.partition("=")[0] not in NAMES

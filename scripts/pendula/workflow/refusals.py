@@ -1,4 +1,4 @@
-"""Checks that stop Snakemake before its first job, with the reason and the way out."""
+"""Checks that stop Snakemake before its first job, with the reason and what to do."""
 
 import os
 import sys
@@ -51,17 +51,17 @@ class Refusals:
         installed = Path(package.__file__).resolve()
         if not installed.is_relative_to(project.resolve()):
             self.stop(
-                f"Python imports the code of {installed.parents[2]}, not that of this copy of the "
-                f"project: install this one by `pip install -e {project}`, in its own environment"
+                f"Python imports the project from {installed.parents[2]}, not from this copy: run "
+                f"`pip install -e {project}` in a separate environment"
             )
 
     def refuse_storage(self) -> None:
         """Stop if a default storage is set, for which Snakemake 9.27 ignores pathvars of rules."""
         if provider := self.workflow.storage_settings.default_storage_provider:
             self.stop(
-                f"--default-storage-provider {provider} does not work here, since Snakemake does "
-                "not apply the pathvars of single rules there. Leave it out, and copy results/ to "
-                "the storage afterwards"
+                f"--default-storage-provider {provider} is not supported here, because with it "
+                "Snakemake ignores the pathvars of rules. Leave it out, and copy results/ to the "
+                "storage afterwards"
             )
 
     def refuse_read_only_folder(self) -> None:
@@ -74,7 +74,7 @@ class Refusals:
                 )
 
     def refuse_full_disk(self) -> None:
-        """Stop a run if the disk of the working directory has no room for Snakemake's records."""
+        """Stop if the disk of the working directory has no room for the records of a run."""
         if not self.workflow.is_main_process or self.workflow.dryrun:
             return
         try:
@@ -83,17 +83,19 @@ class Refusals:
                 probe.flush()
         except OSError as error:
             folder = os.path.abspath(".")
-            self.stop(f"{folder} takes no files ({error.strerror}): make room, and run again")
+            self.stop(
+                f"cannot write to {folder} ({error.strerror}): free some space, and run again"
+            )
 
     def refuse_read_only_results(self) -> None:
         """Stop before the first job if a file of the run would lie in a read-only folder."""
         jobs = list(self.workflow.dag.needrun_jobs())
         files = (file for job in jobs for file in (*job.output, *job.log))
         for folder in read_only_folders(files):
-            self.stop(f"{folder} is read-only: make it writable, or name another by --directory")
+            self.stop(f"{folder} is read-only: make it writable, or give another by --directory")
 
     def refuse_endless_requests(self) -> None:
-        """Stop before the first job if Slurm would keep one in its queue for ever."""
+        """Stop before the first job if a job would never leave Slurm's queue."""
         settings = self.workflow.executor_settings
         if os.environ.get("SNAKEMAKE_SLURM_PARTITIONS") or settings.partition_config:
             return  # the plugin chooses partitions

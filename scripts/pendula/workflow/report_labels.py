@@ -1,6 +1,7 @@
-"""What `snakemake --report` writes beside each figure and dataset, from the files themselves.
+"""Labels of figures and datasets on the page of `snakemake --report`, read from the files.
 
-Each has one label: of two results, the page would show a second label as a switch, and go blank.
+Each result has only one label: with a second one, the page of two results would show a switch and
+go blank.
 """
 
 from collections.abc import Sequence
@@ -30,7 +31,7 @@ def label_figure(wildcards: Any, output: Sequence[str]) -> dict[str, str]:
 
 
 def label_dataset(wildcards: Any, output: Sequence[str], place: int = 0) -> dict[str, str]:
-    """Return the name with the title of the dataset at a place among the outputs of a job."""
+    """Return the name and title of the dataset that is output number `place` of a job."""
     path = output[place]
     return {"dataset": f"{Path(path).stem}: {_attributes_of(path)['title']}"}
 

@@ -9,13 +9,13 @@ from latticode.configuration.cost import RunCost
 START_MB, START_MINUTES = 1000, 15
 """Memory in MB and time in minutes for Python, imports and a compilation."""
 SAFETY = 5
-"""Estimates are within a factor of three, and a node may be slower."""
+"""Factor on estimated times: they are right within a factor of three, and a node may be slower."""
 SHORT, HOUR = RunCost(0.0, 0.0), RunCost(3600 / SAFETY, 0.0)
-"""Costs of jobs that request only the start, and an hour more."""
+"""Costs of jobs that request only the time of the start, and an hour more."""
 
 
 def cost_of_study(wildcards: Any) -> RunCost:
-    """Return the cost of a study that has the wildcard `size`: an hour for the longer one."""
+    """Return the cost of a study: an hour if the wildcard `size` selects the longer one."""
     return HOUR if wildcards.size else SHORT
 
 

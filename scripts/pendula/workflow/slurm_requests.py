@@ -7,7 +7,7 @@ SINFO = ("sinfo", "--noheader", "--format", "%P|%l")
 """The command that lists each partition with its limit; an asterisk marks the default one."""
 
 Request = tuple[str, str | None, int | None]
-"""The name of a rule, its partitions if it names any, and its minutes."""
+"""The name of a rule, its partitions if it requests any, and its minutes."""
 
 
 def requests_above_limits(requests: Iterable[Request], sinfo_output: str) -> list[str]:

@@ -7,7 +7,7 @@ from latticode.configuration.values import Section, Steps
 
 
 def values_of(section: Section, *names: str) -> dict[str, Any]:
-    """Return the settings of these names as plain values, or all but those of a longer study."""
+    """Return the named settings as plain values; without names, all but those of `long`."""
     values_by_name = section.model_dump()
     chosen = names or [name for name in values_by_name if name != "long"]
     settings = {name: getattr(section, name) for name in chosen}
@@ -23,7 +23,7 @@ def section_of_size(section: Section, wildcards: Any) -> Section:
 
 
 def by_size(section: Section, *names: str) -> dict[str, Callable]:
-    """Return a function of the wildcards for each setting, as longer studies have others."""
+    """Return a function of the wildcards for each setting, which may differ in a longer study."""
 
     def of_size(name: str) -> Callable:
         return lambda wildcards: values_of(section_of_size(section, wildcards), name)[name]
@@ -32,5 +32,5 @@ def by_size(section: Section, *names: str) -> dict[str, Callable]:
 
 
 def without_solver(problem: Mapping) -> dict[str, Any]:
-    """Return plain values of a problem but for its solver."""
+    """Return the plain values of a problem without its solver."""
     return {key: value for key, value in problem.items() if key != "solver"}
