@@ -53,7 +53,7 @@ def test_pendula_that_are_not_driven_keep_their_energy(boundary):
         ({"mu": -0.1}, "require a positive mu"),
         ({"mu": 0.5, "omega": -4.0}, "must be positive"),
         ({"model": "amplitudes"}, "mu requires model: pendula"),
-        ({"model": "springs"}, "no model 'springs'"),
+        ({"model": "springs"}, "unknown model 'springs'"),
     ],
 )
 def test_what_has_no_meaning_is_refused(changes, message):
