@@ -50,7 +50,7 @@ class PaperProblem(problem.Problem):
         if self.model.name in MODELS:
             self._require_mu()
             if kind_of(self.boundary) == ANTIPERIODIC:
-                text = f"the boundary of the paper's equations is one of {', '.join(BOUNDARIES)}"
+                text = f"the paper's equations require a boundary of {', '.join(BOUNDARIES)}"
                 raise ValueError(f"{text}, not {self.boundary}; or give a model of your own")
 
     def _require_mu(self) -> None:

@@ -17,8 +17,8 @@ import xarray as xr
 from latticode.measures.confidence import ConfidenceInterval
 
 Estimate = tuple[Any, Any] | ConfidenceInterval
-"""A number with its statistical error or its confidence interval, or arrays of one shape; NaN is a
-number that was not measured."""
+"""A number with its statistical error or confidence interval, or arrays of these of equal shape.
+NaN means that a number was not measured."""
 VARIATION, ENDINGS = "variation", ("", "_error", "_statistical_error", "_varied")
 """The dimension of variations, and the endings of the names of a number's variables."""
 

@@ -52,8 +52,8 @@ def test_a_wrong_run_breaks_lemma_2_and_its_bound():
     run = simulate(REGULAR)
     run["l2"].values *= np.exp(5.0 * run["tau"].values)
     answered = dict(answers.answer_questions(check(REGULAR, run), True))
-    assert "broken" in answered["Lemma 2, growth of P"]
-    assert "broken" in answered["the smallest bound of these theorems"]
+    assert "violated" in answered["Lemma 2, growth of P"]
+    assert "violated" in answered["the smallest bound of these theorems"]
 
 
 def test_the_numbers_of_lemma_1(measured):

@@ -22,8 +22,8 @@ TOLERATED = Tolerated(
     at_most=frozenset({"tolerance"}),
     single=frozenset({"initial"}),
 )
-"""Changes that affect no claim: of seeds and windows in figures, to longer studies, larger
-ensembles and grids, and smaller tolerances."""
+"""Keys whose changes affect no claim: seeds, windows in figures, longer studies, and larger
+ensembles, finer grids or smaller tolerances."""
 
 DATA = ("model", "epsilon", "gamma", "omega", "initial")
 """Keys of a case that determine a solution on an infinite chain."""
@@ -38,7 +38,7 @@ def paper() -> dict[str, Any]:
 def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
     """Return the differences of a validated configuration, as plain values, from the paper's.
 
-    Additional cases and sweeps are no differences.
+    Additional cases and sweeps do not count.
     """
     differences = find_differences(paper(), configuration, TOLERATED)
     return {".".join(place): _in_words(place, *pair) for place, pair in differences.items()}

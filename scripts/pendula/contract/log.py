@@ -49,7 +49,7 @@ WORTH_SHOWING = 10.0
 NO_LOG = os.EX_IOERR
 """Exit status of a job that failed and could not write the reason to its log."""
 INTERRUPTED = 130
-"""Exit status of a job that Ctrl-C ended, as shells give it."""
+"""Exit status of a job that Ctrl-C ended, as in shells."""
 PACKAGES = ("pendula", "latticode", "replication")
 """Packages whose error messages are logged without the name of the class."""
 

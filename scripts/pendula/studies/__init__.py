@@ -22,7 +22,7 @@ are in config/<name>.yaml."""
 
 
 def modules_named(stem: str) -> dict[str, ModuleType]:
-    """Return by study its module called `stem`, such as "settings", if it has one."""
+    """Return the modules called `stem`, such as "settings", of the studies that have one."""
     names = {study: f"pendula.studies.{study}.{stem}" for study in STUDIES}
     return {study: import_module(name) for study, name in names.items() if find_spec(name)}
 
@@ -30,7 +30,7 @@ def modules_named(stem: str) -> dict[str, ModuleType]:
 def modules_with_prefix(prefix: str) -> Iterator[ModuleType]:
     """Yield the modules of all studies whose names start with `prefix`, such as "claims".
 
-    With the name of a study before it, as in "paper/claims", only those of this study.
+    A prefix that begins with a study, as in "paper/claims", yields only modules of this study.
     """
     for path in files_with_prefix(prefix):
         yield import_module(f"{__name__}.{path.parent.name}.{path.stem}")

@@ -18,7 +18,7 @@ def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
     for family, end in zip(FAMILIES, (2.0, 0.0, -1.0, -2.0, -3.0), strict=True):
         assert pair(family, 1.0, end - 1e-9) is not None
         assert pair(family, 1.0, end + 1e-9) is None
-        with pytest.raises(NoStateError, match="no pair"):
+        with pytest.raises(NoStateError, match="a pair has no state"):
             localised(family, numbers(omega=end + 0.5), 30)
 
 

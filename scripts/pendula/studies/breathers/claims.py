@@ -29,15 +29,15 @@ OF_FIG_2, OF_FIG_3, OF_FIG_4 = 8.0, -4.0, 0.0
 DATA_POWER = 26.0
 """P of the paper's large initial condition, A_0 = 5 and B_0 = 1."""
 FAR_FROM_THE_WAVES = -3.5
-"""At lower frequencies solitons are wide and have little P, and waves reflected by the ends disturb
+"""At lower frequencies solitons are wide and have small P, and waves reflected by the ends disturb
 them."""
 SAME_GROWTH = Cutoff(1e-3, "a rate that adds less than 10 % by the end of the paper's runs")
 
 
 def at_omega(dataset: xr.Dataset, omega: float) -> xr.Dataset:
-    """Return a dataset at one detuning. Raises UndecidableError if it has none."""
+    """Return a dataset at one detuning. Raises UndecidableError if the dataset lacks it."""
     if omega not in dataset["omega"].values:
-        raise UndecidableError(f"no breathers were computed at Omega = {omega:g}")
+        raise UndecidableError(f"the dataset has no Omega = {omega:g}")
     return dataset.sel(omega=omega)
 
 
@@ -193,7 +193,7 @@ def spreading_is_an_accident(sensitivity: xr.Dataset) -> Finding:
 
 
 def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
-    """Return the maps with another fate of the most unequal data at Omega = 0, as a control."""
+    """Return the maps, with the most unequal data at Omega = 0 set to disperse, as a control."""
     return put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(fates)
 
 
@@ -209,7 +209,7 @@ def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
     origin=Origin.OWN,
 )
 def detuning_decides(fates: xr.Dataset) -> Finding:
-    """Count fates on the map; the diagonal A = B conserves P, has no area, and is left out."""
+    """Count fates on the map without the diagonal A = B, which conserves P and has no area."""
     spreads = fates["fate"].attrs["flag_meanings"].split().index("spreads")
     unequal = (fates["fate"] == spreads).astype(float).where(fates["a0"] != fates["b0"])
     measured = {

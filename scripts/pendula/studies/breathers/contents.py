@@ -1,4 +1,4 @@
-"""The datasets of steady and periodic breathers, rounded: LAPACK's last bits differ by machine."""
+"""The datasets of steady and periodic breathers, rounded: LAPACK's bits differ between machines."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -77,10 +77,9 @@ def solve_periodic_breathers(
     half_width: int,
     solitons: Mapping[str, Any],
 ) -> Contents:
-    """Return the dataset of periodic breathers (family, omega, frequency), NaN where none is.
+    """Return the dataset of periodic breathers (family, omega, frequency), NaN where none exists.
 
-    `solitons` gives Omega, the frequencies and the two half-widths of the chains of the solitons A
-    = B.
+    `solitons` has Omega, the frequencies and the two half-widths for the solitons A = B.
     """
     shape = (len(periodic.FAMILIES), len(omegas), len(frequencies))
     amplitude, power = (np.full((2, *shape), np.nan) for _ in range(2))
@@ -137,7 +136,7 @@ def solve_solitons(
 ) -> dict[str, Variable]:
     """Return P of the solitons A = B, and growth rates of perturbations on each chain.
 
-    A rate that depends on the length belongs to waves reflected by the ends.
+    A growth rate that depends on the length is due to waves reflected by the ends.
     """
     constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
     powers, rates = np.empty((2, len(half_widths), len(frequencies)))

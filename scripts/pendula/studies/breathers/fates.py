@@ -1,23 +1,23 @@
 """The fate of initial conditions on one pair: they stay localised, move, disperse, or spread.
 
-A motion is *localised* while more than half of P is near the centre, which means on the central
-pair and the two pairs coupled to it, since its motion drives only these directly.
+A motion is *localised* while more than half of P is on the central pair and the two pairs coupled
+to it, the only ones that its motion drives directly.
 
 The final state of a run on an even chain distinguishes the four fates without a free parameter:
 
-- three neighbouring pairs, or three and their mirror image, hold more than half of P: if these are
-  the central ones the motion is localised and *stays*, otherwise it *moves*;
+- three neighbouring pairs, or three and their mirror images, have more than half of P: if these are
+  the central ones, the motion is localised and *stays*, otherwise it *moves*;
 - no three do, and P is at most what linear waves can reach: it *disperses*;
 - no three do, and P is larger: it *spreads*, and the drive feeds the chaotic state that fills the
   chain.
 
-One pair is not enough, since a breather of little P and a moving localised state are wider. On 61
-pairs dispersed waves and chaotic states have less than a third of P on any three.
+One pair would not be enough, because breathers of small P and moving localised states are wider. On
+61 pairs, dispersed waves and chaotic states have less than a third of P on any three pairs.
 
 Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
-factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B conserve P. Where zero is unstable
-waves have no bound, and any growth of P means spreading.
+factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B conserve P. If zero is unstable,
+waves have no bound, and any growth of P counts as spreading.
 """
 
 from collections.abc import Mapping, Sequence
@@ -43,7 +43,7 @@ ROUNDING = 1e-6
 
 
 def largest_linear_gain(constants: Constants) -> float:
-    """Return the largest factor by which linear waves can multiply P; 1 where zero is unstable."""
+    """Return the largest factor by which linear waves can multiply P; 1 if zero is unstable."""
     ends = np.array([constants.omega - 4.0 * constants.epsilon, constants.omega])
     least = 0.0 if ends[0] * ends[1] <= 0.0 else np.abs(ends).min()
     drive = 2.0 * abs(constants.gamma)
@@ -65,7 +65,7 @@ def power_by_distance(state: np.ndarray) -> np.ndarray:
 def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
     """Return the share of P on three neighbouring pairs and their mirror images, (distance,).
 
-    `power` is P by distance. The first entry is the share of the three central pairs, the next one
+    `power` is P by distance. The first entry is the share of the three central pairs, the second
     that of the five central pairs.
     """
     held = power.copy()
@@ -75,15 +75,15 @@ def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
 
 
 def is_localised(power: np.ndarray, majority: float = MAJORITY) -> bool:
-    """Return whether `power`, P by distance, is that of a localised motion."""
+    """Return whether a motion with this `power`, P by distance, is localised."""
     return bool(share_of_three_pairs(power)[0] > majority)
 
 
 def place_of(power: np.ndarray, majority: float = MAJORITY) -> int | None:
-    """Return the distance from the centre at which three pairs hold most of P, or None.
+    """Return the distance from the centre at which three pairs have most of P, or None.
 
-    Three pairs one site away from the centre include it, and are not counted. `majority` is the
-    share of P that counts as most, 0.5 by default.
+    Three pairs at the distance 1 include the centre and do not count. `majority` is the share of P
+    that counts as most, 0.5 by default.
     """
     if is_localised(power, majority):
         return 0
@@ -122,8 +122,8 @@ def map_fates(
 ) -> ManyRuns:
     """Return the runs that map the fate of (A_0, B_0) on one pair, at the Omega of each problem.
 
-    A_0 and B_0 take the values `amplitudes`. Exchanging A and B changes no fate, so that only one
-    half of the map is run.
+    A_0 and B_0 take the values `amplitudes`. Exchanging A and B changes no fate, so only half of
+    the map is run.
     """
     rows, columns = np.tril_indices(len(amplitudes))
     data = np.array(amplitudes)[np.stack([rows, columns], -1)]

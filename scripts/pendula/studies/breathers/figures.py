@@ -16,15 +16,15 @@ LOOKS = {
     "moves away": "#007a5a",
     "spreads": "#f2a33c",
 }
-"""Colours of the fates in their order, in hues that people with any colour vision distinguish, and
-at least 25 % of the range from black to white apart in grey."""
+"""Colours of the fates, in order. Their hues differ for any colour vision, and their greys by at
+least 25 % of the range from black to white."""
 KINDS = tuple(LOOKS)
 COLOURS = ListedColormap([*LOOKS.values()], name="fates")
 
 MARK = {"marker": "o", "markersize": 5, "color": "black", "markerfacecolor": "white"}
-"""White in a black rim, which is seen on every fate with any colour vision."""
+"""White with a black rim, visible on every fate with any colour vision."""
 SAME_RUNS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "solver_rtol")
-"""Attributes that two maps must share to be of the same runs."""
+"""Attributes that are equal in two maps of the same runs."""
 OF_PAPER = ((1.0, 0.1), (5.0, 1.0))
 """A_0 and B_0 of Figs 2 to 4."""
 FATES_CAPTION = (
@@ -37,7 +37,7 @@ FATES_CAPTION = (
 
 
 def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Dataset:
-    """Return the map to draw: that of `fine` if it has the same runs on a finer grid."""
+    """Return the map to draw: `fine` if it has the same runs on a finer grid, else `fates`."""
     fate_map, omegas = fates, fates["omega"].values
     known = fine is not None and np.isin(omegas, fine["omega"].values).all()
     if known and all(fates.attrs[name] == fine.attrs[name] for name in SAME_RUNS):

@@ -4,18 +4,18 @@ Over a quarter of the period T perturbations p + i q of the solution change as
 
     p -> P p + Q q,    q -> S p + W q,
 
-symplectic in p, q: W^T P - Q^T S = 1 (transposed with the sums over the whole chain). The
-reflection at T / 4 gives the map over T / 2,
+symplectic in p, q: W^T P - Q^T S = 1 (transposes are for sums over the whole chain). The reflection
+at T / 4 gives the map over T / 2,
 
     [ a  b  ]        a = W^T P + Q^T S = 1 + 2 Q^T S,
     [ c a^T ]
 
-and with the change of sign there the multipliers mu over half a period are the eigenvalues of minus
-this map. It is a product of two reflections, so that mu and 1 / mu come together, and the traces
-nu = (mu + 1 / mu) / 2 are the eigenvalues of -a: half as many, and a breather is stable if all nu
-lie in [-1, 1]. The multipliers over a whole period are the squares of mu. The shift along the
-solution has nu = 1. There mu has a Jordan block, and an error d of the map would show as sqrt(d);
-nu is simple and known, and is therefore set to 1.
+and the solution changes its sign over T / 2, so the multipliers mu over half a period are the
+eigenvalues of minus this map. It is a product of two reflections, so mu and 1 / mu come in pairs.
+Their half-traces nu = (mu + 1 / mu) / 2 are the eigenvalues of -a, half as many; a breather is
+stable if all nu lie in [-1, 1]. The multipliers over a whole period are the squares of mu. The
+shift along the solution has nu = 1. There mu has a Jordan block, and an error d of the map would
+change it by sqrt(d); nu is simple and known, and is set to 1.
 """
 
 import numpy as np
@@ -26,8 +26,8 @@ from .quarter_period import STEPS, integrate_bundle
 
 PARITIES = ("even", "odd")
 NOISE = 1e-5
-"""Smaller rates count as zero: an error of nu near 1 enters by its root, and rounding splits two
-waves of nearly equal nu. At this rate a perturbation grows by 10 % until tau = 1e4; the slowest
+"""Smaller rates count as zero: an error of nu near 1 enters as its square root, and rounding splits
+two waves of nearly equal nu. At this rate a perturbation grows by 10 % until tau = 1e4; the slowest
 growth of a breather here is 0.03."""
 
 
@@ -48,7 +48,7 @@ def half_traces(breather: Breather, parity: str) -> np.ndarray:
     if is_symmetric:
         ends = np.concatenate([ends, ends[:, :, ::-1]], axis=1)
     _, s, q, _ = ends.transpose(0, 3, 2, 4, 1).reshape(4, -1, ends.shape[1])
-    # a site next to the centre also represents its mirror image
+    # each site but the centre also represents its mirror image
     weights = np.tile([1.0] * (1 - first) + [2.0] * (sites - 1), 2)[:, None]
     a = np.eye(len(s)) + 2.0 * (q.T @ (weights * s)) / weights
     n = len(a) // 2
@@ -62,7 +62,7 @@ def half_traces(breather: Breather, parity: str) -> np.ndarray:
 def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
     """Return unit perturbations on the sites `first`..M: real parts, then imaginary ones.
 
-    If `is_symmetric`, those of B are left out.
+    If `is_symmetric`, perturbations of B are left out.
     """
     units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - is_symmetric, first:]
     units = units.reshape(-1, 2, sites)
@@ -74,7 +74,7 @@ def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
 def growth_rate_of_traces(frequency: float, nu: np.ndarray) -> float:
     """Return the growth rate of the fastest perturbation, per unit of tau, 0 if none grows.
 
-    A negative frequency is the same motion with time reversed, which has the same rate.
+    A negative frequency means the time-reversed motion, which has the same growth rate.
     """
     root = np.sqrt(nu.astype(complex) ** 2 - 1.0)
     largest = np.maximum(np.abs(nu + root), np.abs(nu - root)).max()

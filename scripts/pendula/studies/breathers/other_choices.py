@@ -1,6 +1,7 @@
 """The numbers of this study that the article prints, measured again with each choice changed."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -35,13 +36,12 @@ def vary_areas(
     chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
 ) -> xr.Dataset:
-    """Return the share of the map of fates that has each fate, without the diagonal, (kind,).
+    """Return the share of each fate in the map without its diagonal, (kind,).
 
-    The confidence limits are those of as many independent initial conditions as half of the map
-    has.
+    Confidence limits count the points of half of the map as independent initial conditions.
     """
 
-    def measure(majority, stride, **settings):
+    def measure(majority: float, stride: float, **settings: Any) -> ConfidenceInterval:
         grid = amplitudes[:: int(stride)]
         changed = {problem.constants.omega: with_choices(problem, **settings)}
         fates = map_fates(changed, grid, majority=majority).make()[0]["fate"].values[0]
@@ -68,7 +68,7 @@ def vary_shares(
 ) -> xr.Dataset:
     """Return the share of runs that spread, by the relative perturbation, (size,)."""
 
-    def measure(majority, seed, **settings):
+    def measure(majority: float, seed: float, **settings: Any) -> ConfidenceInterval:
         changed = with_choices(problem, **settings)
         study = measure_sensitivity(name, changed, sizes, members, int(seed), majority=majority)
         data = as_xarray(*study.make())
@@ -94,12 +94,14 @@ def vary_least_power(
     chosen: Mapping[str, float],
     variations: Mapping[str, Sequence],
 ) -> xr.Dataset:
-    """Return the least P of the breathers "A only" within a period, and its frequency.
+    """Return the least P that a breather "A only" has within a period, and its frequency.
 
     `frequencies` are the first and the last of a scan in equal steps.
     """
 
-    def measure(frequency_step, half_width, steps):
+    def measure(
+        frequency_step: float, half_width: float, steps: float
+    ) -> dict[str, tuple[float, float]]:
         scan = np.arange(frequencies[0], frequencies[1] + 0.5 * frequency_step, frequency_step)
         powers = []
         for frequency in scan:

@@ -2,14 +2,14 @@
 
     A_n(tau) = sum over odd m of a_{n,m} exp(-i m lambda tau) with real coefficients,
 
-and B_n likewise. The equations (4) are reversible: with A(tau), conj A(-tau) is a solution. They
-are odd: with A, -A is a solution. Real coefficients make A and B real at tau = 0, odd harmonics
-change their sign after half a period T / 2 = pi / lambda, and both together make A and B imaginary
+and B_n likewise. The equations (4) are reversible: if A(tau) is a solution, so is conj A(-tau).
+They are odd: if A is a solution, so is -A. Real coefficients make A and B real at tau = 0, and odd
+harmonics change sign after half a period T / 2 = pi / lambda; together they make A and B imaginary
 at T / 4. Conversely, a solution that is real at 0 and imaginary at T / 4 is reflected at both
-times, and so has the period T and both symmetries. So a breather is computed by shooting over a
-quarter of its period: Re A(T / 4) = Re B(T / 4) = 0 for the real unknowns A(0), B(0), by Newton's
-method, which needs the perturbations of these unknowns alone. P is even in time about both
-instants, and decreases monotonically from the first to the second.
+times, and so has the period T and both symmetries. A breather is therefore computed by shooting
+over a quarter of its period: Newton's method solves Re A(T / 4) = Re B(T / 4) = 0 for the real
+unknowns A(0), B(0), and needs only perturbations of these. P is even in time about both instants,
+and decreases monotonically from the first to the second.
 
 Module `multipliers` computes their stability.
 
@@ -18,10 +18,10 @@ of linear waves, equation (15): with kappa between Omega - 4 epsilon and Omega, 
 and +-sqrt(kappa^2 - 4 gamma^2) for A - B. This holds if lambda lies above all of them. The nearer
 lambda is to the waves, the slower the tails decay, until they reach the end of a chain.
 
-On A = B the drive vanishes, and there are breathers among the waves too: A_n = phi_n exp(-i lambda
-tau) with the soliton phi of the scalar equation, for each lambda above Omega. Then A - B vanishes,
-and the tails of A + B decay if lambda lies outside of its own band. P tends to zero as lambda tends
-to Omega.
+If A = B, the drive vanishes, and there are breathers at the frequencies of waves too:
+A_n = phi_n exp(-i lambda tau) with the soliton phi of the scalar equation, for each lambda above
+Omega. Then A - B vanishes, and the tails of A + B decay if lambda lies outside the band of A + B. P
+tends to zero as lambda tends to Omega.
 """
 
 from dataclasses import replace
@@ -38,8 +38,8 @@ from pendula.problem import Constants
 from .quarter_period import FINE_STEPS, STEPS, integrate_bundle
 
 FAMILIES = ("A only", "A = -B", "A = B")
-"""Families: "A only" has B = 0 at gamma = 0, and B grows with the drive; in the others B = -A and B
-= A."""
+"""Families: "A only" has B = 0 at gamma = 0, and B grows with the drive; the others have B = -A or
+B = A."""
 EQUAL_PAIR = next(family for family in PAIRS if family.kind == "equal")
 TOLERANCE = 1e-13
 """Largest |Re A| and |Re B| at a quarter of a period, relative to the largest amplitude at the
@@ -72,7 +72,7 @@ def find_breather(
 ) -> Breather | None:
     """Return the breather of a family, or None if it has none above the linear waves.
 
-    There "A only" may have become A = B, which counts as none.
+    A breather "A only" that has become A = B does not count.
     """
     if frequency <= highest_wave(constants):
         return None
@@ -108,7 +108,7 @@ def power(data: np.ndarray) -> np.ndarray:
 
 
 def least_power(breather: Breather) -> float:
-    """Return P at the instant when A and B are imaginary, the least of a period."""
+    """Return P at the instant when A and B are imaginary, its minimum over a period."""
     return float(power(quarter_later(breather, FINE_STEPS)[0, 1::2]).sum())
 
 
@@ -144,11 +144,11 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
             -1, sites
         )
         data = data + (np.concatenate([step, symmetry * step]) if symmetry else step)
-    raise NoStateError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
+    raise NoStateError(f"no breather at the frequency {frequency:g}: residual {largest:.1e}")
 
 
 def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = None) -> np.ndarray:
-    """Return a breather, and small changes of its data, after a quarter of a period.
+    """Return a breather and small perturbations of its data after a quarter of a period.
 
     `changes` are real, (change, component, site); the result is (1 + changes, 4, site), see
     `integrate_bundle`.
@@ -160,7 +160,7 @@ def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = N
 
 
 def _derivative_of_miss(guess: Breather, symmetry: int) -> np.ndarray:
-    """Return the derivative of the miss by the data; by A alone if A = B or A = -B."""
+    """Return the derivative of the miss with respect to the data; only to A if A = B or A = -B."""
     sites = guess.data.shape[1]
     unit = np.eye(sites)
     both = np.eye(2 * sites).reshape(-1, 2, sites)

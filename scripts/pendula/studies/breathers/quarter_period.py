@@ -16,20 +16,19 @@ from pendula.models.amplitudes import AmplitudeChain, rates, write_tangent_rates
 from pendula.problem import Constants
 
 STEPS, FINE_STEPS = 16, 40
-"""Steps in a quarter of a period. With the smaller number, multipliers keep 10 digits if it is
-doubled. With the larger one, the period of a solution closes to 1e-11."""
+"""Steps in a quarter of a period. Multipliers keep 10 digits if the smaller number is doubled. With
+the larger number, a solution returns after a period to within 1e-11."""
 STAGES, SLOPES = 13, 16
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""
 
 
 @kernel
-def parity_rates(chain, bundle, even, slopes):
-    """Write the rates of a solution, of `even` even perturbations, and of the odd ones behind them.
+def parity_rates(chain: AmplitudeChain, bundle: np.ndarray, even: int, slopes: np.ndarray) -> None:
+    """Write the rates of a solution, then of `even` even perturbations, then of the odd ones.
 
-    All are given on the sites 0..M. The neighbour of site 0 on the other half is the mirror image
-    of site 1, with its sign in an even state, with the opposite sign in an odd state, which stays
-    zero at site 0.
+    All are on the sites 0..M. Site -1 mirrors site 1, with the same sign in an even state and the
+    opposite sign in an odd state, which stays zero at site 0.
     """
     y = bundle[:ROWS]
     rates(chain, y, slopes[:ROWS])
@@ -43,7 +42,14 @@ def parity_rates(chain, bundle, even, slopes):
 
 
 @kernel
-def advance_bundle(chain, bundle, even, duration, steps, work):
+def advance_bundle(
+    chain: AmplitudeChain,
+    bundle: np.ndarray,
+    even: int,
+    duration: float,
+    steps: int,
+    work: np.ndarray,
+) -> None:
     """Advance a bundle over `duration` in equal steps; `work` holds SLOPES + 1 bundles."""
     h = duration / steps
     y, k, w = bundle.reshape(-1), work[:SLOPES].reshape(SLOPES, -1), work[SLOPES]
@@ -67,8 +73,8 @@ def integrate_bundle(
     """Return a state and its perturbations after `duration`, (1 + vectors, 4, M + 1).
 
     `state` is (4, M + 1): Re A, Im A, Re B, Im B on the sites 0..M of an even chain at rest beyond
-    its ends; `evens` and `odds` are (vector, 4, M + 1), the latter zero at site 0. The result has
-    the state first, then the even vectors, then the odd ones.
+    its ends. `evens` and `odds` are (vector, 4, M + 1); odd vectors are zero at site 0. The result
+    has the state first, then the even vectors, then the odd ones.
     """
     chain = AmplitudeChain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
     states = np.concatenate([state[None], evens, odds])

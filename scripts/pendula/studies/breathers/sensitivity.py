@@ -1,8 +1,8 @@
 """Share of runs that spread over the chain, by the size of a random perturbation of the data.
 
-The fate of a run is that of `fates`: it spreads if no three neighbouring pairs, with their mirror
-image, hold more than half of P at the end, and P is larger than linear waves can reach. The
-confidence limits of the share are the exact ones of Clopper and Pearson.
+As in `fates`, a run spreads if no three neighbouring pairs, with their mirror images, have more
+than half of P at the end, and P is larger than linear waves can reach. The confidence limits of the
+share are the exact ones of Clopper and Pearson.
 """
 
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ def measure_sensitivity(
     majority: float = MAJORITY,
 ) -> ManyRuns:
     """Return the runs that give the share that spreads for each relative perturbation."""
-    # outputs take a third of a run, and only the last one is used
+    # outputs take a third of the time of a run, and only the last output is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
     drawn = [
         member

@@ -29,7 +29,7 @@ OF_RUNS = ("tolerance", "end_time", "half_width", "majority")
 
 Steady = section_of(omegas=Numbers, half_width=Annotated[Integer, Field(ge=4)])
 
-# Solitons A = B of the scalar equation, on two chains: rates that differ belong to the ends.
+# Solitons A = B of the scalar equation, on two chains: rates that differ are due to the ends.
 Solitons = section_of(
     omega=Number, frequencies=Numbers, half_widths=Annotated[Counts, Field(min_length=2)]
 )
@@ -90,7 +90,7 @@ class Settings(Section):
     fates: Fates
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield faults of families and cases, and of runs that take too long."""
+        """Yield the errors of frequencies and cases, and of runs that take too long."""
         solitons = self.periodic.solitons
         if not (lowest := min(solitons.frequencies)) > solitons.omega:
             text = f"has {lowest:g}; each must be above Omega = {solitons.omega:g}"
@@ -102,7 +102,7 @@ class Settings(Section):
                 yield from settings.faults_of_runs(runs)
 
     def runs_of(self, settings: PaperConfiguration) -> Iterator[Runs]:
-        """Yield the runs of the ensembles, and those of the smallest and largest data mapped."""
+        """Yield the runs of the ensembles, and of the map those with the least and largest data."""
         sensitivity, fates = self.sensitivity, self.fates
         run = settings.run_of(
             sensitivity.case, sensitivity.tolerance, end_time=sensitivity.end_time

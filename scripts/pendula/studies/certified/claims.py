@@ -1,4 +1,4 @@
-"""Claims that rest on proofs: of the curves of Figs 2 to 4, and of steady breathers."""
+"""Claims decided by proofs: on the curves of Figs 2 to 4, and on steady breathers."""
 
 import xarray as xr
 from replication.ledger.changes import put

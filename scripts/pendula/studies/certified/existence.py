@@ -10,7 +10,7 @@ where X exchanges a and b, powers are taken component by component, and |u| is t
 In bounds, epsilon stands for its modulus.
 
 Given: numbers u with u_n = 0 for |n| > M (doubles, so exact), and any matrix N on the block
-|n| <= M, here about the inverse of K, the part of DF(u) within the block.
+|n| <= M, here approximately the inverse of K, the part of DF(u) within the block.
 
 Approximate inverse. Beyond the block DF(u) has constant coefficients. Its part at one site is the
 matrix C with Omega - s - 2 epsilon on and s off the diagonal, whose eigenvalues are
@@ -19,13 +19,13 @@ moduli. C^-1 has x on and y off the diagonal, so |C^-1| = |x| + |y| = max(|x + y
 Let A be N on the block and C^-1 at each site beyond.
 
 1. |1 - A DF(u)| <= Z, the larger of 2 epsilon / d and of the row sums in the block of
-   |1 - N K| + epsilon |N E|, E the four columns of the sites n = M and n = -M. Proof: for |w| <= 1,
-   (A DF(u) w)_n = w_n + C^-1 epsilon (w_{n+1} + w_{n-1}) beyond the block, and N (K w + epsilon e)
-   in it, where e holds w_{M+1} and w_{-M-1} at the two ends and vanishes elsewhere.
+   |1 - N K| + epsilon |N E|, where E are the four columns of the sites n = M and n = -M. Proof: for
+   |w| <= 1, (A DF(u) w)_n = w_n + C^-1 epsilon (w_{n+1} + w_{n-1}) beyond the block, and
+   N (K w + epsilon e) in it, where e is w_{M+1} and w_{-M-1} at the two ends and zero elsewhere.
 2. If Z < 1, A is injective. Proof: A DF(u) has an inverse by Neumann's series, so A is onto. Hence
    so is N, and a square matrix that is onto is injective; C^-1 is injective anyway.
 3. |A F(u)| <= eta, the larger of |N F(u)| and of epsilon |u_M| / d and epsilon |u_{-M}| / d.
-   Proof: of F(u), beyond the block only epsilon u_{+-M} at the sites +-(M + 1) is left.
+   Proof: beyond the block, F(u) is zero but for epsilon u_{+-M} at the sites +-(M + 1).
 4. |A (DF(v) - DF(u))| <= lambda r + mu r^2 for |v - u| <= r, with lambda = 3 max_i sum_j
    |N_ij u_j| and mu = (3/2) max(|N|, 1 / d). Proof: DF(v) - DF(u) multiplies u_j by
    (3/2) (v_j^2 - u_j^2), at most 3 |u_j| r + (3/2) r^2, and u_j = 0 beyond the block.
@@ -37,19 +37,20 @@ r of u. Proof: |DT(v)| <= q(|v - u|) by 1 and 4, so that |T(v) - u| <= eta + the
 a zero of F since A is injective; and every zero of F is a fixed point of T.
 
 It is localised: the true state tends to zero. Proof: F, DF and A map sequences that tend to zero to
-such. They are a closed subspace, u is one of them, and so all of the above finds a zero of F among
-them within r of u, which is the only one.
+sequences that tend to zero. These form a closed subspace that contains u, so the theorem also holds
+in this subspace. The zero of F that it gives there is the only one within r of u.
 
-Symmetries. F commutes with n -> -n, with X, and with u -> -u, which keep |.|. If u has a symmetry
-to the last bit, uniqueness gives it to the true state.
+Symmetries. F commutes with n -> -n, with X, and with u -> -u, which preserve |.|. If u has one of
+these symmetries to the last bit, so has the true state, because it is unique.
 
 The state is not zero, since r < |u| is required.
 
 Numbers are balls, python-flint's `arb`: every operation returns a ball that contains the result for
 all numbers in its operands, and a comparison is true only if it holds for all numbers in the balls.
-The arithmetic is that of integers, so that balls have the same bits on every machine.
+Balls are computed with integers, so they have the same bits on every machine.
 """
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -92,8 +93,8 @@ class ProofFailedError(ArithmeticError):
 def refine(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
     """Return a state of ten digits after one step of Newton's method, which doubles the digits.
 
-    The step is solved in balls, because far from the centre the ten digits are zeros and the
-    result is the step itself, whose last bits must not depend on the machine.
+    The step is computed with balls. Far from the centre the ten digits are zeros, so the result is
+    the step itself, and its last bits must not depend on the machine.
     """
     with ctx.workprec(BITS):
         u = on_full_chain(state)
@@ -127,11 +128,11 @@ def make_estimates(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
     k, size = make_derivative(chain, s, u), len(u)
     epsilon, tail = abs(as_ball(chain.epsilon)), tail_distance(chain, s)
     if not 2 * epsilon < tail:
-        raise ProofFailedError("the outside does not contract: Omega lies in a band of waves")
+        raise ProofFailedError("2 epsilon < d fails beyond the block: Omega is in a band of waves")
     try:
         n = k.inv().mid()  # N
     except ZeroDivisionError:
-        raise ProofFailedError("the slope of the equations has no inverse there") from None
+        raise ProofFailedError("K, the derivative of the equations, has no inverse") from None
     # indices of both components on the sites -M and M
     ends = (0, size // 2 - 1, size // 2, size - 1)
     unit = arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
@@ -185,13 +186,13 @@ def tail_distance(chain: ProofChain, s: float) -> arb:
 def find_radius(estimates: Estimates) -> float:
     """Return a radius r that satisfies the inequalities of the theorem.
 
-    The trial value is a little above the smaller root of p without its last term; the proof does
-    not depend on how it was chosen. Raises ProofFailedError if an inequality fails.
+    The trial value is slightly above the smaller root of p without its last term; the proof does
+    not depend on this choice. Raises ProofFailedError if an inequality fails.
     """
     eta, z, quadratic, cubic = estimates
     contraction = 1 - z
     if not contraction > 0:
-        raise ProofFailedError("the inverse is not near enough: the slope may be singular")
+        raise ProofFailedError("Z < 1 fails: the inverse is inaccurate, or DF(u) is singular")
     discriminant = contraction * contraction - 2 * quadratic * eta
     radius = (
         float((1.01 * 2 * eta / (contraction + discriminant.sqrt())).upper())
@@ -201,7 +202,7 @@ def find_radius(estimates: Estimates) -> float:
     r = arb(radius)
     p = eta - contraction * r + quadratic * r * r / 2 + cubic * r * r * r / 3
     if not (p <= 0 and z + quadratic * r + cubic * r * r < 1):
-        raise ProofFailedError("the residual is too large for the slope and the curvature")
+        raise ProofFailedError("p(r) <= 0 and q(r) < 1 fail: the residual is too large")
     return radius
 
 
@@ -209,7 +210,7 @@ def _moduli(matrix: arb_mat) -> arb_mat:
     return arb_mat(matrix.nrows(), matrix.ncols(), [abs(x) for x in matrix.entries()])
 
 
-def _largest(values) -> arb:
+def _largest(values: Iterable[arb]) -> arb:
     """Return a ball whose upper end is not below any of the values."""
     top = arb(0)
     for value in values:

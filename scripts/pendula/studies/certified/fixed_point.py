@@ -1,31 +1,31 @@
 """A solution of (4) as polynomials whose coefficients are integers in units of 2^-bits.
 
-The initial data are even in n, and so is the solution: the chain and its reflection have the same
-equation and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} = u_1.
+The initial data are even in n, and so is the solution, because the reflected chain has the same
+equations and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} = u_1.
 
 The interval between two outputs is divided into equal steps, and in each step the curve is a
 polynomial in theta = (tau - start of the step) / step. A step starts from the sum of the
-coefficients of the step before, which is an integer as well, so that the curve has no jumps.
+coefficients of the step before, which is also an integer, so the curve has no jumps.
 
-`generate_steps` computes the curve, and no proof rests on it. `require_full_interval` checks that
-the steps between two outputs cover the interval exactly; `bound_jump` bounds the distance from the
-start of a step to the end of the step before, or to the initial data; and `bound_defect` bounds the
-residual of (4). With step = 1 / H and q a common denominator of the constants, the numbers
+`generate_steps` computes the curve; the proof does not depend on how. `require_full_interval`
+checks that the steps between two outputs cover the interval exactly. `bound_jump` bounds the
+distance from the start of a step to the end of the step before, or to the initial data.
+`bound_defect` bounds the residual of (4): with step = 1 / H, a common denominator q of the
+constants, the integer polynomials P and the linear part L of (4), the coefficients of
 
     2 q H 4^bits i P'(theta) - 2 q 4^bits L P - q |P|^2 P,
 
-P being the integer polynomials and L the linear part of (4), are integers: they are those of
-i p' - F(p), times the step, in units of 8^-bits / (2 q H). They are found by products of integer
-polynomials, without rounding, and the sum of their absolute values bounds the integral of the l2
-norm of the defect over the step, since theta^k <= 1 and an l2 norm is no larger than a sum.
+are integers: those of i p' - F(p), times the step, in units of 8^-bits / (2 q H). Products of
+integer polynomials give them without rounding. The sum of their absolute values bounds the integral
+of the defect's l2 norm over the step, since theta^k <= 1 and an l2 norm is at most an l1 norm.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import chain as joined
 from math import lcm
 from operator import mul
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from flint import fmpz_poly
@@ -33,16 +33,16 @@ from flint import fmpz_poly
 from pendula.problem import PaperProblem
 
 UP = 1.0 + 1e-9
-"""Times this, a sum or product of positive numbers with fewer than a million roundings is an upper
-bound of the exact one: 1e6 * 2^-53 < 1e-9."""
+"""A computed sum or product of positive numbers, with fewer than a million roundings, is an upper
+bound of the exact one after multiplication by this: 1e6 * 2^-53 < 1e-9."""
 
 LAST_TERM = 16
-"""In units: a step is shortened if the last term of its polynomial is larger."""
+"""A step is shortened if the last term of its polynomial is larger than this, in units."""
 MOST_STEPS = 64
 """Largest number of steps between two outputs."""
 
 IntegerSeries = list[list[list[int]]]
-"""Coefficients of the powers of theta: of Re and Im, then for each site of A and of B."""
+"""Coefficients of the powers of theta: [Re or Im][site of A, then of B][power]."""
 
 
 class NotEvenError(ValueError):
@@ -94,7 +94,7 @@ def round_initial_data(
 ) -> tuple[list[list[int]], float]:
     """Return the initial data as integers and a bound of their l2 error.
 
-    The integers are those of Re and of Im, each for all sites of A, then of B.
+    The integers are [Re or Im][site of A, then of B].
     """
     half = problem.amplitudes[:, problem.half_width :]
     state, error = [], Fraction(0)
@@ -135,7 +135,7 @@ def generate_steps(
         state = current
         last_term = max(abs(series[-1]) for step in steps for row in step.terms for series in row)
         if max(last_term, 1) * divisor**order <= LAST_TERM * (divisor - 1) ** order:
-            divisor -= 1  # judged by the last terms, longer steps would have been short enough
+            divisor -= 1  # by the last terms, longer steps would also have been short enough
 
 
 def evaluate_end(terms: IntegerSeries) -> list[list[int]]:
@@ -168,8 +168,10 @@ def make_taylor_terms(
     return [re_series, im_series]
 
 
-def scaled_linear(values, chain: FixedPointChain) -> tuple[int, list[list]]:
-    """Return q, and q times the linear terms of (4), of integers or polynomials of integers."""
+def scaled_linear(
+    values: Sequence[Sequence[Any]], chain: FixedPointChain
+) -> tuple[int, list[list]]:
+    """Return q, and q times the linear terms of (4); `values` are integers or fmpz_poly."""
     q = lcm(chain.epsilon.denominator, chain.gamma.denominator, chain.omega.denominator)
     epsilon, gamma, omega = (int(q * c) for c in (chain.epsilon, chain.gamma, chain.omega))
     sites, results = chain.sites, []
@@ -191,7 +193,8 @@ def bound_defect(step: Step, chain: FixedPointChain) -> float:
     h = chain.interval / step.divisor
     x, y = ([fmpz_poly(series) for series in row] for row in step.terms)
     q, field = scaled_linear([x, y], chain)
-    # times the denominator of h, so that all are integers: the numerator stays with L and |P|^2 P
+    # multiplied by the denominator of h, so that all numbers are integers; its numerator multiplies
+    # L and |P|^2 P
     shift, total = 4**chain.bits, 0
     for n, (re, im) in enumerate(zip(x, y, strict=True)):
         square = (re * re + im * im) * (q * h.numerator)
@@ -206,7 +209,7 @@ def bound_defect(step: Step, chain: FixedPointChain) -> float:
 def require_full_interval(steps: list[Step]) -> list[Step]:
     """Return the steps. Raises StepError unless they cover the interval between outputs exactly."""
     if any(step.divisor < 1 for step in steps) or sum(Fraction(1, s.divisor) for s in steps) != 1:
-        raise StepError("the steps are more or less than the time between two outputs")
+        raise StepError("the steps do not add up to the time between two outputs")
     return steps
 
 

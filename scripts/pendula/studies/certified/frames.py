@@ -1,45 +1,47 @@
 """A proven bound of the distance from a curve of integers to the true solution, by frames.
 
-Where errors grow so fast that no norm bounds them usefully (large data, chaos), the linearised flow
-is followed instead, as by R. J. Lohner (1988). The curve p is that of `fixed_point`, on half of a
-chain; u is the solution of (4) with the printed decimals. The error e = u - p obeys
+Errors of large or chaotic solutions grow so fast that no norm bounds them usefully. The bound
+therefore follows the linearised flow, as in R. J. Lohner (1988). The curve p is that of
+`fixed_point`, on half of a chain; u is the solution of (4) with the printed decimals as constants.
+The error e = u - p obeys
 
     e' = J e - i (r - d),   J e = -i (L e + DN(p) e),
 
-where d is the defect of p, and r what the cubic term has beyond first order in e. Norms |.| are
-those of all real numbers of half of a chain; the norm over the whole chain is at most sqrt(2) times
-as large, as each site but n = 0 counts twice.
+where d is the defect of p, and r the part of the cubic term beyond first order in e. Norms |.| are
+over all real numbers of half of a chain; the norm over the whole chain is at most sqrt(2) times as
+large, because each site but n = 0 counts twice.
 
 Between two frames e = M z + w, where z is a constant vector of real numbers, M(tau) any matrix
-whose columns are states, and w the rest, zero at first. M is continued as polynomials with doubles
-as coefficients, which nearly solve M' = J M. From the equation of e,
+whose columns are states, and w the remainder, zero at first. M is continued as polynomials with
+double coefficients, which solve M' = J M approximately. From the equation of e,
 
     |w|' <= mu |w| + |J M - M'| |z| + |r| + |d|,   mu = 2 |gamma| + |epsilon| / 2 + a^2 / 2, (i)
 
-where a is the largest |A_n| of p over the step. For mu: Re <w, J w> has Im <w, L w> + Im <w, DN w>;
-gamma conj(b - a) gives at most 2 |gamma| |w|^2; of epsilon's bonds those between the sites 0 and 1
-are 2 one way and 1 the other, so |epsilon| |w_0| |w_1| <= |epsilon| |w|^2 / 2 is left; and of DN w
-= |A|^2 w + A^2 conj(w) / 2 only the second part counts. By (i) |w| at the end of a step h is at
-most e^(mu h) times the sum of |w| at its start and of the integrals of the other terms.
+where a is the largest |A_n| of p over the step. Proof of mu: Re <w, J w> is
+Im <w, L w> + Im <w, DN w>. In it gamma conj(b - a) gives at most 2 |gamma| |w|^2. Bonds cancel,
+except that between the sites 0 and 1, which counts 2 in one direction and 1 in the other and leaves
+|epsilon| |w_0| |w_1| <= |epsilon| |w|^2 / 2. Of DN w = |A|^2 w + A^2 conj(w) / 2 only the second
+part contributes. By (i) |w| at the end of a step h is at most e^(mu h) times the sum of |w| at its
+start and of the integrals of the other terms.
 
-A new frame. Its columns are those of any matrix Q, nearly orthogonal: |Q^T Q - I| <= eta < 1/2.
-With G = Q^T Q, e = Q z' holds for z' = G^-1 (Q^T M z + Q^T w), and |G^-1 x - x| <= eta / (1 - eta)
-|x|, |Q^T w| <= sqrt(1 + eta) |w|. So, with R = Q^T M and y_i = sum of |R_ij| |z_j|,
+A new frame has the columns of any nearly orthogonal matrix Q: |Q^T Q - I| <= eta < 1/2. With
+G = Q^T Q, e = Q z' holds for z' = G^-1 (Q^T M z + Q^T w), and |G^-1 x - x| <= eta / (1 - eta) |x|,
+|Q^T w| <= sqrt(1 + eta) |w|. So, with R = Q^T M and y_i = sum of |R_ij| |z_j|,
 
     |z'_i| <= y_i + sqrt(1 + eta) |w| + eta / (1 - eta) (|y| + sqrt(1 + eta) |w|).
 
-R and Q^T Q are computed in doubles. Each entry is a sum of n = 4 (M + 1) products, off by at most
-gamma_n = n u / (1 - n u) times the product of the two columns' norms, in whatever order it is taken
+R and Q^T Q are computed in doubles. Each entry is a sum of n = 4 (M + 1) products. Its error is at
+most gamma_n = n u / (1 - n u) times the product of the two columns' norms, in any order of the sum
 (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 3.1).
 
-The tangent polynomials. With S_i and P_i the coefficients of |A|^2 and A^2, computed from the
-doubles nearest to those of p, T_{k+1} = h F_k / (k + 1), where F_k is -i times L T_k + sum over i
-<= k of (S_i T_{k-i} + P_i conj(T_{k-i}) / 2). The sum has all i, beyond the order of p as well: S
-and P have twice the order of p, which may be smaller than that of T. So what T misses of M' = J M
-has the coefficients, over theta,
+The tangent polynomials. Let S_i and P_i be the coefficients of |A|^2 and A^2, computed from those
+of p rounded to doubles. Then T_{k+1} = h F_k / (k + 1), where F_k is -i times L T_k + sum over
+i <= k of (S_i T_{k-i} + P_i conj(T_{k-i}) / 2). The sum includes i beyond the order of p, which may
+be smaller than that of T, because S and P have twice the order of p. So the residual of T in
+M' = J M has the coefficients, in powers of theta,
 
-- for k below the order K of T: rounding only. The terms go through 4 K + 16 roundings at most: one
-  of the coefficients and one of a constant, the product of two and its sum over up to K + 1
+- for k below the order K of T: only rounding. The terms have at most 4 K + 16 roundings: one of the
+  coefficients and one of a constant, the product of two and its sum over up to K + 1
   products and two parts, S + P / 2, the product with T, the sum over K + 1 terms of two parts, the
   linear terms (9), step, quotient. Their absolute values sum to at most h (lambda t_k + 2 sum of
   s_i t_{k-i}), where t_k is the Frobenius norm of T_k, s_i = sum of a_j a_{i-j}, a_j the largest
@@ -47,22 +49,23 @@ has the coefficients, over theta,
   columns to 5 at most).
 - for k from K on: at most h (lambda t_K [k = K] + (3/2) sum of s_i t_{k-i}).
 
-Their integrals over theta are a (k + 1)th of that. M at the end is the rounded sum of its
-coefficients, off by at most gamma_{K+1} times the sum of t_k: it is added to w times |z|.
+Their integrals over theta are these divided by k + 1. M at the end of a step is the rounded sum of
+its coefficients, with an error of at most gamma_{K+1} times the sum of t_k. This error times |z| is
+added to w.
 
-The quadratic term. From |A + e|^2 (A + e) - |A|^2 A less its terms of first order,
-2 Re(conj(A) e) e + |e|^2 A + |e|^2 e, follows |r| <= (3 a y + y^2) y / 2 where |e| <= y. A trial is
-taken, which is |w| from (i) without r and a thousandth of all that |e| may be, and (i) with r must
-come out below it. Then |w| stays below the trial over the whole step, since it is continuous, and
-|e| below y = the trial + (sum of t_k) |z|.
+The quadratic term. |A + e|^2 (A + e) - |A|^2 A without its terms of first order is
+2 Re(conj(A) e) e + |e|^2 A + |e|^2 e, so |r| <= (3 a y + y^2) y / 2 if |e| <= y. The trial bound of
+|w| is |w| from (i) without r, plus SLACK times the bound of |e|. The bound of |w| from (i) with r
+must be smaller than the trial. Then |w| stays below the trial over the whole step, because it is
+continuous, and |e| stays below y = trial + (sum of t_k) |z|.
 
-The contributions to the bound obey the same inequalities, so the bounds of |z_i| and |w| are kept
-separately for each. One more contribution, which is no error, is a unit error at the start: the
-order of the columns in a new frame depends on it.
+The contributions to the bound obey the same inequalities, so bounds of |z_i| and |w| are stored
+separately for each. An additional contribution is a unit error at the start. It is not part of the
+bound, but determines the order of the columns in a new frame.
 
-Rounding of the bound itself: it uses only + - * / and roots of numbers that are not negative, of
-fewer than a million roundings in a step, which the factor `UP` covers; TINY covers what underflow
-may lose.
+Rounding of the bound itself: the bound uses only + - * / and square roots of nonnegative numbers. A
+step has fewer than a million roundings, which the factor `UP` covers; TINY covers losses by
+underflow.
 """
 
 from collections.abc import Sequence
@@ -90,7 +93,7 @@ from .fixed_point import (
 
 UNIT = 2.0**-53
 TINY = 1e-140
-"""Larger than all that underflow can have lost in this module."""
+"""Larger than all losses by underflow in this module."""
 ORDER = 24
 """Order of the tangent polynomials; their truncation error is as small as rounding."""
 DIGITS = 20
@@ -177,7 +180,7 @@ def bound_exponential(x: float) -> float:
 
 
 def _bound_quadratic_term(w: float, mz_bound: float, largest: float, time: float) -> float:
-    """Return a bound of what the quadratic term adds to |w| over a step, infinite if not small.
+    """Return a bound of the quadratic term's addition to |w| over a step, infinite if not small.
 
     `mz_bound` bounds |M z|, and `time` e^(mu h) h.
     """
@@ -305,7 +308,7 @@ def orthogonalise(matrix: np.ndarray) -> np.ndarray:
 
 
 def multiply_transposed(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Return left^T right by plain sums: BLAS gives other bits on other processors."""
+    """Return left^T right by plain sums: the bits of BLAS depend on the processor."""
     total = np.zeros((left.shape[1], right.shape[1]))
     for left_row, right_row in zip(left, right, strict=True):
         total += left_row[:, None] * right_row
@@ -350,10 +353,10 @@ def bound_output_error(
 ) -> float:
     """Return a bound of the errors of outputs by rounding of states, norms and times.
 
-    States to doubles, squares, the at most 16 levels of the sum, and the root are 12 roundings of
-    the norm or fewer. Over `delay` the solution moves by at most late |u'|, where
-    |u'| <= (lambda + |u|^2 / 2) |u|, and |u| itself grows by no more than e^(2 |gamma| late), which
-    `UP` covers.
+    Doubles of the states, squares, the at most 16 levels of the sum, and the root are at most 12
+    roundings of the norm. Over `delay` the solution moves by at most delay |u'|, where
+    |u'| <= (lambda + |u|^2 / 2) |u|; |u| itself grows by at most e^(2 |gamma| delay), which `UP`
+    covers.
     """
     strength = float(4 * abs(chain.epsilon) + abs(chain.omega) + 2 * abs(chain.gamma))
     norm = UP * sqrt(np.sum(state * state))

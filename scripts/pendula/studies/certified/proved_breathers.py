@@ -17,7 +17,7 @@ from . import existence
 from .existence import ProofChain
 
 DIGITS = 10
-"""Decimals of a state that LAPACK computes alike on every machine."""
+"""Decimals of a state that are the same with LAPACK on every machine."""
 
 
 def prove_breathers(

@@ -42,16 +42,16 @@ class Breathers(Section):
     proofs: Annotated[list[ProofSection], Field(min_length=1)]
     control_omegas: Annotated[
         list[Number], Field(min_length=2, max_length=2)
-    ]  # tests of the first state
+    ]  # at which the proof of the first state must fail
 
     def faults(self) -> Faults:
-        """Yield faults of states that a single pair of pendula does not have."""
+        """Yield an error for each state that a single pair of pendula does not have."""
         named = {family.name: family for family in FAMILIES}
         for i, state in enumerate(self.proofs):
             if state.family not in named:
-                yield f"proofs.{i}.family", f"is none of {', '.join(named)}"
+                yield f"proofs.{i}.family", f"must be one of {', '.join(named)}"
             elif pair(named[state.family], self.gamma, state.omega) is None:
-                fault = f"no pair of pendula has a state {state.family} at {state.omega:g}"
+                fault = f"a pair of pendula has no state {state.family} at {state.omega:g}"
                 yield f"proofs.{i}.omega", fault
 
 
@@ -63,13 +63,13 @@ class Settings(Section):
     breathers: Breathers
 
     def frames_of(self, case: str) -> Section:
-        """Return how the curve of a case is made."""
+        """Return the precision and the frames for the curve of a case."""
         return self.frames.get(case, self.default_frames)
 
     def problem(self, settings: PaperConfiguration, case: str) -> dict:
-        """Return a case as plain values of a Problem whose curve is given, so that no solver runs.
+        """Return a case as plain values of a Problem of a certified curve, which needs no solver.
 
-        Raises ConfigurationError for a case whose curve no proof takes.
+        Raises ConfigurationError for a case to which the proofs do not apply.
         """
         from pendula.problem import (
             PaperProblem,  # here and below: only a certified curve needs kernels
@@ -79,7 +79,7 @@ class Settings(Section):
 
         values = settings.problem(case, snapshot_step=None)
         if values.get("model", AMPLITUDES) != AMPLITUDES:
-            text = "proofs are of curves of the amplitudes, equations (4)"
+            text = "proofs require the amplitude equations (4)"
             raise ConfigurationError(f"cases.{case}.model: {text}")
         problem = {**values, "solver": {"name": "polynomials"}}
         try:
@@ -89,7 +89,7 @@ class Settings(Section):
         return problem
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield faults of missing cases, and of states that do not exist."""
+        """Yield the errors of missing cases, and of states that do not exist."""
         yield from settings.absent("cases", "frames", self.frames)
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault

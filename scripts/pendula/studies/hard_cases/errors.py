@@ -1,8 +1,8 @@
 """Errors of a solver in the runs where it is most likely to fail, one function each.
 
-An error is measured against an exact solution or a conserved quantity where there is one, otherwise
+An error is measured against an exact solution or a conserved quantity if there is one, otherwise
 against another solver, another scale or a shorter chain. The error of amplitudes is the largest
-difference of a component over the largest component.
+difference of a component, divided by the largest component.
 """
 
 import numpy as np
@@ -27,7 +27,7 @@ REFERENCES = {
     "miss_of_short_chain": f"the same data on 61 sites, {REFERENCE_RUN}",
     "run_anyway": "-",
 }
-"""By the name of each function below: what its error is measured against."""
+"""What the error of each function below is measured against."""
 
 
 def random_data(sites: int, size: float) -> np.ndarray:
@@ -44,7 +44,7 @@ def integrate(
     gamma: float = 1.0,
     omega: float = -4.0,
 ) -> Trajectory:
-    """Return the trajectory from `data` (2, N) to `tau`, Dirichlet ends, constants of Fig 3."""
+    """Return the trajectory from `data` (2, N) to `tau`, by default with the constants of Fig 3."""
     problem = PaperProblem(
         parameters={"epsilon": epsilon, "gamma": gamma, "omega": omega},
         half_width=data.shape[1] // 2,
@@ -103,7 +103,7 @@ def miss_of_scaled(solver: dict, power: int) -> float:
 def miss_of_short_chain(solver: dict, half_width: int) -> float:
     """Return the error at the centre of a long chain against a chain of 61 sites.
 
-    To tau = 1 no motion reaches the ends of either.
+    Up to tau = 1 no motion reaches the ends of either chain.
     """
     start, short = on_sites({0: (1.0, 0.1)}), 30
     exact = integrate(reference_solver(solver), place(start, short), 1.0, outputs=1).final

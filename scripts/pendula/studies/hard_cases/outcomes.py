@@ -20,7 +20,7 @@ LONG_NAMES = {
     "reference": "what the error is measured against",
     "sound": "whether the outcome is the expected one",
 }
-"""The variables of the dataset, one row a run."""
+"""The variables of the dataset, which has a row for each run."""
 ATTRIBUTES = {
     "error": SCATTERED | missing("the run was rejected"),
     "limit": missing("the run must be rejected"),
@@ -28,9 +28,9 @@ ATTRIBUTES = {
 
 
 def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the row of LONG_NAMES for one solver on a case, plain values of a `HardCase`.
+    """Return the row of the dataset for one solver on a case, plain values of a `HardCase`.
 
-    `expected` is the largest allowed error, or a text that the message of a rejection contains.
+    Its `expected` is the largest allowed error, or a text in the message of the rejection.
     """
     error, refusal, expected = np.nan, "", case["expected"]
     try:
@@ -56,7 +56,7 @@ def run_hard_cases(cases: list[dict]) -> Contents:
     results = [run_hard_case(case, solver) for case in cases for solver in case["solvers"]]
     for row in results:
         if not row["sound"]:
-            print(f"NOT AS EXPECTED: {row['case']}, {row['solver']}: {row['error']:.3g} ")
+            print(f"NOT AS EXPECTED: {row['case']}, {row['solver']}: {row['error']:.3g}")
     variables = {
         name: Variable(
             ("row",),

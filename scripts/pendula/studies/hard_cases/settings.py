@@ -16,7 +16,7 @@ ARGUMENTS = {
     "miss_of_short_chain": (("half_width",), ()),
     "run_anyway": ((), ("amplitude", "tau", "omega")),
 }
-"""By the name of each function of `errors`: its required and its optional arguments."""
+"""The required and the optional arguments of each function of `errors`."""
 BY_TOLERANCE, BY_ITERATION = ("rtol", "atol"), ("step", "tolerance", "iterations")
 CONTROLS = {
     **dict.fromkeys(("ode45", "dop853", "taylor"), BY_TOLERANCE),
@@ -24,7 +24,7 @@ CONTROLS = {
 }
 """The controls that each solver requires."""
 FARTHEST_POWER, SHORT_CHAIN = 500, 30
-"""(2^power)^2 overflows beyond the first; the second is the half-width of the short chain."""
+"""The power beyond which (2^power)^2 overflows, and the half-width of the short chain."""
 
 
 class AnySolver(Section):
@@ -55,9 +55,10 @@ Arguments = create_model(
 
 
 class HardCase(Section):
-    """A case that each of `solvers` must solve with an error up to `expected`, or must reject.
+    """A case that each of `solvers` must solve, or must reject.
 
-    A number is the largest allowed error, a text a part of the message of the rejection.
+    If `expected` is a number, it is the largest allowed error; a text must be part of the message
+    of the rejection.
     """
 
     case: str
@@ -111,5 +112,5 @@ class Settings(Section):
     cases: Annotated[list[HardCase], Field(min_length=1)]
 
     def plain_cases(self) -> list[dict[str, Any]]:
-        """Return the cases as plain values, without keys that are left out."""
+        """Return the cases as plain values, without the keys that they omit."""
         return self.model_dump(exclude_none=True)["cases"]

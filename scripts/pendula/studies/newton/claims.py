@@ -87,8 +87,8 @@ def expansion_order(remainder: xr.Dataset) -> Finding:
 def remainder_bounded(remainder: xr.Dataset) -> Finding:
     """Compare the remainder at two mu and one slow time.
 
-    At half of the mu the same slow time is four times as late in t, so the comparison shows terms
-    that grow in proportion to t. Equations (4) follow from the condition that there are none.
+    At half of the mu, the same slow time is four times as late in t, so the comparison shows terms
+    that grow in proportion to t. Equations (4) are the condition that no such term exists.
     """
     errors = sort_by_falling_mu(remainder)["error"].sel(slow_time=SLOW).isel(mu=[-2, -1])
     mu = errors["mu"]

@@ -8,9 +8,9 @@ from replication.variables import CHAOTIC
 
 MARKS = "osD^vPX*"
 COLOURS, LIGHTEST = colormaps["inferno"], 0.67
-"""From dark to light, up to where a curve would be too pale on white paper."""
+"""From dark to light, up to LIGHTEST: lighter curves are too pale on white paper."""
 WIDTH_STEP = 0.6
-"""In points: each curve is this much wider than the next one, which may cover it."""
+"""Each curve is wider than the next one, which may cover it, by this in points."""
 LIMIT_SPACING = 0.025
 """Distance of neighbouring confidence intervals at the end, as a fraction of the end time."""
 CAPTION = (
@@ -29,7 +29,7 @@ def gather_over_the_top(over_the_top: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_over_the_top(data: xr.Dataset) -> Figure:
-    """Draw the share over the top against tau, one curve each mu, with limits at the end."""
+    """Draw the share over the top against tau, one curve for each mu, with limits at the end."""
     figure = style.new_figure(style.WIDTH, 2.5)
     axes, count, tau = figure.subplots(), data.sizes["mu"], data["tau"].values
     for i, mu in enumerate(data["mu"].values):

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from pendula.problem import Constants
 
 DEPTH = 12
-"""Terms of the continued fraction; twice as many change no bit."""
+"""Terms of the continued fraction; twice as many give the same bits."""
 ITERATIONS = 12
 """Steps of Newton's method; after eight no bit changes."""
 
@@ -23,7 +23,7 @@ def squared_frequency(omega: ArrayLike, mu: ArrayLike) -> np.ndarray:
     return 1.0 + mu * mu * np.asarray(omega)
 
 
-def _fraction(square, gaps):
+def _fraction(square: np.ndarray, gaps: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Return square / (gaps[0] - square / (gaps[1] - ...)) and its derivative by `square`."""
     fraction, slope = 0.0, 0.0
     for gap in gaps[::-1]:

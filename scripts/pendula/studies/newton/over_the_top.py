@@ -2,14 +2,14 @@
 
 A pendulum is over the top once |x| > pi. The amplitude equations cannot describe this: their
 potential rises without bound, while a pendulum rotates and the strings wind up. The first passage
-is detected at an output, OUTPUTS_PER_PERIOD in each period: a pendulum beyond the top stays there
+is detected at one of OUTPUTS_PER_PERIOD outputs per period: a pendulum beyond the top stays there
 for longer than the time between two outputs. No passage occurs before the chaotic state has filled
-the chain. Later, chaos leaves no memory, and passages occur at a constant rate. So the
-rate is measured from the time `settled` on, in the members without a passage until then.
+the chain. After this, chaos leaves no memory, and passages occur at a constant rate. The rate is
+measured from the time `settled` on, in the members without an earlier passage.
 
-By (3) the angle x swings with the amplitude 2 mu |A|. The mean of (x / mu)^2 / 2 over time is then
-the mean of |A|^2, if no pendulum goes over the top. It is compared with that of the same members by
-the amplitude equations, on the same chain and over the same time.
+By (3) the angle x swings with the amplitude 2 mu |A|. If no pendulum goes over the top, the mean of
+(x / mu)^2 / 2 over time is the mean of |A|^2. It is compared with the mean of |A|^2 by the
+amplitude equations, for the same members, chain and time.
 """
 
 from collections.abc import Mapping, Sequence
@@ -76,8 +76,8 @@ def measure_over_the_top(
 ) -> ManyRuns:
     """Return the runs of all members at each mu, for the dataset of first passages.
 
-    `size` is the relative perturbation of the initial data; `settled` the tau from which on rates
-    are measured.
+    `size` is the relative perturbation of the initial data; rates are measured from tau = `settled`
+    on.
     """
     amplitude_problems = draw_members(problem, size, members, seed)
     each = [
@@ -100,7 +100,7 @@ def _passage_contents(
 ) -> Contents:
     """Return the dataset of the results of `measure_passage`, each (mu, member).
 
-    All runs end at the same time, so that a share is one minus the estimate of Kaplan and Meier.
+    All runs end at the same time, so a share is one minus the Kaplan-Meier estimate.
     """
     times, powers = retained.values()
     members, end_time = len(amplitude_problems), amplitude_problems[0].end_time
@@ -139,7 +139,7 @@ def with_limits(
     long_name: str,
     attributes: Mapping[str, str] = {},
 ) -> dict[str, Variable]:
-    """Return a number and its confidence limits as variables, from (..., 3) of `limits`."""
+    """Return variables of a number and its confidence limits; `limits` has the shape (..., 3)."""
     ends = {"": "", "_low": ", lower confidence limit", "_high": ", upper confidence limit"}
     return {
         f"{name}{end}": Variable(dimensions, values, f"{long_name}{words}", attributes=attributes)
@@ -170,10 +170,12 @@ def vary_over_the_top(
     """Return the numbers of MEANINGS (mu,), measured again with each choice changed.
 
     `chosen` are the tolerance, the perturbation (`size`), the seed and the time `settled`;
-    `variations` are their other values. Runs of twice the length are a variation too.
+    `variations` are their other values. Runs of twice the duration are also a variation.
     """
 
-    def measure(tolerance, size, seed, settled, run_time):
+    def measure(
+        tolerance: float, size: float, seed: float, settled: float, run_time: float
+    ) -> dict[str, ConfidenceInterval]:
         solver = problem.solver | {"rtol": tolerance, "atol": tolerance}
         runs = problem.changed(solver=solver, end_time=run_time)
         study = measure_over_the_top(runs, mus, size, members, int(seed), settled)
@@ -190,7 +192,7 @@ def vary_over_the_top(
 
 
 def printed_numbers(study: xr.Dataset, by_tau: float) -> dict[str, ConfidenceInterval]:
-    """Return the numbers of MEANINGS (mu,) with their limits; the share is that at `by_tau`."""
+    """Return the numbers of MEANINGS (mu,) with their limits; the share is up to `by_tau`."""
     numbers = {}
     for name in ("passed", "passage_rate"):
         ends = (study[f"{name}{end}"] for end in ("", "_low", "_high"))

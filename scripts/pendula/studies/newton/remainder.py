@@ -1,11 +1,11 @@
 """The error of the expansion (3) against Newton's equations, at several mu.
 
 The pendula start from x = 2 mu Re A and dx/dt = -2 mu omega Im A with the amplitudes A of the case.
-The error is the largest |x - x of (3)| over both pendula, all sites and all outputs, whose step is
-no multiple of the period.
+The error is the largest |x - x of (3)| over both pendula, all sites and all outputs. The output
+step is no multiple of the period.
 
-# ASSUME: the paper does not give the initial velocities of its expansion. Ours leave out the slow
-# rate of the amplitudes, which changes the constant of the error but not its order.
+# ASSUME: the paper does not give the initial velocities of its expansion. Ours omit the slow rate
+# of the amplitudes, which changes the constant of the error but not its order.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,13 +20,13 @@ from pendula.models.pendula import leading_angles
 from pendula.problem import PENDULA, PaperProblem
 
 SLOW_TIMES = {"mu^2 t / 2": 1, "mu^2 t": 2}
-"""By slow time: outputs of the amplitudes for each output of the pendula. The second is wrong."""
+"""Outputs of the amplitudes per output of the pendula, by slow time; the second one is wrong."""
 
 
 def integrate_amplitudes(problem: PaperProblem) -> np.ndarray:
     """Return the solution of (4) at the outputs of a problem, complex (time, component, site).
 
-    A run stores only moduli, so each output interval is a run from the state before.
+    A run stores only moduli, so each output interval is a run from the last state.
     """
     amplitudes, output_interval = (
         [problem.amplitudes],
@@ -50,7 +50,7 @@ def largest_error(pendula: Trajectory, problem: PaperProblem, amplitudes: np.nda
 def measure_errors(problem: PaperProblem, mus: Sequence[float]) -> np.ndarray:
     """Return the errors (slow time, mu) of a case up to its end time.
 
-    The slow time mu^2 t reaches the end of the amplitudes at half of t, so it has half the outputs.
+    The slow time mu^2 t reaches the end time at half of t, so it has half as many outputs.
     """
     amplitudes, errors = integrate_amplitudes(problem), []
     for mu in mus:

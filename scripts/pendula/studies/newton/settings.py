@@ -1,7 +1,7 @@
 """The keys of config/newton.yaml, one class for each topic."""
 
 from collections.abc import Iterable
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from latticode.configuration.cases import is_multiple
 from latticode.configuration.values import (
@@ -32,13 +32,13 @@ class Threshold(Section):
     mus: Positives
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield a fault if a wave comes near the second resonance of the drive, at a = 4."""
+        """Yield an error if a wave comes near the second resonance of the drive, at a = 4."""
         mu, omega = max(self.mus), min(self.omegas)
         if mu * mu * (4.0 * self.epsilon - omega) > squared_frequency(omega, mu):
             least = 0.5 * (4.0 * self.epsilon - 1.0 / (mu * mu))
-            where = f"has {omega:g}, and at mu = {mu:g} some waves there lie"
-            way_out = f"take an Omega above {least:.4g}, or a smaller mu"
-            yield "omegas", f"{where} near the second resonance of the drive: {way_out}"
+            where = f"has {omega:g}, but at mu = {mu:g} some waves of this Omega lie"
+            way_out = f"give an Omega above {least:.4g} or a smaller mu"
+            yield "omegas", f"{where} near the second resonance of the drive; {way_out}"
 
 
 class PendulaRuns(Section):
@@ -54,12 +54,12 @@ class PendulaRuns(Section):
         times: float = 1.0,
         size: float = 0.0,
         key: str = "mus",
-        **changes,
+        **changes: Any,
     ) -> Faults:
-        """Yield a fault if a case is missing, cannot be integrated at a mu, or takes too long.
+        """Yield an error if a case is missing, cannot be integrated at a mu, or takes too long.
 
-        Members differ by normal draws times `size`, relative to the initial data. `key` is the key
-        of the mu, "mus" or "long.mus".
+        Relative perturbations of members are normal draws times `size`. `key` is the key of mu,
+        "mus" or "long.mus".
         """
         mus = self.mus if key == "mus" else self.long.mus
         if absent := list(settings.absent("cases", "case", cases)):
@@ -70,14 +70,14 @@ class PendulaRuns(Section):
             for mu in mus:
                 run = settings.run_of(name, self.tolerance, model="pendula", mu=mu, **changes)
                 if why := _why_endless(Constants.of(run), mu):
-                    yield key, f"has {mu:g}, and {why.format(case=name)}"
+                    yield key, f"has {mu:g}, but {why.format(case=name)}"
                     return
                 runs.append(run)
         yield from settings.faults_of_runs(Runs(key, "tolerance", runs, times, "size", size))
 
 
 def _why_endless(constants: Constants, mu: float) -> str:
-    """Return why a run of the pendula at mu may never end, empty if it does.
+    """Return why a run of the pendula at this mu may never end, or an empty text.
 
     A case with a negative epsilon is rejected elsewhere.
     """
@@ -85,8 +85,8 @@ def _why_endless(constants: Constants, mu: float) -> str:
         return "1 + mu^2 Omega must be positive"
     if constants.epsilon >= 0.0 and waves_on_strings_grow(constants, mu):
         return (
-            "pendula of {case} that swing over the top are driven ever faster there: "
-            "take a smaller gamma, epsilon or mu"
+            "there the drive speeds up pendula of {case} without bound once they go over the top; "
+            "give a smaller gamma, epsilon or mu"
         )
     return ""
 
@@ -99,7 +99,7 @@ class Remainder(PendulaRuns):
     output_step: Positive
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield faults of times and of runs of the paper's cases."""
+        """Yield the errors of times and of runs of the paper's cases."""
         if not is_multiple(self.end_time, self.output_step):
             yield "end_time", f"is not a whole number of `output_step`, {self.output_step:g}"
         cases = [name for name in PAPER_CASES if name in settings.cases]
@@ -123,12 +123,12 @@ class OverTheTop(PendulaRuns):
     )
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield faults of times and of runs of the case."""
+        """Yield the errors of times and of runs of the case."""
         if not self.settled < self.end_time:
-            yield "settled", f"is {self.settled:g}, and must lie before the end time"
+            yield "settled", f"is {self.settled:g}; it must be before the end time"
         if not (latest := max(self.long.variations.get("settled", [0.0]))) < self.long.end_time:
             key = "long.variations.settled"
-            yield key, f"has {latest:g}, and must lie before the end time, {self.long.end_time:g}"
+            yield key, f"has {latest:g}; each must be before the end time, {self.long.end_time:g}"
         for key, runs in (("mus", self), ("long.mus", self.long)):
             many = runs.members, self.size, key
             if unfit := list(
@@ -146,7 +146,7 @@ class Settings(Section):
     over_the_top: OverTheTop
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield the faults of each topic."""
+        """Yield the errors of each topic."""
         for topic in ("threshold", "remainder", "over_the_top"):
             for key, text in getattr(self, topic).faults(settings):
                 yield f"{topic}.{key}", text

@@ -1,10 +1,12 @@
 """Lemma 1 for the pendula (1): the threshold gamma_0(mu) of the drive.
 
-Equations (1), linearised about rest, are for the difference z = x - y of a pair and each wave
-number theta z'' + (1 + epsilon mu^2 s + 4 gamma mu^2 cos 2 omega t) z = 0, s = 4 sin^2(theta / 2).
-With omega t as time this is Mathieu's equation, a - 1 = mu^2 kappa / omega^2 and
+Linearised about rest, equations (1) give for the difference z = x - y and each wave number theta
+
+    z'' + (1 + epsilon mu^2 s + 4 gamma mu^2 cos 2 omega t) z = 0,   s = 4 sin^2(theta / 2).
+
+With omega t as time this is Mathieu's equation with a - 1 = mu^2 kappa / omega^2 and
 q = 2 |gamma| mu^2 / omega^2, where kappa = epsilon s - Omega as in (14). The sum x + y is not
-driven. So the chain at rest is stable if all waves of z are.
+driven, so the chain at rest is stable if all waves of z are.
 """
 
 from collections.abc import Sequence

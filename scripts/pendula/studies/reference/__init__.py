@@ -1,1 +1,1 @@
-"""Trajectories in multiprecision arithmetic, with more digits than chaos takes away."""
+"""Trajectories in multiprecision arithmetic, with more digits than chaos destroys."""

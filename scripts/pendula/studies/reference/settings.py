@@ -17,7 +17,7 @@ class Settings(Section):
     bits: dict[Name, tuple[Bits, Bits]]
 
     def problem(self, settings: PaperConfiguration, case: str) -> dict:
-        """Return a case as plain values of a Problem, to the end of all windows that are drawn."""
+        """Return a case as plain values of a Problem that ends after all drawn windows."""
         sweeps = (settings.sweeps[name] for name in PAPER_SWEEPS)
         drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
         ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]

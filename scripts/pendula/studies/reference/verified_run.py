@@ -2,9 +2,9 @@
 
 heyoka (Biscani and Izzo, MNRAS 504 (2021) 2614) integrates equations (4) on half a chain, which
 needs even initial data. Its expressions are built from the traced equations, and its constants from
-the decimals that the configuration prints. A state has the rows Re A, Im A, Re B, Im B on the sites
-0..M, and A = B = 0 beyond site M. The two runs differ in precision and order, so they share no
-rounding errors. The dataset of a reference holds the first run, each number rounded once to double.
+the decimals in the configuration. A state has the rows Re A, Im A, Re B, Im B on the sites 0..M,
+and A = B = 0 beyond site M. The two runs differ in precision and order, so they share no rounding
+errors. The dataset of a reference holds the first run, each number rounded once to double.
 """
 
 from types import ModuleType
@@ -17,6 +17,7 @@ from latticode.datasets.trajectories import Contents
 from latticode.equations.initial_values import by_site
 from latticode.simulation.lattice import Reduction, unfold
 from latticode.simulation.simulate import IntegrationError
+from numpy.typing import ArrayLike
 
 from pendula.many_cases import COMPONENTS
 from pendula.models.amplitudes import field
@@ -38,8 +39,7 @@ def load_heyoka() -> ModuleType:
     try:
         import heyoka
     except ImportError:
-        text = f"references need heyoka, which no other target needs: pip install {HEYOKA}"
-        raise UnverifiedError(text) from None
+        raise UnverifiedError(f"references require heyoka: pip install {HEYOKA}") from None
     return heyoka
 
 
@@ -54,14 +54,16 @@ class RealConstants(NamedTuple):
     omega: Any
 
 
-def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[tuple]:
-    """Return the pairs (variable, its rate of change) of heyoka, in the order of a flat state."""
+def right_hand_side(
+    heyoka: ModuleType, constants: RealConstants, half_width: int
+) -> list[tuple[Any, Any]]:
+    """Return heyoka's pairs (variable, rate of change), in the order of a flat state."""
     names = [[f"{row}{n}" for n in range(half_width + 1)] for row in ("ra", "ia", "rb", "ib")]
     rows = [[heyoka.make_vars(name) for name in row] for row in names]
 
     def field_at(component: int, n: int) -> tuple:
-        def unknown_at(partner: int, re_or_im: int, shift: int):
-            row, site = rows[2 * (component ^ partner) + re_or_im], abs(n + shift)  # -1 moves as 1
+        def unknown_at(partner: int, re_or_im: int, shift: int) -> Any:
+            row, site = rows[2 * (component ^ partner) + re_or_im], abs(n + shift)  # -1 mirrors 1
             return row[site] if site < len(row) else 0.0  # site M + 1 is at rest
 
         return field(constants, unknown_at)
@@ -114,13 +116,13 @@ def make_initial_state(problem: PaperProblem, bits: int) -> np.ndarray:
     return state
 
 
-def as_reals(values, bits: int) -> np.ndarray:
+def as_reals(values: ArrayLike, bits: int) -> np.ndarray:
     """Return an array of multiprecision reals that equal the doubles `values`."""
     real = load_heyoka().real
     return np.array([real(float(x), bits) for x in np.ravel(values)]).reshape(np.shape(values))
 
 
-def decimal_as_real(x: float, bits: int):
+def decimal_as_real(x: float, bits: int) -> Any:
     """Return the multiprecision real of the shortest decimal that prints as the double `x`."""
     return load_heyoka().real(repr(float(x)), bits)
 
@@ -128,9 +130,9 @@ def decimal_as_real(x: float, bits: int):
 def integrate(problem: PaperProblem, snapshots: list[float], bits: int) -> MultiprecisionRun:
     """Return a run of a case by heyoka with `bits` bits and the tolerance 2^-bits.
 
-    The solver of the problem is not used. Norms are stored at the doubles `problem.times`, and
-    states at those of them that are in `snapshots`. Raises IntegrationError if heyoka stops before
-    the end, and ValueError as `make_initial_state` does.
+    The solver of the problem is not used. Norms are stored at the doubles `problem.times`, states
+    only at the times in `snapshots`. Raises IntegrationError if heyoka stops before the end, and
+    ValueError as `make_initial_state` does.
     """
     heyoka = load_heyoka()
     constants = RealConstants(*(decimal_as_real(constant, bits) for constant in problem.constants))
@@ -158,8 +160,8 @@ def measure_discrepancy(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the largest differences of two runs: of norms (time,) and amplitudes (snapshot,).
 
-    Differences are taken before numbers are rounded to doubles. Raises UnverifiedError if a norm
-    differs by LARGEST_DISCREPANCY or more.
+    Differences are computed before rounding to doubles. Raises UnverifiedError if a norm differs by
+    LARGEST_DISCREPANCY or more.
     """
     linf, l2 = np.abs(run.linf - check.linf), np.abs(run.l2 - check.l2)
     discrepancy = np.maximum(np.maximum.reduce(linf), np.maximum.reduce(l2)).astype(float)
@@ -176,10 +178,10 @@ def measure_discrepancy(
 def make_reference(
     name: str, problem: PaperProblem, snapshots: list[float], bits: tuple[int, int]
 ) -> Contents:
-    """Return the dataset of a reference; `bits` are those of the stored and of the second run.
+    """Return the dataset of a reference; `bits` is the precision of the stored and the second run.
 
-    States are stored at the output times that are in `snapshots`. Times are exact, so that
-    `amplitude` can be the initial state of another run.
+    States are stored at the output times in `snapshots`. Times are exact, so that `amplitude` can
+    be the initial state of another run.
     """
     run, check = (integrate(problem, snapshots, precision) for precision in bits)
     discrepancy, amplitude_discrepancy = measure_discrepancy(name, run, check)
