@@ -123,7 +123,7 @@ def as_dataset(numbers: Mapping[str, NamedNumber], coordinates: Mapping[str, Any
     not measured under a variation is NaN there.
     """
     labels = list(
-        dict.fromkeys(label for one in numbers.values() for label in one.number.variations)
+        dict.fromkeys(label for named in numbers.values() for label in named.number.variations)
     )
     attributes = {"long_name": "choice that was changed, and its changed value"}
     label = xr.Variable(VARIATION, np.array(labels, object), attributes)
@@ -138,7 +138,7 @@ def _variables_of(printed: NamedNumber, labels: Sequence[str]) -> list[xr.Variab
     """Return a number, its error, its statistical error, and the number under its variations."""
     (dims, number, meaning), missing = printed, np.full(printed.number.value.shape, np.nan)
     varied_values = [number.variations.get(label, missing) for label in labels]
-    chosen = ", ".join(f"{key} = {_written(one)}" for key, one in number.choices.items())
+    chosen = ", ".join(f"{key} = {_written(value)}" for key, value in number.choices.items())
     error = f"error of the {meaning}: the larger of the statistical one and the largest change"
     return [
         xr.Variable(dims, number.value, {"long_name": meaning, "choices": chosen}),
@@ -187,7 +187,7 @@ def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
     if number not in numbers_in(data):
         return {}
     varied_values = data[names_of(number)[-1]].dropna(VARIATION)
-    return {str(one[VARIATION].item()): float(one) for one in varied_values}
+    return {str(value[VARIATION].item()): float(value) for value in varied_values}
 
 
 def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:

@@ -80,7 +80,7 @@ def layers_of(reference: xr.Dataset, members: xr.Dataset) -> dict[str, Any]:
 
 
 def fates_of(study: xr.Dataset) -> dict[str, Any]:
-    """Return the maps of fates: four cells a byte, by A_0 and then by B_0."""
+    """Return the maps of fates: four cells in a byte, ordered by A_0 and then by B_0."""
     amplitudes = study["a0"].values
     return {
         "points": len(amplitudes),

@@ -121,12 +121,12 @@ def _rule(job: Any) -> str:
 
 
 def _kind_of(hint: Any) -> tuple[str, Any]:
-    """Return the container of an annotation ("one", "list" or "mapping") and its values' type."""
+    """Return the container of an annotation, "none", "list" or "mapping", and its values' type."""
     if get_origin(hint) in (Union, UnionType):
         hint = next(alternative for alternative in get_args(hint) if alternative is not NoneType)
     origin, inner = get_origin(hint), get_args(hint)
     if not isinstance(origin, type) or not inner:
-        return "one", hint
+        return "none", hint
     if issubclass(origin, Mapping):
         return "mapping", inner[1]
     return "list", inner[0]
@@ -134,7 +134,7 @@ def _kind_of(hint: Any) -> tuple[str, Any]:
 
 def _load(value: Any, container: str, make: Callable) -> Any:
     """Apply `make` to each value, and return the results in the container."""
-    if value is None or container == "one":
+    if value is None or container == "none":
         return value if value is None else make(value)
     if isinstance(value, Mapping):
         return {name: make(entry) for name, entry in value.items()}

@@ -32,7 +32,7 @@ def make_chain(constants: Constants, boundary: str, cut: Reduction) -> Amplitude
 
 
 class PaperEquations(Equations):
-    """Base of both of the paper's equations: their constants and their compiled methods."""
+    """Base class for (4) and (1): their constants and their compiled methods."""
 
     model_name: str
 
@@ -97,7 +97,7 @@ class AmplitudeEquations(PaperEquations):
 
 
 class PendulumEquations(PaperEquations):
-    """A problem of (1), given in the amplitudes and the time tau of (4)."""
+    """A problem of (1), given by amplitudes and times tau of (4)."""
 
     model_name = PENDULA
 
@@ -163,7 +163,7 @@ class PendulumEquations(PaperEquations):
         """Return swings, angles and velocities of the full chain."""
         snapshots = np.array([unfold(part, cut) for part in record.snapshots])
         return {
-            # all pendula have the same phase at a snapshot, on which the angles alone would depend
+            # not the angles: they depend on the phase at the snapshot, which all pendula share
             "modulus": swings_of(*snapshots, self.constants.omega, self.mu),
             "final": np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)]),
             "state": snapshots,

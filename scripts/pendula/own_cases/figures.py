@@ -44,7 +44,7 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
 
 
 def draw_norms(data: xr.Dataset) -> Figure:
-    """Draw l-infinity left and l2 right, A red and B blue."""
+    """Draw l-infinity (left) and l2 (right), A red and B blue."""
     return runs.draw_norms(data, naming_of(data))
 
 
@@ -60,5 +60,5 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
 
 
 def draw_sweep(data: xr.Dataset) -> Figure:
-    """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
+    """Draw l-infinity (left, blue squares) and l2 (right, red dots); means are hollow."""
     return runs.draw_sweep(data, naming_of(data))

@@ -1,7 +1,7 @@
 """Labels of figures and datasets on the page of `snakemake --report`, read from the files.
 
-Each result has only one label: with a second one, the page of two results would show a switch and
-go blank.
+Each result has only one label: if there are two results, the page shows a second label as a switch
+and goes blank.
 """
 
 from collections.abc import Sequence

@@ -192,7 +192,7 @@ def spreading_is_an_accident(sensitivity: xr.Dataset) -> Finding:
     return judge(measured, criterion, some if spread > 0 else "")
 
 
-def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
+def with_dispersing_point(fates: xr.Dataset) -> xr.Dataset:
     """Return the maps, with the most unequal data at Omega = 0 set to disperse, as a control."""
     return put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(fates)
 
@@ -204,7 +204,7 @@ def one_that_disperses(fates: xr.Dataset) -> xr.Dataset:
     (MAP,),
     (
         ClaimControl("the maps at both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
-        ClaimControl("one initial condition at Omega = 0 that disperses", one_that_disperses),
+        ClaimControl("one initial condition at Omega = 0 that disperses", with_dispersing_point),
     ),
     origin=Origin.OWN,
 )

@@ -14,10 +14,10 @@ The final state of a run on an even chain distinguishes the four fates without a
 One pair would not be enough, because breathers of small P and moving localised states are wider. On
 61 pairs, dispersed waves and chaotic states have less than a third of P on any three pairs.
 
-Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
-(kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
-factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B conserve P. If zero is unstable,
-waves have no bound, and any growth of P counts as spreading.
+Linear waves A - B = p + i q at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
+(kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2, so their P grows at most by the factor
+(|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B conserve P. If zero is unstable, waves
+have no bound, and any growth of P counts as spreading.
 """
 
 from collections.abc import Mapping, Sequence

@@ -18,11 +18,11 @@ double coefficients, which solve M' = J M approximately. From the equation of e,
     |w|' <= mu |w| + |J M - M'| |z| + |r| + |d|,   mu = 2 |gamma| + |epsilon| / 2 + a^2 / 2, (i)
 
 where a is the largest |A_n| of p over the step. Proof of mu: Re <w, J w> is
-Im <w, L w> + Im <w, DN w>. In it gamma conj(b - a) gives at most 2 |gamma| |w|^2. Bonds cancel,
-except that between the sites 0 and 1, which counts 2 in one direction and 1 in the other and leaves
-|epsilon| |w_0| |w_1| <= |epsilon| |w|^2 / 2. Of DN w = |A|^2 w + A^2 conj(w) / 2 only the second
-part contributes. By (i) |w| at the end of a step h is at most e^(mu h) times the sum of |w| at its
-start and of the integrals of the other terms.
+Im <w, L w> + Im <w, DN w>. In it gamma conj(b - a) gives at most 2 |gamma| |w|^2. The bonds cancel,
+except the bond of the sites 0 and 1, which counts twice in one direction and once in the other and
+leaves |epsilon| |w_0| |w_1| <= |epsilon| |w|^2 / 2. Of DN w = |A|^2 w + A^2 conj(w) / 2 only the
+second part contributes. By (i) |w| at the end of a step h is at most e^(mu h) times the sum of |w|
+at its start and of the integrals of the other terms.
 
 A new frame has the columns of any nearly orthogonal matrix Q: |Q^T Q - I| <= eta < 1/2. With
 G = Q^T Q, e = Q z' holds for z' = G^-1 (Q^T M z + Q^T w), and |G^-1 x - x| <= eta / (1 - eta) |x|,
