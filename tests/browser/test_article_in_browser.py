@@ -170,7 +170,7 @@ def test_a_live_figure_reports_other_bits_and_their_time(article, article_page):
     other = article_page.with_name("other_bits.html")
     other.write_text(text.replace(marks, base64.b64encode(content).decode()), encoding="utf-8")
     article.get(other.as_uri())
-    words = "other bits than trajectories/fig2_small.nc from τ = 30 on."
+    words = "the bits of ode45 differ from trajectories/fig2_small.nc from τ = 30 on."
     assert words in answer_of(open_run(article, 2))
 
 
@@ -187,7 +187,7 @@ def test_the_slider_shows_when_a_perturbed_run_leaves_the_first(article, step, p
     difference = norm_difference(first.linf, first.l2, second.linf, second.l2)
     time = first_above(first.tau, difference, 0.01)
     wait_for(
-        lambda: f"leaves ode45's at τ = {time:.4g}, by 1 % of full scale" in answer_of(section)
+        lambda: f"from ode45's by 1 % of full scale at τ = {time:.4g}." in answer_of(section)
     )
 
 

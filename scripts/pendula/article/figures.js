@@ -1,12 +1,12 @@
-// Live figures: the cases of Figs 2 to 4 integrated in the page, beside what the datasets hold.
+// Live figures: the cases of Figs 2 to 4 integrated in the page, with the curves of the datasets.
 
 const layers = JSON.parse(document.getElementById("layers").textContent);
 const NORMS = ["linf", "l2"];
-const FULL_SCALE = 65535; // of the 16 bits that hold a number of a curve
+const FULL_SCALE = 65535; // the largest integer in the 16 bits of a number of a curve
 const toCurve = ({ largest, values }) =>
   Float64Array.from(new Uint16Array(decodeBase64(values).buffer), (value) => (value * largest) / FULL_SCALE);
 const timesOf = ({ length }, end) => Float64Array.from({ length }, (_, i) => (end * i) / (length - 1));
-let solverIsLoaded; // a promise, from the first figure that is opened on
+let solverIsLoaded; // a promise, set when the first figure is opened
 const part = (section, name) => section.querySelector(`[data-part="${name}"]`);
 const caseOf = (section) => data.cases.find(({ name }) => name === part(section, "case").value);
 // The slider has a step for no perturbation and one for each power of ten.
@@ -16,7 +16,7 @@ const perturbationOf = (section) => {
 };
 const isShown = (section, layer) => part(section, layer).checked;
 
-// Return ode45's run of a case, and that from perturbed amplitudes.
+// Return ode45's run of a case, and the run from perturbed amplitudes.
 const runCase = async ({ settings, output_step: outputStep }, perturbation) => {
   solverIsLoaded ??= loadSolver();
   await solverIsLoaded;
@@ -46,19 +46,19 @@ const describeBits = ({ marks, every, name }, unperturbed) => {
   const accepted = new Uint32Array(decodeBase64(marks).buffer);
   const first = marksOf(unperturbed, every).findIndex((mark, i) => mark !== accepted[i]);
   return first < 0
-    ? `ode45 gives here the bits of trajectories/${name}.nc at all ${accepted.length} times.`
-    : `ode45 gives here other bits than trajectories/${name}.nc from τ = ${formatNumber(unperturbed.tau[first])} on.`;
+    ? `Here ode45 gives the bits of trajectories/${name}.nc at all ${accepted.length} times.`
+    : `Here the bits of ode45 differ from trajectories/${name}.nc from τ = ${formatNumber(unperturbed.tau[first])} on.`;
 };
 const describeRun = ({ horizon }, perturbation, divergence) => {
   const visible = `${100 * data.visible} % of full scale`;
   const fromReference = horizon === null || horizon >= layers.end_time
-    ? "ode45 stays with the reference to the end."
-    : `ode45 leaves the reference at τ = ${formatNumber(horizon, 5)}, by ${visible}.`;
-  if (!perturbation) return `This run is that of ode45, without a perturbation. ${fromReference}`;
-  const when = Number.isFinite(divergence) ? `at τ = ${formatNumber(divergence)}, by ${visible}` : "at no time";
-  return `This run starts from amplitudes times 1 + ${perturbation.toExponential(0)} and leaves ode45's ${when}. ${fromReference}`;
+    ? "ode45 agrees with the reference to the end."
+    : `ode45 differs from the reference by ${visible} at τ = ${formatNumber(horizon, 5)}.`;
+  if (!perturbation) return `This run has no perturbation. ${fromReference}`;
+  const when = Number.isFinite(divergence) ? `differs from ode45's by ${visible} at τ = ${formatNumber(divergence)}` : "agrees with ode45's to the end";
+  return `This run starts from amplitudes times 1 + ${perturbation.toExponential(0)} and ${when}. ${fromReference}`;
 };
-let newest = 0; // the number of the last run that was asked for
+let newest = 0; // the number of the last requested run
 const drawFigure = async (section) => {
   newest += 1;
   const number = newest;

@@ -1,10 +1,10 @@
-// The maps of fates: a click, or arrows and Enter, choose initial amplitudes, which open in the live page.
+// The maps of fates: a click or the arrow keys choose initial amplitudes; the link or Enter opens them in the live page.
 
 const KINDS = ["disperses", "stays localised", "moves away", "spreads"];
 const fates = JSON.parse(document.getElementById("fates").textContent);
 const cellsOf = (text) => Uint8Array.from(
   { length: fates.points ** 2 },
-  ((bytes) => (_, i) => (bytes[i >> 2] >> (2 * (i & 3))) & 3)(decodeBase64(text)), // four cells a byte
+  ((bytes) => (_, i) => (bytes[i >> 2] >> (2 * (i & 3))) & 3)(decodeBase64(text)), // four cells in a byte
 );
 const drawMap = (canvas, cells, colours, [column, row]) => {
   Object.assign(canvas, { width: fates.points, height: fates.points });

@@ -37,17 +37,17 @@ def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[st
         error = getattr(errors, case["measure"])(solver, **case["arguments"])
     except IntegrationError as fault:
         refusal = str(fault)
-    must_refuse = isinstance(expected, str)
-    sound = expected in refusal if must_refuse else bool(error <= expected)
+    must_be_rejected = isinstance(expected, str)
+    sound = expected in refusal if must_be_rejected else bool(error <= expected)
     controls = ", ".join(f"{key} {value:g}" for key, value in solver.items() if key != "name")
     return {
         "case": case["case"],
         "solver": f"{solver['name']}: {controls}",
         "error": error,
-        "limit": np.nan if must_refuse else expected,
+        "limit": np.nan if must_be_rejected else expected,
         "refusal": refusal,
         "reference": errors.REFERENCES[case["measure"]],
-        "sound": np.int8(sound and must_refuse == bool(refusal)),
+        "sound": np.int8(sound and must_be_rejected == bool(refusal)),
     }
 
 
