@@ -186,9 +186,7 @@ def test_the_slider_shows_when_a_perturbed_run_leaves_the_first(article, step, p
     )
     difference = norm_difference(first.linf, first.l2, second.linf, second.l2)
     time = first_above(first.tau, difference, 0.01)
-    wait_for(
-        lambda: f"from ode45's by 1 % of full scale at τ = {time:.4g}." in answer_of(section)
-    )
+    wait_for(lambda: f"from ode45's by 1 % of full scale at τ = {time:.4g}." in answer_of(section))
 
 
 @pytest.mark.parametrize("layer", ["run", "ode45", "reference", "ensemble"])
