@@ -202,7 +202,7 @@ def find_radius(estimates: Estimates) -> float:
     r = arb(radius)
     p = eta - contraction * r + quadratic * r * r / 2 + cubic * r * r * r / 3
     if not (p <= 0 and z + quadratic * r + cubic * r * r < 1):
-        raise ProofFailedError("p(r) <= 0 and q(r) < 1 fail: the residual is too large")
+        raise ProofFailedError("p(r) <= 0 or q(r) < 1 fails: the residual is too large")
     return radius
 
 
