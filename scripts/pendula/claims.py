@@ -48,10 +48,7 @@ SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 
 
 def late(trajectory: xr.Dataset, start: float = SETTLED) -> xr.Dataset:
-    """Return the trajectory from tau = `start` on.
-
-    Raises UndecidableError if it ends before 2 `start`.
-    """
+    """Return the run from tau = `start` on. Raises UndecidableError if it ends before 2 `start`."""
     end = float(trajectory["tau"][-1])
     if end < 2.0 * start:
         raise UndecidableError(f"the run ends at tau = {end:g}, before {2.0 * start:g}")

@@ -124,10 +124,7 @@ class PaperCaseSection(cases.CaseSection):
         return obstacle, rate(constants, peak, self.mu)
 
     def problem(self, **changes: Any) -> dict:
-        """Return the case as plain values of a `PaperProblem`, with `changes`.
-
-        The constants come first, as in datasets.
-        """
+        """Return plain values of the case as a `PaperProblem` with `changes`, constants first."""
         plain_values = self._plain_values(**changes)
         values = {key: plain_values[key] for key in CONSTANTS if key in plain_values} | plain_values
         if values["model"] == AMPLITUDES:

@@ -36,10 +36,7 @@ def paper() -> dict[str, Any]:
 
 
 def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
-    """Return the differences of a validated configuration, as plain values, from the paper's.
-
-    Additional cases and sweeps do not count.
-    """
+    """Return the differences from the paper's configuration by key; added cases do not count."""
     differences = find_differences(paper(), configuration, TOLERATED)
     return {".".join(place): _in_words(place, *pair) for place, pair in differences.items()}
 

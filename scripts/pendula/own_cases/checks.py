@@ -93,10 +93,7 @@ def compare_with_expansion(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset
 
 
 def check_run(problem: PaperProblem, run: xr.Dataset) -> xr.Dataset:
-    """Return all checks of a case as one dataset, with the attributes of the case.
-
-    `run` is the trajectory of `problem` by `simulate`.
-    """
+    """Return all checks of a case as one dataset; `run` is the trajectory of `problem`."""
     if problem.model.name == PENDULA:
         return merged(run, run_again(problem, run), compare_with_expansion(problem, run))
     if problem.model.name != AMPLITUDES:

@@ -111,10 +111,7 @@ def runs_by(settings: PaperConfiguration, solver: str) -> list[str]:
 
 
 def own_files(settings: PaperConfiguration) -> list[str]:
-    """Return all figures, tables and datasets of a user's cases, sweeps and surveys.
-
-    Raises ConfigurationError if the user has none.
-    """
+    """Return all files of the user's cases, sweeps and surveys, or raise ConfigurationError."""
     cases = [case for case in settings.cases if case not in PAPER_CASES]
     sweeps = [sweep for sweep in settings.sweeps if sweep not in PAPER_SWEEPS]
     names_by_folder = {"trajectories": cases, "sweeps": sweeps, "surveys": settings.surveys}

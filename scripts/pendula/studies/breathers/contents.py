@@ -34,10 +34,7 @@ def rounded_variable(
 def solve_steady_states(
     epsilon: float, gamma: float, omegas: Sequence[float], half_width: int
 ) -> Contents:
-    """Return the dataset of steady states: amplitude, P and growth rate (family, omega).
-
-    Values are NaN where a pair has no state of a family.
-    """
+    """Return the dataset of steady states (family, omega), NaN where a pair has no such state."""
     shape = (len(FAMILIES), len(omegas))
     amplitude, (power, rates) = np.full((2, 2, *shape), np.nan), np.full((2, *shape), np.nan)
     for at in np.ndindex(shape):

@@ -51,10 +51,7 @@ def largest_linear_gain(constants: Constants) -> float:
 
 
 def power_by_distance(state: np.ndarray) -> np.ndarray:
-    """Return P of each pair plus its mirror image, (distance from the centre,).
-
-    `state` is (component, site) on an odd number of sites.
-    """
+    """Return P of each pair plus its mirror image, (distance,), of a state (component, site)."""
     power = (state.real**2 + state.imag**2).sum(axis=0)
     centre = len(power) // 2
     folded = power[centre:].copy()

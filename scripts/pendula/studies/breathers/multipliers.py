@@ -60,10 +60,7 @@ def half_traces(breather: Breather, parity: str) -> np.ndarray:
 
 
 def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
-    """Return unit perturbations on the sites `first`..M: real parts, then imaginary ones.
-
-    If `is_symmetric`, perturbations of B are left out.
-    """
+    """Return real, then imaginary unit perturbations on the sites `first`..M; of A if symmetric."""
     units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - is_symmetric, first:]
     units = units.reshape(-1, 2, sites)
     directions = np.zeros((2, len(units), 4, sites))

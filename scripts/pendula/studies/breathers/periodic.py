@@ -87,10 +87,7 @@ def find_breather(
 
 
 def find_soliton(constants: Constants, frequency: float, half_width: int) -> Breather:
-    """Return the breather A = B = phi exp(-i lambda tau), which is steady at Omega - lambda.
-
-    Raises NoStateError if the frequency lambda is not above Omega.
-    """
+    """Return the soliton A = B of this frequency. Raises NoStateError if it is not above Omega."""
     turned = replace(constants, omega=constants.omega - frequency)
     problem, state = localised(EQUAL_PAIR, turned, half_width)
     phi = state.components(problem)[0, 0, half_width:]

@@ -101,10 +101,7 @@ def miss_of_scaled(solver: dict, power: int) -> float:
 
 
 def miss_of_short_chain(solver: dict, half_width: int) -> float:
-    """Return the error at the centre of a long chain against a chain of 61 sites.
-
-    Up to tau = 1 no motion reaches the ends of either chain.
-    """
+    """Return the error on a long chain against 61 sites, before any motion reaches an end."""
     start, short = on_sites({0: (1.0, 0.1)}), 30
     exact = integrate(reference_solver(solver), place(start, short), 1.0, outputs=1).final
     final = integrate(solver, place(start, half_width), 1.0, outputs=1).final
