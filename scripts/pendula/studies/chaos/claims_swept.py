@@ -81,9 +81,7 @@ class Means(NamedTuple):
         """Return the ratio of the means over half-widths, `above` to `below`, with limits."""
         value = [self.mean[half_widths].mean() for half_widths in (below, above)]
         errors = [self.error[half_widths] for half_widths in (below, above)]
-        error = [
-            np.sqrt((standard_errors**2).sum()) / len(standard_errors) for standard_errors in errors
-        ]
+        error = [np.sqrt((each**2).sum()) / len(each) for each in errors]
         return ratio_limits(value, error, self.members, confidence or LEVEL.value)
 
     @property

@@ -53,16 +53,8 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
             attributes = {"long_name": f"{meaning} {name.replace('_', ' ')}"}
             row = "start_amplitude", np.minimum(values, end), attributes
             drawn = drawn.assign({f"{name}_{word}": row})
-    names_in_caption = (
-        "omega",
-        "members",
-        "ratio",
-        "end_time",
-        "window_start",
-        "window_end",
-        "perturbation",
-    )
-    numbers = {name: f"{float(lifetimes.attrs[name]):g}" for name in names_in_caption}
+    keys = ("omega", "members", "ratio", "end_time", "window_start", "window_end", "perturbation")
+    numbers = {key: f"{float(lifetimes.attrs[key]):g}" for key in keys}
     pairs = 2 * int(lifetimes.attrs["half_width"]) + 1
     drawn = drawn.assign(pairs=((), pairs, {"long_name": "number of pairs"}))
     return drawn.assign_attrs(caption=CAPTION.format(**numbers))

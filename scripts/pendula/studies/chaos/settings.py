@@ -1,6 +1,6 @@
 """The keys of config/chaos.yaml: cases, run times, tolerances and seeds."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from latticode.configuration.values import (
@@ -195,20 +195,14 @@ class Settings(Section):
         yield self._lives(settings)
 
     def _swept(
-        self,
-        settings: PaperConfiguration,
-        key: str,
-        name: str,
-        half_widths: Sequence[int],
-        members: int,
+        self, settings: PaperConfiguration, key: str, name: str, widths: list[int], members: int
     ) -> Runs:
         """Return the runs of the members of a sweep by the solver of the ensembles."""
         drawn, sweep = self.ensembles, settings.sweeps[name]
         ends = {"end_time": max(sweep.drawn.max[1], sweep.drawn.mean[1])}
         chosen = {**ends, "output_step": drawn.output_step}
         runs = [
-            settings.run_of(sweep.case, drawn.tolerance, half_width=m, **chosen)
-            for m in half_widths
+            settings.run_of(sweep.case, drawn.tolerance, half_width=m, **chosen) for m in widths
         ]
         return Runs(key, "ensembles.tolerance", runs, members, "ensembles.size", drawn.size)
 

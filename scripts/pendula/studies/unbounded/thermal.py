@@ -113,14 +113,11 @@ def solve_thermal(epsilon: float, gamma: float, omegas: list[float], nodes: int)
     for omega in omegas:
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         try:
-            states.append(
-                [
-                    state_of_energy(constants, 0.0, nodes, antisymmetric)
-                    for antisymmetric in (False, True)
-                ]
-            )
+            pair = [state_of_energy(constants, 0.0, nodes, alone) for alone in (False, True)]
         except NoThermalStateError as error:
             print(f"left out: {error}")
+        else:
+            states.append(pair)
     known = [both.operator.constants.omega for both, _ in states]
     variables, along = {"omega": Variable(("omega",), known, attributes=FEW_CHOICES)}, ("omega",)
     for number, prefix, power in (
