@@ -1,4 +1,4 @@
-"""Comparison of the files of a run with the accepted baseline, and acceptance of a new baseline."""
+"""Compares the files of a run with the accepted baseline, and accepts a new baseline."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Status(StrEnum):
-    """Results of the comparison of a file, the most serious first."""
+    """Possible results for a file, the most serious first."""
 
     DIFFERENT, DAMAGED, MISSING, EXTRA = "different", "damaged", "missing", "extra"
     BEYOND, WITHIN, IDENTICAL = "beyond comparison", "within the tolerance", "identical"
@@ -27,7 +27,7 @@ class FileResult(NamedTuple):
 
 
 class ComparisonResult(NamedTuple):
-    """The results of all files, and a sentence on the measure by which they were judged."""
+    """The results for all files; `judged` is a sentence on how strictly they were compared."""
 
     judged: str
     findings: Sequence[FileResult]
@@ -35,17 +35,17 @@ class ComparisonResult(NamedTuple):
     @property
     def counts(self) -> dict[Status, int]:
         """Return the number of files by status."""
-        counted = Counter(found.status for found in self.findings)
+        counted = Counter(result.status for result in self.findings)
         return {status: counted[status] for status in Status if counted[status]}
 
     @property
     def faults(self) -> int:
         """Return the number of files that fail the comparison."""
-        return sum(found.status.is_fault for found in self.findings)
+        return sum(result.status.is_fault for result in self.findings)
 
     @property
     def lines(self) -> list[str]:
-        """Return a line for each file that is not identical, then the measure and the counts."""
+        """Return a line for each file that is not identical, then `judged` and the counts."""
         differing = [result for result in self.findings if result.status != Status.IDENTICAL]
         messages = [f"{status}: {name}: {reason}" for name, status, reason in differing]
         tally = ", ".join(f"{count} {status}" for status, count in self.counts.items())

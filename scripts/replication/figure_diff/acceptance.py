@@ -1,4 +1,4 @@
-"""Acceptance of a run, or of some of its files, as the new baseline: a copy under git."""
+"""Accepts a run, or some of its files, as the new baseline: a copy under git."""
 
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
@@ -27,9 +27,9 @@ from .compare_datasets import fault_of_form, undeclared_words
 from .compare_pictures import damage, edited
 from .compare_shown import hash_of
 
-ALL = "accept all files, so that all are of one run"
+ALL = "accept all files, because a baseline must be of one run"
 WAY_OUT = (
-    "run it without --configfile and --config; for a baseline of another configuration give a "
+    "run it without --configfile and --config; for a baseline of another configuration name its "
     "folder, as in `--config baseline=my_baseline`"
 )
 
@@ -42,18 +42,22 @@ class AcceptanceError(ValueError):
 
 
 def check(now: Mapping, accepted: Mapping, owner: str, way_out: str) -> None:
-    """Raise AcceptanceError unless a configuration or an environment equals the required one."""
+    """Raise AcceptanceError unless `now` equals `accepted`: two configurations or environments.
+
+    `owner` and `way_out` are texts of the message.
+    """
     if differences := unlike_settings(accepted, now):
         listed = "; ".join(
             [*differences[:3], *([f"and {len(differences) - 3} more"] if differences[3:] else [])]
         )
-        raise AcceptanceError(f"this run is not of {owner}: {listed}. What to do: {way_out}")
+        raise AcceptanceError(f"this run does not match {owner}: {listed}. To fix this, {way_out}")
 
 
 def choose(words: Sequence[str], names: Iterable[str]) -> list[str]:
-    """Return the files for words: paths with or without ending, or names of figures, with * too.
+    """Return the files that `words` select.
 
-    Raises AcceptanceError for a word that fits no file.
+    A word is a path with or without suffix, or the name of a figure; `*` matches any characters.
+    Raises AcceptanceError for a word that matches no file.
     """
     stems = {name: name.rpartition(".")[0] for name in sorted(names)}
     forms = {n: {n, stem, stem.removeprefix(FIGURES)} for n, stem in stems.items()}
@@ -75,10 +79,10 @@ def accept(
     configuration: Mapping[str, Any],
     words: Sequence[str] = (),
 ) -> str:
-    """Copy the files `names` of a run into `folder`, or those that words name; return a summary.
+    """Copy the files `names` of a run, or those of `words`, into `folder`, and return a summary.
 
-    Those of the baseline that are not among `names` are removed. Raises AcceptanceError if a file
-    is empty or damaged, or if two configurations or environments would mix.
+    Accepted files that are not in `names` are removed. Raises AcceptanceError if a file is empty or
+    damaged, or if two configurations or environments would mix.
     """
     try:
         record, current, names = recorded(folder), environment(), set(names)
@@ -111,15 +115,15 @@ def accept(
 def _require_declarations(
     contents: Mapping[str, bytes | xr.Dataset], configuration: Mapping[str, Any]
 ) -> None:
-    """Raise AcceptanceError for a variable without the attributes that a comparison needs."""
+    """Raise AcceptanceError for a variable that does not declare whether it rests on chaos."""
     chaos = Chaos({}, cases=cases_of(configuration))
     for name, content in contents.items():
         if isinstance(content, xr.Dataset) and (unknown := chaos.undeclared(name, content)):
-            raise AcceptanceError(f"of {name}, {undeclared_words(unknown)}")
+            raise AcceptanceError(f"in {name}, {undeclared_words(unknown)}")
 
 
 def _read(name: str, path: Path) -> bytes | xr.Dataset:
-    """Return the content of a file; raises DatasetError or AcceptanceError if it is damaged."""
+    """Return the content of a file; raise DatasetError or AcceptanceError if it is damaged."""
     if name.endswith(".nc"):
         data = read(path)
         if fault := fault_of_form(path, data):
@@ -137,7 +141,7 @@ def _read(name: str, path: Path) -> bytes | xr.Dataset:
 
 
 def _take(name: str, content: bytes | xr.Dataset, path: Path, copy: Path) -> str | dict[str, Any]:
-    """Store the content of a file if the baseline stores such files, and return its hashes."""
+    """Return the hashes of a file, and copy it if the baseline stores such files."""
     if isinstance(content, bytes):
         if is_kept(name):
             with complete_or_absent(copy) as partial:
@@ -152,6 +156,6 @@ def _take(name: str, content: bytes | xr.Dataset, path: Path, copy: Path) -> str
 def accept_results(
     results: list[str], words: list[str], baseline: str, configuration: dict, made: str
 ) -> None:
-    """Accept into `baseline` the files of the run in the folder `made`, or those for `words`."""
+    """Accept into `baseline` the files of the run in the folder `made`, or those of `words`."""
     names = [Path(path).relative_to(made).as_posix() for path in results]
     print(accept(names, Path(made), Path(baseline), configuration, words))

@@ -1,8 +1,8 @@
 """The accepted results in tests/baseline, and the comparison of a run with them.
 
-A file with the accepted hash is identical. In the environment that made the baseline every other
-hash is an error, because the same code gives the same bits on every processor of a family. In other
-environments, or with bits=any, the file is compared with the stored copy.
+A file with the accepted hash is identical. In the environment that made the baseline any other
+hash is an error, because the same code gives the same bits on all processors of one family. In
+other environments, or with bits=any, the file is compared with the stored copy.
 """
 
 import platform
@@ -35,7 +35,7 @@ RECORD = "hashes.json"
 """The environment and the configuration of the baseline, and the hashes of its files."""
 
 FILE_NAMES = re.compile(r"(?:[a-z_]+/)*(?!hashes\.json)[\w.]*\w\.(?:nc|json|md|html|yaml|png|pdf)")
-"""Pattern of the names of a run's files, paths below the folder of the results."""
+"""Pattern of the files of a run: paths below the folder of the results."""
 
 FIGURES, PICTURES = "figures/", (".png", ".pdf")
 """The folder of figures, each with a dataset, two pictures and a description."""
@@ -63,12 +63,12 @@ def recorded(folder: Path) -> dict[str, Any]:
     for name in record["files"]:
         inside = (resolved / name).resolve().parent == (resolved / name).parent
         if not (inside and FILE_NAMES.fullmatch(name)):
-            raise DatasetError(f"{folder / RECORD} names {name}, which no run makes")
+            raise DatasetError(f"{folder / RECORD} lists {name}, which no run makes")
     return record
 
 
 def is_kept(name: str) -> bool:
-    """Return whether the baseline stores a copy of a file; of PDFs and pages it has only hashes."""
+    """Return whether the baseline stores a copy of a file: of PDFs and pages it stores a hash."""
     return not name.endswith((".pdf", ".html"))
 
 
@@ -90,15 +90,15 @@ def compare(
     trust: Trust | None = None,
     any_bits: bool = False,
 ) -> ComparisonResult:
-    """Return the result for each file in `names`, below `results`, or in the baseline only.
+    """Return the result for each file in `names` (paths below `results`) or in the baseline.
 
-    `trust` describes the dataset with the horizons of trust. With `any_bits` numbers have a
-    tolerance.
+    `trust` names the dataset with the horizons of trust. With `any_bits` numbers have a tolerance
+    in the accepted environment too.
     """
     try:
         record = recorded(folder)
     except DatasetError:
-        way_out = "restore it by git, or delete it and run `snakemake accept_figures`"
+        way_out = "restore it with git, or delete it and run `snakemake accept_figures`"
         reason = f"in the baseline is damaged or was edited: {way_out}"
         return ComparisonResult(
             "Nothing was compared.", [FileResult(RECORD, Status.DAMAGED, reason)]
@@ -138,13 +138,13 @@ class Comparison:
         self.found: dict[str, FileResult] = {}
 
     def look_at_all(self, names: set[str]) -> list[FileResult]:
-        """Return the results; datasets come first, since texts and pictures depend on them."""
+        """Return the results; datasets come first, because texts and pictures depend on them."""
         for name in sorted(names | self.accepted.keys(), key=place):
             self.look_at(name, name in names)
         return list(self.found.values())
 
     def look_at(self, name: str, is_made: bool = True) -> FileResult:
-        """Return the result for a file, and store it for files that depend on it."""
+        """Return the result for a file, and store it for the files that depend on it."""
         self.found[name] = FileResult(name, *self._judge(name, is_made))
         return self.found[name]
 
@@ -156,7 +156,8 @@ class Comparison:
         if name not in self.accepted:
             return Status.EXTRA, "is not in the baseline"
         if is_kept(name) and (fault := fault_of_kept(name, self.accepted, self.folder)):
-            return Status.DAMAGED, f"in the baseline {fault}: restore it by git, or accept it again"
+            way_out = "restore it with git, or accept it again"
+            return Status.DAMAGED, f"in the baseline {fault}: {way_out}"
         return self._compare(name, self.made / name, self.folder / name, self.accepted[name])
 
     def _compare(
@@ -179,7 +180,7 @@ class Comparison:
             return Status.IDENTICAL, ""
         if name.endswith(".pdf") and (fault := compare_pictures.damage(new, new.read_bytes())):
             return Status.DAMAGED, fault
-        datasets = {n: new_hash.status for n, new_hash in self.found.items() if n.endswith(".nc")}
+        datasets = {n: result.status for n, result in self.found.items() if n.endswith(".nc")}
         if is_kept(name):
             return compare_shown.compare(new, accepted_copy.read_text("utf-8"), datasets)
         follows = Status.BEYOND in datasets.values()
@@ -189,24 +190,24 @@ class Comparison:
         self, name: str, new_hashes: list[str], accepted: list[str], follows_chaos: bool
     ) -> tuple[Status, str]:
         """Return the status of a file of which the baseline has only hashes (see `hash_of`)."""
-        reason = "is not the accepted one, of which the baseline keeps the hash alone"
+        reason = "does not have the accepted hash; the baseline has no copy to compare"
         if len(new_hashes) == 1:  # a PDF
             may_be = follows_chaos or not self.same_drawing
         elif new_hashes[1:] == accepted[1:]:
             if not self.same_drawing:
-                return Status.WITHIN, "holds code or pictures of other versions"
-            may_be = follows_chaos and name != "live.html"  # code follows no number
+                return Status.WITHIN, "has code or pictures of other package versions"
+            may_be = follows_chaos and name != "live.html"  # its code depends on no result
         else:
             may_be = follows_chaos and new_hashes[-1] == accepted[-1]
         return Status.BEYOND if may_be else Status.DIFFERENT, reason
 
     def _beside(self, name: str, kind: str) -> Status:
-        """Return the status of the file of another kind beside this one."""
+        """Return the status of the file with the same stem and the suffix `kind`."""
         result = self.found.get(Path(name).with_suffix(kind).as_posix())
         return result.status if result else Status.MISSING
 
     def strictly(self, result: FileResult, any_bits: bool) -> FileResult:
-        """Return the result, as a failure if only the accepted bits are correct."""
+        """Return the result, as a failure if the file must have the accepted bits."""
         if result.status not in (Status.WITHIN, Status.BEYOND):
             return result
         strict = self.same_data and not any_bits
@@ -216,17 +217,17 @@ class Comparison:
         elif result.name.startswith(FIGURES) or result.name in compare_shown.OF_VERSIONS:
             is_dataset = result.name.endswith(".nc")
             strict = strict and (is_dataset or self.same_drawing)
-        reason = f"other bits, {result.status}: {result.reason}"
+        reason = f"not bit-identical, but {result.status}: {result.reason}"
         return result._replace(status=Status.DIFFERENT, reason=reason) if strict else result
 
 
 def place(name: str) -> tuple[bool, ...]:
-    """Return the sorting key of a file: files come after those that they depend on."""
+    """Return the sorting key of a file: each file comes after the files that it depends on."""
     return name.endswith(PICTURES), not name.endswith(".nc"), name.startswith(FIGURES)
 
 
 def unlike_settings(was: Any, now: Any, place: str = "") -> list[str]:
-    """Return a phrase for each difference of two configurations, with its dotted path."""
+    """Return a phrase for each difference of two mappings, with its dotted path."""
     if isinstance(was, Mapping) and isinstance(now, Mapping):
         differences = []
         for key in dict.fromkeys([*was, *now]):

@@ -1,9 +1,9 @@
 """Chaotic numbers, and their allowed errors in a correct run.
 
-The accepted run has the error of a run with rounding errors alone, relative to full scale, as a
-function of time (`Trust`). A correct run may have this error over MARGIN. The horizon of trust is
-the time at which it reaches the tolerance; a case without a horizon is regular. After the horizon
-the allowed error grows with time, until any value is allowed.
+The accepted results contain the error of a run whose only errors are roundings, relative to full
+scale, as a function of time (`Trust`). A correct run may have this error divided by MARGIN. The
+horizon of trust is the time at which this allowed error reaches TOLERANCE; a case without a horizon
+is regular. After the horizon the allowed error grows with time, until any value is allowed.
 """
 
 import re
@@ -23,22 +23,22 @@ TOLERANCE = 1e-6
 """Allowed error of a number relative to the largest; single precision alone has 6e-8."""
 
 ROUNDING = 1e-8
-"""A variable whose values are all smaller holds rounding errors, whose digits are arbitrary."""
+"""Smaller numbers may be rounding errors, whose digits are arbitrary."""
 
 MARGIN = 0.001
-"""Other solvers round ten times as often as that run, or more, and roundings add up."""
+"""Other solvers round at least ten times as often as that run, and rounding errors accumulate."""
 
 LOCAL, UNKNOWN = 10.0, 0.1
-"""How much more than a norm the numbers of single sites may be off after the horizon; and what part
-of full scale an error has that no longer grows as a small one does, so that it may be any."""
+"""Allowed error of a single site after the horizon, relative to that of a norm; error relative to
+full scale that no longer grows like a small one, so that any value is allowed."""
 
 
 class Trust(NamedTuple):
-    """Where the accepted results say until when chaotic cases are known, and what time is called.
+    """Where the accepted results record until when chaotic cases are known; the name of time.
 
-    In `dataset` the `variable` (case, time) is how far runs are from references, as a part of full
-    scale, and `labels` name the run whose only errors are roundings. Along `steps` the values of a
-    run change little from one to the next.
+    In `dataset` the `variable` (case, time) is the error of runs against references relative to
+    full scale. `labels` select the run whose only errors are roundings. Along the dimensions
+    `steps` the values of a run change gradually.
     """
 
     dataset: str
@@ -52,20 +52,20 @@ class Chaos(NamedTuple):
     """The horizons of trust and the allowed errors of the accepted run."""
 
     horizons: Mapping[str, float]
-    """The horizon of trust of each chaotic case, and -inf for each sweep over one, by name."""
+    """By name: the horizon of trust of each chaotic case, -inf for a sweep over a chaotic case."""
     errors: Mapping[str, tuple[np.ndarray, np.ndarray]] = {}
-    """By chaotic case: times, and the allowed error of a correct run until each of them."""
+    """By chaotic case: times, and the allowed error up to each of them."""
     cases: Mapping[str, Mapping[str, Any]] = {}
-    """The parameters of each case of the configuration, and none for a sweep, by name."""
+    """By name: the parameters of each case of the configuration, empty for a sweep."""
     time: str = "time"
 
     def freedom(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
-        """Return how far each value of the variable `key` of the dataset `name` may be off.
+        """Return the allowed error of each value of the variable `key` of the dataset `name`.
 
-        This is a part of the largest: zero for a regular number, infinity where nothing is known.
-        The attribute `rests_on_chaos` decides, see `replication.variables`. A case or a sweep is
-        known by the words of its name in the name of the file and along the dimensions: the curve
-        `large` in figures/fig3 is of fig3_large.
+        It is relative to the largest value: 0 for a regular number, infinity if nothing is known.
+        The attribute `rests_on_chaos` decides, see `replication.variables`. A number belongs to a
+        case or sweep if all words of its name are in the name of the file or in the labels of the
+        number: the curve `large` in figures/fig3 belongs to fig3_large.
         """
         variable = data.variables[key]
         default = data.attrs.get(CHAOS, BY_CASE) if variable.dtype.kind == "f" else NO
@@ -81,7 +81,7 @@ class Chaos(NamedTuple):
     def undeclared(self, name: str, data: xr.Dataset) -> list[str]:
         """Return the variables that are not declared chaotic or regular.
 
-        They have no attribute, and the dataset is of no case of the configuration.
+        They lack the attribute, and the dataset names no case of the configuration.
         """
         dimensions = [_labels(dimension, data) for dimension in data.dims]
         labels = [words for along in dimensions for words in along]
@@ -96,7 +96,7 @@ class Chaos(NamedTuple):
         ]
 
     def _along(self, parameter: str, variable: xr.Variable, data: xr.Dataset) -> np.ndarray:
-        """Return infinity for values at which a case with this parameter is chaotic, or none is."""
+        """Return 0 for values of `parameter` at which all cases are regular, else infinity."""
         if parameter not in variable.dims:
             return np.full(variable.shape, np.inf)
         axis = [-1 if dimension == parameter else 1 for dimension in variable.dims]
@@ -104,7 +104,7 @@ class Chaos(NamedTuple):
         return np.broadcast_to(np.where(regular.reshape(axis), 0.0, np.inf), variable.shape)
 
     def _regular_values(self, parameter: str) -> set[float]:
-        """Return the values of a parameter at which all cases are regular."""
+        """Return the values of `parameter` that only regular cases have."""
         values: dict[bool, set[float]] = {True: set(), False: set()}
         for name, case in self.cases.items():
             if parameter in case:
@@ -114,7 +114,7 @@ class Chaos(NamedTuple):
     def _of_cases(
         self, variable: xr.Variable, data: xr.Dataset, stem: str, at_all_times: bool
     ) -> np.ndarray:
-        """Return the freedom of values, of which some are of chaotic cases or sweeps."""
+        """Return the allowed errors of a variable whose values belong to cases or sweeps."""
         freedom = np.zeros(variable.shape)
         times = np.inf if at_all_times else _times(variable, data, self.time)
         labels = [_labels(dimension, data) for dimension in variable.dims]
@@ -128,19 +128,19 @@ class Chaos(NamedTuple):
         return freedom
 
     def _until(self, case: str, times: np.ndarray | float) -> np.ndarray:
-        """Return the allowed errors of the numbers of a case at these times."""
+        """Return the allowed errors of a case at these times."""
         tau, error = self.errors.get(case, (np.zeros(1), np.full(1, np.inf)))
         at = np.searchsorted(tau, times).clip(max=len(tau) - 1)
         return np.where(np.asarray(times) < self.horizons[case], 0.0, error[at])
 
 
 def are_coordinates(key: str, variable: xr.Variable, time: str) -> bool:
-    """Return whether a variable of this name says where the values along a dimension lie."""
+    """Return whether a variable of this name has the positions along a dimension."""
     return variable.dims in ((key,), (key.removesuffix(f"_{time}"),))
 
 
 def cases_of(configuration: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    """Return the parameters of each case of a configuration, and none for a sweep, by name."""
+    """Return the parameters of each case of a configuration by name, empty ones for sweeps."""
     return {
         **{sweep: {} for sweep in configuration.get("sweeps", {})},
         **configuration.get("cases", {}),
@@ -148,9 +148,9 @@ def cases_of(configuration: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
 
 
 def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | None) -> Chaos:
-    """Return the chaos of the baseline in `folder`, which is of this configuration.
+    """Return the horizons and allowed errors of the baseline in `folder`.
 
-    The section `cases` of the configuration holds parameters by name, `sweeps` the case of each.
+    Its configuration has the sections `cases`, parameters by name, and `sweeps`, each with a case.
     """
     cases, sweeps = cases_of(configuration), configuration.get("sweeps", {})
     if trust is None:
@@ -165,7 +165,7 @@ def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | N
 
 
 def _growing_errors(folder: Path, trust: Trust) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """Yield each case with its times, and the allowed errors until each of them."""
+    """Yield each case with its times, and the largest allowed error up to each of them."""
     data = read(folder / trust.dataset)
     difference = data[trust.variable].sel(trust.labels).transpose("case", trust.time)
     grown = np.maximum.accumulate(difference.fillna(0.0).values, axis=1) / MARGIN
@@ -178,13 +178,13 @@ def _words(text: str) -> set[str]:
 
 
 def _labels(dimension: str, data: xr.Dataset) -> list[set[str]]:
-    """Return the words at each place along a dimension; one empty set for one without words."""
+    """Return the words of each label along a dimension; one empty set if it has no labels."""
     along = data.variables.get(dimension)
     return [set()] if along is None or not are_words(along) else [*map(_words, along.values)]
 
 
 def _times(variable: xr.Variable, data: xr.Dataset, time: str) -> np.ndarray | float:
-    """Return the times along the dimensions of a variable; infinity for one without a time."""
+    """Return the times of the values of a variable; infinity if it has no dimension of time."""
     for dimension in variable.dims:
         for name in (dimension, f"{dimension}_{time}"):
             if name.endswith(time) and name in data and data[name].dims == (dimension,):

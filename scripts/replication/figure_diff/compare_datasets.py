@@ -1,7 +1,7 @@
-"""Compares a dataset with the accepted one: by its hashes, and where they differ by its numbers.
+"""Compares a dataset with the accepted one: first hashes, then the numbers of unequal variables.
 
-Words, coordinates, attributes, types and shapes must be equal, and numbers agree as `values` says.
-Those that rest on chaos are beyond comparison, but obey its limits.
+Texts, coordinates, attributes, types and shapes must be equal; the tolerances of numbers are in
+`values`. Numbers that rest on chaos are beyond comparison, but must obey the limits there.
 """
 
 from collections.abc import Iterator, Mapping
@@ -19,15 +19,14 @@ from . import Status, hashes, values
 from .chaos import Chaos, are_coordinates
 
 WORK = ("steps", "rejected_steps", "right_hand_sides")
-"""Attributes that count what a solver did: they follow every rounding, also of a regular run."""
-
+"""Attributes that count a solver's work: rounding changes them, in regular runs too."""
 
 SHOWN_OTHERWISE = ("coordinates",)
-"""Attributes that xarray shows by what they mean."""
+"""Attributes of the file that xarray turns into coordinates of the dataset."""
 
 
 class VariableDifference(NamedTuple):
-    """One thing that differs: if it is a fault, how many numbers cannot be judged, in words."""
+    """A difference; `beyond` counts the numbers that cannot be compared because of chaos."""
 
     is_fault: bool
     beyond: int
@@ -43,10 +42,10 @@ def compare(
     scatter: Mapping[str, float],
     steps: tuple[str, ...] = (),
 ) -> tuple[Status, str]:
-    """Return status and reason of the dataset `name`, in the file `new`, with its accepted hashes.
+    """Return the status of the dataset `name` in the file `new`, and the reason.
 
-    `accepted_copy` is the file in the baseline, `scatter` that of chaotic variables by right runs
-    (see the module `scatter`), and `steps` are the dimensions of `values.jumps`.
+    `accepted` is its record in the baseline (`hashes.of`), `accepted_copy` its file there. For
+    `scatter` see the module of this name, for `steps` see `values.jumps`.
     """
     try:
         content = read(new)
@@ -70,29 +69,29 @@ def compare(
 
 
 def undeclared_words(variables: list[str]) -> str:
-    """Return why variables cannot be compared, and what their maker must write."""
+    """Return why undeclared variables cannot be compared, and which attribute to add."""
     return (
-        f"{variables[0]} does not say whether it rests on chaos, and its data name no case: let "
-        f'its maker write the attribute {CHAOS} = "{NO}" or "{YES}", see docs/another_paper.md'
+        f"{variables[0]} does not declare whether it rests on chaos, and its dataset names no case:"
+        f' in its code set the attribute {CHAOS} = "{NO}" or "{YES}", see docs/another_paper.md'
     )
 
 
 def fault_of_form(path: Path, content: xr.Dataset) -> str:
-    """Return what a file holds beside its `content` as xarray shows it, or that it has no checksum.
+    """Return what is wrong with the form of a file: no checksum, or parts that xarray hides.
 
-    That is groups, types, dimensions without a variable or without an end, and attributes by which
-    xarray turns values into others.
+    Hidden parts are groups, types, unused or unlimited dimensions, and attributes with which xarray
+    decodes values. `content` is the file as xarray shows it.
     """
     if not path.read_bytes()[-LENGTH:].startswith(MARK):
-        return "has lost the checksum in its last line: it was written by another program"
+        return "has no checksum at its end: another program wrote it"
     with netCDF4.Dataset(path) as file:
         used = {name for variable in file.variables.values() for name in variable.dimensions}
-        endless = [name for name, each in file.dimensions.items() if each.isunlimited()]
+        unlimited = [name for name, each in file.dimensions.items() if each.isunlimited()]
         hidden = {
             "group": [*file.groups],
             "type": [*file.cmptypes, *file.enumtypes, *file.vltypes],
             "dimension without a variable": [*(file.dimensions.keys() - used)],
-            "dimension without an end": endless,
+            "unlimited dimension": unlimited,
             "hidden attribute": [
                 f"{name}:{key}"
                 for name, variable in file.variables.items()
@@ -112,12 +111,13 @@ def differences(
     chaos: Chaos,
     scatter: Mapping[str, float],
 ) -> Iterator[VariableDifference]:
-    """Yield all that differs from what is kept; `accepted` are the texts of hashes."""
+    """Yield each difference of two datasets; `accepted` has the texts of `hashes.of`."""
     yield from _of_attributes("", was.attrs, now.attrs)
     for key in {**was.variables, **now.variables}:
         before, after = was.variables.get(key), now.variables.get(key)
         if before is None or after is None:
-            yield VariableDifference(True, 0, f"{key} is {'gone' if after is None else 'new'}")
+            reason = f"{key} is {'missing' if after is None else 'not in the baseline'}"
+            yield VariableDifference(True, 0, reason)
             continue
         kind, hash_of_values, _ = accepted[key].rsplit(" ", 2)
         yield from _of_attributes(f"{key}: ", before.attrs, after.attrs)
@@ -142,11 +142,11 @@ def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[VariableD
 
 
 def _of_labels(key: str, now: xr.Variable, time: str) -> VariableDifference | None:
-    """Return the fault of words or coordinates with other values; None for numbers."""
+    """Return the difference of texts or coordinates, which must be equal; None for numbers."""
     if hashes.are_words(now):
-        return VariableDifference(True, 0, f"{key} holds other words")
+        return VariableDifference(True, 0, f"the texts of {key} differ")
     if are_coordinates(key, now, time):
-        return VariableDifference(True, 0, f"{key} holds other coordinates")
+        return VariableDifference(True, 0, f"the coordinates {key} differ")
     return None
 
 
@@ -158,10 +158,11 @@ def _of_values(
     data: xr.Dataset,
     scatter: float | None,
 ) -> VariableDifference:
-    """Compare values with other bits; `freedom` says which of them rest on chaos."""
+    """Return the difference of values that are not bit-identical; see `values.fault`."""
     chaotic = freedom > 0.0
     if fault := values.fault(key, was, now, freedom, data, scatter):
         return VariableDifference(True, 0, fault)
     count = int(chaotic.sum())
     of_chaos = f"{count} of {chaotic.size} numbers of {key} rest on chaos"
-    return VariableDifference(False, count, of_chaos if count else f"{key} is off by roundings")
+    reason = of_chaos if count else f"{key} is off by rounding errors"
+    return VariableDifference(False, count, reason)

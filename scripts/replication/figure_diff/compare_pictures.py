@@ -1,9 +1,9 @@
-"""Compares pictures with the accepted ones, and with the descriptions beside them.
+"""Compares pictures with the accepted ones, and with their descriptions in the same folder.
 
-A picture carries the fingerprint of its description (`latticode.drawing.description`), and that the
-digest of the data: so one of other data, an older run or another figure is told on any machine. It
-carries a digest of what it shows too, so that an edited one is told. With other bytes it is a fault
-where the accepted versions drew it. Elsewhere its pixels are compared coarsely.
+A picture contains the fingerprint of its description (`latticode.drawing.description`), and the
+description the digest of its data, so a picture of other data is detected on any machine. A digest
+of its own content reveals an edited one. With the accepted package versions its bytes must be the
+accepted ones (see `baseline`). With other versions its pixels are compared coarsely.
 """
 
 import json
@@ -23,22 +23,22 @@ from . import Status
 
 BLOCKS = 24, 16
 TINTED, INKED = 1.2, 6.0
-"""How far reds less blues of all blocks may differ, as a part of their sum: they do by twice this
-sum where red and blue are exchanged. And the mean shade of a block on which something is drawn."""
+"""Allowed difference of red minus blue, summed over blocks, relative to the sum of its modulus: it
+is 2 if red and blue are exchanged. Smallest darkness of a block on which something is drawn."""
 
 STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
 SHOWN_TEXT = re.compile(rb"\bBT\b(.*?)\bET\b", re.DOTALL)
 IN_BRACKETS = re.compile(rb"\(((?:\\.|[^\\()])*)\)", re.DOTALL)
 ESCAPED = re.compile(rb"\\(?:\d{3}|.)", re.DOTALL)
-"""Streams of a PDF, the parts of one that show text, texts there, and letters by their numbers."""
+"""The streams of a PDF, the parts of a stream that show text, their texts, and escaped letters."""
 
 WORDS, TEX = ("text", "title", "label", "ticks"), re.compile(r"\\[a-zA-Z]+|[${}\\^_ ]")
-"""Entries of a description whose words a reader sees, and what is not a letter in them."""
+"""Entries of a description that are printed in the figure, and what is not a letter in them."""
 
 NAMED_IN_A_LEGEND = ("curves", "areas", "images", "shapes")
 
 MARK = re.compile(rb"(?:Description\0|/Keywords \()([0-9a-f]{64})")
-"""Where a PNG and a PDF carry the fingerprint of their description."""
+"""The fingerprint of the description, as a PNG and a PDF contain it."""
 
 
 def compare_picture(
@@ -50,29 +50,29 @@ def compare_picture(
         return Status.DAMAGED, fault
     mark = MARK.search(content)
     if not (mark and text.exists() and mark[1].decode() == fingerprint(text.read_text("utf-8"))):
-        stale = "was not written with its description: it is stale, or of another figure"
+        stale = "does not belong to its description: it is stale, or of another figure"
         return Status.DIFFERENT, stale
     if same_bytes:
         return Status.IDENTICAL, ""
     if described.is_fault:
-        return Status.DIFFERENT, "shows what its description says, which is a fault"
+        return Status.DIFFERENT, f"its description is {described}"
     if new.suffix == ".pdf" and letters_in(content) < 0.5 * letters_of(
         json.loads(text.read_text())
     ):
-        return Status.DIFFERENT, "has lost text that its description names"
+        return Status.DIFFERENT, "lacks text that its description lists"
     if new.suffix == ".png" and (
         fault := _unlike(accepted_copy, new, described == Status.IDENTICAL)
     ):
         return Status.DIFFERENT, f"{fault} the accepted picture"
-    return Status.BEYOND, f"other bytes, which belong to its description; that is {described}"
+    return Status.BEYOND, f"its bytes differ; its description is {described}"
 
 
 def _unlike(accepted_copy: Path, new: Path, same_description: bool) -> str:
-    """Return in words how two pictures differ in a few large blocks, or an empty text.
+    """Return how two pictures differ in their mean colours over large blocks, or an empty text.
 
-    Other versions change the mean shade by up to 3 of 255, other chaotic curves by 2, other figures
-    by 8. What is redder and what is bluer stays so: by up to 0.33 of their sum in other versions,
-    and 0.62 for other chaotic curves. No block loses all of its ink where the same is described.
+    The mean shade differs by up to 3 of 255 in other versions, by 2 for other chaotic curves, and
+    by 8 for other figures. The relative difference of red minus blue is up to 0.33 in other
+    versions and 0.62 for other chaotic curves. With the same description no block becomes empty.
     """
     with Image.open(accepted_copy) as was, Image.open(new) as now:
         size_difference = np.subtract(was.size, now.size)
@@ -81,20 +81,20 @@ def _unlike(accepted_copy: Path, new: Path, same_description: bool) -> str:
             for image in (was, now)
         )
     if abs(size_difference).max() > 4 or abs(new_blocks - old).mean() >= 7.5:
-        return "looks otherwise than"
+        return "looks different from"
     tints, inks = [
         [blocks[..., 0] - blocks[..., 2] for blocks in (old, new_blocks)],
         [255.0 - blocks.mean(axis=-1) for blocks in (old, new_blocks)],
     ]
     if abs(tints[1] - tints[0]).sum() > TINTED * max(abs(tints[0]).sum(), tints[0].size):
-        return "has other colours than"
+        return "differs in colours from"
     if same_description and ((inks[0] > INKED) & (inks[1] < 0.1 * inks[0])).any():
-        return "shows nothing at a place where something is in"
+        return "is empty at a place where something is drawn in"
     return ""
 
 
 def letters_in(pdf: bytes) -> int:
-    """Return how many bytes of text a PDF shows: one or two for a letter."""
+    """Return how many bytes of text a PDF shows: one or two per letter."""
     count = 0
     for stream in STREAM.findall(pdf):
         with suppress(zlib.error):
@@ -104,7 +104,7 @@ def letters_in(pdf: bytes) -> int:
 
 
 def letters_of(description: Any, key: str = "") -> int:
-    """Return how many letters the words of a description have, without commands of TeX."""
+    """Return the number of letters of the printed texts in a description, without TeX commands."""
     if isinstance(description, dict):
         described = {
             name: entry for name, entry in description.items() if name not in NAMED_IN_A_LEGEND
@@ -116,18 +116,18 @@ def letters_of(description: Any, key: str = "") -> int:
 
 
 def damage(path: Path, content: bytes) -> str:
-    """Return in words why a picture or a PDF is not whole, or nothing."""
+    """Return that a PNG or PDF is incomplete, or an empty text."""
     if path.suffix == ".pdf":
         is_complete = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
-        return "" if is_complete else "is no whole PDF"
+        return "" if is_complete else "is not a complete PDF"
     try:
-        Image.open(BytesIO(content)).verify()  # checksums, at which `load` does not look
+        Image.open(BytesIO(content)).verify()  # checksums, which `load` does not check
         Image.open(BytesIO(content)).load()
     except (OSError, SyntaxError, ValueError):
-        return "is no whole PNG"
+        return "is not a complete PNG"
     return ""
 
 
 def edited(path: Path, content: bytes) -> str:
-    """Return in words that a whole picture of a figure is not as it was drawn, or nothing."""
+    """Return that a complete picture was edited, or an empty text."""
     return "" if is_sealed(path.suffix, content) else "was edited since it was drawn"

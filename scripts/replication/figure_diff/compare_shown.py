@@ -1,9 +1,9 @@
-"""Compares texts and pictures with the accepted ones: words must be equal, numbers follow the data.
+"""Compares texts, pages and descriptions of figures with the accepted ones.
 
-Where all datasets have the accepted bits, not a letter may differ. Else a number may be off by the
-tolerance or by its last digit. Only what follows a dataset that is beyond comparison may be off by
-more: measured numbers and their sentences in a ledger, limits and ends of curves in a figure.
-Verdicts, criteria, cut-offs, labels, colours, and what each curve shows must still be equal.
+If all datasets have the accepted bits, the text must be equal. Otherwise a number may differ by the
+tolerance or by its last digit. Only entries that depend on a dataset beyond comparison may differ
+by more: measured numbers and sentences with them in a ledger, limits and ends of curves in a
+figure. Verdicts, criteria, cut-offs, labels, colours and the data of each curve must be equal.
 """
 
 import json
@@ -26,7 +26,7 @@ RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
 OF_THE_MACHINE = {"report.html": re.compile(rb'<section id="run">.*?</section>', re.DOTALL)}
-"""What a page holds of the machine: its processor, versions, and times of jobs."""
+"""The part of a page about the machine: its processor, versions, and times of jobs."""
 
 JOB = re.compile(rb'<tr><th scope="row">[\w/.]+</th><td>[\d.]+</td><td>\d+</td></tr>\n')
 PROCESSOR = re.compile(rb'(<th scope="row">processor</th><td>)[^<]*')
@@ -35,32 +35,31 @@ VERSION_OR_TIME = re.compile(rb"\b\d[\w.+]*")
 OF_THE_CODE = {
     "article.html": re.compile(rb'<div class="card" id="code_.*?</div>', re.DOTALL),
 }
-"""What a page shows of the code's text, which may change while all results stay."""
+"""The source code shown in a page; it may change while all results stay the same."""
 
 OF_VERSIONS = {
     "live.html": re.compile(rb'"code": "[\w+/=]*"'),
     "article.html": re.compile(rb'"data:image/png;base64,[\w+/=]*"|"code": "[\w+/=]*"'),
     "report.html": re.compile(rb' width="\d+" height="\d+"'),
 }
-"""What other versions of packages write otherwise in a page: compiled code, and pictures or their
-sizes."""
+"""The parts of a page that depend on package versions: compiled code, pictures or their sizes."""
 
 FREE = {"because", "rests_on"}
-"""Entries of a ledger whose words follow measured numbers."""
+"""Entries of a ledger whose texts depend on measured numbers."""
 
 PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
-"""Entries of a description whose numbers follow the data."""
+"""Entries of a description whose numbers depend on the data."""
 
 ENDS = {"x", "y", "shows", "x leaves", "y leaves"}
-"""Entries of a description that a curve has only where there are points on it."""
+"""Entries of a description that a curve has only if it has points."""
 
 LOOSE, FEW, LARGE = 0.6, 0.01, 10.0
-"""How far such a place may follow chaos, as a part of the larger end, and a number of points; how
-many times larger than one, or than it was, a measured number may be. Bands and bars may reach twice
-as far, and an axis follows what its panel shows, because one long bar doubles it."""
+"""Allowed differences that rest on chaos: of a number in PLACES, relative to the larger end; of a
+number of points, relative to it; of a measured number, as a factor over its size or 1. Bands and
+bars may be twice as long. Limits of an axis scale with its curves: one long bar doubles them."""
 
 IN_TAGS = rb'<script type="application/json".*?</script>|<[^>]*>'
-"""What stands between the words of a page: tags, and the data of the live page."""
+"""What separates the words of a page: tags, and the data of the live page."""
 DIGIT = re.compile(rb"\d")
 
 Known = Mapping[str, Status]
@@ -68,10 +67,10 @@ Known = Mapping[str, Status]
 
 
 def comparable(name: str, content: bytes) -> bytes:
-    """Return what is compared of the file `name` of a run: nothing of the machine or of the code.
+    """Return the content of the file `name` without source code and facts about the machine.
 
-    Of the machine the rows of jobs, the processor and all numbers are left out. The rest is
-    compared, and where it stands twice, all is.
+    Those facts are the rows of jobs, the processor, and all numbers in the section on the machine.
+    Nothing is left out unless a page has exactly one such section.
     """
     if name in OF_THE_CODE:
         content = OF_THE_CODE[name].sub(b"", content)
@@ -83,9 +82,9 @@ def comparable(name: str, content: bytes) -> bytes:
 
 
 def hash_of(name: str, content: bytes) -> str:
-    """Return the hash of a file; of a page three: of what versions decide, the rest, its words.
+    """Return the hash of a file, or three of a page: of OF_VERSIONS, of the rest, of its words.
 
-    The words follow no number.
+    The words are texts without digits, except in the live page.
     """
     compared = comparable(name, content)
     if not name.endswith(".html"):
@@ -100,9 +99,9 @@ def hash_of(name: str, content: bytes) -> str:
 
 
 def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> tuple[Status, str]:
-    """Return status and reason of the text in `new`, which rests on `datasets`, beside `was`.
+    """Return status and reason of the text in `new` (accepted: `was`), which uses `datasets`.
 
-    Where not the same versions drew a figure, they may have chosen other ticks.
+    Without `same_drawing`, ticks may differ, because other package versions choose other ones.
     """
     is_json = new.suffix == ".json"
     try:
@@ -111,7 +110,7 @@ def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> 
         if is_json and ENTRY in before:
             load_json(new)
     except (DatasetError, ValueError):
-        return Status.DAMAGED, "has a wrong checksum, or none: it was edited or damaged"
+        return Status.DAMAGED, "has a wrong or missing checksum: it was edited or damaged"
     beyond, may_differ = 0, not set(datasets.values()) <= {Status.IDENTICAL}
     for path, *pair in _differences(before, after):
         if "ticks" in path and not same_drawing:
@@ -125,26 +124,26 @@ def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> 
             )
         beyond += judged == Status.BEYOND
     if beyond:
-        return Status.BEYOND, f"{beyond} entries follow what cannot be compared"
+        return Status.BEYOND, f"{beyond} entries depend on numbers that cannot be compared"
     if not may_differ:
         return (
             Status.DIFFERENT,
             f"reads {_excerpts(was, now)}" if was != now else "shows other data",
         )
-    return Status.WITHIN, "follows the datasets, with the same words"
+    return Status.WITHIN, "has the same words, and its numbers agree with the datasets"
 
 
 def _paragraphs(text: str) -> list[str]:
-    """Return the lines of tables and the paragraphs of a text, without the width of columns."""
+    """Return the paragraphs of a text and the rows of its tables, without padding of columns."""
     paragraphs = re.split(r"\n(?=[-|#]|\n)", RULE.sub("---", text))
     return [" ".join(paragraph.split()) for paragraph in paragraphs]
 
 
 def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, Any, Any]]:
-    """Yield path and both entries where the contents of two texts differ."""
+    """Yield the path and both values of each entry that differs."""
     if isinstance(was, dict) and isinstance(now, dict):
         for key in dict.fromkeys([*was, *now]):
-            if key not in ("data", ENTRY):  # checksums, which are compared by themselves
+            if key not in ("data", ENTRY):  # checksums, which are checked elsewhere
                 yield from _differences(was.get(key), now.get(key), (*path, key))
     elif isinstance(was, list) and isinstance(now, list) and len(was) == len(now):
         for place, pair in enumerate(zip(was, now, strict=True)):
@@ -154,7 +153,10 @@ def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, 
 
 
 def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> Status:
-    """Return whether one entry of `texts`, before and after, may read `now` in place of `was`."""
+    """Return the status of an entry with the value `now` instead of `was`.
+
+    `texts` are the accepted and the new content, `path` leads to the entry in both.
+    """
     entries = {key for key in path if isinstance(key, str)}
     chaotic = _follows_chaos(path, entries, texts[0], datasets)
     if chaotic and (entries & FREE or ("ticks" in entries and "x" not in entries)):
@@ -181,17 +183,17 @@ def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> St
 
 
 def _points_on(path: tuple, text: Any) -> int | None:
-    """Return how many points a curve has, or None where the entry is of no curve."""
+    """Return the number of points of a curve, or None if `path` does not lead to a curve."""
     curve = _entry(text, path)
     return curve.get("points") if isinstance(curve, dict) else None
 
 
 def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bool:
-    """Return whether a limit or an end of a curve follows chaos, on the scale of its axis."""
+    """Return whether chaos may explain the difference of a limit or an end of a curve."""
     points = [_points_on(path[:-2], text) for text in (before, after)]
-    if points[0] != points[1]:  # its ends are those of other points
+    if points[0] != points[1]:  # its ends are different points
         return True
-    if path[-1] == "points":  # gaps in a logarithm, or a state that has just formed
+    if path[-1] == "points":  # a logarithm has gaps, or a state has just formed
         return abs(now - was) <= max(2.0, FEW * was)
     panels = [_entry(text, path[:2]) for text in (before, after)]
     if "y" in path and panels[0]["y"].get("scale") == "log":
@@ -202,7 +204,7 @@ def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bo
         reached, reaches = map(_reach, panels)
         grown = reaches / reached if reached else 1.0
     is_bar = "areas" in path or ("curves" in path and _entry(before, path[:4])["line"] == "None")
-    if is_bar and points[0] == 1:  # the end of a bar, which may lie close to zero
+    if is_bar and points[0] == 1:  # the end of a bar may be close to zero
         largest = max(largest, _reach(panels[0]))
     off, allowed = now - was * grown, LOOSE * largest * grown
     return -allowed <= off <= (largest if is_bar else allowed)
@@ -221,9 +223,10 @@ def _entry(content: Any, path: tuple) -> Any:
 
 
 def _follows_chaos(path: tuple, entries: set[str], content: Any, datasets: Known) -> bool:
-    """Return whether an entry rests on chaos: in a row of a ledger, what decides it must do so.
+    """Return whether an entry depends on a dataset that is beyond comparison.
 
-    A control is fed with other datasets than its claim.
+    In a row of a ledger only the datasets that decide the claim count; for its controls all do,
+    because they use further datasets.
     """
     names = datasets.keys()
     if path[:1] == ("rows",) and len(path) > 2 and "controls" not in entries:
@@ -233,18 +236,18 @@ def _follows_chaos(path: tuple, entries: set[str], content: Any, datasets: Known
 
 def _words(text: str) -> str:
     """Return a text without its numbers."""
-    return "#".join(" ".join(piece_of_text.split()) for piece_of_text in NUMBER.split(text))
+    return "#".join(" ".join(between.split()) for between in NUMBER.split(text))
 
 
 def _close(was: str, now: str) -> bool:
-    """Return whether two numbers agree to the tolerance, or to the last digit that is printed."""
+    """Return whether two numbers agree within the tolerance or one unit of the last digit."""
     last = max(Decimal(number).as_tuple().exponent for number in (was, now))
     digit = 1.01 * 10.0**last if last < 0 else 0.0  # whole numbers are exact
     return abs(float(now) - float(was)) <= max(TOLERANCE * abs(float(was)), digit)
 
 
 def _excerpts(was: str, now: str) -> str:
-    """Return both texts from shortly before the first letter in which they differ."""
+    """Return excerpts of both texts around the first letter in which they differ."""
     differing = (i for i, letters in enumerate(zip(was, now, strict=False)) if len({*letters}) > 1)
     first = next(differing, min(len(was), len(now)))
     excerpts = (" ".join(text[max(0, first - 30) : first + 30].split()) for text in (now, was))
@@ -254,14 +257,14 @@ def _excerpts(was: str, now: str) -> str:
 def compare_description(
     accepted: Path, new: Path, data: Status, same_drawing: bool
 ) -> tuple[Status, str]:
-    """Return status and reason of a description; `data` is the status of the dataset beside it."""
+    """Return status and reason of a description; `data` is the status of its dataset."""
     try:
         text = new.read_text("utf-8")
         data_digest, described = digest(read(new.with_suffix(".nc"))), json.loads(text)["data"]
     except (DatasetError, ValueError, KeyError, TypeError):
-        return Status.DAMAGED, "it, or the dataset that it describes, cannot be read"
+        return Status.DAMAGED, "cannot be read, or its dataset cannot"
     if described != data_digest:
-        return Status.DIFFERENT, "describes other data than the dataset beside it holds"
+        return Status.DIFFERENT, "describes data that are not in its dataset"
     was = accepted.read_text("utf-8")
     same = Status.IDENTICAL, ""
     return same if text == was else compare(new, was, {"": data}, same_drawing)

@@ -1,4 +1,4 @@
-"""The page of a comparison: a table of findings, and reference and new side by side of pictures."""
+"""The page of a comparison: a table of files, and each picture next to the accepted one."""
 
 from base64 import b64encode
 from pathlib import Path
@@ -14,7 +14,7 @@ from .chaos import Trust
 
 
 def render(verdict: ComparisonResult, results: Path, folder: Path) -> str:
-    """Return the page; images are read from below `results` and from the baseline's folder."""
+    """Return the page; new pictures are read from `results`, accepted ones from `folder`."""
     unlike = [result for result in verdict.findings if result.status != Status.IDENTICAL]
     pictures = {
         name: {"reference": _address(folder / name), "new": _address(results / name)}
@@ -33,7 +33,7 @@ def render(verdict: ComparisonResult, results: Path, folder: Path) -> str:
 
 
 def _address(path: Path) -> str:
-    """Return the address of a picture, or nothing where there is none to be shown."""
+    """Return a PNG as a data URL; empty if there is none or it is damaged."""
     content = path.read_bytes() if path.exists() else b""
     if not content.startswith(b"\x89PNG"):
         return ""
@@ -50,9 +50,9 @@ def compare_results(
     verdict: str,
     trust: Trust | None = None,
 ) -> None:
-    """Compare files of a run in the folder `made` with a baseline, and write what was found.
+    """Compare files of a run in the folder `made` with a baseline; write a page and a summary.
 
-    `trust` is that of `baseline.compare`.
+    For `trust` see `baseline.compare`. The page is `html`, the summary is the JSON file `verdict`.
     """
     names = [Path(path).relative_to(made).as_posix() for path in results]
     folders = Path(made), Path(baseline)

@@ -1,4 +1,4 @@
-"""The hashes of a dataset, which no byte order and no sign of NaN changes; what is kept of it."""
+"""Hashes of a dataset, independent of byte order and of the sign of NaN; its accepted copy."""
 
 import json
 from collections.abc import Mapping
@@ -13,17 +13,18 @@ from latticode.datasets import complete_or_absent
 from latticode.datasets.digest import digest_values
 
 DIGITS = 16
-"""Hexadecimal digits of a hash: by chance one of 1e19 other contents has the same."""
+"""Hexadecimal digits of a hash: two different contents share it with a probability of 1e-19."""
 
 NO_RESULT = ("version", "history")
-"""Attributes that name the version of this project: no hash holds them."""
+"""Attributes that name the version of this project; they are not hashed."""
 
 LEAST = 1e-30
-"""Single precision loses digits below 1e-38 and ends at 3e38; this keeps well away from both."""
+"""Smallest number stored in single precision, 1 / LEAST the largest; its own limits are 1e-38
+and 3e38."""
 
 SINGLE = np.finfo(np.float32).precision
-"""Decimal digits that single precision keeps of every number. A variable with more digits that are
-right has the attribute `significant_digits`."""
+"""Decimal digits of single precision. The attribute `significant_digits` of a variable declares
+that more of its digits are correct."""
 
 FEW, PACKED = 100, {"zlib": True, "complevel": 9, "shuffle": True}
 
@@ -34,7 +35,10 @@ def of_bytes(content: bytes) -> str:
 
 
 def of(data: xr.Dataset) -> dict[str, Any]:
-    """Return the hash of the attributes; by variable its type, shape, and hashes, in a text."""
+    """Return the hash of the attributes, and for each variable a text: kind and two hashes.
+
+    The first of the two is of the values, the second of the attributes.
+    """
     variables = {
         name: f"{kind(each)} {of_values(each)} {_of_attributes(each.attrs)}"
         for name, each in data.variables.items()
@@ -48,13 +52,13 @@ def are_words(variable: xr.Variable) -> bool:
 
 
 def kind(variable: xr.Variable) -> str:
-    """Return the type and the shape in words, as in `float64 (component 2, tau 2001)`."""
+    """Return type and shape as text, such as `float64 (component 2, tau 2001)`."""
     shape = ", ".join(f"{dimension} {size}" for dimension, size in variable.sizes.items())
     return f"{'words' if are_words(variable) else variable.dtype.name} ({shape})"
 
 
 def of_values(variable: xr.Variable) -> str:
-    """Return the hash of the values and of the names of the dimensions."""
+    """Return the hash of the values and the names of the dimensions."""
     return digest_values(variable.dims, variable.values)[:DIGITS]
 
 
@@ -63,15 +67,15 @@ def _of_attributes(attributes: Mapping[str, Any]) -> str:
 
 
 def in_words(attributes: Mapping[str, Any]) -> dict[str, str]:
-    """Return the attributes that belong to the result, each as text with all digits."""
+    """Return the attributes that are part of the result, each as text with all digits."""
     of_result = {name: each for name, each in attributes.items() if name not in NO_RESULT}
     return {name: json.dumps(np.asarray(each).tolist()) for name, each in of_result.items()}
 
 
 def keep(copy_path: Path, path: Path) -> None:
-    """Copy the dataset at `path` to `copy_path`: every sample, in single precision, compressed.
+    """Copy the dataset at `path` to `copy_path`, compressed and in single precision.
 
-    A variable that declares more digits than single precision has is copied as it is.
+    A variable that declares more correct digits than single precision has is copied unchanged.
     """
     with (
         complete_or_absent(copy_path) as partial,
@@ -96,9 +100,9 @@ def keep(copy_path: Path, path: Path) -> None:
 
 
 def _single(values: np.ndarray) -> np.ndarray:
-    """Return values in single precision, unless it cannot hold the largest of them."""
-    held = values.dtype.kind == "f" and (largest(values) or 1.0)
-    return values.astype("float32") if LEAST < held < 1 / LEAST else values
+    """Return the values in single precision, unchanged if their largest is out of its range."""
+    size = values.dtype.kind == "f" and (largest(values) or 1.0)
+    return values.astype("float32") if LEAST < size < 1 / LEAST else values
 
 
 def largest(values: np.ndarray) -> float:

@@ -1,8 +1,7 @@
-"""By how much numbers that rest on chaos differ from one right run to the next.
+"""Scatter: by how much numbers that rest on chaos differ between correct runs.
 
-`write_scatter` measures it on folders of results of right runs beside a baseline, and writes it
-there. For each variable it is the largest mean difference of a row of equal
-words, as a part of its mean size.
+For each variable it is the largest mean difference of a row (see `values`) relative to the mean
+size of the row. `write_scatter` measures it and stores it in the baseline.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,13 +17,13 @@ from .chaos import Chaos, Trust, known_chaos
 
 SCATTER, RECORD = "scatter.json", "hashes.json"
 DIGITS = 3
-"""Significant digits that are kept."""
+"""Significant digits that are stored."""
 
 
 def known_scatter(folder: Path) -> dict[str, float]:
-    """Return the scatter of each variable, by dataset:variable, that the baseline knows.
+    """Return the recorded scatter of variables by dataset:variable, empty if there is no record.
 
-    A damaged record counts as none, which has wider limits.
+    A damaged record counts as none; the limits are then wider.
     """
     try:
         return load_json(folder / SCATTER)["scatter"]
@@ -33,15 +32,15 @@ def known_scatter(folder: Path) -> dict[str, float]:
 
 
 def measure(folder: Path, runs: Sequence[Path], trust: Trust | None) -> dict[str, float]:
-    """Return the scatter of all variables of right runs about the baseline in `folder`."""
+    """Return the scatter by dataset:variable of correct `runs` about the baseline in `folder`."""
     record = load_json(folder / RECORD)
     chaos, scatter = known_chaos(folder, record["configuration"], trust), {}
     for name in (name for name in record["files"] if name.endswith(".nc")):
-        was, right_runs = read(folder / name), [read(run / name) for run in runs]
+        was, correct_runs = read(folder / name), [read(run / name) for run in runs]
         for key in map(str, was.variables):
             differences = [
                 difference
-                for now in right_runs
+                for now in correct_runs
                 for difference in _relative_differences(name, key, was, now, chaos)
             ]
             if differences:
@@ -54,7 +53,7 @@ def measure(folder: Path, runs: Sequence[Path], trust: Trust | None) -> dict[str
 def _relative_differences(
     name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos
 ) -> Iterator[float]:
-    """Yield the mean difference of each chaotic row of a variable, as a part of its mean size."""
+    """Yield the mean difference of each chaotic row of a variable relative to its mean size."""
     if was[key].dtype.kind not in "fi" or values.is_statistic(was.variables[key]):
         return
     rests = chaos.freedom(name, key, was) > 0.0
@@ -67,5 +66,5 @@ def _relative_differences(
 
 
 def write_scatter(baseline: Path, runs: Sequence[Path], trust: Trust | None) -> None:
-    """Write the scatter of right runs, whose results lie in folders, into the baseline."""
+    """Measure the scatter on the results of correct runs, and write it into the baseline."""
     write_json(baseline / SCATTER, {"scatter": measure(baseline, runs, trust)})

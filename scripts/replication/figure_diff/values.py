@@ -1,10 +1,11 @@
-"""Compares the numbers of a variable with the accepted ones, row by row of equal words.
+"""Compares the numbers of a variable with the accepted ones, row by row.
 
-A regular number may be off by TOLERANCE of the largest of its row, and an error of rounding by a
-factor. A proven bound may grow by a part of itself: a smaller one is not what was proved. A number
-that rests on chaos differs from one right run to the next, but within limits: soon after the
-horizon by little, later by at most TIMES_SCATTER what rows of right runs differ by (`scatter`). It
-keeps its sign and its range, and its steps in time are not much longer.
+A row is all numbers with the same text labels. A regular number may differ by TOLERANCE of the
+largest of its row, a rounding error by FACTOR. A proven bound may grow by GROWN but not shrink,
+because a smaller one was not proved. Correct runs differ in the numbers that rest on chaos, but
+within limits: soon after the horizon by the allowed error (`Chaos`), later by a few times the
+scatter of correct runs (`scatter`). Such numbers keep their sign and range, and their steps in time
+are not much larger.
 """
 
 from collections.abc import Iterator
@@ -18,29 +19,28 @@ from . import hashes
 from .chaos import ROUNDING, TOLERANCE
 
 NOISE = 1e-11
-"""Roundings of a regular run, as a part of the largest of the variable."""
+"""Rounding error of a regular run relative to the largest value of the variable."""
 
 UNIT, FACTOR = 1e-15, 100.0
-"""A rounding of one, and by what factor an error may differ that is a sum of roundings."""
+"""Rounding error of 1.0; factor by which two sums of rounding errors may differ."""
 
 GROWN = 0.01
-"""How much larger a proven bound may be, which is no error of rounding however small it is."""
+"""Allowed relative growth of a proven bound; even a tiny bound is not a rounding error."""
 
 TIMES_SCATTER, LEAST, UNKNOWN_SCATTER = 2.5, 0.05, 0.6
-"""Limit of the mean difference of a chaotic row: so many times its scatter, but at least so large a
-part of its mean size, and such a part where the scatter is not known."""
+"""Limits of the mean difference of a chaotic row relative to its mean size: TIMES_SCATTER times its
+scatter, but at least LEAST; UNKNOWN_SCATTER if its scatter is not known."""
 
 SCATTER, LONG, SMALL = 4.0, 100, 0.01
-"""By what factor a statistic may be larger or smaller; LONG chaotic rows also keep their
-range. What is SMALL beside the largest of the variable may be anything."""
+"""Factor by which a statistic may be larger or smaller; length from which a chaotic row must keep
+its range; size, relative to the largest of the variable, below which a number may be anything."""
 
 ROUNDED = 1e-5
-"""How far equal numbers may be apart, relative to the largest: accepted ones have seven digits."""
+"""Allowed difference of equal numbers relative to the largest: accepted ones have seven digits."""
 
 STEP, FEWEST = 3.0, 20
-"""How much larger a step in time may be than the largest accepted one, and twice that of a
-statistic: one excursion of a chaotic run makes the largest step of its drift. FEWEST times make a
-run."""
+"""Factor by which the largest step in time may grow, from FEWEST times on. For a statistic it is
+twice this, because one excursion of a chaotic run makes the largest step of its drift."""
 
 
 def fault(
@@ -51,10 +51,10 @@ def fault(
     data: xr.Dataset,
     scatter: float | None,
 ) -> str:
-    """Return what is wrong with numbers of `now`, or an empty text.
+    """Return what is wrong with the numbers of `now`, or an empty text.
 
-    `freedom` is how far each may be off (see `Chaos`), `scatter` by how much the chaotic ones of
-    right runs differ, of their mean size, if that is known.
+    `freedom` is the allowed error of each number (see `Chaos`). `scatter` is the mean difference of
+    chaotic rows of correct runs relative to their mean size, None if it is not known.
     """
     before, after = was.values.astype(float), now.values.astype(float)
     largest, is_exact = hashes.largest(before), now.dtype.kind != "f"
@@ -72,11 +72,9 @@ def fault(
 
 
 def jumps(was: xr.Dataset, now: xr.Dataset, steps: tuple[str, ...]) -> Iterator[str]:
-    """Yield a message for each variable that changes too much from one place to the next.
+    """Yield a message for each variable with a jump: a step much larger than all accepted ones.
 
-    `steps` are the dimensions along which values change little.
-
-    Its largest change there is compared with that of the accepted run (see STEP).
+    `steps` are the dimensions along which values change gradually (see STEP).
     """
     for key, variable in was.variables.items():
         times = [dim for dim in steps if variable.sizes.get(dim, 0) >= FEWEST]
@@ -92,9 +90,9 @@ def jumps(was: xr.Dataset, now: xr.Dataset, steps: tuple[str, ...]) -> Iterator[
 
 
 def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
-    """Yield an index for each combination of words along the dimensions.
+    """Yield the index of each row: of each combination of text labels along the dimensions.
 
-    The words may be the coordinate of a dimension, or any text along it alone.
+    Labels are the coordinate of a dimension, or any text variable that has only this dimension.
     """
     texts = {
         each.dims[0]
@@ -108,7 +106,7 @@ def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
 
 
 def is_statistic(variable: xr.Variable) -> bool:
-    """Return whether a variable is what a few runs say of their scatter, uncertain itself."""
+    """Return whether a variable is a statistic of a few runs, which is itself uncertain."""
     return variable.attrs.get(KIND) == STATISTIC
 
 
@@ -116,10 +114,10 @@ def _of_regular(
     variable: xr.Variable, old: np.ndarray, new: np.ndarray, largest: float, exact: bool
 ) -> str:
     with np.errstate(invalid="ignore"):
-        difference = abs(new - old)  # NaN where only one of two is finite, or none
+        difference = abs(new - old)  # NaN or infinite unless both are finite
     same = (old == new) | (np.isnan(old) & np.isnan(new))
     if gaps := int((~same & ~np.isfinite(difference)).sum()):
-        return f"has NaN or infinity elsewhere, at {gaps} places"
+        return f"differs in NaN or infinity, at {gaps} places"
     if variable.attrs.get(KIND) == BOUND:
         return _of_proven(old[~same], new[~same])
     scale, off = hashes.largest(old), float(difference[~same].max(initial=0.0))
@@ -129,20 +127,20 @@ def _of_regular(
     if not exact and are_roundings(scale, hashes.largest(new)):
         return ""
     allowed = 0.0 if exact else TOLERANCE
-    return f"is off by {off / (scale or 1):.2g} of its largest value, {allowed:.2g} is allowed"
+    return f"is off by {off / (scale or 1):.2g} of its largest value; {allowed:.2g} is allowed"
 
 
 def _of_proven(old: np.ndarray, new: np.ndarray) -> str:
-    """Return what is wrong with bounds: a smaller one is not proved."""
+    """Return what is wrong with proven bounds: they are smaller, or much larger."""
     grown = (new - old) / np.maximum(abs(old), np.finfo(float).tiny)
     least, most = grown.min(initial=0.0), grown.max(initial=0.0)
     if least < -TOLERANCE:
-        return f"is smaller than what was proved, by {-least:.2g} of it"
-    return "" if most <= GROWN else f"is off by {most:.2g} of what is proved"
+        return f"is smaller than the proven bound by {-least:.2g} of it, so it is not proved"
+    return "" if most <= GROWN else f"exceeds the proven bound by {most:.2g} of it"
 
 
 def are_roundings(was: float, now: float) -> bool:
-    """Return whether two sizes may be those of one error of rounding."""
+    """Return whether both values can be the same rounding error, computed in two environments."""
     small, large = sorted(max(abs(each), UNIT) for each in (was, now))
     return large < ROUNDING and large < FACTOR * small
 
@@ -150,9 +148,9 @@ def are_roundings(was: float, now: float) -> bool:
 def _soon_after_the_horizon(
     variable: xr.Variable, old: np.ndarray, new: np.ndarray, free: np.ndarray
 ) -> str:
-    """Return where numbers differ by more than errors can have grown to by then."""
+    """Return a message if numbers differ by more than errors can have grown to by their time."""
     known = (free > 0.0) & np.isfinite(free) & np.isfinite(old) & np.isfinite(new)
-    if is_statistic(variable) or not known.any():  # an error is no part of the solution
+    if is_statistic(variable) or not known.any():  # `free` is for solutions
         return ""
     grown = free[known] * (hashes.largest(old) or 1.0)
     beyond = (abs(new - old)[known] / grown).max()
@@ -164,9 +162,9 @@ def _soon_after_the_horizon(
 def _of_chaotic(
     variable: xr.Variable, old: np.ndarray, new: np.ndarray, small: float, most: float
 ) -> str:
-    """Return what no right run of a chaotic case has, though nobody knows its numbers.
+    """Return how chaotic numbers differ in a way in which correct runs never do, or an empty text.
 
-    Its mean difference is at most the part `most` of its mean size.
+    Numbers below `small` may be anything; the mean difference may be `most` times the mean size.
     """
     if np.isfinite(old).all() and not np.isfinite(new).all():
         return "has NaN or infinity where there was none"
@@ -175,7 +173,7 @@ def _of_chaotic(
     if not old.size:
         return ""
     if old.min() >= 0 > new.min():
-        return "is negative, as it never was"
+        return "is negative, but the accepted values are not"
     size, new_size, difference = (float(abs(each).mean()) for each in (old, new, new - old))
     differs = f"rests on chaos, but differs by too much: {new_size:.3g} in place of {size:.3g}"
     if is_statistic(variable) or old.min() < 0 < old.max() or new.min() < 0 < new.max():
@@ -183,7 +181,7 @@ def _of_chaotic(
         return "" if is_alike else differs
     if difference > most * size + small:
         relative = difference / (size or 1)
-        return f"rests on chaos, but differs by too much: by {relative:.2g} of its size"
+        return f"rests on chaos, but differs by too much: by {relative:.2g} of its mean size"
     outside = max(new.max() - old.max(), old.min() - new.min())
     if old.size >= LONG and outside > np.ptp(old) + small:
         return f"leaves the range of the accepted values by {outside:.2g}"

@@ -36,7 +36,7 @@ def test_another_configuration_is_refused_by_what_is_other():
     with pytest.raises(AcceptanceError) as refused:
         check(SHORT, CONFIGURATION, "the configuration of config/*.yaml", acceptance.WAY_OUT)
     said = str(refused.value)
-    assert said.startswith("nothing is accepted: this run is not of the configuration of config/")
+    assert said.startswith("nothing is accepted: this run does not match the configuration of ")
     assert "cases.fig2_small.end_time is 4 in place of 50" in said and "--config baseline=" in said
 
 

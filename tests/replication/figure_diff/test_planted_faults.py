@@ -212,7 +212,7 @@ FAULTS = [
         "NaN",
         REGULAR,
         put("l2", np.nan, component="A", tau=TAU[77]),
-        reason="NaN or infinity elsewhere, at 1 ",
+        reason="differs in NaN or infinity, at 1 ",
     ),
     Fault("stale dataset", REGULAR, stale),
     data("sign", REGULAR, scale("l2", -1.0)),
@@ -225,13 +225,16 @@ FAULTS = [
         "tau moved", REGULAR, lambda d: d.assign_coords(tau=d["tau"] + 1e-9), reason="coordinates"
     ),
     data(
-        "names exchanged", REGULAR, lambda d: d.assign_coords(component=["B", "A"]), reason="words"
+        "names exchanged", REGULAR, lambda d: d.assign_coords(component=["B", "A"]), reason="texts"
     ),
     data("sign of infinity", REGULAR, lambda d: d.assign(bound=-d["bound"])),
     data("whole number", REGULAR, lambda d: d.assign(sites=d["sites"] + 1), reason="0 is allowed"),
-    data("lost variable", REGULAR, lambda d: d.drop_vars("bound"), reason="bound is gone"),
+    data("lost variable", REGULAR, lambda d: d.drop_vars("bound"), reason="bound is missing"),
     data(
-        "variable more", REGULAR, add(more=((), 1.0, {"long_name": "more"})), reason="more is new"
+        "variable more",
+        REGULAR,
+        add(more=((), 1.0, {"long_name": "more"})),
+        reason="more is not in",
     ),
     data("other type", REGULAR, lambda d: d.astype("float32"), reason="l2 is float32"),
     data("lost attribute", REGULAR, lambda d: d.drop_attrs(deep=False), reason="absent"),
@@ -300,19 +303,17 @@ FAULTS = [
         "names of cases exchanged",
         EXPONENTS,
         lambda d: d.assign_coords(case=["fig4_small", "fig2_small"]),
-        reason="words",
+        reason="texts",
     ),
     data("exponent of a regular case", EXPONENTS, shift("exponent", 0.01, case="fig2_small")),
     data("exponent halved", EXPONENTS, scale("exponent", 0.5, case="fig4_small")),
     data("a horizon", TRUST, scale("difference", 1.1, case="fig4_small")),
     # Roundings and proofs
-    data("roundings", ROUNDING, scale("defect", 2.0), WITHIN, "by roundings"),
+    data("roundings", ROUNDING, scale("defect", 2.0), WITHIN, "by rounding"),
     data("roundings that are none", ROUNDING, scale("defect", 1e9)),
-    data("proven bound times 0.01", BOUND, scale("bound", 0.01), reason="smaller than what was"),
-    data(
-        "proven radius times 0.995", PROOFS, scale("radius", 0.995), reason="smaller than what was"
-    ),
-    data("proven radius times 1.05", PROOFS, scale("radius", 1.05), reason="of what is proved"),
+    data("proven bound times 0.01", BOUND, scale("bound", 0.01), reason="smaller than the"),
+    data("proven radius times 0.995", PROOFS, scale("radius", 0.995), reason="smaller than the"),
+    data("proven radius times 1.05", PROOFS, scale("radius", 1.05), reason="exceeds the"),
     data("proven radius times 1.005", PROOFS, scale("radius", 1.005), WITHIN),
     data("errors of hard cases", HARD, put("error", 9e-9)),
     data("error of no hard case", HARD, put("error", np.nan, row=1)),
@@ -373,7 +374,7 @@ FAULTS = [
     content("other version of PDF", PDF, lambda f: f.replace(b"%PDF-1.4", b"%PDF-1.5"), DAMAGED),
     content("flipped bit of a picture", PICTURE, flip, DAMAGED),
     Fault("older picture", PICTURE, of_older_run("png"), reason="stale"),
-    Fault("older description", "figures/fig2.json", of_older_run("json"), reason="other data"),
+    Fault("older description", "figures/fig2.json", of_older_run("json"), reason="describes data"),
     text("description by hand", "figures/fig2.json", "some case", "another case"),
     # Files
     content("empty picture", "figures/fig4.png", lambda found: b"", DAMAGED),
