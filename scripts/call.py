@@ -1,4 +1,4 @@
-"""A Snakemake job that calls a function with the paths of its inputs and outputs."""
+"""A Snakemake job that calls a function, which reads and writes files itself."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from pendula.contract.log import run
 
 
 def call(snakemake: Any) -> None:
-    """Call the function that `params.call` names; it reads and writes its files itself."""
+    """Call the function that `params.call` names, with the rule's inputs, outputs, parameters."""
     function = function_of(snakemake.params.call)
     function(**load_arguments(function, snakemake, {}).values)
 

@@ -1,4 +1,4 @@
-"""A Snakemake job that calls a function, and writes the dataset or datasets that it returns."""
+"""A Snakemake job that calls a function and writes the dataset or datasets that it returns."""
 
 from pendula.contract.log import Progress, run  # first: its hook logs an import that fails
 
@@ -20,13 +20,14 @@ from xarray import Dataset
 
 
 def compute(snakemake: Any) -> None:
-    """Write the dataset that the function in `params.call` returns, or each one that it yields.
+    """Write the dataset that the function in `params.call` returns, or each that it yields.
 
-    A dataset is an xarray.Dataset, or its variables and attributes as for `netcdf.write`. It
-    records the arguments of the function as attributes, unless the function does so itself.
+    A dataset is an xarray.Dataset, or the variables and attributes of `netcdf.write`. It records
+    the arguments of the function as attributes, unless the function does so itself.
 
-    A study may return `ManyRuns`. The job makes all runs, or reads them from `input.chunks`. A job
-    with the wildcard `chunk`, such as ".parts/2-of-8", makes and writes every eighth run.
+    A function may return `ManyRuns`. The job then makes all runs, or reads them from
+    `input.chunks`. A job with the wildcard `chunk`, such as ".parts/2-of-8", makes and writes every
+    eighth run.
     """
     function = function_of(snakemake.params.call)
     arguments = load_arguments(function, snakemake, KINDS)
@@ -58,12 +59,12 @@ def save_with_provenance(
 
 def without_provenance(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return attributes without provenance, which may be copied from another dataset."""
-    of_others = (COMPUTED_BY, COMPUTED_FROM)
-    return {key: value for key, value in attributes.items() if key not in of_others}
+    provenance = (COMPUTED_BY, COMPUTED_FROM)
+    return {key: value for key, value in attributes.items() if key not in provenance}
 
 
 def retained_of(runs: ManyRuns, files: Sequence[str] | None) -> dict[str, np.ndarray]:
-    """Return all runs' results, read from the files of chunks if there are any, else computed."""
+    """Return the results of all runs: read from the files of chunks, or computed if None."""
     if files:
         return join_chunks(map(arrays_in, files))
     return run_chunk(runs.problems, runs.retain, progress=Progress())
@@ -83,7 +84,7 @@ def write_chunk(path: str, runs: ManyRuns, chunk: str) -> None:
 
 
 def arrays_in(path: str) -> dict[str, np.ndarray]:
-    """Return the arrays in the dataset of a chunk, by name."""
+    """Return the arrays of a chunk's dataset by name."""
     return {str(name): array.values for name, array in read(path).data_vars.items()}
 
 

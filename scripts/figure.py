@@ -16,10 +16,10 @@ from xarray import Dataset
 
 
 def draw(snakemake: Any) -> None:
-    """Call gather_x and draw_x, the function in `params.call`, and write the figure.
+    """Draw the data of gather_x with draw_x, the function in `params.call`, and write the figure.
 
-    The inputs and parameters of the rule are the arguments of gather_x, from the module of draw_x.
-    `params.unlike_paper` lists differences of the configuration from the paper's.
+    The inputs and parameters of the rule are the arguments of gather_x, which is in the same
+    module. `params.unlike_paper` lists differences of the configuration from the paper's.
     """
     function = function_of(snakemake.params.call)
     gather = gather_for(function)

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 
 def in_short(differences: list[str]) -> str:
-    """Return up to three differences as a clause, and the number of the rest; empty for none."""
+    """Return a clause with up to three differences and the number of the rest; empty for none."""
     if not differences:
         return ""
     more = f" and {len(differences) - 3} more" if len(differences) > 3 else ""
@@ -21,9 +21,8 @@ class Differences(NamedTuple):
     """Differences of a configuration from the paper's, and the keys that datasets depend on.
 
     `words` describes each difference by dotted path, such as {"cases.fig2_small.omega":
-    "fig2_small.omega (1 in place of 8)"}. `rests_on(name, on)` returns the dotted paths that decide
-    the dataset results/<name>.nc; `on` names the cases and sweeps of a statement that is not about
-    all in the dataset.
+    "fig2_small.omega (1 in place of 8)"}. `rests_on(name, on)` returns the dotted paths of the keys
+    that results/<name>.nc depends on, or only its cases and sweeps `on` unless `on` is empty.
     """
 
     words: Mapping[str, str] = {}
@@ -40,7 +39,7 @@ class Differences(NamedTuple):
         }
 
     def reason(self, names: Iterable[str], on: Iterable[str] = ()) -> str:
-        """Return why datasets are not of the paper's cases; an empty text if they are."""
+        """Return why the datasets `names` are not of the paper's cases; empty if they are."""
         return in_short(list(self.concerning(names, on).values()))
 
 
@@ -48,13 +47,13 @@ NO_DIFFERENCES = Differences()
 
 
 class Tolerated(NamedTuple):
-    """Keys of a configuration whose values may differ: freely, or only up or down."""
+    """Keys of a configuration whose values may differ: freely, or only upwards or downwards."""
 
     free: frozenset[str] = frozenset()
     at_least: frozenset[str] = frozenset()
     at_most: frozenset[str] = frozenset()
     single: frozenset[str] = frozenset()
-    """Keys whose mapping is compared as a single value."""
+    """Keys with mappings that are compared as one value."""
 
 
 def find_differences(
@@ -62,7 +61,7 @@ def find_differences(
 ) -> dict[tuple[str, ...], tuple[Any, Any]]:
     """Return the accepted and the new value of each entry that differs, by its path.
 
-    Additional sections and entries of the configuration are no differences.
+    Additional sections and entries of the configuration do not count as differences.
     """
     differences: dict[tuple[str, ...], tuple[Any, Any]] = {}
     for section, entries in accepted.items():

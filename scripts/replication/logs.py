@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 TOOK = "wall time: "
-"""The beginning of the last line of a job's log, which has its time in s and its memory in MB."""
+"""The beginning of the last line of a job's log."""
 LAST_LINE = re.compile(rf"{TOOK}([\d.]+) s, largest memory: (\d+) MB")
 
 

@@ -8,13 +8,13 @@ from latticode.datasets.netcdf import read
 
 
 class ReportError(RuntimeError):
-    """A page that cannot be made; the message names what is missing."""
+    """A page cannot be made; the message names the missing file."""
 
 
 class Results:
-    """The files of a run; names are paths relative to the page, without the ending .nc.
+    """The files of a run; names are paths relative to the page, of datasets without .nc.
 
-    `differs` holds the differences of the configuration from the paper's, in words by path.
+    `differs` describes the differences of the configuration from the paper's by path.
     """
 
     def __init__(

@@ -1,15 +1,15 @@
 """Attributes of variables that the comparison, the ledger and the article read.
 
-The code that makes a variable writes them, because the readers then need no lists of names:
+The code that makes a variable sets them, so that the readers need no lists of names:
 
 `missing_meaning`  why a value is NaN; without it a NaN is unknown, and confirms no claim
-`rests_on_chaos`   "no", "yes", "by case" or "by case at all times", or "along x", where x is a
-                   dimension with values of a case's parameter; for a variable, or for a dataset
-`compared_as`      "upper bound" of what is proved, or "statistic" of a few runs
-`fewest_samples`   of a coordinate: a claim needs so many values along it; without it, FEWEST
+`rests_on_chaos`   of a variable or a dataset: "no", "yes", "by case", "by case at all times", or
+                   "along x", where x is a dimension with values of a case's parameter
+`compared_as`      "upper bound" (proven), or "statistic" of a few runs
+`fewest_samples`   of a coordinate: the number of values that a claim needs, by default FEWEST
 
 The default of `rests_on_chaos` is "by case", for a dataset that names a case of the configuration:
-then a number rests on chaos from the time on at which its case is no longer known.
+then a number rests on chaos after the horizon of trust of its case.
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 VARIATION = "variation"
-"""The dimension of a number's values when it is measured again with other choices."""
+"""The dimension of the values of a number that is measured again with other choices."""
 
 MISSING = "missing_meaning"
 CHAOS = "rests_on_chaos"
@@ -32,29 +32,32 @@ BOUND, STATISTIC = "upper bound", "statistic"
 """Values of `compared_as`."""
 
 REGULAR = {CHAOS: NO}
-"""For values of theory, references or the configuration, also in datasets of chaotic runs."""
+"""For values from theory, references or the configuration in datasets of chaotic runs."""
 CHAOTIC = {CHAOS: YES}
 """For values that differ between correct runs."""
 ALL_TIMES = {CHAOS: ALWAYS}
-"""For values that depend on the end of a run at all times, such as one divided by its maximum."""
+"""For values that at all times depend on the end of a run, such as a curve over its maximum."""
 PROVEN = {KIND: BOUND}
 SCATTERED = {KIND: STATISTIC}
-"""For an error, a deviation or a correlation of a few runs, which is uncertain itself."""
+"""For an error, a deviation or a correlation of a few runs, which is itself uncertain."""
 FEW_CHOICES = {SAMPLES: 1}
-"""For a coordinate whose values are single choices and no series."""
+"""For a coordinate whose values are single choices, not a series."""
 
 
 def missing(meaning: str) -> dict[str, str]:
-    """Return the attribute with the meaning of NaN."""
+    """Return the attribute that declares the meaning of NaN."""
     return {MISSING: meaning}
 
 
 def chaotic_along(dimension: str) -> dict[str, str]:
-    """Return the attribute of a variable that is chaotic where a case with this parameter is."""
+    """Return the attribute of a variable that is chaotic where a case with this value is.
+
+    `dimension` has values of a case's parameter.
+    """
     return {CHAOS: f"{ALONG}{dimension}"}
 
 
 def mark(dataset: "xr.Dataset", attributes: Mapping[str, Any], *names: str) -> "xr.Dataset":
-    """Return a dataset whose variables of these names have more attributes."""
+    """Return the dataset with these attributes added to its variables `names`."""
     marked = {name: dataset[name].assign_attrs(attributes) for name in names if name in dataset}
     return dataset.assign(marked)

@@ -12,11 +12,11 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, TIMES = "−", "×"
 FIRM = "\N{NO-BREAK SPACE}"
 SMALL = 1e-3
-"""Smaller numbers are written with a power of ten."""
+"""Smaller numbers are printed with a power of ten."""
 ROUNDING = 1e-9
-"""A number with a smaller relative error is written without it."""
+"""A smaller relative error is not printed."""
 UP, DOWN = np.ceil, np.floor
-"""How `rounded` and `outward` round."""
+"""The directions of `rounded` and `outward`."""
 Direction = Callable[[float], float]
 SYMBOLS = {
     "Omega": "Ω",
@@ -44,7 +44,7 @@ _NAMES = re.compile(r"(?<![A-Za-z])(?<![a-z]\.)(" + "|".join(SYMBOLS) + r")(?![A
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Return a number to `digits` significant digits; small and large ones have a power of ten."""
+    """Return a number to `digits` significant digits; small and large ones get a power of ten."""
     value = float(value)
     if not np.isfinite(value):
         return "none" if np.isnan(value) else "infinite" if value > 0 else f"{MINUS}infinite"
@@ -64,11 +64,11 @@ def raised(exponent: str) -> str:
 
 
 def with_error(value: float, error: float, digits: int = 3) -> str:
-    """Return a number and its error, to the first digit of the error (two after a 1).
+    """Return a number and its error with one digit of the error, or two if the first is 1.
 
     The error is rounded up and includes the rounding of the number, so the printed interval
-    contains the exact one. Small numbers with small errors have a common power of ten. A number
-    with an error below ROUNDING is printed to `digits` digits without it.
+    contains the exact one. Small numbers with small errors get a common power of ten. If the
+    relative error is below ROUNDING, the number is printed to `digits` digits without it.
     """
     if not (np.isfinite(error) and error > ROUNDING * abs(value)):
         return number(value, digits)
@@ -83,7 +83,7 @@ def with_error(value: float, error: float, digits: int = 3) -> str:
 
 
 def rounded(value: float, places: int, direction: Direction) -> float:
-    """Return a number rounded to decimal places, up or down; it may be off by 1e-9 of a place."""
+    """Return a number rounded up or down to decimal places, with a tolerance of 1e-9 places."""
     scaled = value * 10.0**places
     return float(direction(scaled - 1e-9 if direction is UP else scaled + 1e-9)) / 10.0**places
 
@@ -96,7 +96,7 @@ def outward(value: float, digits: int, direction: Direction) -> float:
 
 
 def percent(fraction: float, digits: int = 2) -> str:
-    """Return a fraction in per cent, such as 13 %; only 1 itself is printed as 100 %."""
+    """Return a fraction in per cent, such as 13 %; only exactly 1 is printed as 100 %."""
     value = 100.0 * float(fraction)
     if abs(value) < 10:
         return f"{number(value, digits)}{FIRM}%"
@@ -107,9 +107,9 @@ def percent(fraction: float, digits: int = 2) -> str:
 
 
 def enclosing_span(low: float, high: float, digits: int) -> str:
-    """Return the range of measured numbers, rounded outward, with so many digits of its lower end.
+    """Return a range, rounded outward to `digits` significant digits of its lower end.
 
-    Both ends have the same decimal places. `low` must be above zero.
+    Both ends get the same number of decimal places. `low` must be positive.
     """
     places = max(0, digits - 1 - int(np.floor(np.log10(low))))
     ends = rounded(low, places, DOWN), rounded(high, places, UP)
@@ -117,7 +117,7 @@ def enclosing_span(low: float, high: float, digits: int) -> str:
 
 
 def symbols(text: str) -> str:
-    """Return a text of the ledger with its Greek letters and signs."""
+    """Return a text of the ledger with Greek letters and mathematical signs."""
     text = _NAMES.sub(lambda match: SYMBOLS[match[0]], text.replace("l2^2", "(l2)²"))
     text = _POWERS_OF_TEN.sub(lambda match: number(float(match[0]), len(match[0])), text)
     text = _EXPONENTS.sub(lambda match: raised(match[1]), text)
@@ -128,14 +128,14 @@ def symbols(text: str) -> str:
 
 
 def plainly(name: str) -> str:
-    """Return the name of a number in the ledger as words."""
+    """Return the name of a number in the ledger as readable text."""
     return re.sub(r"_(?!\d)", " ", symbols(name.replace("_over_", " / ")))
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence]) -> str:
-    """Return a table in Markdown; a cell is shown as `str` writes it."""
+    """Return a table in Markdown; cells are formatted with `str`."""
     titles, *cells = ([str(cell).replace("|", "\\|") for cell in row] for row in (head, *rows))
-    # cells are texts already, and keep their own width: one long cell would widen every row
+    # no alignment: one long cell would widen every row
     return tabulate(cells, titles, "github", stralign=None, disable_numparse=True)
 
 

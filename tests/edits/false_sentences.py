@@ -127,7 +127,7 @@ def ledger(run: Run):
 
 def notice(run: Run):
     """The page begins with all that differs in the cases, with both values."""
-    head = run.page.partition("What this page says of these cases is said of what was run.")[0]
+    head = run.page.partition("The results on this page are of the cases as they were run.")[0]
     for case, keys in run.edited.items():
         for key in keys:
             if not re.search(rf"\b{case}\.{key}\b", head):

@@ -49,7 +49,7 @@ def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):
     assert verdicts["fig6_constant"] == verdicts["fig2_bounded"] == Verdict.NOT_APPLICABLE
     assert "fig6_left.half_widths ([4, 6, 8] in place" in rows["fig6_constant"]["because"]
     page = (full_run / "results/report.html").read_text(encoding="utf-8")
-    assert "This run is not that of the paper's cases." in page
+    assert "This run does not use the paper's cases." in page
     assert "fig2_small.end_time (4 in place of 50)" in page
     assert verdicts["theorem_1"] == Verdict.CONFIRMED
     assert verdicts["theorem_3_proof"] == Verdict.NOT_REPRODUCED

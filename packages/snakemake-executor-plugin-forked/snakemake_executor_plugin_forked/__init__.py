@@ -14,14 +14,14 @@ common_settings = CommonSettings(
     auto_deploy_default_storage_provider=False,
 )
 HELP = (
-    "Modules that are imported before jobs are forked, in this order, with spaces between them. "
-    "'package.*' stands for all modules of a package."
+    "Modules that are imported before jobs are forked, in this order, separated by spaces. "
+    "'package.*' means all modules of a package."
 )
 
 
 @dataclass
 class ExecutorSettings(ExecutorSettingsBase):
-    """The executor's options, as `--forked-modules` or in a profile."""
+    """The executor's options: `--forked-modules` on the command line or in a profile."""
 
     modules: str = field(default="", metadata={"help": HELP})
 

@@ -16,9 +16,9 @@ from types import FrameType
 
 SERVER = Path(__file__).with_name("server.py")
 MAX_MESSAGE_BYTES = 65536
-"""More bytes than any message has."""
+"""An upper bound for the size of a message."""
 END = b"end"
-"""The last message, without which the process takes Snakemake for killed."""
+"""The last message; if it is missing, the process assumes that Snakemake was killed."""
 PATH = "PYTHONPATH"
 INTERRUPTED = 128 + signal.SIGINT
 """The exit status after Ctrl-C."""
@@ -26,20 +26,20 @@ LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM",
 THREADS = {f"{library}_THREADS": "1" for library in LIBRARIES}
 """The environment variables that Snakemake sets for a job of one thread."""
 DRY_RUN_OPTION = r"-[A-Za-z]*n[A-Za-z]*|--dry-?run"
-"""Pattern of an option for a run without jobs, such as -n or -np."""
+"""Pattern of an option for a dry run, such as -n or -np."""
 TMPDIR_VARIABLES = ("TMPDIR", "TMP", "TEMPDIR", "TEMP")
 """Variables that Snakemake sets to the folder for temporary files; no import reads them."""
 
 
 class CannotForkError(Exception):
-    """A job cannot be a fork; the message says why."""
+    """A job cannot be a fork; the message has the reason."""
 
 
 class Parent:
     """A process that imports modules and forks jobs, and the socket for requests to it."""
 
-    def __init__(self, modules: list[str]):
-        """Start the process with the present environment."""
+    def __init__(self, modules: list[str]) -> None:
+        """Start the process with the current environment."""
         self.start_environment = folder_and_variables()
         self.control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
@@ -51,25 +51,25 @@ class Parent:
             )
 
     def send_path(self, path: str) -> None:
-        """Before the first job, send it the workflow's PYTHONPATH (empty: nothing to add)."""
-        with suppress(OSError):  # it has ended, as the first job will find
+        """Before the first job, send the workflow's PYTHONPATH (empty: nothing to add)."""
+        with suppress(OSError):  # the process has ended, which the first job will report
             self.control.send(json.dumps(path).encode())
 
     def send_request(self, request: dict) -> socket.socket:
-        """Return the socket on which it answers a request, or which closes if it has died."""
+        """Return the socket for the answer to a request; it closes if the process has died."""
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs, suppress(OSError):
             socket.send_fds(self.control, [json.dumps(request).encode()], [theirs.fileno()])
         return ours
 
     def request_end(self) -> None:
-        """Send it the last message: its jobs get SIGINT and 3 seconds, then it ends."""
-        with suppress(OSError):  # it has ended, or the message was sent before
+        """Send the last message: the jobs get SIGINT and 3 seconds, then the process ends."""
+        with suppress(OSError):  # the process has ended, or the message was sent before
             self.control.send(END, socket.MSG_DONTWAIT)
         self.control.close()
 
     def end(self, kill: bool) -> None:
-        """Stop it and its jobs: at once if `kill`, else jobs get SIGINT and 3 seconds."""
+        """Stop the process and its jobs: at once if `kill`, else as `request_end` does."""
         if self.process.returncode is None:
             self.request_end()
             if kill:
@@ -80,7 +80,7 @@ class Parent:
 
 @dataclass
 class Fork:
-    """A job: its process ID, the socket for messages on it, and the process that forked it."""
+    """A job: its process ID, the socket for messages about it, the process that forked it."""
 
     pid: int
     socket: socket.socket
@@ -92,10 +92,10 @@ class Forks:
 
     parent, begun, interrupted, replaced = None, False, False, False
 
-    def __init__(self, modules: list[str]):
-        """Start the process, which imports modules; from then on Ctrl-C shows no traceback.
+    def __init__(self, modules: list[str]) -> None:
+        """Start the process that imports `modules`, and handle Ctrl-C without a traceback.
 
-        A dry run needs no module and starts no process.
+        A dry run needs no module, so it starts no process.
         """
         self.modules, self.lock = modules, threading.Lock()
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
@@ -113,14 +113,14 @@ class Forks:
         raise SystemExit(INTERRUPTED)
 
     def begin(self) -> None:
-        """Send the process, before the first job, the folders of the workflow's modules.
+        """Before the first job, send the process the workflow's PYTHONPATH.
 
-        If the workflow has set other variables than PYTHONPATH, start a new process.
+        Start a new process if the workflow has changed the folder or other variables.
         """
         if self.begun or sys.platform != "linux":
             return
         self.begun = True
-        if self.parent:  # none where an option only looked like that of a dry run
+        if self.parent:  # None if an option was mistaken for that of a dry run
             _, variables = self.parent.start_environment
             path = "" if PATH in variables else os.environ.get(PATH, "")
             if folder_and_variables(without=path and PATH) == self.parent.start_environment:
@@ -149,7 +149,7 @@ class Forks:
             return fork
 
     def receive(self, fork: Fork) -> str:
-        """Return the next message on a job. Raises ChildProcessError if its parent has died."""
+        """Return the next message about a job; raise ChildProcessError if its parent has died."""
         if message := fork.socket.recv(MAX_MESSAGE_BYTES).decode():
             return message
         fork.parent.end(kill=not self.interrupted)
@@ -157,7 +157,7 @@ class Forks:
         raise ChildProcessError(f"the process that jobs are forked from {end}")
 
     def replace(self, dead: Parent, death: ChildProcessError) -> None:
-        """Replace the process the first time it dies; later raise, since the cause remains."""
+        """Replace the process the first time it dies; then raise, because the cause remains."""
         with self.lock:
             if self.interrupted:
                 raise death
@@ -170,21 +170,21 @@ class Forks:
             self.parent.send_path("")
 
     def end(self) -> None:
-        """Stop the process and its jobs, which have 3 seconds after Ctrl-C."""
+        """Stop the process and its jobs: at once, or after Ctrl-C within 3 seconds."""
         if self.parent:
             self.parent.end(kill=not self.interrupted)
 
 
 def folder_and_variables(without: str = "") -> tuple[str, dict[str, str]]:
-    """Return the working directory and the environment, but for one variable.
+    """Return the working directory and the environment without one variable.
 
-    A module may read them when it is imported.
+    Imported modules may have read them.
     """
     return os.getcwd(), {name: text for name, text in os.environ.items() if name != without}
 
 
 def describe_end(status: int) -> str:
-    """Return how a process with this exit status ended, as the end of a sentence."""
+    """Return how a process with this exit status ended, as the predicate of a sentence."""
     if status >= 0:
         return f"ended with exit status {status}"
     hint = ": out of memory?" if status == -signal.SIGKILL else ""

@@ -1,6 +1,6 @@
-"""All that uses private parts of Snakemake, which its interface for executors does not offer.
+"""The code that uses private parts of Snakemake, because its executor interface is not sufficient.
 
-The tests exercise all of it, so they fail where a new Snakemake version changes it.
+The tests exercise all of it, so they fail if a new Snakemake version changes these parts.
 """
 
 from concurrent.futures import Future
@@ -17,11 +17,11 @@ from snakemake.shell import shell
 from snakemake_executor_plugin_forked.forks import INTERRUPTED, CannotForkError, describe_end
 
 DEFAULT_LIMIT = 100, 1
-"""Snakemake's limit where the user gives none: jobs that may start, in so many seconds."""
+"""Snakemake's default limit: the number of jobs that may start, within this time in seconds."""
 
 
 def with_names(function: FunctionType, **names: Any) -> FunctionType:
-    """Return a copy of a function in which these global names have other values."""
+    """Return a copy of a function with other values of these global names."""
     names = {**function.__globals__, **names}
     return FunctionType(
         function.__code__, names, function.__name__, function.__defaults__, function.__closure__
@@ -29,25 +29,25 @@ def with_names(function: FunctionType, **names: Any) -> FunctionType:
 
 
 class Executor(snakemake.executors.local.Executor):
-    """Snakemake's own executor for jobs on this machine, except that it forks Python scripts."""
+    """Snakemake's local executor, except that Python scripts run as forks."""
 
     fallback_reported = False
 
     def __post_init__(self) -> None:
-        """Have Python scripts run by forks."""
+        """Replace Snakemake's way of running Python scripts by forks."""
         super().__post_init__()
         self.forks = self.executor_settings.forks
         forked = type("Forked", (ForkedScript,), {"executor": self})
         self.script = with_names(script, PythonScript=forked)
 
     def run_jobs(self, jobs: list[Any]) -> None:
-        """Start jobs without Snakemake's limit of so many in a second, unless the user set one.
+        """Start jobs without Snakemake's default limit of jobs per second.
 
-        The limit is meant for queues. For it, Snakemake looks for jobs anew a second after each
-        time that it looked: n times a second after n jobs, and once more when all are done.
+        The limit is meant for queues. With it, each check for new jobs schedules another check
+        one second later: after n jobs there are n checks per second, and one after the last job.
         """
         if self.forks.interrupted:
-            raise SystemExit(INTERRUPTED)  # it is lost if Snakemake hears Ctrl-C while it logs
+            raise SystemExit(INTERRUPTED)  # Snakemake loses a Ctrl-C that comes while it logs
         self.forks.begin()
         scheduler = self.workflow.scheduler
         limiter = scheduler.job_rate_limiter
@@ -57,19 +57,19 @@ class Executor(snakemake.executors.local.Executor):
         super().run_jobs(jobs)
 
     def run_single_job(self, job: Any) -> Future:
-        """Start a job, and return the future of its end."""
+        """Start a job, and return its future."""
         if not job.is_script or job.is_shadow or job.pipe_group:
             return super().run_single_job(job)
         arguments = self.job_args_and_prepare(job)
         return self.pool.submit(self.cached_or_run, job, self.run_script, *arguments)
 
     def run_script(self, rule: Any, *arguments: Any) -> None:
-        """Run a job whose script is a fork."""
+        """Run a job with a Python script."""
         rule = copy(rule)
         rule.run_func = with_names(rule.run_func, script=self.script)
         try:
             snakemake.executors.local.run_wrapper(rule, *arguments)
-        except SystemExit as end:  # the reason was printed, and Snakemake adds none
+        except SystemExit as end:  # the script printed the reason, so Snakemake adds none
             raise SpawnedJobError from end
 
     def print_job_error(self, job_info: Any, msg: str | None = None, **options: Any) -> None:
@@ -78,31 +78,31 @@ class Executor(snakemake.executors.local.Executor):
             super().print_job_error(job_info, msg, **options)
 
     def cancel(self) -> None:
-        """End all jobs: Snakemake alone would wait for them."""
+        """End all jobs: Snakemake itself would wait for them."""
         self.forks.interrupted = True
         self.forks.end()
         super().cancel()
 
     def shutdown(self) -> None:
-        """End when all jobs have ended."""
+        """Wait for all jobs, then end."""
         super().shutdown()
         self.forks.end()
 
 
 class ForkedScript(PythonScript):
-    """A Python script in a file, with the code that Snakemake puts before it."""
+    """A Python script in a file, preceded by Snakemake's preamble."""
 
     executor: Executor
 
     def execute_script(self, fname: str, edit: bool = False) -> None:
-        """Run the file as a fork, or as Snakemake does where a fork would differ."""
+        """Run the file as a fork, or as Snakemake does if a fork would not be equivalent."""
         forks, logger = self.executor.forks, self.executor.logger
         try:
             self.check_that_a_fork_is_the_same()
             job = forks.fork(fname, self.resources.get("tmpdir"))
             measured = benchmarked(self.bench_record is not None and job.pid, self.bench_record)
             with job.socket, measured:
-                job.socket.shutdown(1)  # so that it begins
+                job.socket.shutdown(1)  # the signal to begin
                 if not 0 <= (status := int(forks.receive(job))) <= 1:
                     raise ChildProcessError(f"it {describe_end(status)}")
         except ChildProcessError as error:
@@ -119,11 +119,11 @@ class ForkedScript(PythonScript):
             raise SystemExit(status)
 
     def check_that_a_fork_is_the_same(self) -> None:
-        """Raise CannotForkError for a job of several threads or of another command than Python."""
+        """Raise CannotForkError for a job with several threads, its own environment or command."""
         prefix_and_suffix = shell._get_process_prefix() + shell._process_suffix
         if self.threads != 1:
             raise CannotForkError(f"it has {self.threads} threads")
         if self.conda_env or self.container_img or self.env_modules:
-            raise CannotForkError("it has an environment of its own")
+            raise CannotForkError("it has its own environment")
         if self.resources.get("shell_exec") or prefix_and_suffix not in ("", "set -euo pipefail; "):
-            raise CannotForkError("the workflow changes how commands are run")
+            raise CannotForkError("the workflow changes how shell commands are run")

@@ -1,8 +1,8 @@
 """The process that imports modules and forks a child for each job: `server.py SOCKET MODULE...`.
 
 It imports while idle; a job that arrives earlier imports the missing modules itself. Only the first
-job waits for one module, which otherwise each of the first parallel jobs would import. The rest is
-imported once a job has ended, because the run may have no further jobs.
+job waits for one module, which otherwise each of the first parallel jobs would import. The other
+modules are imported once a job has ended, because the run may have no further jobs.
 """
 
 import atexit
@@ -23,30 +23,30 @@ from importlib.machinery import PathFinder
 from types import ModuleType
 
 MAX_MESSAGE_BYTES = 65536
-"""More bytes than any message has."""
+"""An upper bound for the size of a message."""
 END = b"end"
 """The last message, unless Snakemake was killed."""
 KILLED = (
-    "forked: Snakemake was killed, so its jobs end. To go on: snakemake --unlock, then the same "
-    "command again."
+    "forked: Snakemake was killed, so its jobs end. To continue, run snakemake --unlock, then the "
+    "same command again."
 )
 SECONDS_TO_END = 3
-"""Seconds that jobs have to end once Snakemake has ended or interrupts them."""
+"""Time in seconds for jobs to end after Snakemake has ended or interrupted them."""
 
 
 class Server:
     """Imports, forks, and reports how jobs ended, until Snakemake ends."""
 
-    def __init__(self, control: socket.socket, modules: list[str]):
-        """Listen at `control`, and import `modules` meanwhile."""
+    def __init__(self, control: socket.socket, modules: list[str]) -> None:
+        """Listen at `control`, and import `modules` while idle."""
         self.control, self.modules = control, modules
         self.jobs: dict[int, socket.socket] = {}
         self.begun, self.ended = False, False
         signal.signal(signal.SIGCHLD, self.report_ended_jobs)
-        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # a job hears it in its script
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # only scripts get it
 
     def serve(self) -> dict[str, str | dict]:
-        """Return the request in each child; end with all jobs when Snakemake has ended."""
+        """Fork a child for each request and return the request there; end when Snakemake ends."""
         while True:
             if self.can_prepare() and not select.select([self.control], [], [], 0)[0]:
                 self.prepare(self.modules.pop(0))
@@ -61,28 +61,28 @@ class Server:
             if self.fork(socket.socket(fileno=streams[0])):
                 return json.loads(message)
         for pid in list(self.jobs):
-            with suppress(ProcessLookupError):  # it has just ended
+            with suppress(ProcessLookupError):  # the job has just ended
                 os.kill(pid, signal.SIGINT)
         end = time.monotonic() + SECONDS_TO_END
         while self.jobs and time.monotonic() < end:
             time.sleep(0.01)
         if not message:
-            with suppress(OSError):  # its screen is gone too
+            with suppress(OSError):  # the terminal is closed too
                 print(KILLED, file=sys.stderr, flush=True)
         os.killpg(0, signal.SIGKILL)
 
     def can_prepare(self) -> bool:
         """Return whether to import the next module now.
 
-        It may not be findable before the workflow has set PYTHONPATH. After the first request, wait
-        until a job has ended: further imports pay only if more jobs follow.
+        Before the workflow has set PYTHONPATH, the module may not exist. After the first request,
+        wait until a job has ended: further imports pay only if more jobs follow.
         """
         name = self.modules[0].partition(".")[0] if self.modules else ""
         is_useful = self.ended if self.begun else name and importlib.util.find_spec(name)
         return bool(name and is_useful)
 
     def begin(self, path: str) -> None:
-        """Look for modules in these folders first; restart if imported ones are elsewhere."""
+        """Put the folders `path` first on the path; restart if they replace imported modules."""
         if path and path != os.environ.get("PYTHONPATH"):
             os.environ["PYTHONPATH"] = path
             folders = [os.path.abspath(folder) for folder in path.split(os.pathsep)]
@@ -95,26 +95,26 @@ class Server:
             self.prepare(self.modules.pop(0))  # otherwise each of the first jobs would import it
 
     def prepare(self, name: str) -> None:
-        """Import a module; put those of a package first in the list."""
+        """Import a module; of "package.*", put the modules first in the list."""
         try:
             module = importlib.import_module(name.removesuffix(".*"))
             if name.endswith(".*"):
                 inside = pkgutil.iter_modules(module.__path__, f"{module.__name__}.")
                 self.modules[:0] = [module.name + ".*" * module.ispkg for module in inside]
-        except BaseException as error:  # such as SystemExit of a script that is meant to be run
+        except BaseException as error:  # such as SystemExit of a script
             print(f"forked: cannot import {name}: {error!r}", file=sys.stderr, flush=True)
 
     def fork(self, job: socket.socket) -> bool:
-        """Fork a job unless this is not safe, and return whether this is the child."""
+        """Fork a job if this is safe, and return whether this process is the child."""
         if (threads := len(os.listdir("/proc/self/task"))) > 1:
             with job:
-                job.sendall(f"what it imported runs {threads} threads".encode())
+                job.sendall(f"the imported modules run {threads} threads".encode())
             return False
         if pid := os.fork():
-            with suppress(OSError):  # Snakemake is gone
+            with suppress(OSError):  # Snakemake has ended
                 job.sendall(str(pid).encode())
             self.jobs[pid] = job
-            self.report_ended_jobs()  # it may have ended by now
+            self.report_ended_jobs()  # the job may already have ended
             return False
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         for end in (self.control, *self.jobs.values()):
@@ -124,15 +124,15 @@ class Server:
         gc.enable()
         with job:
             try:
-                job.recv(MAX_MESSAGE_BYTES)  # Snakemake measures it from now on
-            except ConnectionResetError:  # it was killed before it had read the answer
+                job.recv(MAX_MESSAGE_BYTES)  # Snakemake starts to measure the job
+            except ConnectionResetError:  # Snakemake was killed before it read the answer
                 os._exit(1)
         return True
 
-    def report_ended_jobs(self, *signal_and_frame) -> None:
+    def report_ended_jobs(self, *signal_and_frame: object) -> None:
         """Collect the exit statuses of jobs that have ended, and send them to Snakemake."""
         for pid in list(self.jobs):
-            with suppress(OSError):  # this was called while it was at work, or Snakemake is gone
+            with suppress(OSError):  # SIGCHLD interrupted this call, or Snakemake has ended
                 ended, status = os.waitpid(pid, os.WNOHANG)
                 if ended:
                     self.ended = True
@@ -147,7 +147,7 @@ def reopen_files() -> None:
     move each other's position.
     """
     for number in map(int, os.listdir("/proc/self/fd")):
-        with suppress(OSError):  # the folder that was listed is closed
+        with suppress(OSError):  # the descriptor of the listing itself is closed
             if number > 2 and stat.S_ISREG(os.fstat(number).st_mode):
                 reopened = os.open(f"/proc/self/fd/{number}", os.O_RDONLY)
                 os.lseek(reopened, os.lseek(number, 0, os.SEEK_CUR), os.SEEK_SET)
@@ -188,9 +188,9 @@ def run_script(script: str, environment: dict[str, str]) -> int:
 
 
 def leave() -> None:
-    """End this process without tearing down all that its parent imported."""
+    """End this process without freeing the imported modules."""
     for stream in (sys.stdout, sys.stderr):
-        with suppress(OSError, ValueError):  # nobody reads it, or the job has closed it
+        with suppress(OSError, ValueError):  # the reader has ended, or the job has closed it
             stream.flush()
     os._exit(status)
 
@@ -198,7 +198,7 @@ def leave() -> None:
 status = 0
 
 if __name__ == "__main__":
-    atexit.register(leave)  # the first that is registered is the last that is done
+    atexit.register(leave)  # the first registered function is called last
     gc.disable()
     del sys.path[: not sys.flags.safe_path]  # the folder of this file
     request = Server(socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]).serve()

@@ -98,8 +98,8 @@ def test_a_benchmark_measures_the_job(folder):
             "",
             "rule wide runs in a separate Python process because it has 2 threads",
         ),
-        ("json", "threaded", "", "because what it imported runs 2 threads"),
-        ("json", "json", "shell.prefix('nice ')", "the workflow changes how commands are run"),
+        ("json", "threaded", "", "because the imported modules run 2 threads"),
+        ("json", "json", "shell.prefix('nice ')", "the workflow changes how shell"),
     ],
 )
 def test_a_job_that_cannot_be_a_fork_says_so_once(folder, kind, modules, edit, why):

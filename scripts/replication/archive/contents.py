@@ -19,7 +19,7 @@ def code_files(project: Path) -> list[str]:
     """
     names = _tracked(project) if (project / ".git").exists() else _unpacked(project)
     if absent := [name for name in names if not (project / name).is_file()]:
-        raise ArchiveError(f"{project / absent[0]} is missing; put it back, or `git rm` it")
+        raise ArchiveError(f"{project / absent[0]} is missing: restore it, or `git rm` it")
     return sorted(names)
 
 
@@ -28,17 +28,17 @@ def _tracked(project: Path) -> list[str]:
     try:
         run = subprocess.run(command, capture_output=True, text=True)
     except FileNotFoundError:
-        raise ArchiveError(f"{project} is a clone of git; install git to pack it") from None
+        raise ArchiveError(f"{project} is a git clone: install git to pack it") from None
     if run.returncode:
-        raise ArchiveError(f"git does not list the files of {project}: {run.stderr.strip()}")
+        raise ArchiveError(f"git cannot list the files of {project}: {run.stderr.strip()}")
     return run.stdout.split("\0")[:-1]
 
 
 def _unpacked(project: Path) -> list[str]:
     if not (project / MANIFEST).is_file():
         raise ArchiveError(
-            f"{project / MANIFEST} is missing, and {project} is no clone of git: what belongs to "
-            "the project is not known; pack it from a clone or from an unpacked archive"
+            f"{project} is neither a git clone nor an unpacked archive ({MANIFEST} is missing): "
+            "pack it from one of these, because they list the files of the project"
         )
     rows = (project / MANIFEST).read_text("utf-8").splitlines()
     names = [row.split("  ", 1)[1] for row in rows]

@@ -1,8 +1,8 @@
 """Archive of the project and its results for a repository, as a Workflow RO-Crate 1.0.
 
-The bytes of the archive depend only on its members, so that everyone who packs the same files gets
-the same checksum. By default the library rocrate writes the current time and random identifiers.
-The root therefore gets the date of the release, and each entity an identifier.
+The bytes of the archive depend only on its members, so that packing the same files again gives the
+same checksum. By default the library rocrate writes the current time and random identifiers, so we
+set the date of the release and the identifier of each entity.
 """
 
 import gzip
@@ -25,14 +25,14 @@ from rocrate.rocrate import ROCrate
 from .contents import MANIFEST, ArchiveError, code_files
 
 PACKED_TIME = 315532800
-"""All files get this time, 1980-01-01: if times differed, Snakemake would make some files again."""
+"""The time of all files, 1980-01-01: if times differed, Snakemake would make some files again."""
 
 FORMATS = {".nc": "application/netcdf", ".png": "image/png", ".pdf": "application/pdf"}
 FORMATS |= {".html": "text/html", ".md": "text/markdown", ".json": "application/json"}
 
 
 class AliasFreeDumper(yaml.SafeDumper):
-    """A YAML writer without aliases: repeated values are written again, so that users can edit."""
+    """A YAML writer without aliases: users can edit each of several equal values on its own."""
 
     def ignore_aliases(self, data: object) -> bool:
         return True
@@ -56,11 +56,11 @@ def pack_results(
 ) -> None:
     """Write the archive of the project with `results`, and a file with its checksum.
 
-    `made_by` lists the code that made the results with the `configuration`.
+    `made_by` lists the code files that made the results with this `configuration`.
     """
     code = code_files(project.folder)  # first, because it reports missing files
     if left := sorted(set(made_by) - set(code)):
-        raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
+        raise ArchiveError(f"{left[0]} made these results but is not tracked: `git add` it")
     members = {name: project.folder / name for name in code} | {
         name: Path(name) for name in results
     }
@@ -74,21 +74,20 @@ def pack_results(
 
 
 def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, str]) -> int:
-    """Write files and texts, and a manifest of their checksums, below `folder`; return how many."""
+    """Write files, texts and a manifest of their checksums below `folder`; return their number."""
     data = {name: path.read_bytes() for name, path in files.items()}
     data |= {name: text.encode() for name, text in texts.items()}
     lines = (f"{hashlib.sha256(data[name]).hexdigest()}  {name}\n" for name in sorted(data))
     data[MANIFEST] = "".join(lines).encode()
     with (
         open(archive, "wb") as raw,
-        # The compressed bytes depend on the version of zlib, the files do not. Level 9 would take
-        # twice the time to save 0.2 % of the size.
+        # Compressed bytes also depend on zlib's version. Level 9 takes twice as long for 0.2 %.
         gzip.GzipFile("", "wb", 6, raw, mtime=PACKED_TIME) as zipped,
         tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
     ):
         for name, content in sorted(data.items()):
             runs = name in files and files[name].stat().st_mode & 0o100
-            entry = tarfile.TarInfo(f"{folder}/{name}")  # belongs to nobody
+            entry = tarfile.TarInfo(f"{folder}/{name}")  # has no owner
             entry.size, entry.mtime, entry.mode = (
                 len(content),
                 PACKED_TIME,
@@ -101,7 +100,7 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
 def describe(project: Project, members: dict[str, Path]) -> dict:
     """Return ro-crate-metadata.json: the workflow, its authors and citation, and each result.
 
-    The data come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
+    The metadata come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
     """
     cited = yaml.safe_load((project.folder / "CITATION.cff").read_text("utf-8"))
     pinned = (project.folder / "environment.txt").read_text("utf-8")

@@ -1,1 +1,1 @@
-"""An article on a replication, from one source as PDF, as a page and as Markdown."""
+"""An article on a replication, made from one source as PDF, HTML page and Markdown."""

@@ -1,7 +1,7 @@
-"""A card for each number, figure and verdict of an article: what it is, what makes it again.
+"""A card for each number, figure and verdict of an article: its meaning, data, code and command.
 
-The template prints texts with their sources. `Cards` notes each source that is printed, and
-describes them for the page, which shows a card beside its number, and for the appendix of the PDF.
+The template prints texts with their sources. `Cards` records each printed source, and describes it
+for the page, where a card opens next to its number, and for the appendix of the PDF.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -21,42 +21,42 @@ from .quoted import LongStudies, LongStudy, copy_of, is_quoted
 from .sources import Code, Printed, Source, code_of
 
 MOST_ROWS = 12
-"""A longer table shows the printed rows alone."""
+"""Of a longer table, a card shows only the rows that the article prints."""
 DIGITS = 5
-"""So many digits has a number in a card."""
+"""Significant digits of a number in a card."""
 ERRORS = {
     "_error": "error",
     "_statistical_error": "statistical error",
     "_low": "lower limit",
     "_high": "upper limit",
 }
-"""What a dataset holds of the error of a variable, by the end of its name."""
+"""Labels of variables with an error of another variable, by the suffix of their names."""
 FEWEST_POINTS, MOST_POINTS = 4, 60
-"""Of a curve in a card."""
+"""Limits on the number of points of a curve in a card."""
 DECADES = 100.0
-"""A curve over a larger range is drawn on a logarithmic scale."""
+"""A curve with a larger ratio of its ends is drawn on a logarithmic scale."""
 WIDE, HIGH = 160.0, 36.0
-"""The size of a curve, in pixels."""
+"""The size of a curve in pixels."""
 SIGNS = {
     Verdict.CONFIRMED: "✓",
     Verdict.CAVEAT: "(✓)",
     Verdict.UNDECIDED: "?",
 }
-"""How a verdict is marked in the text; all others are crosses."""
+"""The mark of a verdict in the text; all others have a cross."""
 CROSS = "✗"
 COUNTS = Source("claims.json", "verdicts")
 """The source of numbers that count claims."""
 
 
 class Link(NamedTuple):
-    """A text that leads to a file or to a place in the report, or nowhere if `address` is empty."""
+    """A link to a file or to an anchor in the report; plain text if `address` is empty."""
 
     text: str
     address: str = ""
 
 
 class Table(NamedTuple):
-    """Numbers of a card; `keys` are the labels of each row."""
+    """A table in a card; `keys` are the labels of each row."""
 
     head: tuple[str, ...] = ()
     rows: tuple[tuple[str, ...], ...] = ()
@@ -64,7 +64,7 @@ class Table(NamedTuple):
 
 
 class Card(NamedTuple):
-    """What the article says of a source; `command` makes it again."""
+    """The description of a source; `command` makes it again."""
 
     id: str
     title: str
@@ -84,13 +84,13 @@ class Card(NamedTuple):
 
 
 def functions_of(cards: Iterable[Card]) -> list[Code]:
-    """Return the functions that made what cards describe, each once, by their names."""
+    """Return the functions that the cards name, each once, sorted by name."""
     functions = {card.code.name: card.code for card in cards if card.code.text}
     return [functions[name] for name in sorted(functions)]
 
 
 class Cards:
-    """The sources of what the article prints, in the order in which it does."""
+    """The sources of the printed texts, in the order of the article."""
 
     def __init__(self, results: Results, long_studies: LongStudies) -> None:
         self.results, self.long_studies = results, long_studies
@@ -98,12 +98,12 @@ class Cards:
         self._claims = {row["name"]: row for row in load(results)}
 
     def note(self, text: Printed) -> str:
-        """Note that a text is printed, and return the id of its card."""
+        """Record that a text is printed, and return the id of its card."""
         self._printed.setdefault(text.source.card, []).append(text)
         return text.source.card
 
     def clear(self) -> None:
-        """Forget what was printed, as a notice has taken its place."""
+        """Remove all records, because a notice is printed in place of the article."""
         self._printed.clear()
 
     def sign(self, claim: str) -> Printed:
@@ -116,11 +116,11 @@ class Cards:
         return bool(text.source.claim) and text.text in (*SIGNS.values(), CROSS)
 
     def verdict(self, sign: Printed) -> str:
-        """Return the verdict that a mark stands for."""
+        """Return the verdict that a mark means."""
         return self._claims[sign.source.claim]["verdict"]
 
     def row_of(self, text: Printed) -> int | None:
-        """Return which row of the table in its card holds a printed number."""
+        """Return the index of a printed number's row in the table of its card, or None."""
         if not text.source.variable or not text.source.labels:
             return None
         labels = dict(text.source.labels)
@@ -128,7 +128,7 @@ class Cards:
         return next((i for i, key in enumerate(keys) if key == labels), None)
 
     def describe(self) -> list[Card]:
-        """Return a card for each source that was printed."""
+        """Return a card for each printed source."""
         return [self._describe(texts) for texts in self._printed.values()]
 
     def _describe(self, texts: list[Printed]) -> Card:
@@ -222,7 +222,7 @@ class Cards:
         )
 
     def _of_dataset(self, source: Source, texts: list[Printed]) -> Card:
-        """Return a card on what a dataset was computed with."""
+        """Return a card on the attributes and coordinates with which a dataset was computed."""
         study = self._long_study(source.dataset)
         if source.dataset not in self.results:
             measured = "Wall times of whole runs in seconds, with the number of cores"
@@ -252,13 +252,13 @@ class Cards:
         )
 
     def _tabulate(self, source: Source) -> Table:
-        """Return the numbers of a variable, all if they are few, else those that are printed."""
+        """Return the numbers of a variable: all if they are few, else the printed ones."""
         data = self.results[source.dataset]
         sources = [text.source for text in self._printed.get(source.card, [])] or [source]
         return tabulate(data, source.variable, [dict(each.labels) for each in sources])
 
     def _variations(self, source: Source, table: Table) -> Table:
-        """Return the numbers of a table again, a row for each choice that was changed."""
+        """Return the numbers of a table as measured again, with a row for each changed choice."""
         varied = f"{source.variable}_varied"
         if varied not in self.results[source.dataset]:
             return Table()
@@ -274,7 +274,7 @@ class Cards:
         return Table(("changed", *(", ".join(row[:labels]) for row in table.rows)), tuple(rows))
 
     def _long_study(self, name: str) -> LongStudy | None:
-        """Return the long study that a dataset is of, or None if a full run makes it."""
+        """Return the long study of a dataset, or None if a full run makes the dataset."""
         studies = self.long_studies
         return studies.get(name) or studies.get(name.rpartition("/")[0])
 
@@ -287,11 +287,11 @@ class Cards:
 
 
 RESULTS = "results"
-"""The folder of a run, as commands name it."""
+"""The folder of a run in commands."""
 
 
 def chosen_value(data: xr.Dataset, name: str) -> str:
-    """Return an attribute or a coordinate of a dataset in words."""
+    """Return an attribute of a dataset, or the range of a coordinate, as text."""
     if name not in data.coords:
         return _in_words(data.attrs[name])
     values = data[name].values
@@ -299,7 +299,7 @@ def chosen_value(data: xr.Dataset, name: str) -> str:
 
 
 def tabulate(data: xr.Dataset, variable: str, selections: Iterable[Mapping[str, Any]]) -> Table:
-    """Return a variable with its errors: a row for each number, with the labels first."""
+    """Return a variable as a table: for each number a row of its labels, value and errors."""
     values = data[variable]
     if values.size <= MOST_ROWS:
         selections = [{}]
@@ -327,7 +327,7 @@ def tabulate(data: xr.Dataset, variable: str, selections: Iterable[Mapping[str, 
 def tabulate_rows(
     values: xr.DataArray, selections: Iterable[Mapping[str, Any]]
 ) -> Iterator[xr.DataArray]:
-    """Yield each number of the selections once; a selection of too many numbers is left out."""
+    """Yield each number of the selections once; selections above MOST_ROWS are left out."""
     seen = set()
     for labels in selections:
         selected = values.sel(labels)
@@ -342,7 +342,7 @@ def tabulate_rows(
 
 
 def draw_curve(data: xr.Dataset, variable: str) -> str:
-    """Return the points of a small curve of a variable over its only dimension, none otherwise."""
+    """Return the points of a small curve (SVG), empty unless a variable has one dimension."""
     values = data.get(variable)
     if values is None or values.ndim != 1 or values.dtype.kind not in "fi":
         return ""
@@ -363,7 +363,7 @@ def draw_curve(data: xr.Dataset, variable: str) -> str:
 
 
 def describe_ends(values: xr.DataArray) -> str:
-    """Return the least and the largest of many numbers in words."""
+    """Return a phrase with the range of a variable, empty if its table shows all numbers."""
     if values.size <= MOST_ROWS or values.dtype.kind not in "fi":
         return ""
     ends = (number(float(end(values.values)), DIGITS) for end in (np.nanmin, np.nanmax))

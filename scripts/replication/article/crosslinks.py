@@ -1,6 +1,6 @@
-"""Links inside the article: from "Figure 3" and "[1]" to what they name, and words for pictures.
+"""Links in the article from "Figure 3" and "[1]" to these, and alternative texts of pictures.
 
-They are made from the finished Markdown, so that the template stays plain to read.
+They are added to the finished Markdown, so that the template stays readable.
 """
 
 import re
@@ -28,7 +28,7 @@ PLAIN_TEX = {
     "_2": "₂",
     "_n": "ₙ",
 }
-"""The TeX of captions, as screen readers can read it."""
+"""Readable letters for the TeX of captions, for screen readers."""
 CAPTION = re.compile(r"^\*\*(Figure|Table) (\d+)\.\*\*", re.MULTILINE)
 PICTURE = re.compile(r"^!\[(\*\*(?:Figure|Table) (\d+)\.\*\*.*)\]\(([^()\s]+)\)$", re.MULTILINE)
 MENTION = re.compile(r"(?<!\*\*)\b(Figure|Table) (\d+)\b(?!\.\*\*)|\[(\d+)\](?![(\[:])")
@@ -37,12 +37,15 @@ HEADING = re.compile(r"^(##+) (.+)$", re.MULTILINE)
 EQUATION = re.compile(r"^\$\$.+\$\$$", re.MULTILINE)
 TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
 REGION = 'tabindex=0 role=region aria-label="{}"'
-"""Browsers let the arrow keys scroll only what can have the focus, such as a wide table."""
+"""Makes wide tables focusable, because browsers scroll only focused elements by arrow keys."""
 
 
 def link_mentions(text: str) -> str:
-    """Return the article in Pandoc's Markdown with an id on each heading, figure, table, equation
-    and reference, and with links from where a figure, a table or a reference is mentioned."""
+    """Return the article in Pandoc's Markdown with ids and links.
+
+    Headings, figures, tables, equations and references get ids. Mentions of figures, tables and
+    references become links.
+    """
     body, heading, references = text.partition("\n## References\n")
     places = {f"{kind.lower()}-{number}" for kind, number in CAPTION.findall(body)}
     places |= {f"figure-{number}" for _, number, _ in PICTURE.findall(body)}
@@ -66,13 +69,13 @@ def link_mentions(text: str) -> str:
 
 
 def alternatives(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the path of each picture of the article in Markdown, and its caption in words."""
+    """Yield the path and the alternative text of each picture of the article in Markdown."""
     for caption, _, path in PICTURE.findall(text):
         yield path, describe_caption(caption)
 
 
 def describe_caption(caption: str) -> str:
-    """Return a caption as plain words; raises ValueError if it holds unknown TeX."""
+    """Return a caption as plain text; raise ValueError for TeX that is not in PLAIN_TEX."""
     for tex, letter in PLAIN_TEX.items():
         caption = caption.replace(tex, letter)
     caption = re.sub(r"\s*\[[^\]]*\]\([^)]*\)\{\.source\}", "", caption)
@@ -84,9 +87,9 @@ def describe_caption(caption: str) -> str:
 
 
 def _frame_tables(body: str) -> str:
-    """Put each table into a region, and write the formulas of its head as letters.
+    """Put each table into a region, and replace formulas in its header by letters.
 
-    Checkers of accessibility take a head that holds MathML alone for empty.
+    Accessibility checkers regard a header cell with nothing but MathML as empty.
     """
     numbers = count(1)
 

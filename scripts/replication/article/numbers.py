@@ -1,6 +1,7 @@
 """The numbers that an article prints, each with the source that its card describes."""
 
 from collections.abc import Callable
+from typing import Any
 
 from replication.ledger.rows import counted_verdicts, load, on_figure, whether_it_holds
 from replication.results import Results
@@ -20,9 +21,9 @@ from .quoted import is_quoted
 from .sources import Printed, Source, printed
 
 MARK = "†"
-"""It follows each result of a long study, which a full run does not make again."""
+"""Printed after each result of a long study, which a full run does not compute again."""
 PER_CENT_DIGITS = 2
-"""So many digits has a fraction in per cent."""
+"""Significant digits of a fraction in per cent."""
 FUNCTIONS = (
     "labels",
     "of",
@@ -36,11 +37,11 @@ FUNCTIONS = (
     "verdicts",
     "figure_holds",
 )
-"""The methods of `Numbers` that a template calls by their names."""
+"""The methods of `Numbers` that a template can call."""
 
 
 class Numbers:
-    """Numbers of a run: `of` datasets, or measured for claims (`n`), also in per cent."""
+    """Numbers of a run: `of` its datasets, or measured for claims (`n`), also in per cent."""
 
     def __init__(self, results: Results) -> None:
         self.results, self.rows = results, load(results)
@@ -50,8 +51,8 @@ class Numbers:
         """Return the labels of a coordinate."""
         return list(self.results[name][coordinate].values)
 
-    def of(self, name: str, variable: str, digits: int = 3, **labels) -> Printed:
-        """Return a number with what the dataset has of its error; a time may never come."""
+    def of(self, name: str, variable: str, digits: int = 3, **labels: Any) -> Printed:
+        """Return a number with its error or confidence interval, if the dataset has one."""
         data = self.results[name].sel(labels)
         if f"{variable}_error" in data and f"{variable}_low" not in data:
             value, error = (float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
@@ -59,33 +60,33 @@ class Numbers:
         write = lambda value: number(value, digits)  # noqa: E731
         return self._with_limits(name, variable, labels, digits, write)
 
-    def share(self, name: str, variable: str, **labels) -> Printed:
+    def share(self, name: str, variable: str, **labels: Any) -> Printed:
         """Return a fraction in per cent."""
         return self._with_limits(name, variable, labels, PER_CENT_DIGITS, percent)
 
-    def percent_of(self, name: str, variable: str, **labels) -> Printed:
+    def percent_of(self, name: str, variable: str, **labels: Any) -> Printed:
         """Return a number with its error in per cent."""
         data = self.results[name].sel(labels)
         value, error = (100.0 * float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
         return self._mark(f"({with_error(value, error)}){FIRM}%", name, variable, labels)
 
     def span(self, name: str, variable: str, digits: int = 3) -> Printed:
-        """Return the range of a number over all its labels, which contains their errors."""
+        """Return the range of a variable over all labels, errors included."""
         limits = self._limits(name, variable, {})
         return self._mark(enclosing_span(*limits, digits), name, variable, {})
 
     def range_of(
-        self, name: str, variable: str, digits: int = 2, definition: str = "", **labels
+        self, name: str, variable: str, digits: int = 2, definition: str = "", **labels: Any
     ) -> Printed:
-        """Return the range of several numbers with their limits, such as 6.7 to 7.9.
+        """Return the range of several numbers with their errors, such as 6.7 to 7.9.
 
-        Variations of `definition` are left out: they measure another thing, printed by itself.
+        Variations of `definition` are left out: they define another quantity, printed separately.
         """
         limits = self._limits(name, variable, labels, definition)
         return self._mark(enclosing_span(*limits, digits), name, variable, labels)
 
-    def share_span(self, name: str, variable: str, **labels) -> Printed:
-        """Return the range of several fractions with their limits in per cent."""
+    def share_span(self, name: str, variable: str, **labels: Any) -> Printed:
+        """Return the range of several fractions with their errors in per cent."""
         low, high = self._limits(name, variable, labels)
         ends = outward(low, PER_CENT_DIGITS, DOWN), outward(high, PER_CENT_DIGITS, UP)
         return self._mark(" to ".join(map(percent, ends)), name, variable, labels)
@@ -95,7 +96,7 @@ class Numbers:
         return Printed(number(self.measured(claim, key), digits), Source(claim=claim))
 
     def share_of(self, claim: str, key: str) -> Printed:
-        """Return the same in per cent."""
+        """Return a number that decides a claim in per cent."""
         return Printed(percent(self.measured(claim, key)), Source(claim=claim))
 
     def measured(self, claim: str, key: str) -> float:
@@ -104,12 +105,12 @@ class Numbers:
         return float({"none": "nan", "infinite": "inf"}.get(value, value))
 
     def verdicts(self, figure: int) -> Printed:
-        """Return how many of the paper's claims on a figure have each verdict."""
+        """Return the number of the paper's claims on a figure with each verdict."""
         text = counted_verdicts(on_figure(self.rows, figure))
         return Printed(text, Source(figure=f"fig{figure}"))
 
     def figure_holds(self, figure: int) -> Printed:
-        """Return in words whether what the paper says of a figure holds."""
+        """Return a phrase on whether the paper's claims on a figure hold."""
         text = whether_it_holds(on_figure(self.rows, figure))
         return Printed(text, Source(figure=f"fig{figure}"))
 
@@ -120,7 +121,7 @@ class Numbers:
     def _limits(
         self, name: str, variable: str, labels: dict, definition: str = ""
     ) -> tuple[float, float]:
-        """Return the least lower and the largest upper limit of all numbers of a variable."""
+        """Return the smallest lower and the largest upper limit of all numbers of a variable."""
         data = self.results[name].sel(labels)
         value = data[variable]
         if definition:
@@ -140,7 +141,7 @@ class Numbers:
     def _with_limits(
         self, name: str, variable: str, labels: dict, digits: int, write: Callable[[float], str]
     ) -> Printed:
-        """Return a number with its confidence interval, if this has a width, rounded outward."""
+        """Return a number with its confidence interval, if that is not zero, rounded outward."""
         data = self.results[name].sel(labels)
         value = float(data[variable] if variable in data.variables else data.attrs[variable])
         middle = write(outward(value, digits, DOWN) if variable.endswith("_low") else value)
@@ -152,9 +153,9 @@ class Numbers:
         interval = f" ({' to '.join(ends)})" if set(ends) - {middle} else ""
         if variable in data.data_vars:
             return self._mark(middle + interval, name, variable, labels)
-        return Printed(middle + interval, Source(name, attribute=variable))  # it was chosen
+        return Printed(middle + interval, Source(name, attribute=variable))  # chosen, not computed
 
     def _mark(self, text: str, name: str, variable: str, labels: dict) -> Printed:
-        """Return a result, with a mark if it is of a long study."""
+        """Return a printed result, followed by MARK if it is of a long study."""
         variable = variable.removesuffix("_low")
         return printed(f"{text}{MARK if is_quoted(name) else ''}", name, variable, labels)

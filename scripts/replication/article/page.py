@@ -1,4 +1,4 @@
-"""The page of an article: its cards, its script, and what runs in it."""
+"""The HTML page of an article, with its cards, scripts and live figures."""
 
 import base64
 import re
@@ -16,7 +16,7 @@ from .cards import Card, functions_of
 THIS_FOLDER = Path(__file__).parent
 SCRIPT = "cards.js"
 ANNOTATION = re.compile(r"<annotation .*?</annotation>")
-"""The TeX of a formula, which readers aloud, and whoever copies it, would get as well."""
+"""The TeX of a formula; screen readers would read it, and copied text would contain it."""
 
 PICTURE = re.compile(r'<img src="([^":]*\.png)"([^>]*)>')
 COLOURS = 256
@@ -25,7 +25,7 @@ FIGURE = re.compile(r'<figure id="(figure-\d+)">\s*<a href="([^"]*)\.png">')
 
 
 class LiveParts(NamedTuple):
-    """What a page holds beside its text: HTML below figures by their ids, data, a script."""
+    """Parts of a page with live figures: HTML below figures by their ids, data, script, style."""
 
     below_figures: Mapping[str, str]
     data: str
@@ -36,13 +36,10 @@ class LiveParts(NamedTuple):
 def complete_page(
     html: str, folder: Path, cards: Iterable[Card], live: LiveParts | None = None
 ) -> str:
-    """Return a page that Pandoc made with its pictures, cards and scripts, and with live figures.
-
-    The pictures lie below `folder`.
-    """
+    """Return a page of Pandoc completed by cards, scripts, live figures, pictures in `folder`."""
     cards = list(cards)
     script = "".join(
-        f"{{\n{text}}}\n"  # each in a block, since both have names of their own
+        f"{{\n{text}}}\n"  # in a block of its own, so that equal names do not clash
         for text in (
             (THIS_FOLDER / SCRIPT).read_text(encoding="utf-8"),
             live.script if live else "",
@@ -83,12 +80,12 @@ def places_of(page: Path) -> dict[str, str]:
 
 
 def _enlargeable(folder: Path, picture: str, attributes: str) -> str:
-    """Return a picture that leads to its file, which browsers enlarge."""
+    """Return a picture with a link to its file, in which browsers can zoom."""
     return f'<a href="{picture}"><img src="{embed(folder / picture)}"{attributes}></a>'
 
 
 def embed(picture: Path) -> str:
-    """Return a picture as an address that holds it, in 256 colours, a third of the bytes.
+    """Return a picture as a data URL, in 256 colours for a third of the bytes.
 
     Drawings have few colours, and the shades at the edges of lines hardly change.
     """

@@ -1,6 +1,6 @@
-"""Committed results of long studies that an article quotes, copied beside it.
+"""Committed results of long studies that an article quotes, copied into its folder.
 
-So each link of the article works where the results are sent or hosted alone.
+So every link of the article works if the folder is sent or hosted without the project.
 """
 
 from collections.abc import Iterable, Mapping
@@ -11,40 +11,40 @@ from typing import NamedTuple
 from latticode.datasets import complete_or_absent
 
 FOLDER = "quoted"
-"""Where the copies lie, seen from the article."""
+"""The folder of the copies in the article's folder."""
 BASELINE = "tests/baseline"
-"""Where the originals lie below the project."""
+"""The folder of the originals in the project."""
 
 
 class LongStudy(NamedTuple):
-    """The command that makes a long study, and its function where no file names it."""
+    """The command of a long study, and its function, if its files do not name it."""
 
     command: str
     function: str = ""
 
 
 LongStudies = Mapping[str, LongStudy]
-"""Long studies by the name, or by the folder, of the copies that are quoted of them."""
+"""Long studies by the name or the folder of the quoted copies."""
 
 
 def copy_of(original: str) -> str:
-    """Return where the article finds the copy of a file below tests/baseline."""
+    """Return the path, relative to the article, of the copy of a file in tests/baseline."""
     return f"{FOLDER}/{original.removeprefix(f'{BASELINE}/').removeprefix('quoted/')}"
 
 
 def original_of(copy: str) -> str:
-    """Return the path below the project of the file whose copy the article finds at `copy`."""
+    """Return the path in the project of the original of `copy`."""
     name = copy.removeprefix(f"{FOLDER}/")
     return f"{BASELINE}/{name if '/' in name else f'quoted/{name}'}"
 
 
 def is_quoted(name: str) -> bool:
-    """Return whether a dataset is of a long study, which a full run does not make again."""
+    """Return whether a dataset is of a long study, which a full run does not compute again."""
     return name.startswith(f"{FOLDER}/")
 
 
 def copy_quoted(originals: Iterable[str], copies: Iterable[str]) -> None:
-    """Copy committed files to where the article links to them, in the same order."""
+    """Copy committed files to the paths `copies`, in the same order."""
     for original, copy in zip(originals, copies, strict=True):
         with complete_or_absent(copy) as partial:
             copyfile(Path(original), partial)

@@ -1,7 +1,7 @@
-"""An article as PDF, HTML and Markdown, with the metadata that a journal asks for.
+"""An article as PDF, HTML and Markdown, with the metadata that a journal requires.
 
-Its source is Markdown with formulas in TeX. Pandoc turns it into HTML with MathML, and into the
-language of Typst, which sets the PDF with the fonts that come with it.
+Its source is Markdown with formulas in TeX. Pandoc converts it to HTML with MathML, and to Typst,
+which typesets the PDF with its own fonts.
 """
 
 import json
@@ -32,25 +32,25 @@ from .sources import Printed, Source
 LAYOUTS = Path(__file__).parent
 MARKDOWN = "markdown-auto_identifiers"
 VECTORS = "/figures/{}.pdf"
-"""Where the figures lie for the PDF."""
+"""Pattern of the paths of figures in the PDF's source."""
 MARKS = {
     "holds": (Verdict.CONFIRMED, Verdict.CAVEAT),
     "fails": REFUTED,
     "undecided": (Verdict.UNDECIDED,),
 }
-"""How the template marks sentences that rest on a verdict. Every claim of the paper that fails or
-cannot be decided must be marked."""
+"""The verdicts for which the template may mark a sentence with this function. A claim of the paper
+that fails or is undecided must be marked."""
 TO_CARD = "data and code"
-"""The words below a figure that lead to its card."""
+"""The text of the link from a caption to the card of its figure."""
 
 
 class Article(NamedTuple):
     """The article of one replication.
 
-    `folder` holds its source article.md.j2 and the journal's metadata.yaml, `gather` returns the
-    functions and numbers that the source names, and `long_studies` what makes again what it quotes.
-    `navigation` are the links above the page in HTML, `rights` the sentence on licenses below the
-    PDF.
+    `folder` contains its source article.md.j2 and the journal's metadata.yaml. `gather` returns the
+    functions and numbers that the source uses, `long_studies` are the studies that it quotes.
+    `navigation` is HTML with the links above the page, `rights` the sentence on licenses at the end
+    of the PDF.
     """
 
     folder: Path
@@ -64,7 +64,7 @@ class Article(NamedTuple):
     def write(
         self, results: Results, html: str, pdf: str, metadata: str, live: LiveParts | None = None
     ) -> None:
-        """Write the page, with what runs in it, the PDF and the journal's metadata."""
+        """Write the page with its `live` figures, the PDF, and the journal's metadata."""
         contents = {
             html: self.page(results, live).encode(),
             pdf: self.pdf(results, VECTORS),
@@ -75,25 +75,25 @@ class Article(NamedTuple):
                 Path(partial).write_bytes(content)
 
     def page(self, results: Results, live: LiveParts | None = None) -> str:
-        """Return the article as a page of HTML with its pictures and a card for each number."""
+        """Return the article as an HTML page with its pictures and a card for each number."""
         cards = Cards(results, self.long_studies)
         text = self.source(results, "figures/{}.png", cards)
         html = self.convert(text, "html", "--mathml", "--standalone")
         return complete_page(html, _folder(results), cards.describe(), live)
 
     def pdf(self, results: Results, pictures: str) -> bytes:
-        """Return the article as PDF; an appendix says where its numbers come from.
+        """Return the article as PDF, with an appendix on the origin of its numbers.
 
-        `pictures` is the path of a figure by its name, seen from the folder of the results.
+        `pictures` is the pattern of figures' paths, such as VECTORS, from the folder of results.
         """
         cards = Cards(results, self.long_studies)
         text = self.source(results, pictures, cards)
         return self.typeset(text, _folder(results), cards.describe())
 
     def typeset(self, text: str, folder: Path, cards: Iterable[Card]) -> bytes:
-        """Return as PDF the article in Markdown, whose pictures lie in `folder`.
+        """Return the PDF of an article in Markdown; `folder` is the root of its pictures' paths.
 
-        Equal articles have equal bytes.
+        Equal articles give equal bytes.
         """
         code = self.convert(text, "typst")
         for picture, words in alternatives(text):
@@ -108,7 +108,7 @@ class Article(NamedTuple):
         )
 
     def appendix(self, cards: list[Card]) -> dict[str, list]:
-        """Return what the appendix of the PDF prints."""
+        """Return the content of the appendix of the PDF."""
         return {
             "cards": list(map(_entry, cards)),
             "functions": [[code.short_name, code.file] for code in functions_of(cards)],
@@ -127,11 +127,11 @@ class Article(NamedTuple):
         return yaml.safe_dump(metadata, sort_keys=False, allow_unicode=True)
 
     def source(self, results: Results, pictures: str, cards: Cards | None = None) -> str:
-        """Return the article in Markdown, or a notice where it would not be true of this run.
+        """Return the article in Markdown, or a notice if it would not be true of this run.
 
-        `pictures` is the path of a figure by its name, such as "figures/{}.png". With `cards`
-        numbers, verdicts and figures link to them, and captions belong to the pictures; without,
-        the text is plain, and captions are paragraphs.
+        `pictures` is the pattern of figures' paths, such as "figures/{}.png". With `cards` numbers,
+        verdicts and figures link to them, and pictures have captions. Without, there are no such
+        links, and captions are paragraphs.
         """
         if results.differs:
             return self._notice([f"{in_short(list(results.differs.values()))}."])
@@ -150,7 +150,7 @@ class Article(NamedTuple):
             **self.gather(results),
         )
         text = re.sub(r"\$\s=\s+", f"${FIRM}={FIRM}", text)
-        text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # else a list would begin there
+        text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # no numbered list is meant
         wrong = list(_untrue(marked, load(results)))
         if wrong and cards:
             cards.clear()
@@ -164,7 +164,7 @@ class Article(NamedTuple):
         return f"# {self.title}\n\n**Abstract.** {summary}\n\n{listed}\n"
 
     def convert(self, text: str, kind: str, *options: str) -> str:
-        """Return Markdown as "html" or "typst", in the layout of this folder."""
+        """Return Markdown converted to the `kind` "html" or "typst", in the layout of its room."""
         layout = LAYOUTS / {"html": "article.html", "typst": "article.typ"}[kind]
         settings = [
             "--wrap=none",
@@ -180,7 +180,7 @@ class Article(NamedTuple):
 
 
 def _write_value(value: Any, cards: Cards | None) -> str:
-    """Return a value of the template in Markdown, linked to its card if there are cards."""
+    """Return a value of the template as Markdown, linked to its card if there are cards."""
     if isinstance(value, list):
         return "".join(_write_value(entry, cards) for entry in value)
     if not isinstance(value, Printed) or cards is None:
@@ -194,7 +194,7 @@ def _write_value(value: Any, cards: Cards | None) -> str:
 
 
 def _picture(name: str, path: str, caption: str, cards: Cards | None) -> str:
-    """Return a figure in Markdown; with cards its caption is a part of it and ends with a link."""
+    """Return a figure as Markdown; with cards it gets a caption that ends with a link."""
     if cards is None:
         return f"![{name}]({path})\n\n{caption}\n"
     card = cards.note(Printed("", Source(figure=name)))
@@ -202,7 +202,7 @@ def _picture(name: str, path: str, caption: str, cards: Cards | None) -> str:
 
 
 def _recorder(claims: set[str], cards: Cards | None) -> Callable[..., list[Printed]]:
-    """Return a function of a template that notes names of claims and prints their verdicts."""
+    """Return a function for the template that adds names to `claims` and prints their verdicts."""
 
     def record(*names: str) -> list[Printed]:
         claims.update(names)
@@ -212,7 +212,7 @@ def _recorder(claims: set[str], cards: Cards | None) -> Callable[..., list[Print
 
 
 def _untrue(marked: Mapping[str, set[str]], rows: list[dict]) -> Iterator[str]:
-    """Yield verdicts that are not those of the article, or that it leaves out."""
+    """Yield a sentence for each verdict that contradicts the article or is missing there."""
     for row in rows:
         stated = {mark for mark, claims in marked.items() if row["name"] in claims}
         right = {mark for mark, verdicts in MARKS.items() if row["verdict"] in verdicts}
@@ -222,7 +222,7 @@ def _untrue(marked: Mapping[str, set[str]], rows: list[dict]) -> Iterator[str]:
 
 
 def _entry(card: Card) -> dict[str, str]:
-    """Return what the appendix of the PDF prints of a card."""
+    """Return a card's entry in the appendix of the PDF."""
     return {
         "id": card.id,
         "texts": ", ".join(card.texts),

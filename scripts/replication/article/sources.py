@@ -1,4 +1,4 @@
-"""Where a printed number comes from, and the code that made it."""
+"""The source of a printed number, and the code that computed it."""
 
 import ast
 import hashlib
@@ -10,24 +10,24 @@ from typing import Any, NamedTuple
 from latticode.kernels.sources import ROOTS
 
 PROJECT = Path(__file__).resolve().parents[3]
-"""The folder that holds the code of the replication."""
+"""The folder of the project."""
 BLOB_DIGITS = 12
-"""By so many digits git finds the content of a file."""
+"""Digits of git's id of the content of a file."""
 
 
 class Source(NamedTuple):
-    """What a text rests on: numbers of a dataset, a claim, or a figure."""
+    """The source of a text: numbers of a dataset, a claim, or a figure."""
 
     dataset: str = ""
     variable: str = ""
     labels: tuple[tuple[str, Any], ...] = ()
     claim: str = ""
     figure: str = ""
-    attribute: str = ""  # or a coordinate: what the dataset was computed with
+    attribute: str = ""  # an attribute or coordinate with which the dataset was computed
 
     @property
     def card(self) -> str:
-        """The id of the card on it, which begins as the anchor in the report does."""
+        """The id of the card: the anchor in the report, and for a variable `.variable`."""
         if self.figure:
             return f"figures/{self.figure}"
         if self.claim:
@@ -37,7 +37,7 @@ class Source(NamedTuple):
 
 
 class Printed(NamedTuple):
-    """A text of the article and where it comes from."""
+    """A text of the article and its source."""
 
     text: str
     source: Source
@@ -49,12 +49,12 @@ class Printed(NamedTuple):
 def printed(
     text: str, dataset: str, variable: str = "", labels: Mapping[str, Any] | None = None
 ) -> Printed:
-    """Return a text that is printed of a variable of a dataset at these labels."""
+    """Return a text whose source is a variable of a dataset at these labels."""
     return Printed(text, Source(dataset, variable, tuple((labels or {}).items())))
 
 
 class Code(NamedTuple):
-    """A function: its dotted name, its file below the project, git's id of this file, its text."""
+    """A function: dotted name, file (a path in the project), git's id of this file, and text."""
 
     name: str
     file: str = ""
@@ -63,13 +63,13 @@ class Code(NamedTuple):
 
     @property
     def short_name(self) -> str:
-        """The name without that of its module."""
+        """The name without the module."""
         return self.name.rpartition(".")[2]
 
 
 @cache
 def code_of(function: str) -> Code:
-    """Return the code of a function; its name alone if it was renamed since the results."""
+    """Return the code of a function, or only its name if it does not exist any more."""
     module, _, name = function.rpartition(".")
     path = ROOTS[module.partition(".")[0]] / f"{module.replace('.', '/')}.py"
     definition = _definitions(path).get(name) if path.exists() else None

@@ -1,8 +1,8 @@
-"""The ledger of claims: every sentence of the paper that numbers can decide, with its verdict.
+"""The ledger of claims: each sentence of the paper that numbers can decide, with its verdict.
 
 `claim`      a claim, as a study declares it above the function that decides it
 `chances`    the chance that another correct run changes a verdict
-`changes`    functions that make wrong cases of datasets
+`changes`    functions that turn datasets into wrong cases
 `criterion`  inequalities on measured numbers, with their text
 `cutoff`     the numbers in criteria, their origins, and the verdicts if one is changed
 `missing`    data that are missing from a dataset, so that it confirms no claim

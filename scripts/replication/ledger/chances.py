@@ -1,12 +1,12 @@
 """The chance that another correct run changes a verdict, since chaotic numbers differ between runs.
 
-Two correct runs differ in last bits or seeds, and so in each chaotic number. A verdict that one run
-in twenty changes is worthless. Statistical tests therefore use the level `RARE`, and the numbers of
-other criteria must lie far from their limits.
+Correct runs differ in last bits or seeds, and so in each chaotic number. A verdict that changes in
+one run of twenty is worthless. Statistical tests therefore use the level `RARE`, and the numbers of
+other criteria must be far from their limits.
 
-The distance is measured on several correct runs. A number changes a verdict where its margin to the
-limit changes sign. The chance of that in one more run is given by Student's t, from the mean and
-the scatter of the margin over the runs. It is zero for a number that is the same in all runs.
+Several correct runs measure this distance. A number changes the verdict if its margin to the limit
+changes sign. The chance of this in one more run follows from Student's t, with the mean and the
+scatter of the margin over the runs. It is zero for a number that is the same in all runs.
 """
 
 from collections import Counter
@@ -24,7 +24,7 @@ RARE = Cutoff(1e-5, "the chance of an error of the test: no right run of 10,000 
 ALLOWED = 1e-4
 """Largest allowed chance that a correct run changes a verdict, or the outcome of a control."""
 SAME = 1e-12
-"""A relative scatter below this is rounding alone."""
+"""A smaller relative scatter is only rounding."""
 
 
 class Chance(NamedTuple):
@@ -40,7 +40,7 @@ class Chance(NamedTuple):
 def chance_to_cross(rooms: Sequence[float]) -> float:
     """Return the chance that one more sample has the opposite sign of `rooms`, which share a sign.
 
-    Infinite ones, as of a test on means without scatter, are left out.
+    Infinite samples are left out; a test on means without scatter has them.
     """
     finite = np.abs([room for room in rooms if np.isfinite(room)])
     if len(finite) < 2:
@@ -82,9 +82,9 @@ def chance_to_turn(findings: Sequence[Finding]) -> Chance:
 def chance_of_claim(looks: Sequence[Mapping[str, Finding]], moves: Iterable[str]) -> Chance:
     """Return the chance that a correct run changes the verdict on a claim, its caveat included.
 
-    Moved cut-offs count if the claim is confirmed, because it gets a caveat if one of them changes
-    the verdict. `looks` has the findings of each run: "" for the cut-offs themselves, and one for
-    each name in `moves`.
+    Moved cut-offs count for a confirmed claim, because it gets a caveat if one of them changes the
+    verdict. `looks` has the findings of each run: with the cut-offs as they are under "", and with
+    a moved cut-off under each name in `moves`.
     """
     unmoved = chance_to_turn([look[""] for look in looks])
     if any(look[""].verdict != Verdict.CONFIRMED for look in looks):

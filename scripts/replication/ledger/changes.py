@@ -1,7 +1,7 @@
-"""Functions that make wrong cases of datasets, for the controls of claims and for tests.
+"""Functions that turn datasets into wrong cases, for the controls of claims and for tests.
 
 Each returns a function that takes a dataset and returns the changed one. `names` are one or more
-variables. `at` restricts the change by coordinates, each with a label, a list of labels, or a slice
+variables. `at` restricts the change by coordinates: each has a label, a list of labels, or a slice
 that includes both ends. A dimension without labels has the labels 0, 1, ...
 """
 
@@ -16,31 +16,31 @@ from .criterion import UndecidableError
 Change = Callable[[xr.Dataset], xr.Dataset]
 Names = str | tuple[str, ...]
 NEAR = 1e-6
-"""Relative tolerance of labels, since accepted files hold them in single precision."""
+"""Relative tolerance of labels, because accepted files have them in single precision."""
 
 
-def scale(names: Names, by: float | xr.DataArray, **at) -> Change:
+def scale(names: Names, by: float | xr.DataArray, **at: Any) -> Change:
     """Multiply variables."""
     return _in_place(names, lambda values: values * by, at)
 
 
-def shift(names: Names, by: float, **at) -> Change:
+def shift(names: Names, by: float, **at: Any) -> Change:
     """Add a number to variables."""
     return _in_place(names, lambda values: values + by, at)
 
 
-def put(names: Names, to: float, **at) -> Change:
+def put(names: Names, to: float, **at: Any) -> Change:
     """Set all values of variables to one number."""
     return _in_place(names, lambda values: xr.full_like(values, to), at)
 
 
-def roll(names: Names, places: Mapping[str, int], **at) -> Change:
+def roll(names: Names, places: Mapping[str, int], **at: Any) -> Change:
     """Shift values cyclically along dimensions, by numbers of places; labels stay."""
     return _in_place(names, lambda values: values.roll(places, roll_coords=False), at)
 
 
-def exchange(along: str, *labels, names: Names = ()) -> Change:
-    """Exchange two labels of a coordinate, or reverse all; `names` alone if they are given."""
+def exchange(along: str, *labels: Any, names: Names = ()) -> Change:
+    """Exchange the values at two labels, or reverse all values; of `names`, or of all variables."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
         order = np.arange(data.sizes[along])
@@ -52,7 +52,7 @@ def exchange(along: str, *labels, names: Names = ()) -> Change:
 
 
 def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
-    """Copy the values at one label to the labels `at`; in the variables `names` or in all."""
+    """Copy the values at one label to the labels `at`; of `names`, or of all variables."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
         is_replaced = _is_at(data, along, at)
@@ -63,7 +63,7 @@ def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
 
 
 def take(**replacements: str) -> Change:
-    """Replace the values of variables by those of others; attributes stay."""
+    """Replace the values of each variable by those of the named one; attributes stay."""
     return lambda data: data.assign(
         {
             name: data[replacement].assign_attrs(data[name].attrs)
@@ -72,12 +72,12 @@ def take(**replacements: str) -> Change:
     )
 
 
-def take_from(*names: str, **at) -> Callable[[xr.Dataset, xr.Dataset], xr.Dataset]:
+def take_from(*names: str, **at: Any) -> Callable[[xr.Dataset, xr.Dataset], xr.Dataset]:
     """Return a function of two datasets that copies variables of the second into the first."""
     return lambda data, source: _in_place(names, lambda values: source[values.name], at)(data)
 
 
-def keep(**at) -> Change:
+def keep(**at: Any) -> Change:
     """Drop all but these labels."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
@@ -99,8 +99,8 @@ def _in_place(names: Names, change: Callable, at: Mapping) -> Change:
     return changed
 
 
-def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names) -> xr.Dataset:
-    """Return the variables with their numbers in this order along a coordinate, which stays."""
+def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names: Names) -> xr.Dataset:
+    """Return the variables with values in this order along a coordinate, which stays."""
     chosen = {name: data.variables[name] for name in _each(names) or data}
     return data.assign(
         {
@@ -115,12 +115,12 @@ def _each(names: Names) -> tuple[str, ...]:
     return (names,) if isinstance(names, str) else names
 
 
-def _place(data: xr.Dataset, along: str, label) -> int:
+def _place(data: xr.Dataset, along: str, label: Any) -> int:
     return int(np.flatnonzero(_is_at(data, along, label))[0])
 
 
-def _is_at(data: xr.Dataset, along: str, requested) -> xr.DataArray:
-    """Return a mask of the requested labels; raises UndecidableError if there is none."""
+def _is_at(data: xr.Dataset, along: str, requested: Any) -> xr.DataArray:
+    """Return a mask of the requested labels; raise UndecidableError if none of them exists."""
     labels = data[along]
     if isinstance(requested, slice):
         low = -np.inf if requested.start is None else requested.start

@@ -12,15 +12,15 @@ Wrong = str | Callable | tuple[str, Callable]
 
 
 class ClaimControl(NamedTuple):
-    """A wrong case for a deciding function, for which it must not confirm the claim.
+    """A wrong case for which the deciding function must not confirm the claim.
 
     `fed` maps the name of a needed dataset to its replacement: the name of another dataset, a
     function that makes the wrong dataset from the right one (see `changes`), or a pair of a name
     and a function of the right and the named dataset. If the claim needs a single dataset, `fed` is
-    the replacement itself. The folder of a name can be left out if it is the claim's.
+    the replacement itself. A name may omit its folder if this is the folder of the claim's dataset.
 
-    With `confirms` the case is right, and the function must confirm it. This is for a claim that
-    is not reproduced, whose function might confirm nothing at all. `on` names the paper's cases and
+    With `confirms` the case is right, and the function must confirm it: otherwise the function of a
+    claim that is not reproduced might never confirm anything. `on` names the paper's cases and
     sweeps that the control uses from a dataset of many.
     """
 
@@ -61,8 +61,8 @@ class Kind(StrEnum):
 class Claim(NamedTuple):
     """A sentence of the paper, the function that decides it, and the controls of that function.
 
-    `needs` names the datasets that decide it: paths below results/ without their ending. `on` names
-    the cases and sweeps that it is on, where a dataset holds others as well.
+    `needs` names the datasets that decide it: paths below results/ without suffix. `on` names the
+    cases and sweeps that the sentence is about, if a dataset has others as well.
     """
 
     name: str
@@ -78,7 +78,7 @@ class Claim(NamedTuple):
 
     @property
     def section(self) -> int:
-        """The section of the paper with which the module of this function begins."""
+        """The section of the paper, SECTION in the module of the deciding function."""
         return sys.modules[self.decide.__module__].SECTION
 
     @property
@@ -97,9 +97,9 @@ def claim(
     origin: Origin = Origin.PAPER,
     rejected: Verdict = Verdict.NOT_REPRODUCED,
 ) -> Callable:
-    """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
+    """Return a decorator for the function that decides this claim from the datasets in `needs`.
 
-    The claim has the name of the function. `rejected` is the verdict if the numbers contradict it.
+    The claim gets the name of the function. `rejected` is the verdict if the numbers contradict it.
     """
 
     def declare(function: Callable) -> Callable:
@@ -113,12 +113,13 @@ def claim(
 
 
 def _by_name(control: ClaimControl, needs: tuple[str, ...]) -> ClaimControl:
-    """Return the control with its replacements by complete names of datasets."""
+    """Return the control with complete names of datasets in `fed`."""
     fed, complete = control.fed, {}
     if not isinstance(fed, Mapping):
         if len(needs) > 1:
             raise ValueError(
-                f"control {control.description!r}: say which of {', '.join(needs)} it feeds"
+                f"control {control.description!r}: `fed` must be a mapping with names out of "
+                f"{', '.join(needs)}"
             )
         fed = {needs[0]: fed}
     for name, wrong in fed.items():

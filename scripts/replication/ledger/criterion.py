@@ -19,28 +19,27 @@ RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operat
 
 
 class Criterion(ABC):
-    """An inequality for the numbers called `names`; its text has the limits."""
+    """An inequality for the numbers `names`; its text has the limits."""
 
     names: tuple[str, ...]
 
     @abstractmethod
     def failing(self, measured: Measured) -> list[str]:
-        """Return the names whose numbers do not keep the criterion."""
+        """Return the names of the numbers that violate the criterion."""
 
     @abstractmethod
     def rooms(self, measured: Measured) -> dict[str, float]:
-        """Return by name the distance of a number to its limit, negative beyond the limit."""
+        """Return the distance of each number to its limit by name, negative beyond the limit."""
 
     def holds(self, measured: Measured) -> bool:
-        """Return whether all numbers keep the criterion."""
+        """Return whether all numbers satisfy the criterion."""
         return not self.failing(measured)
 
 
 class Limit(Criterion):
-    """A limit to which measured numbers have the relation `sign`; all of `names` must keep it.
+    """A limit for measured numbers: each of `names` must satisfy `number sign limit`.
 
-    The limit is a number or a `Cutoff`. `label` is what the numbers are called in print,
-    if their names alone are not clear.
+    The limit is a number or a `Cutoff`. `label` is printed in place of the names.
     """
 
     sign: str
@@ -84,9 +83,9 @@ class AtMost(Limit):
 
 
 class Distance(AtMost):
-    """No distance is above the limit; beyond it, it may be many times as large.
+    """No distance is above the limit; the room of a larger one is minus the log of their ratio.
 
-    So what it lacks there, and how that scatters, is counted in factors.
+    A distance can be many times the limit, and then scatters by a factor.
     """
 
     def room(self, value: float) -> float:
@@ -106,7 +105,7 @@ class AtLeast(Limit):
 
 
 class WithinFactor(Below):
-    """Each number lies between one over the limit and the limit, which is a factor above one."""
+    """Each number is between 1 / limit and the limit, which is a factor above one."""
 
     def is_within(self, value: float) -> bool:
         return 1.0 / self.limit < value < self.limit
@@ -119,7 +118,7 @@ class WithinFactor(Below):
 
 
 class Near(Limit):
-    """Each number differs from `target` by no more than the limit."""
+    """Each number differs from `target` by at most the limit."""
 
     def __init__(self, target: float, limit: SupportsFloat, *names: str, label: str = "") -> None:
         super().__init__(limit, *names, label=label)
@@ -138,7 +137,7 @@ class Near(Limit):
 
 
 class AllOf(Criterion):
-    """Several criteria; every single one must hold."""
+    """Several criteria, all of which must hold."""
 
     def __init__(self, *criteria: Criterion) -> None:
         self.names = tuple(
@@ -195,7 +194,7 @@ REFUTED = (Verdict.NOT_REPRODUCED, Verdict.NOT_CARRIED, Verdict.NOT_FOLLOWING)
 
 
 class UndecidableError(Exception):
-    """Raised by a deciding function whose data do not suffice; the message says why."""
+    """Data are not sufficient to decide a claim; the message has the reason."""
 
 
 class Finding(NamedTuple):
@@ -226,14 +225,14 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
 
 
 def undecided(measured: Measured, because: str, criterion: Criterion | None = None) -> Finding:
-    """Return the finding on a claim that the numbers at hand cannot decide.
+    """Return the finding on a claim that the measured numbers cannot decide.
 
-    The finding holds while the numbers stay on the same sides of the limits of `criterion`.
+    It stays undecided as long as the numbers remain on the same sides of the limits of `criterion`.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     return Finding(numbers, criterion, Verdict.UNDECIDED, because)
 
 
 def not_applicable(because: str) -> Finding:
-    """Return the finding on a claim whose case was not run, since the configuration differs."""
+    """Return the finding on a claim whose case was not run because the configuration differs."""
     return Finding({}, None, Verdict.NOT_APPLICABLE, because)

@@ -1,9 +1,9 @@
 """Cut-offs: numbers that decide a verdict, their origins, and the verdicts if one is changed.
 
 The paper writes "grows" or "comparable" without a number. To decide such a sentence we must choose
-one, and the ledger must report a verdict that depends on the choice. A cut-off therefore records
-that it was read while a claim is decided, and the ledger decides the claim again with each of these
-cut-offs a third smaller and larger.
+a number, and the ledger must report whether the verdict depends on the choice. A cut-off therefore
+records when it is read, and the ledger decides the claim again with each cut-off that its function
+reads, a third smaller and a third larger.
 """
 
 from collections.abc import Callable, Iterator
@@ -11,14 +11,14 @@ from functools import wraps
 from typing import Any, NamedTuple
 
 MOVES = (2.0 / 3.0, 4.0 / 3.0)
-"""A cut-off is moved by a third either way."""
+"""Factors by which a cut-off is moved."""
 
 
 class Cutoff(NamedTuple):
-    """A number that decides, and its origin in words.
+    """A number that decides a verdict, and its origin.
 
-    A move changes the distance to `ideal` by a third: a share of at least 0.9, with the ideal 1,
-    moves to 0.87 and 0.93.
+    A move changes the distance to `ideal` by a third: a cut-off of 0.9 with the ideal 1 moves to
+    0.87 and 0.93.
     """
 
     number: float
@@ -27,7 +27,7 @@ class Cutoff(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The number, changed while the ledger moves it; reading it is recorded."""
+        """The number, or the moved one while the ledger moves it; each access is recorded."""
         _read.add(self)
         return self.ideal + _moved.get(self, 1.0) * (self.number - self.ideal)
 
@@ -62,7 +62,7 @@ def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> lis
 
 
 def each_move(read: set[Cutoff], decide: Callable[[], Any]) -> Iterator[tuple[Cutoff, float, Any]]:
-    """Yield each move of the cut-offs in `read`: the cut-off, its value, what `decide` returns."""
+    """Yield each moved cut-off in `read` with its value then, and the result of `decide`."""
     for cutoff in sorted(read):
         for factor in MOVES:
             _moved[cutoff] = factor
@@ -74,9 +74,9 @@ def each_move(read: set[Cutoff], decide: Callable[[], Any]) -> Iterator[tuple[Cu
 
 
 def once(measure: Callable) -> Callable:
-    """Return `measure` with a cache of its results for each dataset, used by several decisions.
+    """Return `measure` with a cache of its results by arguments.
 
-    A result that depends on a cut-off is measured again while this cut-off is moved.
+    While a cut-off is moved, results that depend on it are measured again.
     """
     stored: dict[tuple, tuple] = {}
 
@@ -90,7 +90,7 @@ def once(measure: Callable) -> Callable:
         if read is None or read & _moved.keys():
             result, read = reading(lambda: measure(*arguments))
             if not _moved:
-                stored[key] = result, read, arguments  # kept too: no other object gets the same id
+                stored[key] = result, read, arguments  # keeps their ids from being used again
         _read.update(read)
         return result
 

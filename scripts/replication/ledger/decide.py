@@ -1,4 +1,4 @@
-"""Decide the claims of a part of the ledger by datasets, join the parts, and write their table."""
+"""Jobs of the ledger: decide some claims from datasets, join the parts, and write their table."""
 
 from collections.abc import Sequence
 
@@ -20,13 +20,13 @@ def decide_claims(
     part: str,
     differences: Differences = NO_DIFFERENCES,
 ) -> None:
-    """Write the rows of the ledger on some claims into the file `part`.
+    """Decide `claims`, and write their rows of the ledger into the file `part`.
 
-    `names` are the claims' names of the files `datasets`, in the same order. `differences` are
-    those of the configuration from the paper's.
+    `datasets` are files, `names` their names in the claims, in the same order. `differences` are
+    the differences of the configuration from the paper's.
     """
     if absent := set(needed(claims)) - set(names):
-        raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
+        raise ValueError(f"the claims need {', '.join(sorted(absent))}: add it to the job's inputs")
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
     rows = evaluate(claims, sources, differences)
     write_json(part, {"rows": rows})
@@ -39,7 +39,7 @@ def join_claims(parts: list[str], ledger: str, table: str) -> None:
 
 
 def tabulate_claims(parts: list[str], table: str) -> list[dict]:
-    """Write the rows in the order of the paper's sections as Markdown, and return them."""
+    """Return the rows of all parts in the order of the paper's sections; write them as Markdown."""
     rows = [row for path in parts for row in load_json(path)["rows"]]
     rows.sort(key=lambda row: row["section"])
     claims = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]

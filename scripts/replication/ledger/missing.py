@@ -1,8 +1,8 @@
 """Missing data, which cannot confirm a claim: unknown numbers, and series of too few samples.
 
-Data with gaps may still refute a claim, since one counterexample is enough. Only confirming
-findings are therefore withdrawn, in the same way for every claim: reductions that skip NaN would
-hide that half of a dataset is unknown, and two points always lie on a line.
+Data with gaps may still refute a claim, because one counterexample is enough. So only confirming
+findings are withdrawn, for all claims by the same rule: reductions that skip NaN would hide that
+half of a dataset is unknown, and two points are always on a line.
 """
 
 from collections.abc import Iterable, Mapping
@@ -15,7 +15,7 @@ from replication.variables import MISSING, SAMPLES
 from .cutoff import once
 
 FEWEST = 3
-"""Default of the fewest samples along a coordinate, since any two lie on a line."""
+"""Default of the fewest samples along a coordinate: two are always on a line."""
 
 
 def missing(
@@ -23,7 +23,7 @@ def missing(
 ) -> str:
     """Return what is missing from these datasets to confirm a claim; empty if nothing is.
 
-    `on` names the cases and sweeps that are read, where a dataset holds others as well.
+    `on` names the cases and sweeps that are used, if a dataset has others as well.
     """
     return "; ".join(
         f"{lack} of {name}"

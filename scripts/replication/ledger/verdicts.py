@@ -37,7 +37,7 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
 
 
 def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
-    """Return the finding of a claim's function for the datasets of a control."""
+    """Return the finding of the claim's function on the datasets of a control."""
     absent = [name for name in (*claim.needs, *control.names) if name not in sources]
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
@@ -58,9 +58,10 @@ def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
 
 
 def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
-    """Return all findings on a claim: "" with its cut-offs, one for each moved cut-off and control.
+    """Return all findings on a claim by name, with each moved cut-off and each control.
 
-    The name of a move has the value of the cut-off, that of a control is its description.
+    The name is "" if nothing is changed, the value of a moved cut-off with its origin, or the
+    description of a control.
     """
     finding, cutoffs = reading(lambda: decide(claim, sources))
     moves = {
@@ -93,7 +94,7 @@ def confirmed(finding: Finding) -> bool:
 def why_not_applicable(
     differences: Differences, claim: Claim, control: ClaimControl | None = None
 ) -> str:
-    """Return why the data of a claim or a control are not the paper's; empty if they are."""
+    """Return why a claim or its control is not about the paper's cases; empty if it is."""
     of_claim = differences.reason(claim.needs, claim.on)
     if of_claim or control is None:
         return of_claim
@@ -104,7 +105,7 @@ def why_not_applicable(
 def evaluate(
     claims: Iterable[Claim], sources: Mapping, differences: Differences = NO_DIFFERENCES
 ) -> list[dict]:
-    """Return a row for each claim with its verdict, ready for JSON, from datasets by name.
+    """Return a row for each claim with its verdict, ready for JSON; `sources` are datasets by name.
 
     A row lists the cut-offs that change the verdict if moved by a third. If a control has the wrong
     outcome, the claim is undecided. A claim or a control that depends on a key with `differences`
@@ -159,7 +160,7 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
 def _severe(
     finding: Finding, moved: list[str], controls: list[tuple[ClaimControl, Finding]]
 ) -> Finding:
-    """Return the finding after its controls and moved cut-offs: undecided or with a caveat."""
+    """Return the finding, undecided if a control fails, with a caveat if a cut-off changes it."""
     failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
     if failed is not None and finding.verdict != Verdict.UNDECIDED:
         control, fed = failed
@@ -174,5 +175,5 @@ def _severe(
 
 
 def as_json(value: float) -> float | str:
-    """Return a number as JSON can hold it: six digits, the infinite as a word."""
+    """Return a number for JSON: to six digits if it is finite, else "infinite" or "none"."""
     return float(f"{value:.6g}") if math.isfinite(value) else "infinite" if value > 0 else "none"

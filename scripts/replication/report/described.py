@@ -14,7 +14,7 @@ from PIL import Image
 from replication.words import number
 
 WORDS = 300
-"""Longer attributes, such as a model's text, are cut off on the page."""
+"""Maximum length of an attribute on the page; longer texts, such as a model's, are cut."""
 SHARED = {"Conventions", "version", "history"}
 """Attributes that are the same in every dataset of a run."""
 
@@ -37,7 +37,7 @@ class ClickablePanel(NamedTuple):
 
 
 class DescribedFigure(NamedTuple):
-    """A figure; `stem` is the path of its files relative to the page, without their endings."""
+    """A figure; `stem` is the path of its files relative to the page, without suffix."""
 
     stem: str
     caption: str
@@ -47,13 +47,13 @@ class DescribedFigure(NamedTuple):
 
     @property
     def label(self) -> str:
-        """The name of a figure of the paper, such as Fig 5, and nothing for others."""
+        """The name of a figure of the paper, such as Fig 5; empty for other figures."""
         match = re.fullmatch(r"figures/fig(\d)", self.stem)
         return f"Fig {match[1]}" if match else ""
 
     @property
     def headline(self) -> str:
-        """How the caption begins."""
+        """The caption up to its first full stop or colon."""
         return re.split(r"[.:] ", self.caption)[0].rstrip(".")
 
 
@@ -76,9 +76,9 @@ class DescribedDataset(NamedTuple):
 
 
 def figure(path: Path, page: Path, links: Sequence[MapLink] = ()) -> DescribedFigure:
-    """Return the figure with the dataset at `path`, for a page in the folder `page`.
+    """Return the description of the figure with the dataset `path`; `page` is the page's folder.
 
-    `links` make links of the points of its first panels.
+    `links` are for the points of its first panels.
     """
     with readable(path), netCDF4.Dataset(path) as data:
         caption = data.caption
@@ -104,7 +104,7 @@ def _panel(
 
 
 def dataset(path: Path, page: Path) -> DescribedDataset:
-    """Return the description of the dataset at `path`, for a page in the folder `page`."""
+    """Return the description of the dataset `path`; `page` is the page's folder."""
     with readable(path), netCDF4.Dataset(path) as data:
         raw_attributes = {name: value for name, value in vars(data).items() if name not in SHARED}
         variables = [_variable(variable) for variable in data.variables.values()]

@@ -1,4 +1,4 @@
-"""The report of a run on one page of HTML: verdicts, figures, claims, datasets and times."""
+"""The report of a run on one HTML page: verdicts, figures, claims, datasets and times."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -20,15 +20,15 @@ from .described import DescribedDataset, DescribedFigure, MapLink, dataset, figu
 from .page import FOLDER, render, script_of_report
 
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
-"""Claims with these verdicts are folded, because readers look for the others first."""
+"""Claims with these verdicts are folded: readers look for the others first."""
 PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2")
 
 
 class ReportedPaper(NamedTuple):
-    """The paper of a report: the title of the page, the paper's own figures, an introduction.
+    """The paper of a report: the title of the page, the paper's figures, an introduction.
 
-    `figures` are the names of their files below figures/, in the paper's order. `introduction` is
-    HTML, below the counts of verdicts.
+    `figures` are the names of files in figures/, in the paper's order. `introduction` is HTML that
+    follows the counts of verdicts.
     """
 
     title: str
@@ -37,7 +37,7 @@ class ReportedPaper(NamedTuple):
 
 
 class PageTable(NamedTuple):
-    """A table with its caption; the first cell of a row is its head."""
+    """A table with its caption; the first cell of each row is a heading."""
 
     caption: str
     head: tuple[str, ...]
@@ -45,7 +45,7 @@ class PageTable(NamedTuple):
 
 
 class PageSection(NamedTuple):
-    """A section of a page under a heading; it is folded unless it is `opened`."""
+    """A section of a page; it is folded unless it is `opened`."""
 
     name: str
     title: str
@@ -68,11 +68,11 @@ def write_report(
     maps: Mapping[str, Sequence[MapLink]] | None = None,
     in_article: Mapping[str, str] | None = None,
 ) -> None:
-    """Write the page `html` on the files of a run, which are in folders next to it.
+    """Write the page `html` on the files of a run, which are in its folder.
 
-    `figures` are the paths of their datasets, each next to its picture. `differs` holds the
-    differences of the configuration from the paper's. `maps` makes links of the points of figures,
-    by their names. `in_article` has addresses in the article by ids of this page.
+    `figures` are the paths of the figures' datasets, which are next to the pictures. `differs`
+    describes the differences of the configuration from the paper's. `maps` has links for the points
+    of figures, by the figures' names. `in_article` has addresses in the article by ids of this page.
     """
     folder, rows, maps = Path(html).parent, load_json(ledger)["rows"], maps or {}
     described = {
@@ -113,16 +113,16 @@ def write_page(
     folder: Path = FOLDER,
     **values: Any,
 ) -> None:
-    """Write the page of a template with these sections; the template lies in `folder`."""
+    """Write a page with these sections from a template in `folder`."""
     with complete_or_absent(html) as partial:
         page = render(template, folder, title=title, sections=sections, **values)
         Path(partial).write_text(page, encoding="utf-8")
 
 
 def tabulate_figures(rows: list[dict], figures: Sequence[DescribedFigure]) -> PageTable:
-    """Return the paper's figures with the verdicts on its claims about them, all with links."""
+    """Return a table of the paper's figures with the verdicts on its claims about them."""
     return PageTable(
-        "Whether what the paper says of each figure holds for our curves, and its claims",
+        "The figures of the paper, and whether its claims on them hold for our curves",
         ("figure", "verdict", "claims"),
         [
             _figure_cells(number, described, on_figure(rows, number))
@@ -148,7 +148,7 @@ def _figure_cells(number: int, described: DescribedFigure, rows: list[dict]) -> 
 
 
 def claim_sections(rows: list[dict], figures: range) -> list[PageSection]:
-    """Return a section on the claims that need a reader, and folded ones on the other verdicts."""
+    """Return an open section for the claims to read first, and folded sections for the others."""
     unfolded = [row for row in rows if row["verdict"] not in FOLDED]
     title = (
         "Claims that are not reproduced, do not carry over, do not follow, or cannot be decided:"
@@ -173,7 +173,7 @@ def claim_sections(rows: list[dict], figures: range) -> list[PageSection]:
 
 
 def claim_filters(rows: list[dict], figures: range) -> list[tuple[str, str, list[str]]]:
-    """Return the choices by which a reader filters claims: key, label and values of each."""
+    """Return the filters of claims: key, label and values of each."""
     verdicts = {row["verdict"] for row in rows}
     return [
         ("verdict", "Verdict", [verdict for verdict in map(str, Verdict) if verdict in verdicts]),
@@ -184,7 +184,7 @@ def claim_filters(rows: list[dict], figures: range) -> list[tuple[str, str, list
 
 
 def claim_entry(row: dict, figures: range) -> dict[str, Any]:
-    """Return a row of the ledger with its numbers and symbols as a page shows them."""
+    """Return a row of the ledger with numbers and symbols formatted for a page."""
     because = row["because"]
     return {
         **{key: row[key] for key in ("name", "place", "kind", "verdict", "section", "function")},
@@ -208,7 +208,7 @@ def _number(value: float | str) -> str:
 
 
 def dataset_section(datasets: Sequence[DescribedDataset]) -> PageSection:
-    """Return all datasets by their folders."""
+    """Return a section with all datasets by folder."""
     by_folder: dict[str, list[DescribedDataset]] = {}
     for described in datasets:
         by_folder.setdefault(described.link.partition("/")[0], []).append(described)
@@ -217,13 +217,13 @@ def dataset_section(datasets: Sequence[DescribedDataset]) -> PageSection:
 
 
 def run_section(logs: Path) -> PageSection:
-    """Return the versions and the times of a run whose logs lie below a folder."""
+    """Return a section with the versions of a run, and the times from its logs."""
     times = run_times(logs)
     total = sum(seconds for _, seconds, _ in times)
     versions = describe_machine() | {name: version(name) for name in PACKAGES}
     caption = (
-        f"Wall times and largest memory of the jobs: {total:.0f} s in all, start-up included; "
-        "several ran side by side"
+        f"Wall times and largest memory of the jobs, some of them parallel: {total:.0f} s in all, "
+        "start-up included"
     )
     jobs = [(name, f"{seconds:.1f}", memory) for name, seconds, memory in times]
     return PageSection(
@@ -231,7 +231,7 @@ def run_section(logs: Path) -> PageSection:
         "How it was run",
         opened=False,
         tables=[
-            PageTable("Processor and versions", ("what", "which"), [*versions.items()]),
+            PageTable("Processor and versions", ("name", "value"), [*versions.items()]),
             PageTable(caption, ("job", "s", "MB"), jobs),
         ],
     )

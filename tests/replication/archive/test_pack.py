@@ -43,7 +43,7 @@ def test_a_clone_of_git_gives_its_tracked_files(project):
     (project / "scripts/untracked.py").write_text("c")
     assert code_files(project) == ["run", "scripts/a.py"]
     (project / "run").unlink()
-    with pytest.raises(ArchiveError, match=r"run is missing; put it back"):
+    with pytest.raises(ArchiveError, match=r"run is missing: restore it"):
         code_files(project)
 
 

@@ -1,8 +1,9 @@
-"""Pages of HTML that hold their style, and ask no network."""
+"""HTML pages that contain their style and load nothing from a network."""
 
 import base64
 import hashlib
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -10,11 +11,11 @@ from markupsafe import Markup
 FOLDER = Path(__file__).parent
 
 
-def render(template: str, folder: Path = FOLDER, **values) -> str:
+def render(template: str, folder: Path = FOLDER, **values: Any) -> str:
     """Return the page of a template filled with values, with its style and the style's hash.
 
-    The template lies in `folder` or in this package, which has that of a page with sections. Text
-    is escaped; a value that the template names and nobody gave is an error.
+    The template is in `folder` or in `templates` of this package. Text is escaped. A value that the
+    template uses but that is missing in `values` is an error.
     """
     environment = Environment(
         loader=FileSystemLoader([folder, FOLDER / "templates"]),
@@ -29,11 +30,11 @@ def render(template: str, folder: Path = FOLDER, **values) -> str:
 
 
 def script_of_report() -> dict[str, str]:
-    """Return the script that filters the claims of a report, and its hash, for its template."""
+    """Return the script that filters claims and its hash, as values of the report's template."""
     script = (FOLDER / "report.js").read_text(encoding="utf-8")
     return {"script": Markup(script), "script_hash": digest(script)}
 
 
 def digest(text: str) -> str:
-    """Return the hash by which a Content-Security-Policy allows a style or a script."""
+    """Return the hash that a Content-Security-Policy needs to allow this style or script."""
     return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

@@ -1,6 +1,6 @@
 "use strict";
 
-// Filters the claims of the report, opens what a link leads to, and makes links of points on maps.
+// Filters the claims of the report, opens the target of a link, and links the points of maps.
 
 const form = document.querySelector(".filters");
 const selects = [...form.querySelectorAll("select")];
@@ -31,7 +31,7 @@ const setFilters = (link) => {
   filter();
 };
 
-// Show what the address names, even in a folded part or behind a filter.
+// Show the target of the address, even if it is folded or hidden by a filter.
 const showTarget = () => {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (!target) return;
