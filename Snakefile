@@ -13,7 +13,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/base.smk"
 
 
-# Figures without a rule of their own: one job draws several of them, or its rule also serves a longer study
+# Figures without a rule of this name: one job draws several of them, or its rule also serves a longer study
 MADE_TOGETHER = {
     "fig2": "Fig 2: norms against time, in the paper at Omega = 8, for small and large amplitudes",
     "fig2_spacetime": "Where the chain moves in the cases of fig2",
@@ -86,7 +86,7 @@ rule all:
         expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
         QUOTED_COPIES,
     message:
-        "All datasets, figures and tables are there: begin with results/article.html and results/report.html"
+        "Ready: all datasets, figures and tables; begin with results/article.html and results/report.html"
 
 
 rule paper:
@@ -130,7 +130,7 @@ NAMED = {
 }
 LONGER_STUDIES = {
     "fates": "The map of fates on a fine grid, which takes minutes",
-    "over_the_top": "First passages of the pendula over the top, with many members for long",
+    "over_the_top": "First passages of the pendula over the top, with many members and long runs",
 }
 OTHER_CHOICES = {  # datasets in which the printed numbers are measured again with other choices
     "fates": datasets("long/breathers", "areas", "least_power"),
@@ -145,12 +145,12 @@ NAMED["sensitivity"] = (
     datasets("long/breathers", "sensitivity", "shares"),
 )
 NAMED["transition"] = (
-    "The transition at Omega = 0 by two clocks, with many members: results/long/chaos/",
+    "Transition and life of the centre at Omega = 0, with many members: results/long/chaos/",
     datasets("long/chaos", "lifetimes"),
 )
 OF_MANY_RUNS = {  # datasets whose rules have a wildcard for chunks, so that no rule can be a target
     "measure_ensembles": (
-        "Chaotic sweeps from data that differ in their last digits",
+        "Chaotic sweeps from slightly perturbed initial data",
         "checks/ensembles",
     ),
     "measure_second_solver": (
@@ -166,7 +166,7 @@ OF_MANY_RUNS = {  # datasets whose rules have a wildcard for chunks, so that no 
         "The growth of a small A + B where A = -B, and the second front that follows",
         "long/unbounded/transverse",
     ),
-    "follow_noise": ("The second front where noise sets A + B going", "long/unbounded/noise"),
+    "follow_noise": ("The second front when noise starts A + B", "long/unbounded/noise"),
 }
 for name, (text, dataset) in OF_MANY_RUNS.items():
     NAMED[name] = f"{text}: results/{dataset}.nc", [f"<results>/{dataset}.nc"]
@@ -191,7 +191,7 @@ for name, (text, files) in NAMED.items():
 
 
 # A target may have hundreds of input files: print one line, with the file to begin with, once all of
-# them are ready. In the list of all targets a star marks those that people use most.
+# them are ready. In the list of targets a star marks the most used ones.
 MOST_USED = """
     all paper figures theory own report article live figure_diff accept_figures archive unbounded speed
 """.split()
@@ -209,7 +209,7 @@ onstart:
         REFUSALS.refuse_endless_requests()
 
 
-# The lines are printed below Snakemake's last ones
+# Hooks print below Snakemake's last lines
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
         report_comparison()

@@ -16,26 +16,26 @@ def without_limits(settings):
 
 
 def baseline_unless_no_hooks(wildcards):
-    """Return the folder of the baseline; differences are reported by a hook at the end of the run."""
+    """Return the folder of the baseline, or stop, because a hook reports the differences."""
     if workflow.execution_settings.no_hooks:
-        stop("figure_diff fails at the end of a run: call it without --no-hooks")
+        stop("figure_diff reports differences in a hook: run it without --no-hooks")
     return BASELINE
 
 
 def files_to_accept(wildcards):
-    """Return the files to accept, or stop before any job with the reason."""
+    """Return the files to accept, or stop before any job, with the reason."""
     from replication.figure_diff import acceptance  # imported here: only accepting needs it
 
     try:
         names = [path.removeprefix("results/") for path in files_of_full_run()]
         names = acceptance.choose(OPTIONS.accept, names) if OPTIONS.accept else names
         if not OPTIONS.baseline:
-            accepted, whose = (
-                load(options.read_configuration(PROJECT, (), ())),
-                "the configuration of config/*.yaml",
-            )
+            accepted = load(options.read_configuration(PROJECT, (), ()))
             acceptance.check(
-                without_limits(SETTINGS), without_limits(accepted), whose, acceptance.WAY_OUT
+                without_limits(SETTINGS),
+                without_limits(accepted),
+                "the configuration of config/*.yaml",
+                acceptance.WAY_OUT,
             )
         return [f"results/{name}" for name in names]
     except acceptance.AcceptanceError as error:

@@ -1,4 +1,4 @@
-# Breathers: states that stay at one pair, what becomes of data there, and which of them spread.
+# Breathers: states that stay at one pair, the fates of initial data there, and which of these spread.
 BREATHERS = SETTINGS.breathers
 FINE_MAPS = committed("tests/baseline/quoted/breathers.nc")
 FATES = BREATHERS.fates
@@ -10,7 +10,7 @@ CHOSEN = {"majority": 0.5}
 
 
 use rule dataset as steady_breathers with:
-    "Steady states localised at one pair: families, where they are born, where they are stable"
+    "Families of steady states localised at one pair: where they begin, and where they are stable"
     pathvars:
         made="breathers/steady",
     params:
@@ -20,7 +20,7 @@ use rule dataset as steady_breathers with:
 
 
 use rule dataset as periodic_breathers with:
-    "Periodic motions localised at one pair, and how fast their perturbations grow"
+    "Periodic states localised at one pair, and how fast their perturbations grow"
     pathvars:
         made="breathers/periodic",
     params:
@@ -30,7 +30,7 @@ use rule dataset as periodic_breathers with:
 
 
 use rule dataset as measure_sensitivity with:
-    "Share of runs that spread, by the size of a random change of the data"
+    "Share of runs that spread, by the size of a random perturbation of the initial data"
     input:
         kernels("taylor"),
         chunks=chunks_of("{size}breathers/sensitivity"),
@@ -47,7 +47,7 @@ use rule dataset as measure_sensitivity with:
 
 
 use rule dataset as map_fates with:
-    "What becomes of data on one pair: they disperse, stay, move or spread"
+    "Fates of initial data on one pair: they disperse, stay, move or spread"
     input:
         kernels("taylor"),
         chunks=chunks_of("{size}breathers/fates"),
@@ -70,7 +70,7 @@ use rule dataset as map_fates with:
 
 
 use rule dataset as vary_areas with:
-    "The parts of the map of fates at Omega = -4, with each choice changed"
+    "The area of each fate at Omega = -4, measured again with each choice changed"
     input:
         kernels("taylor"),
     pathvars:
@@ -86,7 +86,7 @@ use rule dataset as vary_areas with:
 
 
 use rule dataset as vary_shares with:
-    "Share of runs that spread, with each choice changed"
+    "Share of runs that spread, measured again with each choice changed"
     input:
         kernels("taylor"),
     pathvars:
@@ -105,7 +105,7 @@ use rule dataset as vary_shares with:
 
 
 use rule dataset as vary_least_power with:
-    "The least P of breathers at Omega = -4, with each choice changed"
+    "The least P of breathers at Omega = -4, measured again with each choice changed"
     pathvars:
         made="long/breathers/least_power",
     resources:
@@ -121,19 +121,19 @@ use rule dataset as vary_least_power with:
 
 
 use rule figure as draw_fates with:
-    "A map of what becomes of initial conditions on one pair"
+    "A map of the fates of initial data on one pair"
     input:
         fates="<results>/{size}breathers/fates.nc",
     pathvars:
         made="<size>figures/fates",
     params:
         call=function("pendula.studies.breathers.figures.draw_fates"),
-        # the maps of `snakemake fates` as they are committed, for all but these themselves
+        # the committed maps of `snakemake fates`, unless this command draws its own
         fine=lambda wildcards: None if wildcards.size else FINE_MAPS,
 
 
 rule breathers:
-    "States that stay at one pair, and which data stay or spread: datasets and a figure"
+    "States that stay at one pair, and which initial data stay or spread: datasets and a figure"
     input:
         datasets=datasets("breathers", "steady", "periodic", "sensitivity", "fates"),
         figures=figure_files("<results>/figures/fates"),

@@ -1,4 +1,4 @@
-# Chaos in the chain: how fast small errors grow, and what that leaves to be trusted.
+# Chaos in the chain: how fast small errors grow, and what ensembles of runs have in common.
 LYAPUNOV, ENSEMBLES, SECOND, MEMBERS = (
     getattr(SETTINGS.chaos, name) for name in ("lyapunov", "ensembles", "second_solver", "members")
 )
@@ -8,7 +8,7 @@ SPECTRUM = LYAPUNOV.spectrum
 
 
 use rule dataset as measure_lyapunov with:
-    "Lyapunov exponents of every case, and all of them on short chains"
+    "The largest Lyapunov exponent of every case, and all exponents on short chains"
     input:
         kernels("dop853"),
     pathvars:
@@ -28,7 +28,7 @@ use rule dataset as measure_lyapunov with:
 
 
 use rule dataset as run_ensembles with:
-    "Chaotic sweeps from data that differ in their last digits"
+    "Chaotic sweeps from slightly perturbed initial data"
     input:
         kernels("taylor"),
         chunks=chunks_of("checks/ensembles"),
@@ -60,7 +60,7 @@ use rule dataset as run_second_solver with:
 
 
 use rule dataset as run_members with:
-    "Ensembles of every case: bands of its norms, and the numbers that sentences of the paper are about"
+    "Ensembles of every case: bands of norms, and the numbers for the paper's claims"
     input:
         kernels("taylor"),
         chunks=chunks_of("checks/members"),
@@ -92,7 +92,7 @@ use rule dataset as run_lifetimes with:
 
 
 use rule dataset as vary_lifetimes with:
-    "The same times with many members, and again with each choice changed"
+    "The same times with many members, measured again with each choice changed"
     input:
         kernels("taylor"),
     pathvars:

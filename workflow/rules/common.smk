@@ -1,4 +1,4 @@
-# Shared by all rules: the validated configuration, and functions for names of files, values and hashes. The
+# Shared by all rules: the validated configuration, and functions for names of files, values and hashes. These
 # functions are in scripts/pendula/workflow, with tests.
 import atexit
 import gc
@@ -59,11 +59,11 @@ REFUSALS.refuse_storage()
 if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
     stop(DISABLED)
 
-# Packages are not installed in the environments that conda makes for jobs.
+# The environments that conda makes for jobs do not contain the project's packages.
 if workflow.deployment_settings.deployment_method:
     os.environ.update(PYTHONPATH=os.pathsep.join(dict.fromkeys(map(str, ROOTS.values()))))
-# Jupyter exports its own backend of matplotlib, which fails where it is not installed. Where the variable is
-# unset it stays unset, so that the process from which jobs are forked need not import anew.
+# Jupyter exports its own backend of matplotlib, which fails where it is not installed. If the variable is unset
+# it stays unset: otherwise the process that forks jobs would have to import everything again.
 if "MPLBACKEND" in os.environ:
     os.environ.update(MPLBACKEND="agg")
 
@@ -133,7 +133,7 @@ pathvars:
     any_case=f"{{case,{any_of(SETTINGS.cases)}}}",
     any_sweep=f"{{sweep,{any_of(SETTINGS.sweeps)}}}",
     any_solver=f"{{solver,{any_of([*METHODS, 'auto'])}}}",
-    size="{size,(long/)?}",  # a longer study lies in a folder of its own
+    size="{size,(long/)?}",  # longer studies have their own folder
 
 
 ERRORS = Errors()
@@ -141,12 +141,12 @@ logger.addHandler(ERRORS)
 
 
 def seen_from_outside(path):
-    """Return a path relative to the user's folder, which differs from the run's with --directory."""
+    """Return a path relative to the user's folder; with --directory the run has another one."""
     return os.path.join(workflow.overwrite_workdir or "", path)
 
 
 def failures_in_words():
-    """Return two lines for each failed job: the reason, and the file with more."""
+    """Return two lines for each failed job: the reason, and the path of its log."""
     causes = causes_of_failures(ERRORS.text)
     return "\n".join(f"{why}\n  (more in {seen_from_outside(log)})" for why, log in causes)
 

@@ -1,10 +1,10 @@
 # The report, a page that runs the paper's solver in a browser, the article, and everything in one file to
-# deposit. The archive is not part of the full run. Unpacked elsewhere, it holds finished results:
-# `snakemake -n` has nothing to do there, `snakemake figures` draws them anew.
+# deposit. The archive is not part of the full run. In an unpacked archive `snakemake -n` has nothing to do,
+# and `snakemake figures` draws lost figures again.
 
 
 use rule job as report with:
-    "results/report.html: what the run found, figure by figure and claim by claim, on one page"
+    "results/report.html: the results of the run on one page, by figure and by claim"
     input:
         datasets=DATASETS,
         figures=expand("<results>/figures/{name}.nc", name=FIGURES),

@@ -1,5 +1,5 @@
-# Tests of the solvers: curves with a proof, the paper's six cases in multiprecision, and cases where
-# solvers are most likely to fail.
+# Tests of the solvers: curves with proven error bounds, the paper's six cases in multiprecision, and cases
+# where solvers are most likely to fail.
 # The references are not part of the full run. They take about 25 minutes on one core, half of them for
 # fig3_large, and need `pip install heyoka==7.13.2`, which no other rule needs. To accept new ones:
 # `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
@@ -7,13 +7,13 @@ CERTIFIED = SETTINGS.certified
 
 
 rule certified:
-    "Proven curves of the paper's cases; a full run uses the committed ones (long)"
+    "Curves of the paper's cases with proven error bounds; a full run uses the committed ones (long)"
     input:
         datasets("certified", *PAPER_CASES),
 
 
 use rule dataset as certify_curve with:
-    "A curve of a case with a proven bound of its distance to the true one: {case}.nc"
+    "A curve of a case with a proven error bound: {case}.nc"
     pathvars:
         made="certified/<any_case>",
     params:
@@ -52,7 +52,7 @@ rule reference:
 
 
 use rule dataset as reference_case with:
-    "One case, integrated twice: {case}.nc"
+    "The reference of a case, integrated twice: {case}.nc"
     pathvars:
         made="reference/<paper_case>",
     conda:

@@ -1,10 +1,10 @@
 # Comparison of a run with the baseline, which is tests/baseline unless --config baseline=FOLDER. Both rules have no
-# output, so that they always run. Failures are reported at the end of the run: if the job failed, Snakemake would
-# add an error message about that job.
+# output, so that they always run. A hook reports differences at the end of the run: if the job failed instead,
+# Snakemake would add an error message about it.
 
 
 use rule job as figure_diff with:
-    "Datasets, figures and words against the accepted ones; fails with one line for each that differs"
+    "Compares datasets, figures and texts with the accepted ones; fails with one line for each difference"
     input:
         results=files_of_full_run(),
     output:
@@ -20,11 +20,11 @@ use rule job as figure_diff with:
         html=PAGE,
         verdict=VERDICT,
     message:
-        "Comparing datasets, figures and words with the baseline"
+        "Comparing datasets, figures and texts with the baseline"
 
 
 use rule job as accept_figures with:
-    'Takes this run as the baseline, or the files in --config accept="fig3 checks/chart"'
+    'Accepts this run as the baseline, or only the files in --config accept="fig3 checks/chart"'
     input:
         results=files_to_accept,
     output:
@@ -38,4 +38,4 @@ use rule job as accept_figures with:
         baseline=BASELINE,
         configuration=without_limits(SETTINGS),
     message:
-        "Taking datasets, figures and words as the baseline"
+        "Accepting datasets, figures and texts as the baseline"

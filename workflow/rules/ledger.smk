@@ -43,7 +43,7 @@ use rule job as claims with:
 
 
 use rule job as claims_on_figures with:
-    "The claims on Figs 1 to 6 alone, in results/tables/claims_figures.md"
+    "Only the claims on Figs 1 to 6, in results/tables/claims_figures.md"
     input:
         parts=["<results>/claims/figures.json"],
     output:

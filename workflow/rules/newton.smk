@@ -14,7 +14,7 @@ use rule dataset as find_threshold with:
 
 
 use rule dataset as measure_remainder with:
-    "How far the expansion (3) is from the pendula"
+    "The error of the expansion (3) of the pendula"
     pathvars:
         made="pendula/remainder",
     params:
@@ -26,7 +26,7 @@ use rule dataset as measure_remainder with:
 
 
 use rule dataset as measure_over_the_top with:
-    "When pendula go over the top, and with what chance"
+    "When pendula go over the top, and with which probability"
     input:
         kernels("taylor"),
         chunks=chunks_of("{size}pendula/over_the_top"),
@@ -45,7 +45,7 @@ use rule dataset as measure_over_the_top with:
 
 
 use rule dataset as vary_over_the_top with:
-    "The numbers of pendula over the top that the article prints, with each choice changed"
+    "The article's numbers on pendula over the top, measured again with each choice changed"
     input:
         kernels("taylor"),
     pathvars:
@@ -70,7 +70,7 @@ use rule figure as draw_over_the_top with:
 
 
 rule newton:
-    "Newton's equations beside the amplitude equations: datasets and figure"
+    "Newton's equations compared with the amplitude equations: datasets and figure"
     input:
         datasets=datasets("pendula", "threshold", "remainder", "over_the_top"),
         figure="<results>/figures/pendula_over_the_top.png",

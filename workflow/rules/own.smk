@@ -64,7 +64,7 @@ use rule figure as own_sweep_figure with:
 
 
 use rule job as own_table with:
-    "Norms, or what a survey keeps, as CSV: results/own/tables/{kind}/{name}.csv"
+    "The norms of a case or sweep, or the numbers of a survey, as CSV: results/own/tables/{kind}/{name}.csv"
     input:
         data="<results>/{kind}/{name}.nc",
     output:

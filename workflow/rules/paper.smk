@@ -1,8 +1,8 @@
-# The paper's cases and sweeps, and its Figs 1 to 6, with the chain in motion and its solvers compared.
+# The paper's cases and sweeps, its Figs 1 to 6, where the chain moves, and a comparison of the solvers.
 
 
 use rule job as compile_solver with:
-    "Compile a solver before the jobs that share it"
+    "Compiles a solver before the jobs that share it"
     output:
         kernels="<results>/<made>.txt",
     pathvars:
@@ -56,7 +56,7 @@ use rule dataset as sweep with:
         windows=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].windows,
 
 
-# Apart from the rule above, since the paper's figures show none of these, which take longer.
+# A separate rule: no figure of the paper shows these sweeps, and they take longer.
 use rule sweep as sweep_by_second_solver with:
     "A sweep of the paper by its second solver: results/sweeps/{sweep}.crank_nicolson.nc"
     input:
@@ -80,7 +80,7 @@ use rule figure as norms_in_time with:
     "Figs 2 to 4: norms against time for small and large amplitudes"
     input:
         runs=expand("<results>/trajectories/fig{{n}}_{size}.nc", size=["small", "large"]),
-        # the motion in Fig 2 is regular, so that its ensembles are not shown
+        # Fig 2 shows no ensembles, because its motion is regular
         ensembles=lambda wildcards: [] if wildcards.n == "2" else checks("members")[0],
     pathvars:
         made="figures/fig{n,[234]}",
@@ -122,14 +122,14 @@ use rule figure as norms_by_half_width with:
 
 
 use rule dataset as measure_solvers with:
-    "How each solver conserves the energy, how the paper's two differ, and until when to trust each"
+    "How well each solver conserves the energy, how the paper's two differ, and until when each is right"
     input:
         kernels(*(name for name in COMPILED if name != "dop853")),
     output:
         dataset_outputs(*checks("solvers", "trust")),
     pathvars:
         made="checks/solvers",
-    priority: 1  # with all that it needs, because the ledger waits for it
+    priority: 1  # like its inputs, because the ledger waits for it
     params:
         call=function("pendula.studies.paper.solvers.measure_solvers"),
         cases={case: without_solver(SETTINGS.problem(case)) for case in PAPER_CASES},
@@ -154,7 +154,7 @@ use rule figure as energy_drift with:
 
 
 use rule figure as trust_horizons with:
-    "How long each solver stays with the true trajectory, that is with the reference"
+    "How long each solver follows the reference, which is the true trajectory"
     input:
         trust="<results>/checks/trust.nc",
     pathvars:

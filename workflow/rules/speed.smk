@@ -32,7 +32,7 @@ use rule dataset as speed_pendula with:
 
 
 use rule dataset as cost with:
-    "Part of speed: longer and longer chains, timed"
+    "Part of speed: chains of increasing length, timed"
     input:
         kernels("dop853", "taylor"),
     pathvars:
@@ -43,7 +43,7 @@ use rule dataset as cost with:
 
 
 use rule figure as speed_figure with:
-    "Part of speed: what was timed, a figure for each kind of motion"
+    "Part of speed: a figure of the timings for each kind of motion"
     input:
         measured="<results>/speed/work_precision.nc",
     pathvars:
@@ -54,7 +54,7 @@ use rule figure as speed_figure with:
 
 
 use rule job as reproduction with:
-    "The times of the whole reproduction, from nothing and with compiled kernels"
+    "The times of the whole reproduction, without and with compiled kernels"
     output:
         data="<results>/speed/reproduction.json",
     pathvars:

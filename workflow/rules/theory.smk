@@ -1,4 +1,4 @@
-# The paper's theory on numbers: the checks, and figures that show them.
+# The paper's theory: its checks by numbers, and figures that show them.
 
 
 use rule dataset as prove_identities with:
@@ -22,7 +22,7 @@ use rule dataset as check_theory with:
 
 
 use rule dataset as check_observed with:
-    "The paper's own cases beside the bounds of its theorems"
+    "The paper's cases compared with the bounds of its theorems"
     input:
         trajectories=TRAJECTORIES,
     pathvars:

@@ -1,5 +1,5 @@
-# The infinite chain: does its l2 norm grow without bound in time? The short study is part of
-# the full run, the long one is `snakemake unbounded`.
+# The infinite chain: does its l2 norm grow without bound in time? The short study is part of the full run,
+# `snakemake unbounded` runs the long one.
 from pendula.studies.unbounded.settings import GROWTH_CASES
 
 UNBOUNDED = SETTINGS.unbounded
@@ -57,7 +57,7 @@ use rule spread as spread_again with:
 
 
 use rule dataset as run_transverse with:
-    "The growth of a small A + B where A = -B, and the speed of the second front that follows"
+    "The growth of a small A + B if A = -B initially, and the speed of the second front that follows"
     input:
         chunks=chunks_of("long/unbounded/transverse"),
     pathvars:
@@ -77,7 +77,7 @@ use rule dataset as run_transverse with:
 
 
 use rule dataset as run_noise with:
-    "The second front where noise sets A + B going"
+    "The second front when noise starts A + B"
     input:
         chunks=chunks_of("long/unbounded/noise"),
     pathvars:
@@ -114,7 +114,7 @@ use rule dataset as vary_numbers with:
 
 
 use rule dataset as thermal with:
-    "The thermal states that the bulk of an infinite chain is compared with"
+    "The thermal states with which the bulk of an infinite chain is compared"
     pathvars:
         made="unbounded/thermal",
     params:
@@ -154,5 +154,5 @@ use rule figure as draw_fronts with:
         made="<size>figures/fronts",
     params:
         call=function("pendula.studies.unbounded.figures.draw_fronts"),
-        # the numbers of `snakemake unbounded` as they are committed, predicted speeds among them
+        # the committed numbers of `snakemake unbounded`, which include the predicted speeds
         long=committed("tests/baseline/quoted/unbounded.nc"),
