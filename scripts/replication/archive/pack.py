@@ -81,7 +81,7 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
     data[MANIFEST] = "".join(lines).encode()
     with (
         open(archive, "wb") as raw,
-        # Compressed bytes also depend on zlib's version. Level 9 takes twice as long for 0.2 %.
+        # The compressed bytes also depend on zlib. Level 9 would take twice as long to save 0.2 %.
         gzip.GzipFile("", "wb", 6, raw, mtime=PACKED_TIME) as zipped,
         tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
     ):

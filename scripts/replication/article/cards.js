@@ -1,17 +1,17 @@
 "use strict";
-// Cards: where a number, a verdict or a figure of the article comes from, beside it; and what a
-// reference, a figure or a table is that the text mentions.
+// Shows a card next to a link: the source of a number, verdict or figure, or a copy of the reference,
+// figure or table that the text mentions.
 
 const panel = document.getElementById("panel");
-const HOVER_DELAY = 150; // ms; shorter visits of the pointer are on its way elsewhere
+const HOVER_DELAY = 150; // ms; a pointer that stays for less is only passing
 const LEAVE_DELAY = 300; // ms, in which the pointer may move from a number into its card
 const MARGIN = 8; // pixels around a card
-let owner = null; // the link whose card is shown
-let isPinned = false; // until it is closed, since it was asked for by a click or a key
+let owner = null; // the link of the open card
+let isPinned = false; // whether a click or a key opened the card, which then stays until it is closed
 let timer;
 
 const targetOf = (link) => document.getElementById(decodeURIComponent(link.hash.slice(1)));
-// Return a copy of what a link leads to, without ids, which must not be there twice.
+// Return a copy of a link's target without its ids, which must be unique in the page.
 const copyOf = (link) => {
   const target = targetOf(link);
   const isCard = target.classList.contains("card");
@@ -22,7 +22,7 @@ const copyOf = (link) => {
   copy.querySelector(`.values tbody tr:nth-child(${Number(link.dataset.row ?? -2) + 1})`)?.classList.add("printed");
   return isCard ? [...copy.childNodes] : [copy];
 };
-// Put the card below the link, or above where there is more room.
+// Put the card below the link, or above if there is more room.
 const place = () => {
   const { left, top, bottom } = owner.getClientRects()[0];
   const { width } = panel.getBoundingClientRect();

@@ -36,7 +36,7 @@ class LiveParts(NamedTuple):
 def complete_page(
     html: str, folder: Path, cards: Iterable[Card], live: LiveParts | None = None
 ) -> str:
-    """Return a page of Pandoc completed by cards, scripts, live figures, pictures in `folder`."""
+    """Complete a page of Pandoc with cards, scripts, live figures and the pictures in `folder`."""
     cards = list(cards)
     script = "".join(
         f"{{\n{text}}}\n"  # in a block of its own, so that equal names do not clash

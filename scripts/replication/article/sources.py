@@ -27,7 +27,7 @@ class Source(NamedTuple):
 
     @property
     def card(self) -> str:
-        """The id of the card: the anchor in the report, and for a variable `.variable`."""
+        """The id of the card: the anchor in the report, followed by `.variable` for a variable."""
         if self.figure:
             return f"figures/{self.figure}"
         if self.claim:

@@ -99,7 +99,7 @@ def compare(
         record = recorded(folder)
     except DatasetError:
         way_out = "restore it with git, or delete it and run `snakemake accept_figures`"
-        reason = f"in the baseline is damaged or was edited: {way_out}"
+        reason = f"the baseline's record is damaged or was edited: {way_out}"
         return ComparisonResult(
             "Nothing was compared.", [FileResult(RECORD, Status.DAMAGED, reason)]
         )
@@ -157,7 +157,7 @@ class Comparison:
             return Status.EXTRA, "is not in the baseline"
         if is_kept(name) and (fault := fault_of_kept(name, self.accepted, self.folder)):
             way_out = "restore it with git, or accept it again"
-            return Status.DAMAGED, f"in the baseline {fault}: {way_out}"
+            return Status.DAMAGED, f"its copy in the baseline {fault}: {way_out}"
         return self._compare(name, self.made / name, self.folder / name, self.accepted[name])
 
     def _compare(

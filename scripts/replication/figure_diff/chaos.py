@@ -1,6 +1,6 @@
 """Chaotic numbers, and their allowed errors in a correct run.
 
-The accepted results contain the error of a run whose only errors are roundings, relative to full
+The accepted results contain the error of a run with nothing but rounding errors, relative to full
 scale, as a function of time (`Trust`). A correct run may have this error divided by MARGIN. The
 horizon of trust is the time at which this allowed error reaches TOLERANCE; a case without a horizon
 is regular. After the horizon the allowed error grows with time, until any value is allowed.
@@ -34,10 +34,10 @@ full scale that no longer grows like a small one, so that any value is allowed."
 
 
 class Trust(NamedTuple):
-    """Where the accepted results record until when chaotic cases are known; the name of time.
+    """Where the accepted results record the errors of runs, and the names of dimensions.
 
     In `dataset` the `variable` (case, time) is the error of runs against references relative to
-    full scale. `labels` select the run whose only errors are roundings. Along the dimensions
+    full scale. `labels` select the run with nothing but rounding errors. Along the dimensions
     `steps` the values of a run change gradually.
     """
 

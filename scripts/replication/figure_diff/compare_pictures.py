@@ -23,8 +23,8 @@ from . import Status
 
 BLOCKS = 24, 16
 TINTED, INKED = 1.2, 6.0
-"""Allowed difference of red minus blue, summed over blocks, relative to the sum of its modulus: it
-is 2 if red and blue are exchanged. Smallest darkness of a block on which something is drawn."""
+"""Allowed difference of red minus blue, relative to its size: exchanged colours give 2. Smallest
+darkness of a block on which something is drawn."""
 
 STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
 SHOWN_TEXT = re.compile(rb"\bBT\b(.*?)\bET\b", re.DOTALL)

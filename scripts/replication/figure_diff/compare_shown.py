@@ -54,9 +54,9 @@ ENDS = {"x", "y", "shows", "x leaves", "y leaves"}
 """Entries of a description that a curve has only if it has points."""
 
 LOOSE, FEW, LARGE = 0.6, 0.01, 10.0
-"""Allowed differences that rest on chaos: of a number in PLACES, relative to the larger end; of a
-number of points, relative to it; of a measured number, as a factor over its size or 1. Bands and
-bars may be twice as long. Limits of an axis scale with its curves: one long bar doubles them."""
+"""Allowed effects of chaos: relative change of a number in PLACES, of a number of points; factor of
+a measured number. Bands and bars may double their length. The limits of an axis may scale with its
+curves, because one long bar doubles them."""
 
 IN_TAGS = rb'<script type="application/json".*?</script>|<[^>]*>'
 """What separates the words of a page: tags, and the data of the live page."""

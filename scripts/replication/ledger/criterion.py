@@ -83,9 +83,10 @@ class AtMost(Limit):
 
 
 class Distance(AtMost):
-    """No distance is above the limit; the room of a larger one is minus the log of their ratio.
+    """No distance is above the limit.
 
-    A distance can be many times the limit, and then scatters by a factor.
+    Beyond the limit its `room` is -log(distance / limit), because large distances scatter by a
+    factor.
     """
 
     def room(self, value: float) -> float:
