@@ -72,7 +72,7 @@ def write_report(
 
     `figures` are the paths of the figures' datasets, which are next to the pictures. `differs`
     describes the differences of the configuration from the paper's. `maps` has links for the points
-    of figures, by the figures' names. `in_article` has addresses in the article by ids of this page.
+    of figures by name. `in_article` has addresses in the article by ids of this page.
     """
     folder, rows, maps = Path(html).parent, load_json(ledger)["rows"], maps or {}
     described = {
