@@ -51,7 +51,7 @@ def test_faults_are_told_in_words_and_all_at_once():
         "  solver: there is no solver 'dop835'; did you mean 'dop853'?",
         "  omega: is 'fast', not a number",
     ]
-    with pytest.raises(pendula.ConfigurationError, match="site 5 lies outside the chain"):
+    with pytest.raises(pendula.ConfigurationError, match="site 5 is outside the chain"):
         pendula.Case(omega=1, half_width=1, initial={5: (1, 0)})
 
 
@@ -65,5 +65,5 @@ def test_a_run_by_any_solver_is_checked_and_the_second_one_is_drawn_where_it_div
 
 
 def test_a_section_of_the_papers_case_is_refused_by_a_sentence(case):
-    with pytest.raises(pendula.ConfigurationError, match="case: has equations that are no Model"):
+    with pytest.raises(pendula.ConfigurationError, match="case: its equations are not a Model"):
         latticode.section(case, when=lambda p, a, b: a.real)

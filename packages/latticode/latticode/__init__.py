@@ -1,13 +1,13 @@
-"""Chains of coupled oscillators: equations written once, compiled, integrated and measured.
+"""Chains of coupled oscillators: equations written once, compiled, integrated and analysed.
 
-A model is a function of its fields (see `equations.model`); kernels follow from its trace. The
-public names are listed in `latticode.__all__` and explained in `help(latticode.notebook)`.
+A model is a function of its fields (see `equations.model`), from which kernels are generated. The
+public names are in `latticode.__all__`, and most are explained in `help(latticode.notebook)`.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # what type checkers and editors read; a test compares it with _HOMES
+if TYPE_CHECKING:  # for type checkers and editors; a test compares it with _HOMES
     from latticode.configuration.files import ConfigurationError as ConfigurationError
     from latticode.datasets import DatasetError as DatasetError
     from latticode.datasets.netcdf import save as save
@@ -58,14 +58,13 @@ _HOMES = {
     "latticode.notebook": _NOTEBOOK,
     "latticode.simulation.simulate": "IntegrationError",
 }
-"""The public names by their module. A module is loaded when a name of it is first asked for, so
-that nobody waits for modules that he does not use."""
+"""The public names by module. A module is imported when one of its names is first used."""
 
 __all__ = sorted(name for names in _HOMES.values() for name in names.split())
 
 if not TYPE_CHECKING:
 
-    def __getattr__(name: str):
+    def __getattr__(name: str) -> object:
         for home, names in _HOMES.items():
             if name in names.split():
                 return getattr(import_module(home), name)

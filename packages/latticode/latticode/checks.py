@@ -1,10 +1,11 @@
 """Checks of a run: its error, whether its motion is chaotic, and a localised state nearby.
 
-A method of another family runs the problem again at tight tolerances. The difference of the two
-runs, in the norms and in the fields at all sites, is the error of the worse run. If the first run
-used the default solver with its default tolerances, this is the error of double precision. The
-growth of a random tangent vector then shows whether the motion is chaotic, and when rounding errors
-become visible. Last comes the localised state near the initial data, with its stability.
+A method of another family integrates the problem again, with tight tolerances. The difference of
+the two runs, in the norms and in the fields at all sites, is the error of the worse run. If the
+first run used the default solver with its default tolerances, this is the error of double
+precision. The growth of a random tangent vector shows whether the motion is chaotic, and when
+rounding errors become visible. The last check finds a localised state near the initial data, with
+its stability.
 """
 
 from collections.abc import Collection, Mapping
@@ -44,14 +45,14 @@ from latticode.simulation.simulate import simulate
 
 TITLE = "A run and its checks"
 UNSTABLE_REST = "unstable_rest"
-"""The attribute with a warning about sites that rest at an unstable point."""
+"""The attribute with a warning about sites at rest at an unstable point."""
 
 
 def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> dict:
-    """Return the solver, of another family than `name`, that checks a run of amplitude `peak`.
+    """Return a solver of another family than `name`, to check a run of amplitude `peak`.
 
-    `known` are the methods that integrate the equations. Data below 1 get a smaller absolute
-    tolerance, but at least SMALLEST_ERROR.
+    `known` are the methods that can integrate the equations. For amplitudes below 1 the absolute
+    tolerance is smaller, but at least SMALLEST_ERROR.
     """
     judge = other_family(name, known)
     rtol = METHODS[judge].tightest
@@ -60,10 +61,10 @@ def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> d
 
 
 def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return the norms of a second run and its difference from `run`; NaN if it is impossible.
+    """Return the norms of a second run and its differences from `run`; NaN if it fails.
 
-    `run` is the stored trajectory of `problem` by any solver. It may lack the phases before the end
-    time, so its own solver runs again too and keeps the fields at the snapshots.
+    `run` is the stored trajectory of `problem` by any solver. Its file may have no phases before
+    the end time, so its solver runs again too, and stores the fields at the snapshots.
     """
     peak, known = float(modulus(problem.initial).max()), set(problem.equations.methods)
     solver = choose_solver(str(run.attrs["solver"]), peak, known)
@@ -72,7 +73,7 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     try:
         try:
             second = simulate(problem.changed(solver=solver))
-        except GaveUpError:  # a power series may end where the equations go on
+        except GaveUpError:  # a power series may fail where the solution continues
             solver = choose_solver(str(run.attrs["solver"]), peak, known - {"taylor"})
             second = simulate(problem.changed(solver=solver))
         first = simulate(problem.changed(solver=solver_of(run.attrs)))
@@ -109,20 +110,18 @@ def _compared(
     norm_difference: xr.DataArray,
     agreement: Agreement | None,
 ) -> xr.Dataset:
-    """Return the norms of the second run, and the differences of both in norms and in fields."""
+    """Return the norms of the second run, and the differences of both runs in norms and fields."""
     data = at_times(second_norms, run["tau"]).drop_attrs(deep=False)
     data = data.rename({norm: f"second_{norm}" for norm in NORMS})
     for norm in NORMS:
         long_name = f"{run[norm].attrs['long_name']}, by another method"
         data[f"second_{norm}"].attrs = {"long_name": long_name, "units": run[norm].attrs["units"]}
     data["difference"] = norm_difference.assign_attrs(
-        long_name="largest difference of the norms of two runs, of full scale", units="1"
+        long_name="largest difference of the norms of two runs, relative to full scale", units="1"
     )
     largest, diverged = norm_difference.max(), divergence_time(norm_difference)
     if agreement is not None:
-        long_name_of_fields = (
-            "largest difference of the fields of two runs at a site, of full scale"
-        )
+        long_name_of_fields = "largest difference of fields at a site, relative to full scale"
         times = variable(agreement.kept_tau, ("kept_tau",), "time at which fields are compared")
         fields = variable(agreement.fields, ("kept_tau",), long_name_of_fields)
         data = data.merge(
@@ -153,7 +152,7 @@ def follow(problem: Problem) -> TangentGrowth:
 
 
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
-    """Return the growth rate of a tangent vector, the test for chaos, and the end of digits."""
+    """Return the growth rate of a tangent vector, a test for chaos, and when rounding shows."""
     try:
         growth = follow(problem)
     except IntegrationError as error:
@@ -168,14 +167,17 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
     numbers = {
         "exponent": (
             mean_rate(tau, log_growth, middle),
-            "rate of that growth, second half, per unit of tau",
+            "growth rate of a tangent vector, second half, per unit of tau",
         ),
         "exponent_error": (mean_rate_error(tau, log_growth, middle), "standard error of the rate"),
-        "late_growth": (late, "growth relative to the solution's, second half, logarithm"),
+        "late_growth": (
+            late,
+            "logarithm of tangent growth over growth of the solution, second half",
+        ),
         "chaotic": (chaotic, "chaotic (1: yes, 0: no)"),
         "divergence_rounding": (
             problem.start_time + predict(tau, amplified, ROUNDING),
-            "tau at which one rounding a unit of tau has grown to 1 %",
+            "tau at which rounding errors, one per unit of tau, reach 1 %",
         ),
     }
     described = {name: variable(value, (), text) for name, (value, text) in numbers.items()}
@@ -188,16 +190,16 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
 # --- A localised state ----------------------------------------------------------------------------
 
 LOCALISED = 0.01
-"""Largest value at the sites farthest from the centre, relative to that at the centre."""
+"""The largest ratio of the value at the farthest sites to the value at the centre."""
 
 
 def check_breather(problem: Problem) -> xr.Dataset:
-    """Return a localised state with its exponents, or the reason for none as an attribute.
+    """Return a localised state with its exponents, or an attribute with the reason for none.
 
-    Floquet multipliers are over one period, or over one unit of tau for a steady state.
+    Floquet multipliers are over one period, or for a steady state over one unit of tau.
     """
     try:
-        with np.errstate(all="ignore"):  # Newton's method may diverge, which it detects
+        with np.errstate(all="ignore"):  # Newton's method may diverge; `find_state` detects this
             state = find_state(problem)
     except NoStateError as error:
         return xr.Dataset(attrs={"breather_refusal": str(error)})
@@ -212,23 +214,23 @@ def check_breather(problem: Problem) -> xr.Dataset:
     )
     period = 2.0 * np.pi / abs(state.frequency) if state.frequency else 1.0
     growth, multipliers = state_exponents.real.max(), np.exp(period * state_exponents)
-    frequencies = "its distance from the frequencies of linear waves"
-    edge = "its largest value far from the centre, over that at the centre"
+    frequencies = "distance of the frequency from those of linear waves"
+    edge = "largest value at the farthest sites, divided by that at the centre"
     modes, sites = ("part", "mode"), np.array(problem.site_numbers)
     numbers = {
         "_frequency": (state.frequency, (), "frequency lambda of a localised state"),
         "_gap": (np.abs(waves).min(), (), frequencies),
         "_end": (end, (), edge),
-        "_growth": (growth, (), "largest rate of growth of its perturbations, per unit of tau"),
+        "_growth": (growth, (), "largest growth rate of perturbations, per unit of tau"),
         "_exponents": (
             _real_and_imaginary(state_exponents),
             modes,
-            "exponents of its perturbations, per unit of tau",
+            "exponents of perturbations, per unit of tau",
         ),
         "_multipliers": (
             _real_and_imaginary(multipliers),
             modes,
-            "Floquet multipliers of its perturbations",
+            "Floquet multipliers of perturbations",
         ),
         "": (moduli, ("component", "site"), "moduli of a localised state"),
     }
@@ -261,7 +263,7 @@ def check_conserved(run: xr.Dataset) -> xr.Dataset:
 
 
 def check_rest(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return a warning about sites at rest at an unstable point, if any, as an attribute."""
+    """Return an attribute with a warning if sites are at rest at an unstable point."""
     sentence = describe_unstable_rest(problem, run["modulus"].values) if "modulus" in run else ""
     return xr.Dataset(attrs={UNSTABLE_REST: sentence} if sentence else {})
 

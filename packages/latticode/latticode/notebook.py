@@ -1,12 +1,12 @@
-"""The library for notebooks: cases of a model, their runs and sweeps as datasets, checks, figures.
+"""The library for notebooks: cases of a model; runs, sweeps and checks as datasets; figures.
 
-Equations are taken as dimensionless. Datasets are xarray's, each variable with a long_name and
-units. Figures are matplotlib's: a notebook shows the one that a cell ends with, and saves it by
-`figure.savefig("mine.pdf")`.
+Equations are treated as dimensionless. Results are xarray.Datasets, in which each variable has a
+long_name and units. Figures are from matplotlib: a notebook shows the figure in the last line of a
+cell, and `figure.savefig("mine.pdf")` saves it.
 
-What is raised: ModelError, where equations cannot be traced; ConfigurationError, with every fault
-of what was given; IntegrationError, where a run cannot reach its end with the digits that were
-asked for; DatasetError, where a file cannot be read or written.
+Errors: ModelError if equations cannot be traced; ConfigurationError, which lists all invalid
+arguments; IntegrationError if a run cannot reach its end with the requested accuracy; DatasetError
+if a file cannot be read or written.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -66,33 +66,37 @@ __all__ = [
 
 
 class Case(cases.CaseSection):
-    """One initial-value problem of a model, checked when it is made.
+    """An initial-value problem of a model, checked when it is created.
 
     Keys and defaults are those of a case in YAML:
 
     model: a Model, or the path of its file.
-    parameters: {name: a number, one for each site, or a function of the sites}; others have the
-        model's own values.
-    initial: {site: a value for each field} in complex numbers, at rest elsewhere; or an array of a
-        number for each site, (field, site) for several fields; or a function of the array of sites
-        that returns one; or a run, which goes on at its end; or a DataArray over site,
-        such as run["state"].sel(snapshot=20); or a file of one of these (.nc, .npy, or .py with an
-        `initial`). Of a field with d2_dt2 the imaginary part is the rate.
-    start_time: the time at the start, of a drive p.t too. 0, or the end of the run in `initial`.
-    half_width: M; the chain has the 2M + 1 sites -M..M. 30.
-    sites: N, in place of half_width; the chain has the N sites 0..N-1.
-    boundary: "dirichlet" (zero beyond the ends), "free" (a mirror beyond the last site: to second
-        neighbours it adds a bond between the last two sites), "periodic" or "antiperiodic".
-    end_time, output_step: observables are kept at every step. 50 and 0.025.
-    snapshot_step: how often the fields on all sites are kept, whole output steps. They divide the
-        run. Left out, 200 snapshots or more are spread over it.
-    times: in place of it, a list of the times at which they are kept.
-    keep: "state" (moduli and both parts of each field in double precision), "moduli" (in single
-        precision, a sixth of the memory) or "norms" (no snapshots).
-    solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "kahan_li" or "auto", or a dict
-        with the controls, such as {"name": "auto", "error": 1e-9}.
+    parameters: {name: a number, one number per site, or a function of the sites}; by default the
+        values of the model.
+    initial: the fields at the start, complex. A field with d2_dt2 has its value as the real part
+        and its rate as the imaginary part. One of
+        - {site: [a value for each field]}; other sites are at rest;
+        - an array (site,), or (field, site) for several fields;
+        - a function of the array of sites that returns such an array;
+        - a run, which is continued from its end;
+        - a DataArray over site, such as run["state"].sel(snapshot=20);
+        - a file with one of these: .nc, .npy, or .py that defines `initial`.
+    start_time: the time p.t at the start. Default: 0, or the end of the run in `initial`.
+    half_width: M; the chain has the 2M + 1 sites -M..M. Default: 30.
+    sites: N, instead of half_width; the chain has the N sites 0..N-1.
+    boundary: "dirichlet" (default; zero beyond the ends), "free" (a mirror beyond the last site:
+        coupling to second neighbours adds a bond between the last two sites), "periodic" or
+        "antiperiodic".
+    end_time, output_step: the end, and the time step of stored norms. Default: 50 and 0.025.
+    snapshot_step: the time step at which the fields on all sites are stored, a multiple of
+        output_step that divides the run. Default: one that gives at least 200 snapshots.
+    times: instead of snapshot_step, a list of the times of the snapshots.
+    keep: "state" (moduli and both parts of each field in double precision, the default), "moduli"
+        (in single precision, a sixth of the memory) or "norms" (no snapshots).
+    solver: "taylor" (tolerance 1e-14, the default), "dop853", "ode45", "crank_nicolson", "kahan_li"
+        or "auto", or a dict with controls, such as {"name": "auto", "error": 1e-9}.
 
-    Raises ConfigurationError, with every fault in words.
+    Raises ConfigurationError, which lists all errors.
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
@@ -109,12 +113,12 @@ class Case(cases.CaseSection):
         validate_case(super().__init__, keys)
 
     def changed(self, **keys: Unpack[ChangedKeys]) -> "Case":
-        """Return the case with other values under `keys`, checked anew."""
+        """Return a new case with other values of `keys`, checked again."""
         values = self.model_dump()
         if end_of_run(keys.get("initial")) is not None:
-            del values["start_time"]  # that of the run
+            del values["start_time"]  # the new run has its own
         for key, replaced in (("sites", "half_width"), ("half_width", "sites")):
-            if keys.get(key) is not None and replaced in values:  # one length replaces the other
+            if keys.get(key) is not None and replaced in values:
                 values[replaced] = None
         return type(self)(**{**values, **keys})
 
@@ -125,9 +129,9 @@ show_keys(Case, ("model", "parameters", "initial"))
 def validate_case(
     initialise: Callable, keys: Mapping, root: type[Configuration] = Configuration
 ) -> None:
-    """Make a case of its keys, which belong to a configuration of the type `root`.
+    """Call the initialiser of a case with its keys, which belong to the configuration `root`.
 
-    Raises ConfigurationError with all that is wrong with them.
+    Raises ConfigurationError, which lists all errors.
     """
     try:
         initialise(**with_controls({"solver": DEFAULT, **keys}, {}))
@@ -136,22 +140,19 @@ def validate_case(
 
 
 def _limits(hours: float | None, gigabytes: float | None) -> dict[str, float]:
-    """Return the limits that are given, by name."""
+    """Return the limits that are not None, by name."""
     limits = {"hours": hours, "gigabytes": gigabytes}
     return {name: limit for name, limit in limits.items() if limit is not None}
 
 
 def _require_affordable(case: cases.CaseSection, chosen_limits: Mapping[str, float]) -> None:
-    """Raise ConfigurationError if a run takes more than it may.
-
-    A run of minutes says what it will take.
-    """
+    """Raise ConfigurationError if a run exceeds the limits; print the cost of a long run."""
     require(case, cases.CaseSection, CASE)
     try:
         limits = RunLimits(**chosen_limits)
     except ValidationError as error:
         raise in_words(error, "the limit", RunLimits) from None
-    # The second problem chooses the times of its snapshots, which needs a run that is not too long.
+    # first without snapshots: choosing their times takes long for a run of too many steps
     for problem in (case.problem, case.shown_problem):
         excess = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
         if excess:
@@ -160,7 +161,7 @@ def _require_affordable(case: cases.CaseSection, chosen_limits: Mapping[str, flo
 
 
 def _as_argument(text: str) -> str:
-    """Return what a message says of a limit with the argument that raises it."""
+    """Return a message in which the keys of limits are replaced by the names of arguments."""
     for name in RunLimits.model_fields:
         if f"limits.{name} allows" in text:
             text = text.replace(f"limits.{name}", name)
@@ -169,7 +170,7 @@ def _as_argument(text: str) -> str:
 
 
 def _load(sections: Mapping, limits: Mapping[str, float]) -> Configuration:
-    """Return a configuration of a notebook's case; errors name arguments in place of keys."""
+    """Return the configuration with these sections; errors name arguments instead of keys."""
     try:
         return load({**sections, "limits": limits})
     except ConfigurationError as error:
@@ -182,48 +183,48 @@ def _announce(estimate: cost.RunCost) -> None:
 
 
 NEEDLESS = (
-    "initial values have imaginary parts, and the equations are those of real fields: the run is of"
-    " their continuation to complex numbers"
+    "initial values have imaginary parts, but the equations are those of real fields: the run"
+    " solves their continuation to complex numbers"
 )
 
 
 def _print_remark(solver: Mapping) -> None:
-    """Print why a run is by another solver than was expected, if it is."""
+    """Print a message if a run was made by another solver than expected."""
     if remark := remark_on(solver):
         print(remark, flush=True)
 
 
 OF_A_RUN = ("case", "output_step", "snapshot_every", "solver")
-"""How attributes start that say how a case was run, and not of which problem the run is."""
+"""Prefixes of attributes that describe how a case was run and not which problem was solved."""
 
 
 def _require_run_of(case: cases.CaseSection, run: xr.Dataset) -> None:
-    """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
+    """Raise ConfigurationError unless a run, by any solver, is one of this case."""
     problem = case.kind.of(case.shown_problem())
-    made_of = {"model": None} | describe_run("", problem, problem.solver)
-    compared = [key for key in sorted(made_of) if not key.startswith(OF_A_RUN)]
-    differing = [key for key in compared if run.attrs.get(key) != made_of[key]]
+    expected = {"model": None} | describe_run("", problem, problem.solver)
+    compared = [key for key in sorted(expected) if not key.startswith(OF_A_RUN)]
+    differing = [key for key in compared if run.attrs.get(key) != expected[key]]
     if differing:
         raise ConfigurationError(
-            f"the run is of another case: they differ in {', '.join(differing)}; give the run of"
+            f"the run is of another case: it differs in {', '.join(differing)}; give a run of"
             " this case, or leave it out"
         )
 
 
 def require(argument: Any, kind: type[Any], description: str, *variables: str) -> None:
-    """Raise ConfigurationError unless an argument is of a kind, and a dataset has `variables`."""
+    """Raise ConfigurationError unless an argument is a `kind` and has all `variables`."""
     if not isinstance(argument, kind):
-        raise ConfigurationError(f"this takes {description}, and not {values.excerpt_of(argument)}")
-    absent = [name for name in variables if name not in argument]
-    if absent:
-        raise ConfigurationError(
-            f"this takes {description}; the dataset has no {', '.join(absent)}"
-        )
+        text = f"expected {description}, but got {values.excerpt_of(argument)}"
+        raise ConfigurationError(text)
+    if absent := [name for name in variables if name not in argument]:
+        text = f"expected {description}, but the dataset has no {', '.join(absent)}"
+        raise ConfigurationError(text)
 
 
-CASE = "a case, as `Case` makes it"
-RUN = "a run, as `simulate` and `read` return it"
-SURVEY = "a survey, as `survey` returns it"
+CASE = "a case from `Case`"
+RUN = "a run from `simulate` or `read`"
+SURVEY = "a survey from `survey`"
+CHECKS = "checks from `check`"
 
 
 def simulate(
@@ -234,25 +235,26 @@ def simulate(
 ) -> xr.Dataset:
     """Integrate a case and return its trajectory.
 
-    Coordinates: tau (time,), component (the fields), site (-M..M), part ("re", "im", or "value",
-    "rate" of fields with second derivatives). Variables, all without units:
+    Coordinates: tau (the times), component (the fields), site (-M..M), snapshot (the times of
+    snapshots), part ("re", "im", or for fields with second derivatives "value", "rate"). Variables,
+    all dimensionless:
 
-    linf, l2 (component, tau): the largest modulus of a field on the chain, and the root of the sum
-        of its squares.
-    state (part, component, site, snapshot): the fields at the times `snapshot`, as snapshot_tau has
-        them; x_n(t) of a real field x is run["state"].sel(part="value", component="x").
+    linf, l2 (component, tau): the norms of a field over the chain, largest modulus and root of the
+        sum of squares.
+    state (part, component, site, snapshot): the fields at the snapshots; a real field x is
+        run["state"].sel(part="value", component="x").
     modulus (component, site, snapshot): their moduli, in single precision.
-    conserved (conserved_quantity, tau): what the model conserves, if it says so.
+    conserved (conserved_quantity, tau): the conserved quantities that the model defines.
     final (part, component, site): the fields at end_time.
 
-    Attributes: every parameter, the solver's controls and its work, `name` as "case".
+    Attributes: all parameters, the controls and the work of the solver, and `name` as "case".
 
-    A run that would take more than `hours` or `gigabytes` of memory (1 and 8 if they are left out)
-    is refused before it starts; one of some minutes says first what it takes. The time follows from
-    the fastest rate at the start: motion that decays takes less.
+    Before the run starts, its cost is estimated from the fastest rate at the start; motion that
+    decays takes less time. A run that would take more than `hours` or `gigabytes` of memory
+    (default: 1 and 8) is rejected; the cost of a run of several minutes is printed.
 
-    Raises ConfigurationError for such a run; IntegrationError, with the reason, where the solver
-    cannot reach end_time with the digits that were asked for.
+    Raises ConfigurationError for a rejected run; IntegrationError, with the reason, if the solver
+    cannot reach end_time with the requested accuracy.
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
@@ -266,8 +268,8 @@ def simulate(
     with show_progress("simulate"):
         trajectory = simulation.simulate(problem)
     _print_remark(trajectory.solver)
-    if anew := simulation.remark_on_start(problem):
-        print(anew, flush=True)
+    if remark := simulation.remark_on_start(problem):
+        print(remark, flush=True)
     if case.has_needless_imaginary_parts:
         print(NEEDLESS, flush=True)
     variables, attributes = trajectory_contents(name, problem, trajectory)
@@ -275,17 +277,17 @@ def simulate(
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """Return the dataset at `path` in memory, its snapshots by their times as in `simulate`.
+    """Return the dataset in a file; as in `simulate`, snapshots have their times as coordinates.
 
-    Raises DatasetError where it is missing, damaged, or not what was written.
+    Raises DatasetError if the file is missing, damaged or edited.
     """
     return timed(netcdf.read(path))
 
 
 def timed(data: xr.Dataset) -> xr.Dataset:
-    """Return a dataset whose snapshots, if it has any, are chosen by their times: sel(snapshot=20).
+    """Return a dataset with times as the coordinates of snapshots: sel(snapshot=20) is at time 20.
 
-    In files they are numbered, and `sel` would take a time for a number in silence.
+    In files, snapshots are only numbered, and `sel` would silently use a time as a number.
     """
     if "snapshot_tau" not in data or data["snapshot_tau"].dims != ("snapshot",):
         return data
@@ -300,20 +302,20 @@ def sweep(
     hours: float | None = None,
     gigabytes: float | None = None,
 ) -> xr.Dataset:
-    """Integrate a case on chains of many half-widths; return maxima and means of its norms.
+    """Integrate a case for many half-widths and return maxima and means of its norms.
 
-    `windows` are (start, end) of time, both included, on output steps; the case is run to the end
-    of the last one, whatever its end_time. A parameter that is a function of the sites has the same
-    values at the sites of every chain.
+    `windows` are pairs (start, end) of times on output steps, both ends included. Runs end with the
+    last window; the end_time of the case is ignored. A parameter that is a function of the sites
+    must return the same value at a site for every chain.
 
-    Returns a dataset with l2 and linf (half_width, quantity, statistic, window), without units:
-    quantity is a field or "pair", all of them together (the root of the sum of squares in l2, the
-    largest in linf); statistic "max" or "mean" (over time, trapezoidal); windows are named
-    "[10, 50]". Attributes as in `simulate`.
+    Returns a dataset with l2 and linf (half_width, quantity, statistic, window), dimensionless.
+    quantity: a field, or "pair" for all fields together (the root of the sum of squares in l2, the
+    largest in linf). statistic: "max", or "mean" (over time, trapezoidal). window: a name such as
+    "[10, 50]". Attributes are those of `simulate`.
 
-    Raises ConfigurationError for windows off the grid, initial data outside a chain, or a sweep
-    that would take more than `hours` or `gigabytes` (1 and 8 if they are left out);
-    IntegrationError as `simulate`.
+    Raises ConfigurationError if windows are not on output steps, if initial data lie outside a
+    chain, or if the sweep would take more than `hours` or `gigabytes` (default: 1 and 8);
+    IntegrationError like `simulate`.
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
@@ -322,9 +324,9 @@ def sweep(
     (3,)
     """
     require(case, cases.CaseSection, CASE)
-    asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
+    raw_section = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
     limits = _limits(hours, gigabytes)
-    settings = _load({"cases": {name: case}, "sweeps": {name: asked}}, limits)
+    settings = _load({"cases": {name: case}, "sweeps": {name: raw_section}}, limits)
     _announce(settings.cost_of_sweep(name))
     checked, problem = settings.sweeps[name], case.kind.of(settings.swept_problem(name))
     with show_progress("sweep"):
@@ -345,29 +347,32 @@ def survey(
     gigabytes: float | None = None,
     resume: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Make many runs of a case and keep a few numbers of each.
+    """Run a case many times, with varied values or perturbed data, and keep results of each run.
 
-    axes: {a parameter, "half_width", "end_time" or "initial.SITE.FIELD": values}; all are combined.
-    members: {"count": ..., "size": ..., "seed": ...}: copies of each run whose initial data differ
-        by a random relative change of that size.
-    keep: "max_l2", "max_linf", "mean_l2", "mean_linf" over the `window` of time, "final_l2",
-        "final_linf" of each field; "exponent" of time with which the power grows in the window;
-        "divergence", the time at which a run by another method differs; or a function of the
-        problem of a run and its trajectory, kept under its own name: a number or an array. The
-        trajectory has tau, l2, linf, final, and where the case has a snapshot_step or times also
-        snapshot_tau and state (part, component, site, snapshot).
-    cores: how many runs are made side by side; it changes no bit.
-    together: what varies along one more axis, all names from one value to the next.
-    resume: what the same survey returned when Ctrl-C interrupted it: the runs that it has are not
-        made again.
+    axes: {name: values}, where a name is a parameter, "half_width", "end_time" or
+        "initial.SITE.FIELD"; all combinations are run.
+    members: {"count": ..., "size": ..., "seed": ...}: an ensemble of `count` copies of each run,
+        with random relative perturbations of size `size` of the initial data.
+    keep: results, by name or as functions.
+        - "max_l2", "max_linf", "mean_l2", "mean_linf": norms of each field in the time `window`;
+        - "final_l2", "final_linf": norms of each field at end_time;
+        - "exponent": a, if the sum of squares of all fields grows like time**a in the window;
+        - "divergence": the time at which a run by another method differs visibly;
+        - a function (problem, trajectory) that returns a number or an array, stored under the name
+          of the function. A trajectory has tau, l2, linf and final; if the case has a snapshot_step
+          or times, also snapshot_tau and state (part, component, site, snapshot).
+    window: a pair (start, end) of times, both included. Default: the whole run.
+    cores: the number of simultaneous runs; results do not depend on it.
+    together: {name: values}, all of the same length, which vary together along one more axis.
+    resume: the dataset that this survey returned when Ctrl-C interrupted it. Its runs are reused.
 
-    Returns a dataset whose dimensions are the axes, "member", and "component" for what each field
-    has. A run that cannot be made to its end has NaN, and a line says how many there are: they are
-    the attribute failed_runs, and "failure" has the reason of each. So "remark" says which runs are
-    not by the solver of the case, and why, and "unfinished" which were not made before Ctrl-C.
+    Returns a dataset over the axes, "member", and "component" for results of each field. Failed
+    runs have NaN; "failure" has the reasons, and the attribute failed_runs the count, which is also
+    printed. "remark" has the reason if a run is not by the solver of the case, "unfinished" if it
+    was not executed before Ctrl-C.
 
-    Raises ConfigurationError for what has no meaning, or would take more than `hours` or
-    `gigabytes` (1 and 8 if they are left out).
+    Raises ConfigurationError for invalid arguments, or if the survey would take more than `hours`
+    or `gigabytes` (default: 1 and 8).
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={"c": 1}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
@@ -378,16 +383,16 @@ def survey(
     """
     require(case, cases.CaseSection, CASE)
     if not isinstance(cores, Integral) or isinstance(cores, bool) or cores < 1:
-        text = f"cores: is {values.excerpt_of(cores)}; give a whole number of 1 or more"
+        text = f"cores: is {values.excerpt_of(cores)}; give a whole number, at least 1"
         raise list_faults([text], "the survey")
     quantities = [keep] if isinstance(keep, str) or callable(keep) else list(keep)
     if not quantities:
-        raise list_faults(["keep: is empty; give what is kept of each run"], "the survey")
+        raise list_faults(["keep: is empty; give a result, such as 'max_l2'"], "the survey")
     for key, argument in (("axes", axes), ("together", together)):
         if not isinstance(argument, Mapping | None):
             text = f"{key}: is {values.excerpt_of(argument)}, not a mapping of names to values"
             raise list_faults([text], "the survey")
-    asked = {
+    raw_section = {
         "case": name,
         "axes": {axis: _listed(values) for axis, values in (axes or {}).items()},
         "together": {axis: _listed(values) for axis, values in (together or {}).items()},
@@ -396,7 +401,7 @@ def survey(
         "window": _listed(window),
     }
     limits = _limits(hours, gigabytes)
-    settings = _load({"cases": {name: case}, "surveys": {name: asked}}, limits)
+    settings = _load({"cases": {name: case}, "surveys": {name: raw_section}}, limits)
     _announce(settings.cost_of_survey(name))
     plan = settings.surveys[name].plan._replace(
         keep=tuple(quantities), by_half_width=settings.values_by_half_width(name)
@@ -406,7 +411,7 @@ def survey(
     except ValueError as error:
         raise list_faults([str(error)], "the survey") from None
     plain_values = settings.surveyed_problem(name)
-    if any(map(callable, quantities)):  # which may read the snapshots that the case asks for
+    if any(map(callable, quantities)):  # functions may read the snapshots of the case
         plain_values = case.problem()
     problem = case.kind.of(plain_values)
     retained = {} if resume is None else _runs_to_resume(resume, name, problem, plan)
@@ -416,27 +421,30 @@ def survey(
 
 
 def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Survey) -> Retained:
-    """Return the runs that an interrupted survey has; raise ConfigurationError for another one."""
+    """Return the finished runs of an interrupted survey.
+
+    Raises ConfigurationError if it is not this survey.
+    """
     names = names_of(plan)
-    require(resume, xr.Dataset, "the survey to resume, as `survey` returned it", *names)
+    require(resume, xr.Dataset, "the interrupted survey from `survey`", *names)
     expected = as_xarray(*survey_contents(name, problem, plan, {}))
-    differ = [key for key in expected.variables if not expected[key].equals(resume.get(key))]
-    known = {"case", "title", *COUNTS.values()}
-    differ += [
+    differing = [key for key in expected.variables if not expected[key].equals(resume.get(key))]
+    ignored = {"case", "title", *COUNTS.values()}
+    differing += [
         key
         for key, value in expected.attrs.items()
-        if key not in known and not np.array_equal(value, resume.attrs.get(key, ""))
+        if key not in ignored and not np.array_equal(value, resume.attrs.get(key, ""))
     ]
-    if differ:
+    if differing:
         raise ConfigurationError(
-            f"resume: it is another survey: they differ in {', '.join(map(str, differ))}; give"
-            " what this one returned, or leave it out"
+            f"resume: is another survey: it differs in {', '.join(map(str, differing))}; give"
+            " the dataset that this survey returned, or leave it out"
         )
     return runs_in(resume, names, plan.shape)
 
 
 def _listed(argument: Any) -> Any:
-    """Return a list of what can be iterated, such as a range, and all else as it is."""
+    """Return an iterable, such as a range, as a list; strings, dicts and others unchanged."""
     return (
         [_listed(item) for item in argument]
         if isinstance(argument, Iterable) and not isinstance(argument, str | dict)
@@ -450,11 +458,11 @@ def check(
     checks: Callable = check_run,
     *variables: str,
 ) -> xr.Dataset:
-    """Measure how far a run of a case can be trusted, and whether its motion is chaotic.
+    """Return checks of a run: its error, whether its motion is chaotic, and a localised state.
 
-    `run` is what `simulate` made of the case; if it is left out, the case is integrated here. Of
-    the problem and of the run, which must have `variables`, `checks` makes a dataset of numbers,
-    each with a long_name and units: see `latticode.checks`.
+    `run` is from `simulate`; by default the case is integrated here. `checks` is a function
+    (problem, run) that returns a dataset, by default the one described in `latticode.checks`; it
+    needs `variables` in the run, besides the norms.
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
@@ -468,21 +476,21 @@ def check(
     _require_run_of(case, run)
     with show_progress("check"):
         measured = checks(case.kind.of(case.shown_problem()), run)
-    if sentence := measured.attrs.get(UNSTABLE_REST):
-        print(sentence)
+    if warning := measured.attrs.get(UNSTABLE_REST):
+        print(warning)
     return measured
 
 
 def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None) -> xr.Dataset:
-    """Measure the `count` largest Lyapunov exponents of the motion of a case, with their errors.
+    """Return the `count` largest Lyapunov exponents of the motion of a case, with their errors.
 
-    Tangent vectors are carried along with the solution by dop853 and made orthonormal again and
-    again; rates are those of the second half of the run, so that the first half is the transient.
-    Returns exponent and exponent_error (number,), largest first, per unit of tau, and log_growth
-    (number, growth_tau). The sum of all exponents is the mean divergence of the equations.
+    Tangent vectors are integrated with the solution by dop853, and made orthonormal again at short
+    intervals. Rates are from the second half of the run; the first half is the transient. Returns
+    exponent and exponent_error (number,), largest first, per unit of tau, and log_growth (number,
+    growth_tau). The sum of all exponents is the mean divergence of the equations.
 
-    Raises ConfigurationError where there are fewer directions than exponents, or the work would
-    take more than `hours` (1 if it is left out); IntegrationError as `simulate`.
+    Raises ConfigurationError if there are fewer directions than exponents, or if the work would
+    take more than `hours` (default: 1); IntegrationError like `simulate`.
 
     >>> from latticode import Model
     >>> def dt(p, x, y, z):
@@ -504,7 +512,7 @@ def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None
     limits = RunLimits(**_limits(hours, None)).model_dump()
     if estimate.excess(limits) > 1.0:
         raise list_faults(
-            [_as_argument(f"count: {cost.refusal(estimate, limits)}")], "the spectrum"
+            [_as_argument(f"count: {cost.name_excess(estimate, limits)}")], "the spectrum"
         )
     _announce(estimate)
     with show_progress("lyapunov"):
@@ -514,19 +522,19 @@ def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None
 def section(
     case: cases.CaseSection, when: Callable, direction: str = "up", site: int | None = None
 ) -> xr.Dataset:
-    """Find the times and states at which a function of the fields crosses zero in a run.
+    """Return the times and states at which a function of the fields crosses zero in a run.
 
-    when: a function (p, *fields), as the equations are, of what shall cross zero; of fields with
-        d2_dt2 it may take velocities too.
+    when: a function (p, *fields), written like equations, whose zeros are the crossings; it may
+        take the velocities too if the model has d2_dt2.
     direction: "up" (from below zero), "down" or "both".
-    site: where the function is taken; the first of the sites 0..N-1, or 0.
+    site: the site where the function is evaluated. Default: 0.
 
     Returns crossing_tau (crossing,) and crossing_state (part, component, site, crossing). A
-    crossing is seen where the sign changes from one output of the case to the next, and located by
-    runs from the output before it, to the last digits of the solver.
+    crossing is detected if the sign differs between two outputs of the case. It is located by runs
+    from the first of these outputs, with the accuracy of the solver.
 
-    Raises ModelError where `when` cannot be traced; ConfigurationError for no direction or site;
-    IntegrationError as `simulate`.
+    Raises ModelError if `when` cannot be traced; ConfigurationError for an unknown direction or
+    site; IntegrationError like `simulate`.
 
     >>> from latticode import Model
     >>> swing = Model(fields="x", parameters={}, d2_dt2=lambda p, x: -x)
@@ -545,9 +553,9 @@ def section(
         ends = f"{case.chain[0]} to {case.chain[-1]}"
         faults.append(f"site: is {values.excerpt_of(site)}; the sites run from {ends}")
     if not isinstance(case.model, Model):
-        faults.append("case: has equations that are no Model; give a case of a Model")
+        faults.append("case: its equations are not a Model; give a case of a Model")
     if not callable(when):
-        faults.append("when: is no function; give one such as lambda p, x: x - 1")
+        faults.append("when: is not a function; give one such as lambda p, x: x - 1")
     if faults:
         raise list_faults(faults, "the section")
     problem = case.kind.of(case.problem())
@@ -558,59 +566,60 @@ def section(
 def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
     """Draw the norms of all fields against time: l-infinity left, l2 right.
 
-    `run` is a trajectory as `simulate` or `read` return it. With the `checks` that `check` made of
-    it, their second run is drawn below it where the two differ, and a mark shows from when on.
+    `run` is from `simulate` or `read`. With `checks` from `check`, if the second run differs
+    visibly, it is drawn below the first, and a line marks the time.
     """
-    from .drawing import runs  # here: importing matplotlib takes half a second
+    from .drawing import runs  # here, because importing matplotlib takes half a second
 
     require_norms(run, checks)
     return runs.draw_norms(runs.gather_norms(run, checks))
 
 
 def require_norms(run: xr.Dataset, checks: xr.Dataset | None) -> None:
-    """Raise ConfigurationError unless a run has norms, and its checks a second run."""
+    """Raise ConfigurationError unless `run` has norms and `checks` is from `check`."""
     require(run, xr.Dataset, RUN, "linf", "l2", "tau")
     if checks is not None:
-        require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
+        require(checks, xr.Dataset, CHECKS, "divergence_time")
 
 
 def draw_spacetime(run: xr.Dataset) -> "Figure":
-    """Draw all fields over time and sites: moduli, or the values of real fields with their signs.
+    """Draw all fields over time and sites: the values of real fields, the moduli of others.
 
-    The run must keep snapshots, and for signs the `state`.
+    The run must have snapshots. Values need the `state`; without it, moduli are drawn.
     """
-    from .drawing import runs  # here: importing matplotlib takes half a second
+    from .drawing import runs  # here, because importing matplotlib takes half a second
 
     require(run, xr.Dataset, SNAPSHOTS, "modulus")
     return runs.draw_spacetime(runs.gather_spacetime(run))
 
 
-SNAPSHOTS = f"{RUN}, with snapshots (its case keeps moduli or the state)"
+SNAPSHOTS = f"{RUN}, with snapshots (of a case with keep='moduli' or 'state')"
 
 
 def draw_breather(checks: xr.Dataset) -> "Figure":
-    """Draw the localised state that `check` found, and its stability.
+    """Draw the localised state in the dataset of `check`, and its stability.
 
-    Left are the moduli of all fields over sites; right its Floquet multipliers beside the unit
-    circle, or the exponents of perturbations where the state is steady.
-    Where there is no such state, the figure says why.
+    Left: the moduli of all fields over sites. Right: its Floquet multipliers with the unit circle,
+    or the exponents of perturbations if the state is steady. If there is no localised state, the
+    figure has the reason.
     """
-    from .drawing import runs  # here: importing matplotlib takes half a second
+    from .drawing import runs  # here, because importing matplotlib takes half a second
 
-    require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
+    require(checks, xr.Dataset, CHECKS, "divergence_time")
     return runs.draw_breather(runs.gather_breather(checks))
 
 
 def draw_survey(survey: xr.Dataset) -> "Figure":
-    """Draw what a survey kept, as `survey` returns it: against one axis, or over two as maps.
+    """Draw the results of a survey from `survey`: curves over one axis, or maps over two.
 
-    Of further axes the first value is shown, and of members the mean with its 95 % limits.
+    For further axes, the first value is shown. For members, the mean and its 95 % confidence
+    interval are shown.
     """
-    from .drawing import surveys  # here: importing matplotlib takes half a second
+    from .drawing import surveys  # here, because importing matplotlib takes half a second
 
     require(survey, xr.Dataset, SURVEY, "component")
     if "failed_runs" not in survey.attrs:
-        raise ConfigurationError(f"this takes {SURVEY}; the dataset is of something else")
+        raise ConfigurationError(f"expected {SURVEY}, but got a different dataset")
     return surveys.draw_survey(surveys.gather_survey(survey))
 
 
@@ -619,10 +628,10 @@ def draw_sweep(
 ) -> "Figure":
     """Draw the norms of all fields together against the half-width M: l-infinity left, l2 right.
 
-    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`. Windows
-    are named as in the dataset; where one is left out, the first is taken.
+    Filled dots are maxima over `max_window`, hollow dots means over `mean_window`. Windows have the
+    names in the dataset; the default is the first one.
     """
-    from .drawing import runs  # here: importing matplotlib takes half a second
+    from .drawing import runs  # here, because importing matplotlib takes half a second
 
     return runs.draw_sweep(gathered_sweep(sweep, max_window, mean_window))
 
@@ -630,14 +639,14 @@ def draw_sweep(
 def gathered_sweep(
     sweep: xr.Dataset, max_window: str | None, mean_window: str | None
 ) -> xr.Dataset:
-    """Return what `draw_sweep` draws, or raise ConfigurationError for what is no sweep."""
+    """Return the data that `draw_sweep` draws; raises ConfigurationError if it is not a sweep."""
     from .drawing import runs
 
-    require(sweep, xr.Dataset, "a sweep, as `sweep` returns it", "linf", "l2", "window")
+    require(sweep, xr.Dataset, "a sweep from `sweep`", "linf", "l2", "window")
     known = [str(window) for window in sweep["window"].values]
     for window in (max_window, mean_window):
         if window is not None and window not in known:
             raise ConfigurationError(
-                f"there is no window {values.excerpt_of(window)}; known are {', '.join(known)}"
+                f"there is no window {values.excerpt_of(window)}; give one of {', '.join(known)}"
             )
     return runs.gather_sweep(sweep, max_window, mean_window)

@@ -83,26 +83,26 @@ def test_the_examples_in_the_docstrings_run():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda r: simulate({"omega": 8}), "a case, as `Case` makes it, and not"),
-        (lambda r: simulate(CASE, 3), "a name for the dataset, and not 3"),
+        (lambda r: simulate({"omega": 8}), "a case from `Case`, but got"),
+        (lambda r: simulate(CASE, 3), "a name for the dataset, but got 3"),
         (lambda r: simulate(CASE, hours=-1), "hours: is -1; it must be greater"),
         (lambda r: sweep(CASE, [2, 2]), "the same value is given twice: 2"),
         (lambda r: sweep(CASE, [3 * 10**9], [(1, 2)]), "half_widths: the run would"),
         (lambda r: sweep(CASE, [2], [(1, 2), (1, 2)]), "is given twice: .1.0, 2.0"),
         (lambda r: sweep(CASE, [2], [(1, 2)], "a b"), "is not a name: use"),
-        (lambda r: check(CASE, 8), "a run, as `simulate` and `read` return it, and"),
+        (lambda r: check(CASE, 8), "a run from `simulate` or `read`, but got"),
         (lambda r: notebook.draw_norms(r.drop_vars("tau")), "the dataset has no tau"),
         (lambda r: simulate(CASE, hours=1e-9), "the run would take less than a"),
         (lambda r: simulate(CASE.changed(end_time=2e6)), "end_time: the run would"),
         (lambda r: sweep(CASE, 3), "half_widths: is 3, not a list"),
         (lambda r: check(CASE, r[["l2"]]), "the dataset has no linf"),
-        (lambda r: check(CASE.changed(parameters={"c": 1}), r), "differ in parameters"),
+        (lambda r: check(CASE.changed(parameters={"c": 1}), r), "differs in parameters"),
         (
             lambda r: notebook.draw_spacetime(r.drop_vars("modulus")),
-            "or the state.; the data",
+            "or 'state'., but the data",
         ),
-        (lambda r: notebook.draw_survey(r["l2"]), "a survey, as `survey` returns it, and not"),
-        (lambda r: notebook.draw_sweep(r), "a sweep, as `sweep` returns it; the dataset"),
+        (lambda r: notebook.draw_survey(r["l2"]), "a survey from `survey`, but got"),
+        (lambda r: notebook.draw_sweep(r), "a sweep from `sweep`, but the dataset"),
     ],
 )
 def test_what_cannot_be_done_is_told_before_anything_runs(call, words, run):
@@ -149,13 +149,13 @@ def test_a_survey_is_drawn_against_one_axis_over_two_as_maps_or_by_member():
 
 @pytest.mark.parametrize("cores", [0, -1, 1.5, True, "2"])
 def test_a_survey_on_no_core_is_refused_by_name(cores):
-    with pytest.raises(ConfigurationError, match=r"cores: is .* give a whole number of 1 or more"):
+    with pytest.raises(ConfigurationError, match=r"cores: is .* give a whole number, at least 1"):
         survey(CASE, {"c": [0.5]}, cores=cores)
 
 
 def test_imaginary_parts_that_nothing_reads_are_refused_and_others_explained(capsys):
     turning = Model(fields="u", parameters={}, i_dt=lambda p, u: 1j * sin(u.right.real - u.real))
-    with pytest.raises(ConfigurationError, match=r"site 0 gives u the imaginary part 2, which no"):
+    with pytest.raises(ConfigurationError, match=r"site 0: u has the imaginary part 2, which no"):
         Case(model=turning, initial={0: ["1+2j"]}, half_width=3)
     growing = Model(fields="x", parameters={}, i_dt=lambda p, x: 1j * (x.left * x - x))
     waves = Model(fields="u", parameters={}, i_dt=lambda p, u: 1j * (lap(u) - abs2(u) * u))

@@ -31,7 +31,11 @@ def set_end_time():
 @pytest.mark.parametrize(
     ("call", "error", "words"),
     [
-        (lambda: draw_survey(simulate(CASE)), ConfigurationError, "takes a survey, as `survey`"),
+        (
+            lambda: draw_survey(simulate(CASE)),
+            ConfigurationError,
+            "expected a survey from `survey`",
+        ),
         (
             lambda: simulate(CASE.changed(half_width=10**7)),
             ConfigurationError,
@@ -45,17 +49,21 @@ def set_end_time():
         (
             lambda: survey(CASE, {"a": [np.ones(9), np.zeros(9)]}),
             ConfigurationError,
-            "1 error:\n  surveys.survey.axes.a: has a list of numbers where a run takes one",
+            "1 error:\n  surveys.survey.axes.a: has a list where each run needs one number",
         ),
         (lambda: read("nothere.nc"), DatasetError, "nothere.nc is missing: "),
-        (set_end_time, ConfigurationError, "case.changed(end_time=5) returns another"),
+        (set_end_time, ConfigurationError, "case.changed(end_time=5) returns a changed copy"),
         (
             lambda: CASE.changed(solver="rk4"),
             ConfigurationError,
-            "known are taylor, dop853, ode45, crank_nicolson, auto",
+            "give one of taylor, dop853, ode45, crank_nicolson, auto",
         ),
-        (lambda: save("z.nc", COMPLEX), DatasetError, "save its parts, z.real and z.imag"),
-        (lambda: save("z.nc", COMPLEX["z"]), DatasetError, "data.to_dataset(name=...) makes one"),
+        (lambda: save("z.nc", COMPLEX), DatasetError, "save z.real and z.imag"),
+        (
+            lambda: save("z.nc", COMPLEX["z"]),
+            DatasetError,
+            "convert it by data.to_dataset(name=...)",
+        ),
         (lambda: survey(CASE, ["a"]), ConfigurationError, "axes: is ['a'], not a mapping of"),
         (lambda: survey(CASE, {"a": [1]}, keep=[]), ConfigurationError, "keep: is empty"),
         (lambda: survey(CASE, {"a": [1]}, window=3), ConfigurationError, "is 3, not a pair"),

@@ -64,7 +64,10 @@ class PaperConfiguration(schema.Configuration):
         if of_case := entry.faults_of(case):
             yield from of_case
         elif (total := entry.cost(case)).excess(limits := self.limits.model_dump()) > 1.0:
-            yield "count" if hasattr(entry, "count") else "case", cost.refusal(total, limits)
+            yield (
+                "count" if hasattr(entry, "count") else "case",
+                cost.name_excess(total, limits),
+            )
 
     def cost_of_motion(self, section: str, name: str) -> RunCost:
         """Return the cost of an entry of `spectra` or `sections`."""
@@ -156,5 +159,5 @@ class PaperConfiguration(schema.Configuration):
         limits = self.limits.model_dump()
         limits["hours"] *= AS_A_STUDY
         if total.excess(limits) > 1.0:
-            text = cost.refusal(total, limits, "its runs together")
+            text = cost.name_excess(total, limits, "its runs together")
             yield key, text.replace("allows", "allows a study")

@@ -1,4 +1,4 @@
-"""A case of a traced model: its keys with their defaults, and the checks between keys."""
+"""A case of a traced model: its keys, their defaults, and checks of keys against each other."""
 
 import difflib
 from collections.abc import Iterator, Mapping
@@ -51,11 +51,11 @@ from .values import (
 )
 
 FEWEST = 200
-"""The number of snapshots that makes a smooth picture."""
+"""The fewest snapshots for a smooth picture."""
 MOST_NUMBERS = 20_000_000
-"""The largest number of moduli kept in memory; very long chains get fewer snapshots."""
+"""The most moduli that are kept in memory; very long chains get fewer snapshots."""
 UNKNOWN = "initial", "mu", "parameters", "solver.name"
-"""Keys that determine the cost of a run, which is not estimated if one of them is invalid."""
+"""Keys without which no run can be judged; if one is invalid, `obstacles` is not called."""
 MOST_COUNTED = 1e15
 """Beyond this many steps, rounding hides whether a step divides a time. Such runs are rejected for
 their cost."""
@@ -64,7 +64,7 @@ their cost."""
 def choose_every(outputs: int, sites: int) -> int:
     """Return the number of output steps between two snapshots of a run of `outputs` steps.
 
-    It divides the run, so that the last state is a snapshot.
+    It divides `outputs`, so the last state is a snapshot.
     """
     most = max(1, MOST_NUMBERS // (2 * sites))
     divisors = [every for every in range(1, outputs // FEWEST + 1) if outputs % every == 0]
@@ -104,7 +104,7 @@ def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
 
 
 def _initial(raw_value: Any, by_site: ValidatorFunctionWrapHandler) -> Any:
-    """Return data by site as numbers; arrays and functions are placed on the sites later."""
+    """Return data by site as numbers; arrays and functions are evaluated on the sites later."""
     data = read_initial(raw_value)
     return by_site(data) if isinstance(data, dict) else data
 
@@ -115,7 +115,7 @@ Initial = Annotated[
     WrapValidator(_initial),
     PlainSerializer(lambda data: data),
 ]
-"""Initial data: by site, an array with a number for each site, or a function of the sites."""
+"""Initial data: by site, an array with one number per site, or a function of the sites."""
 
 
 def _listed_times(raw_value: Any) -> Any:
@@ -133,7 +133,7 @@ def _as_model(value: Any) -> Traced:
         if isinstance(value, Mapping):
             raise fault(
                 "is a mapping; give the path of a file, such as mine.py: a configuration"
-                " holds no code"
+                " cannot contain code"
             )
         if not isinstance(value, Traced | str | Path):
             raise fault(f"is {excerpt_of(value)}; give a Model, or the path of its file")
@@ -148,13 +148,13 @@ def _as_written(model: Traced, info: SerializationInfo) -> Any:
 
 
 class CaseSection(Section):
-    """One initial-value problem of a traced model, with its solver.
+    """An initial-value problem of a traced model, with its solver.
 
     Fields and parameters have the names that the model gives them.
     """
 
     kind: ClassVar[type[Problem]] = Problem
-    """The class of problems that are built from the plain values of a case."""
+    """The class of the problem that is built from the plain values of a case."""
     model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(_as_written, Any)]
     parameters: dict[str, Any] = {}
     half_width: Natural | None = 30
@@ -187,8 +187,8 @@ class CaseSection(Section):
                 raise faults([("half_width", "is empty; give half_width or sites")])
             return raw_keys
         if raw_keys.get("half_width") is not None:
-            text = "is given beside half_width; sites: 32 has the sites 0..31, half_width: 16 has"
-            raise faults([("sites", f"{text} -16..16: leave one of them out")])
+            text = "cannot be combined with half_width: leave one of them out; sites: 32 means the"
+            raise faults([("sites", f"{text} sites 0..31, half_width: 16 the sites -16..16")])
         return {**raw_keys, "half_width": None}
 
     @field_validator("solver", mode="before")
@@ -202,24 +202,22 @@ class CaseSection(Section):
             raise faults([("name", f"is missing; it must be one of {', '.join(known)}")])
         if not isinstance(name, str) or name not in Solvers.model_fields:
             near = difflib.get_close_matches(str(name), known, 1, 0.5)
-            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+            hint = f"did you mean {near[0]!r}?" if near else f"give one of {', '.join(known)}"
             raise fault(f"there is no solver {name!r}; {hint}")
         return raw_value
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in type(self).model_fields:
-            text = (
-                f"a case does not change; case.changed({name}={excerpt_of(value)}) returns another"
-            )
-            raise ConfigurationError(text)
+            change = f"case.changed({name}={excerpt_of(value)})"
+            raise ConfigurationError(f"a case cannot be changed; {change} returns a changed copy")
         super().__setattr__(name, value)
 
-    # --- What the model decides
+    # --- Properties that follow from the model
 
     def data_on(self, sites: range) -> BySite:
         """Return the initial data {site: a value for each field} on a chain.
 
-        Raises ValueError where an array or a function has no values for its sites.
+        Raises ValueError if an array or a function has no values for the sites.
         """
         return fields_on(self.initial, self.fields, sites)
 
@@ -270,22 +268,22 @@ class CaseSection(Section):
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
         known = self.model.parameters
-        reach = self.model.reach
-        far = f"the equations look {reach} site{'s' * (reach > 1)} along the chain"
-        if self.sites is not None and self.sites < self.model.farthest:
-            yield "sites", f"is {self.sites}; {far}"
-        elif self.sites is None and self.half_width < min(self.model.farthest, reach):
-            yield "half_width", f"is {self.half_width}; {far}"
+        farthest = self.model.farthest
+        key, length, least = "sites", self.sites, farthest
+        if length is None:
+            key, length, least = "half_width", self.half_width, min(farthest, self.model.reach)
+        if length < least:
+            why = f"because the model uses neighbours up to {farthest} site{'s' * (farthest > 1)}"
+            yield key, f"is {length}; it must be at least {least}, {why} away"
         for name in self.parameters.keys() - known.keys():
             near = difflib.get_close_matches(name, known, 1)
-            hint = (
-                f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known) or 'none'}"
-            )
-            yield f"parameters.{name}", f"is no parameter of {self.model.name}; {hint}"
+            options = f"give one of {', '.join(known)}" if known else "it has none"
+            hint = f"did you mean {near[0]!r}?" if near else options
+            yield f"parameters.{name}", f"is not a parameter of {self.model.name}; {hint}"
         yield from self.faults_of_parameters(self.chain)
 
     def faults_of_parameters(self, sites: range) -> Iterator[tuple[str, str]]:
-        """Yield (key, error) of each parameter whose values do not fit the sites of a chain."""
+        """Yield (key, error) for each parameter whose values do not fit the sites of a chain."""
         for name, value in self._values_by_name().items():
             try:
                 self.model.value_at(name, value, sites)
@@ -294,9 +292,9 @@ class CaseSection(Section):
                 yield f"parameters.{name}", f"{error}{where}"
 
     def faults_of_half_widths(self, half_widths: list[int]) -> Iterator[tuple[str, str]]:
-        """Yield (key, error) of each parameter whose values do not fit all chains of a sweep.
+        """Yield (key, error) for each parameter whose values do not fit all chains of a sweep.
 
-        Every chain uses the values of the longest chain at its sites. A function must therefore
+        Shorter chains use the values that the longest chain has at their sites. So a function must
         return the same value at a site for every chain.
         """
         longest, without_values = max(half_widths), []
@@ -310,8 +308,8 @@ class CaseSection(Section):
                     at_middle(longest_values, m) != self.model.value_at(name, value, chain_sites(m))
                     for m in half_widths
                 ):
-                    text = "is a function with other values at the same sites of a longer chain"
-                    yield f"parameters.{name}", f"{text}; let them follow from the site alone"
+                    text = "is a function whose values at a site change with the chain length"
+                    yield f"parameters.{name}", f"{text}; make them depend only on the site"
 
     def _values_by_name(self) -> dict[str, Any]:
         return {k: self.parameters.get(k, default) for k, default in self.model.parameters.items()}
@@ -337,12 +335,12 @@ class CaseSection(Section):
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
-        """Return why amplitudes up to `peak` cannot be integrated, or None, and a rate bound."""
+        """Return why amplitudes up to `peak` cannot be integrated, or None; and a rate bound."""
         values = self._values(self.chain)
         obstacle = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
         return obstacle, self.model.rate(values, peak)
 
-    def problem(self, **changes) -> dict:
+    def problem(self, **changes: Any) -> dict:
         """Return the case as plain values of a Problem, with `changes` to some of them.
 
         Parameters are evaluated on the sites, so that a job is rerun if a value changes.
@@ -361,7 +359,7 @@ class CaseSection(Section):
         """Return the cost of a run together with its checks."""
         return cost.with_checks(problem)
 
-    # --- What a survey changes
+    # --- Cases of a survey
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -387,7 +385,7 @@ class CaseSection(Section):
                 changes |= self._varied(name, value)
         return type(self).model_validate({**self.model_dump(), **changes, "initial": initial})
 
-    # --- What fits
+    # --- Checks of keys against each other
 
     @model_validator(mode="after")
     def _consistent(self) -> "CaseSection":
@@ -418,32 +416,32 @@ class CaseSection(Section):
         yield from self._needless_imaginary_parts()
         outside = [site for site in self.data if site not in self.chain]
         if outside:
-            ends = f"from {self.chain[0]} to {self.chain[-1]}"
-            yield "initial", f"site {outside[0]} lies outside the chain, whose sites run {ends}"
+            ends = f"{self.chain[0]} to {self.chain[-1]}"
+            yield "initial", f"site {outside[0]} is outside the chain of the sites {ends}"
 
     def _needless_imaginary_parts(self) -> Iterator[tuple[str, str]]:
-        """Yield an error for an imaginary part that no equation uses but the norms would count."""
+        """Yield an error for an imaginary part that enters the norms but no equation."""
         alone = getattr(self.model, "without_imaginary_parts", ())
         for site, values in self.data.items():
             for name, z in zip(self.fields, values, strict=False):
                 if name in alone and z.imag:
-                    text = f"site {site} gives {name} the imaginary part {z.imag:g}, which no"
+                    text = f"site {site}: {name} has the imaginary part {z.imag:g}, which no"
                     yield "initial", f"{text} equation reads or changes; give a real number"
                     return
 
     @property
     def has_needless_imaginary_parts(self) -> bool:
-        """Whether initial data are complex but the equations are equations of real fields."""
+        """Whether the initial data are complex but the equations are those of real fields."""
         complex_data = any(z.imag for values in self.data.values() for z in values)
         return complex_data and getattr(self.model, "continues_real_equations", False)
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
-        """Yield the error of a solver that cannot integrate the equations of the case."""
+        """Yield (key, error) if a solver cannot integrate the equations of the case."""
         if solver.name not in self.solver_names and not getattr(solver, FLAG, False):
             known, equations = ", ".join(self.solver_names), self.equations
             why = self.why_no_series if solver.name == "taylor" else ""
             equations += f", which {why}" if why else ""
-            yield "solver.name", f"{solver.name} does not take {equations}; give one of {known}"
+            yield "solver.name", f"{solver.name} cannot integrate {equations}; give one of {known}"
 
     def _faults_of_times(self) -> Iterator[tuple[str, str]]:
         step, off_grid = self.output_step, []
@@ -466,12 +464,13 @@ class CaseSection(Section):
             outputs, every = round(self.span / step), round(self.snapshot_step / step)
             text = f"{self.snapshot_step:g} does not divide the run of {self.span:g}"
             near = _nearest_snapshots(outputs, every, step) if outputs < 1e7 else ""
-            yield "snapshot_step", f"{text}, whose last picture would be lost; {near}".strip("; ")
+            text += ", so the last state would not be stored"
+            yield "snapshot_step", f"{text}; {near}".strip("; ")
 
     def _faults_of_chosen_times(self) -> Iterator[tuple[str, str]]:
         times, step = self.times or [], self.output_step
         if times and self.snapshot_step is not None:
-            yield "times", "and snapshot_step both say when fields are kept; leave one of them out"
+            yield "times", "cannot be combined with snapshot_step: leave one of them out"
         if late := [time for time in times if time > self.end_time]:
             yield "times", f"{late[0]:g} lies after the end of the run at {self.end_time:g}"
         if early := [time for time in times if time < self.start_time]:
@@ -485,7 +484,7 @@ class CaseSection(Section):
             yield "times", f"{text}; {near}"
 
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
-        """Yield the error of a step that does not divide the output step."""
+        """Yield (key, error) if the step of a solver does not divide the output step."""
         step, method = getattr(solver, "step", None), METHODS.get(solver.name)
         if method is None or not method.step_divides_outputs:
             return
@@ -501,7 +500,7 @@ class CaseSection(Section):
         """
         span = span or self.span
         controls = self._solver_of_run((solver or self.solver).model_dump())
-        if controls["name"] == "auto":  # its first run, which asks for least
+        if controls["name"] == "auto":  # judge its first run, which has the loosest tolerance
             tolerance = first_tolerance(controls["error"], 0.0)
             name, _ = pair_of(self.solver_names)
             controls = {"name": name, "rtol": tolerance, "atol": tolerance}
@@ -510,20 +509,19 @@ class CaseSection(Section):
         obstacle, speed = self._fault_and_rate(peak, span, controls)
         angle = speed * span
         ends = {"end_time": self.start_time + span, "snapshot_step": None, "times": None}
-        took = self.cost(self.problem(solver=controls, **ends))
-        if obstacle is not None and cost.HOUR < took.seconds < inf:
-            obstacle = obstacle[0], f"{obstacle[1]}, and would take {took}"
+        run_cost = self.cost(self.problem(solver=controls, **ends))
+        if obstacle is not None and cost.HOUR < run_cost.seconds < inf:
+            obstacle = obstacle[0], f"{obstacle[1]}, and would take {run_cost}"
         if obstacle is not None and MOST_STEPS < angle < inf:
-            # three digits never round up beyond it
+            # 0.99, so that rounding to three digits does not exceed the limit
             longest = self.start_time + 0.99 * MOST_STEPS / speed
             obstacle = obstacle[0], f"{obstacle[1]}; end_time may be at most {longest:.3g} here"
         if obstacle is None and 0.0 < angle < SMALLEST_ANGLE:
-            text = f"is too short: the phases change by only {angle:.0e} radians"
-            text += ", little above rounding"
+            text = f"is too short: the phases change by only {angle:.0e} radians, near rounding"
             obstacle = "end_time", f"{span:g} {text}"
         return [obstacle] if obstacle else []
 
-    def _plain_values(self, **changes) -> dict:
+    def _plain_values(self, **changes: Any) -> dict:
         values = {**self.model_dump(), **changes}
         count = values.pop("sites", None)
         counted = {} if count is None else {"site_count": count}
@@ -542,7 +540,7 @@ class CaseSection(Section):
     def _solver_of_run(self, solver: dict) -> dict:
         """Return the controls of the solver that runs the case.
 
-        It is `dop853` if the case names no solver and its solutions have no power series. If the
+        If the case names no solver and its solutions have no power series, it is `dop853`. If the
         series may fail during the run, a flag allows `dop853` to take over.
         """
         if not solver.get(FLAG) or "taylor" in self.solver_names:
@@ -550,7 +548,7 @@ class CaseSection(Section):
         why = f"{self.equations} {self.why_no_series}"
         return {**instead_of_taylor(solver), "instead_of_taylor": why}
 
-    def shown_problem(self, **changes) -> dict:
+    def shown_problem(self, **changes: Any) -> dict:
         """Return the problem, with enough snapshots for a picture if the case specifies none."""
         problem = self.problem(**changes)
         if self.keep == "norms":
@@ -562,4 +560,4 @@ class CaseSection(Section):
 
 
 SMALLEST_ANGLE = 1e-9
-"""The smallest phase change of a run, in radians; below it, rounding dominates the result."""
+"""In radians: runs whose phases change by less are rejected, because rounding dominates them."""

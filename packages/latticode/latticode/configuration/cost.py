@@ -1,9 +1,9 @@
-"""Estimates of the time and memory of a run, which reject an endless run before it starts.
+"""Estimates of the time and memory of a run, so that an endless run is rejected before it starts.
 
-Time is proportional to the number of steps times the number of sites. The number of steps follows
-from the fastest rate of the initial data, the tolerance and the order of the method. The constants
-are fitted to measured speeds (tests/baseline/speed); a test requires every estimate to be within a
-factor of three of the measurement.
+The time is proportional to the number of steps times the number of sites. The number of steps
+follows from the fastest rate of the initial data, the tolerance and the order of the method. The
+constants are fitted to measured speeds (tests/baseline/speed); a test requires every estimate to be
+within a factor of three of the measurement.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -17,7 +17,7 @@ from latticode.integrators.methods import METHODS, methods_taking
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0
-"""Seconds; the estimated time of a longer run is printed before it starts."""
+"""In seconds; if a run is estimated to take longer, its cost is printed before it starts."""
 
 
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
@@ -33,12 +33,12 @@ def span_of(problem: Mapping) -> float:
 
 
 Measure = Callable[[Mapping], Demand]
-"""A function from a problem, as plain values, to its demand; equations with known bounds have their
-own function."""
+"""A function that returns the demand of a problem, given as plain values. Equations with known
+bounds have their own function."""
 
 
 class RunCost(NamedTuple):
-    """Seconds of one processor, and bytes of memory."""
+    """The cost of a run: seconds on one processor, and bytes of memory."""
 
     seconds: float
     memory: float
@@ -53,7 +53,7 @@ class RunCost(NamedTuple):
         return f"{'' if ' than ' in time else 'about '}{time}", amount(self.memory)
 
     def excess(self, limits: Mapping[str, float]) -> float:
-        """Return the cost divided by the allowed one; a run above 1 is rejected."""
+        """Return the larger of time and memory, each divided by its limit; above 1 is rejected."""
         return max(
             self.seconds / (limits["hours"] * HOUR), self.memory / (limits["gigabytes"] * GIGABYTE)
         )
@@ -68,7 +68,7 @@ def demand(problem: Mapping) -> Demand:
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
     peak = max(max(map(abs, values)) for values in initial.values())
     if not model.real:
-        peak *= 0.5**0.5  # real and imaginary part: their squares add up to the squared modulus
+        peak *= 0.5**0.5  # `rate` sets real and imaginary parts to it: their squares add up
     same_equations = model.even and not any(
         isinstance(value, list) for value in problem["parameters"].values()
     )
@@ -130,8 +130,8 @@ def solvers_of(problem: Mapping) -> Collection[str]:
 def runs_of_checks(problem: Mapping) -> list[Mapping]:
     """Return the problems that the checks integrate, as plain values: two runs and a tangent.
 
-    Both runs store fields at the snapshots. A tangent vector is integrated together with the
-    solution, which doubles the work.
+    Both runs store fields at the snapshots. The tangent is listed twice, because the solution is
+    integrated with it.
     """
     second = other_family(problem["solver"]["name"], solvers_of(problem))
     second_run = {**problem, "solver": {"name": second, "rtol": METHODS[second].tightest}}
@@ -146,20 +146,20 @@ LOCALISED = {"seconds": 3e-5, "bytes": 80.0}
 """Cost of a localised state and its exponents, per entry of its matrix: Newton's method solves with
 this matrix while the coupling is turned on, then its eigenvalues are computed."""
 MOST_UNKNOWNS = 1000
-"""The longest chain with this check."""
+"""The most real unknowns of a localised state that the checks look for."""
 
 
 def with_checks(problem: Mapping, measure: Measure = demand) -> RunCost:
     """Return the cost of a run and all its checks, including the localised state."""
     runs = of_checked([estimate(run, measure) for run in [problem, *runs_of_checks(problem)]])
-    unknowns = 4.0 * measure(problem).pairs  # two real numbers a field and site
+    unknowns = 4.0 * measure(problem).pairs  # two real numbers per field and site
     entries = unknowns**2 if unknowns <= MOST_UNKNOWNS else 0.0
     state = RunCost(LOCALISED["seconds"] * entries, LOCALISED["bytes"] * entries)
     return total([runs, state])
 
 
 def of_checked(runs: Iterable[RunCost]) -> RunCost:
-    """Return the cost of runs, where the first run and another one are compared field by field."""
+    """Return the cost of runs of which two, as large as the first, are compared field by field."""
     first, *_ = runs = list(runs)
     compared = first._replace(seconds=0.0, memory=KEPT_TO_COMPARE * first.memory)
     return total([*runs, compared])
@@ -172,7 +172,7 @@ def total(costs: Iterable[RunCost]) -> RunCost:
 
 
 def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, float]:
-    """Return the number of steps and, for an implicit method, of evaluations per step."""
+    """Return the number of steps, and the evaluations per step if the method is implicit."""
     cost = METHODS[solver["name"]].cost
     return cost.steps(solver, needs, span_of(problem), problem["output_step"])
 
@@ -198,17 +198,18 @@ def find_excess(
 ) -> Obstacle | None:
     """Return (key, message) if a run exceeds the limits on time or memory, else None.
 
-    The key is the one whose replacement by its `ordinary` values would save most. `estimate_cost`
-    returns the cost of a problem, and `subject` names the run in the message.
+    The key is the one for which the `ordinary` values would save most. `estimate_cost` returns the
+    cost of a problem, and `subject` names the run in the message.
     """
     cost = estimate_cost(problem)
     if cost.excess(limits) <= 1.0:
         return None
     costs = {key: estimate_cost({**problem, **values}) for key, values in ordinary.items()}
-    return min(costs, key=lambda key: costs[key].excess(limits)), refusal(cost, limits, subject)
+    key = min(costs, key=lambda key: costs[key].excess(limits))
+    return key, name_excess(cost, limits, subject)
 
 
-def refusal(cost: RunCost, limits: Mapping[str, float], subject: str = "the run") -> str:
+def name_excess(cost: RunCost, limits: Mapping[str, float], subject: str = "the run") -> str:
     """Return the message for a run that exceeds the limits on time or memory."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
@@ -219,7 +220,7 @@ def refusal(cost: RunCost, limits: Mapping[str, float], subject: str = "the run"
     elif memory == limit:
         memory = f"a little over {limit}"
     needs, advice = f"{time} and {memory} of memory", "make it smaller, or raise the limit"
-    return f"{subject} would take {needs}, and limits.{name} allows {limit}; {advice}"
+    return f"{subject} would take {needs}, but limits.{name} allows {limit}; {advice}"
 
 
 def duration(seconds: float) -> str:

@@ -1,7 +1,7 @@
 """Configuration files: read strictly, then merged.
 
-YAML readers silently accept duplicate keys, read 010 as eight and 1:30 as ninety. Here each of
-these is an error with its line. Everything else is read as YAML 1.1 or JSON, as in Snakemake.
+YAML readers silently accept duplicate keys, and read 010 as 8 and 1:30 as 90. Here each of these is
+an error, reported with its line. All other text is read as YAML 1.1 or JSON, as in Snakemake.
 """
 
 import json
@@ -16,19 +16,19 @@ import yaml
 
 MOST_VALUES, DEEPEST = 100_000, 30
 """Limits on the number of values and the nesting of a file; beyond them, it is rejected."""
-TOO_MANY = f"more than {MOST_VALUES} values, counting each time that one is repeated"
+TOO_MANY = f"more than {MOST_VALUES} values, with aliases expanded"
 SURPRISES = {
     "int": (
-        (re.compile(r"[-+]?0[0-9_]+"), "is read as a number to the base 8"),
-        (re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+"), "is read as a number to the base 60"),
-        (re.compile(r"[-+]?[0-9_]*_[0-9_]*"), "has a _ in it"),
+        (re.compile(r"[-+]?0[0-9_]+"), "is read as a number in base 8"),
+        (re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+"), "is read as a number in base 60"),
+        (re.compile(r"[-+]?[0-9_]*_[0-9_]*"), "contains _"),
     ),
     "float": (
-        (re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+\.[0-9_]*"), "is read to the base 60"),
-        (re.compile(r".*_.*"), "has a _ in it"),
+        (re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+\.[0-9_]*"), "is read in base 60"),
+        (re.compile(r".*_.*"), "contains _"),
     ),
 }
-"""Numbers that YAML reads differently than people do."""
+"""Numbers that YAML does not read as users expect."""
 OF_MODELS = ".py"
 """The suffix of files that define equations."""
 PATHS = {"model": (OF_MODELS,), "initial": (".nc", ".npy", ".py")}
@@ -37,11 +37,11 @@ PATHS_BY_SECTION = {"cases": PATHS, "sections": {"when": (OF_MODELS,)}}
 PLAIN_TAGS = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The YAML tags that a configuration may contain; others would create Python objects."""
 SINGLE_VALUES = ("initial",)
-"""Keys whose mapping is replaced by that of a later file instead of merged with it."""
+"""Keys with mappings that a later file replaces, instead of merging them."""
 
 
 class ConfigurationError(ValueError):
-    """The configuration has errors; the message lists them all."""
+    """The configuration has errors; the message lists all of them."""
 
 
 def list_faults(lines: list[str], subject: str) -> ConfigurationError:
@@ -63,7 +63,7 @@ def read(path: Path | str) -> dict:
         raise ConfigurationError(f"{path} cannot be read: {error.strerror}") from None
     configuration, faults = parse(text)
     if not faults and not isinstance(configuration, dict):
-        fault = "is empty" if configuration is None else "holds no keys"
+        fault = "is empty" if configuration is None else "has no keys"
         faults = [f"{fault}; give cases: {{mine: {{model: mine.py, initial: ...}}}}"]
     if faults:
         raise list_faults(faults, str(path))
@@ -76,7 +76,7 @@ def read_entries(entries: Iterable[str]) -> dict:
     faults = []
     for entry in entries:
         name, _, text = entry.partition("=")
-        value, wrong = parse(text.strip("'\""))  # quotes that a shell left
+        value, wrong = parse(text.strip("'\""))  # quotes that the shell has not removed
         faults += [_of_entry(name, text) for text in wrong]
         faults += [f"{name}: is given twice"] if name in values else []
         values[name] = value
@@ -86,7 +86,7 @@ def read_entries(entries: Iterable[str]) -> dict:
 
 
 def _of_entry(name: str, text: str) -> str:
-    """Return an error in the value of an entry, preceded by the full path of its key."""
+    """Return the message of an error in the value of an entry, preceded by the path of its key."""
     place, _, fault = text.removeprefix("line 1: ").rpartition(": ")
     return f"{name}.{place}: {fault}" if place else f"{name}: {fault}"
 
@@ -96,7 +96,7 @@ def parse(text: str) -> tuple[Any, list[str]]:
     if text.lstrip().startswith("{"):
         faults: list[str] = []
         try:
-            if text.count(",") > MOST_VALUES:  # between two values of an object or an array
+            if text.count(",") > MOST_VALUES:  # commas separate the values of objects and arrays
                 return None, [TOO_MANY]
             return json.loads(text, object_pairs_hook=lambda pairs: _pairs(pairs, faults)), faults
         except (ValueError, RecursionError):
@@ -124,7 +124,7 @@ def _size_fault(text: str) -> str | None:
     depth = scalars = 0
     for event in yaml.parse(text, yaml.CSafeLoader):
         scalars += isinstance(event, yaml.ScalarEvent)
-        if scalars > 2 * MOST_VALUES:  # keys too, and each of what is repeated once
+        if scalars > 2 * MOST_VALUES:  # counts keys too, and repeated values once
             return f"line {event.start_mark.line + 1}: {TOO_MANY}"
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
@@ -135,7 +135,9 @@ def _size_fault(text: str) -> str | None:
     return None
 
 
-def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
+def _faults(
+    node: yaml.Node, place: tuple, above: set[int], loader: yaml.CSafeLoader
+) -> Iterator[str]:
     """Yield the errors that YAML readers would ignore, each with line and dotted path."""
     position = f"line {node.start_mark.line + 1}: {'.'.join(place)}".rstrip(": ") + ":"
     if id(node) in above:
@@ -148,7 +150,7 @@ def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
         return
     tag = node.tag.removeprefix("tag:yaml.org,2002:")
     if tag not in PLAIN_TAGS:
-        yield f"{position} the tag {node.tag} is not read: a configuration holds plain values"
+        yield f"{position} the tag {node.tag} is not allowed: a configuration has plain values only"
     elif isinstance(node, yaml.ScalarNode):
         yield from (f"{position} {text}" for text in _surprises(node, tag, loader))
     elif isinstance(node, yaml.SequenceNode):
@@ -158,7 +160,9 @@ def _faults(node: yaml.Node, place: tuple, above: set, loader) -> Iterator[str]:
         yield from _faults_of_mapping(node, place, above | {id(node)}, loader)
 
 
-def _faults_of_mapping(node: yaml.MappingNode, place: tuple, above: set, loader) -> Iterator[str]:
+def _faults_of_mapping(
+    node: yaml.MappingNode, place: tuple, above: set[int], loader: yaml.CSafeLoader
+) -> Iterator[str]:
     seen = set()
     for key, value in node.value:
         line, name = f"line {key.start_mark.line + 1}:", str(key.value)
@@ -177,19 +181,19 @@ def _faults_of_mapping(node: yaml.MappingNode, place: tuple, above: set, loader)
         yield from _faults(value, place if tag == "merge" else (*place, name), above, loader)
 
 
-def _read_as(key: yaml.ScalarNode, tag: str, loader) -> Any:
-    """Return the value of a key in YAML: 1, +1 and 0x1 are equal, but 1 and "1" differ."""
+def _read_as(key: yaml.ScalarNode, tag: str, loader: yaml.CSafeLoader) -> Any:
+    """Return a key as YAML reads it: 1, +1 and 0x1 are equal, but 1 and "1" differ."""
     try:
         return loader.construct_object(key) if tag in ("int", "float") else (tag, key.value)
     except ValueError:  # reported by `_surprises`
         return tag, key.value
 
 
-def _surprises(node: yaml.ScalarNode, tag: str, loader) -> Iterator[str]:
+def _surprises(node: yaml.ScalarNode, tag: str, loader: yaml.CSafeLoader) -> Iterator[str]:
     text = node.value
     for pattern, reason in SURPRISES.get(tag, ()):
         if not node.style and pattern.fullmatch(text) and text.strip("+-0"):
-            yield f"{text} {reason}; write it in decimals, or in quotes if it is a word"
+            yield f"{text} {reason}; write a decimal number, or use quotes if it is a word"
             return
     try:
         if tag not in ("merge", "value"):
@@ -207,15 +211,15 @@ def _in_words(error: yaml.YAMLError, text: str) -> str:
     if "start any token" in problem and line[mark.column : mark.column + 1] == "\t":
         problem = "a tab in the indentation: YAML allows only spaces there"
     if "single document" in str(getattr(error, "context", "")):
-        problem = "a second document starts; a configuration is one"
+        problem = "a second YAML document starts; a configuration is a single document"
     return f"line {mark.line + 1}: {problem}"
 
 
 def merge(below: Mapping, above: Mapping) -> dict:
     """Return the configuration `below`, updated by `above`.
 
-    Mappings are merged key by key, except under the keys WHOLE and for the controls of different
-    solvers, which are replaced.
+    Mappings are merged key by key. Those under the keys SINGLE_VALUES are replaced, and so are the
+    controls of a solver if the two solvers differ.
     """
     merged = dict(below)
     for key, value in above.items():
@@ -231,7 +235,7 @@ def merge(below: Mapping, above: Mapping) -> dict:
 
 
 def with_paths(configuration: dict, folder: Path) -> dict:
-    """Return a configuration in which paths of files are relative to `folder`."""
+    """Return a configuration in which `folder` is prepended to the paths of files."""
     located = dict(configuration)
     for section, paths in PATHS_BY_SECTION.items():
         entries = configuration.get(section)
@@ -241,7 +245,7 @@ def with_paths(configuration: dict, folder: Path) -> dict:
 
 
 def _located(entry: Any, paths: Mapping[str, tuple[str, ...]], folder: Path) -> Any:
-    """Return a case or a section whose paths start at `folder`; mine.py:plane is one too."""
+    """Return a case or a section with `folder` prepended to its paths, also to mine.py:plane."""
     for key, endings in paths.items():
         path = entry.get(key) if isinstance(entry, dict) else None
         if isinstance(path, str) and path.partition(":")[0].endswith(endings):
@@ -250,7 +254,7 @@ def _located(entry: Any, paths: Mapping[str, tuple[str, ...]], folder: Path) -> 
 
 
 def gather(files: list[Path], entries: Mapping) -> dict:
-    """Return the merged content of `files`, later files and finally `entries` taking precedence."""
+    """Return the merged content of `files` and `entries`: later files overrule, and entries all."""
     merged: dict = {}
     for path in files:
         merged = merge(merged, with_paths(read(path), Path(path).parent))

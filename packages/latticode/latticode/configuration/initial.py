@@ -6,7 +6,7 @@ part is the value and the imaginary part the velocity.
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,12 @@ from latticode.equations.symbols import ModelError
 from .files import PATHS
 from .values import as_complex, as_whole, excerpt_of, fault
 
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
 FORMS = (
-    "data by site such as {0: [1, 0.1]}, an array of a number for each site, a function of the"
-    " sites, a run, or a file of one of these (.nc, .npy, .py)"
+    "data by site such as {0: [1, 0.1]}, an array of numbers by site, a function of the sites,"
+    " a run, or a file of one of these (.nc, .npy, .py)"
 )
 BySite = Mapping[int, tuple[complex, ...]]
 
@@ -26,7 +29,7 @@ BySite = Mapping[int, tuple[complex, ...]]
 class LabelledFields(NamedTuple):
     """Complex values (field, site) with the names of their fields and the numbers of their sites.
 
-    `fields` is empty where the fields have no names, `sites` where the sites have no numbers.
+    `fields` is empty if the fields have no names, and `sites` if the sites have no numbers.
     """
 
     values: np.ndarray
@@ -72,7 +75,7 @@ def _by_number(data: Mapping) -> dict[int, list]:
         values = values.tolist() if isinstance(values, np.ndarray) else values
         if not isinstance(values, list | tuple):
             raise fault(
-                f"site {site} has {excerpt_of(values)}; give a list of a value for each field"
+                f"site {site} has {excerpt_of(values)}; give a list with a value for each field"
             )
         by_site[site] = values
     return by_site
@@ -93,11 +96,12 @@ def _read_file(path: Path) -> Any:
     except (OSError, ValueError) as error:
         raise fault(f"{path} cannot be read: {error}") from None
     if "initial" not in names:
-        raise fault(f"{path.name} has no initial, a function of the sites or an array")
+        text = "does not define the variable initial, a function of the sites or an array"
+        raise fault(f"{path.name} {text}")
     return names["initial"]
 
 
-def final_of(run) -> Any:
+def final_of(run: "Dataset") -> Any:
     """Return the fields at the end of a run: its `final`, or the last snapshot of its `state`."""
     if "final" in run:
         return run["final"]
@@ -106,11 +110,11 @@ def final_of(run) -> Any:
     raise fault("is a dataset without the fields at the end of a run: it has no variable final")
 
 
-def _labelled(array) -> LabelledFields:
-    """Return the values, fields and sites of a DataArray over site, and component and part."""
+def _labelled(array: "DataArray") -> LabelledFields:
+    """Return a DataArray over `site`, and maybe `component` and `part`, as `LabelledFields`."""
     known = ("component", "part", "site")
     if more := [str(name) for name in array.dims if name not in known]:
-        raise fault(f"has the dimension {more[0]}; choose one, as by .sel({more[0]}=...)")
+        raise fault(f"has the dimension {more[0]}; select one value, as by .sel({more[0]}=...)")
     if "site" not in array.dims:
         raise fault("has no dimension site")
     values = array.transpose(*(name for name in known if name in array.dims)).values
@@ -131,7 +135,7 @@ def _as_numbers(raw_value: Any) -> np.ndarray:
     try:
         values = np.asarray(raw_value)
     except ValueError:
-        raise fault(f"is {excerpt_of(raw_value)}, whose rows are not of one length") from None
+        raise fault(f"is {excerpt_of(raw_value)}, with rows of different lengths") from None
     if values.dtype.kind == "U":  # complex numbers as Python writes them
         values = np.reshape([as_complex(text) for text in values.flat], values.shape)
     if values.dtype.kind not in "iufc" or not values.size:
@@ -176,7 +180,7 @@ def _of_labels(
 
 
 def _called(function: Callable, fields: int, sites: np.ndarray) -> Any:
-    """Return the values of a function of the sites, which may return an array for each field."""
+    """Return the values of a function of the sites; it may return an array for each field."""
 
     def on_sites(sites: np.ndarray) -> Any:
         values = function(sites)
@@ -189,7 +193,7 @@ def _called(function: Callable, fields: int, sites: np.ndarray) -> Any:
 
 
 def _of_shape(data: Any, fields: int, sites: int) -> np.ndarray:
-    """Return values as (field, site)."""
+    """Return values as a complex array (field, site)."""
     values = np.asarray(data)
     if values.dtype.kind not in "iufc":
         raise ValueError(f"is {excerpt_of(data)}, not numbers")

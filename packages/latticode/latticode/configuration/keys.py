@@ -13,7 +13,7 @@ from latticode.equations.model import Model
 from .values import Section as Keys
 
 Numbers = float | Sequence[float] | np.ndarray | Callable[[np.ndarray], Any]
-"""A number, a number for each site, or a function of the sites."""
+"""One number, one number per site, or a function of the sites."""
 Initial = (
     Mapping[int, Sequence[complex | str] | np.ndarray]
     | Sequence[complex]
@@ -61,8 +61,8 @@ class CaseKeys(RunKeys, total=False):
 
 
 def show_keys(case: type[Keys], first: Sequence[str]) -> None:
-    """Make `help` show the keys of a case with their defaults, beginning with `first`."""
-    case.model_rebuild()  # otherwise pydantic would set its own signature on first use
+    """Set the signature that `help` shows: the keys of a case with defaults, `first` first."""
+    case.model_rebuild()  # otherwise pydantic would set its own signature at the first use
     names = [*first, *(name for name in case.model_fields if name not in first)]
     fields = {name: case.model_fields[name] for name in names}
     keys = [

@@ -1,8 +1,9 @@
-"""Error messages of a configuration: all errors at once, each with its path and the nearest key."""
+"""Error messages of a configuration: all errors at once, each with its path and a hint."""
 
 import difflib
 import re
-from typing import get_args
+from collections.abc import Collection
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -54,7 +55,7 @@ def lines_of(error: ValidationError, root: type[BaseModel], place: tuple = ()) -
     """Return one message per error, each with its path below `place` in the model `root`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
-    return [  # a line of a user's file, which is quoted below an error, belongs to it
+    return [  # an indented line quotes the user's file and belongs to the error above it
         line.removeprefix(inside)
         for fault in faults
         for line in re.split(r"\n(?! )", _describe(fault, root))
@@ -90,7 +91,7 @@ def _dotted(place: tuple) -> str:
 
 
 def _printed(key: str) -> str:
-    """Return a key as printed in a path, in quotes if it would be invisible without."""
+    """Return a key for a path: shortened, and in quotes if it has invisible characters."""
     key = key if len(key) <= LONGEST_SHOWN else f"{key[:LONGEST_SHOWN]}..."
     return key if key.isprintable() and key.strip() == key != "" else repr(key)
 
@@ -104,16 +105,16 @@ def _nearest(place: tuple, root: type[BaseModel]) -> str:
     return HINTS.get(key) or _closest(key, _keys_at(place, root))
 
 
-def _closest(word: str, known) -> str:
+def _closest(word: str, known: Collection[str]) -> str:
     near = difflib.get_close_matches(word, known, 1, 0.5)
-    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+    return f"did you mean {near[0]!r}?" if near else f"give one of {', '.join(known)}"
 
 
 def _keys_at(place: tuple, root: type[BaseModel]) -> list[str]:
     """Return the allowed keys at a path of the configuration.
 
-    If a value may have several models, the tag that pydantic inserts selects one. Names of cases
-    and indices of lists do not change the model.
+    If a value may have one of several models, the tag that pydantic inserts in the path selects it.
+    Names of cases and indices of lists do not change the model.
     """
     models = [root]
     for key in place[:-1]:
@@ -124,7 +125,7 @@ def _keys_at(place: tuple, root: type[BaseModel]) -> list[str]:
     return [key for key, field in fields if field.repr and not field.exclude]
 
 
-def _models_in(annotation) -> list[type[BaseModel]]:
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
     """Return the pydantic models in a type: itself, or those among its arguments."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]

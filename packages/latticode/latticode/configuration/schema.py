@@ -1,7 +1,7 @@
-"""The configuration: cases, sweeps over half-widths, solvers' controls, and the limits of a run.
+"""The configuration: cases, sweeps, surveys, the controls of solvers, and the limits of a run.
 
-Problems are returned as plain values, which `Problem.of` reads, since a workflow compares the
-parameters of its jobs from run to run.
+Problems are returned as plain values for `Problem.of`, because a workflow compares the parameters
+of its jobs from run to run.
 """
 
 import difflib
@@ -24,18 +24,18 @@ from .surveys import SurveySection
 from .values import Distinct, Name, Natural, Positive, Section, Window, excerpt_of, faults
 
 Faults = Iterator[tuple[str, str]]
-"""Pairs: the dotted path of a key, from the mapping that is checked, and what is wrong with it."""
+"""Pairs (key, error); the key is a dotted path within the mapping that is checked."""
 
 
 class ShownWindows(Section):
-    """The windows whose maximum and whose mean a figure shows."""
+    """The time windows of a figure of a sweep: one for the maximum of norms, one for the mean."""
 
     max: Window
     mean: Window
 
 
 class Sweep(Section):
-    """A case repeated over half-widths, with its norms reduced over windows of time."""
+    """A case run for many half-widths, and the time windows for maxima and means of norms."""
 
     case: str
     half_widths: Annotated[list[Natural], Field(min_length=1, max_length=1000), Distinct]
@@ -57,28 +57,29 @@ class Sweep(Section):
         names = [name_window(window) for window in self.windows]
         twice = [name for i, name in enumerate(names) if name in names[:i]]
         if twice:
-            all_faults.append(("windows", f"two are so near that both are named {twice[0]}"))
+            text = f"two windows are so similar that both would be named {twice[0]}"
+            all_faults.append(("windows", text))
         if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
-            all_faults.append(("draw", "may list only windows that are listed under windows"))
+            all_faults.append(("draw", "has a window that is not listed under windows"))
         if all_faults:
             raise faults(all_faults)
         return self
 
     @property
     def drawn(self) -> ShownWindows:
-        """The windows that a figure shows: the first one, if the configuration names none."""
+        """The windows that a figure shows; by default the first window for both."""
         return self.draw or ShownWindows(max=self.windows[0], mean=self.windows[0])
 
 
 class RunLimits(Section):
-    """What a run may take; a longer or larger one is refused before it starts."""
+    """The time and memory that a run may need; a larger run is rejected before it starts."""
 
     hours: Positive = 1.0
     gigabytes: Positive = 8.0
 
 
 class Configuration(Section):
-    """Cases, sweeps and the solvers' controls. A program adds sections, and cases of its own."""
+    """Cases, sweeps, surveys and the controls of solvers; a subclass adds sections."""
 
     cases: Annotated[dict[Name, SerializeAsAny[CaseSection]], Field(min_length=1)]
     sweeps: dict[Name, Sweep] = {}
@@ -87,12 +88,12 @@ class Configuration(Section):
     limits: RunLimits = RunLimits()
     SECTIONS_WITH_FILES: ClassVar[tuple[str, ...]] = ("cases", "sweeps", "surveys")
     FORMER_KEYS: ClassVar[Mapping[str, str]] = {}
-    """Present names of renamed keys by their dotted paths, for messages to users of old files."""
+    """The new names of renamed keys, by the old dotted path, for messages about old files."""
 
     @model_validator(mode="before")
     @classmethod
     def _complete_solvers(cls, raw: Any) -> Any:
-        """Give every solver that is only named its controls from `solvers`."""
+        """Complete the solver of each case and sweep with the controls in `solvers`."""
         if not isinstance(raw, dict):
             return raw
         sections = {}
@@ -129,7 +130,7 @@ class Configuration(Section):
         return self
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
-        """Yield each of `names`, which stand at `key`, that `section` does not have."""
+        """Yield (key, error) for each of the `names` that is not in `section`."""
         for name in names:
             if name not in getattr(self, section):
                 near = difflib.get_close_matches(name, getattr(self, section), 1)
@@ -137,28 +138,26 @@ class Configuration(Section):
                 yield key, f"there is no {section.removesuffix('s')} {excerpt_of(name)}{hint}"
 
     def cost_estimate(self, name: str) -> tuple[str, Callable[[Mapping], RunCost]]:
-        """Return in words what is made of a case, and what estimates its cost."""
+        """Return the subject of messages on the cost of a case, and a function for the cost."""
         return "the run", self.cases[name].cost
 
     def _same_files(self) -> Iterator[tuple[str, str]]:
-        """Yield names whose files would be the same where a file system takes a for A."""
+        """Yield names that differ only in case: some file systems would use the same files."""
         for section in self.SECTIONS_WITH_FILES:
             seen: dict[str, str] = {}
             for name in getattr(self, section):
                 first_name = seen.setdefault(name.lower(), name)
                 if first_name != name:
-                    text = f"differs from {first_name!r} only in letter case, so their files may"
-                    text += " collide"
+                    text = (
+                        f"differs from {first_name!r} only in letter case: their files may collide"
+                    )
                     yield f"{section}.{name}", text
 
     def _excess_of_case(self, name: str) -> list[tuple[str, str]]:
-        case, limits, (subject, estimate_cost) = (
-            self.cases[name],
-            self.limits.model_dump(),
-            self.cost_estimate(name),
-        )
+        case, limits = self.cases[name], self.limits.model_dump()
+        subject, estimate_cost = self.cost_estimate(name)
         excess = cost.find_excess(case.problem(), limits, case.cost, case.ordinary)
-        # the times of its snapshots are chosen for a run that is not too long
+        # only now with snapshots: choosing their times takes long for a run of too many steps
         excess = excess or cost.find_excess(
             case.shown_problem(), limits, estimate_cost, case.ordinary, subject
         )
@@ -170,7 +169,7 @@ class Configuration(Section):
             return list(self.absent("cases", "case", [sweep.case]))
         case, all_faults = self.cases[sweep.case], []
         if case.sites is not None:
-            text = "has a number of sites; give it half_width, which a sweep changes"
+            text = "has the key sites; replace it by half_width, which a sweep changes"
             return [("case", f"{sweep.case!r} {text}")]
         try:
             data = case.data_on(chain_sites(max(sweep.half_widths)))
@@ -178,7 +177,7 @@ class Configuration(Section):
             return [("half_widths", f"case {sweep.case!r}: initial {error}")]
         reach, shortest = max(map(abs, data)), min(sweep.half_widths)
         if reach > shortest:
-            text = f"lies outside the chain of half-width {shortest}"
+            text = f"is outside the chain of half-width {shortest}"
             all_faults.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
         unknown = case.faults_of_half_widths(sweep.half_widths)
         all_faults += [("half_widths", f"case {sweep.case!r}: {k}: {text}") for k, text in unknown]
@@ -194,9 +193,8 @@ class Configuration(Section):
             text = f"is not a whole number of output steps of {case.output_step:g}"
             all_faults.append(("windows", f"{off_grid[0]:g} {text}"))
         if sweep.solver is not None:
-            all_faults += [*case.faults_of_solver(sweep.solver)] or case.faults_of_step(
-                sweep.solver
-            )
+            solver = sweep.solver
+            all_faults += [*case.faults_of_solver(solver)] or case.faults_of_step(solver)
             if all_faults:
                 return all_faults
         for key, text in case.obstacles(sweep.solver, max(times) - start):
@@ -208,7 +206,7 @@ class Configuration(Section):
         return all_faults or self._excess_of_sweep(name)
 
     def _excess_of_sweep(self, name: str) -> list[tuple[str, str]]:
-        """Return which key makes a sweep too long, `windows` or `half_widths`, and its cost."""
+        """Return [(key, error)] if a sweep costs too much; the key is windows or half_widths."""
         limits, total = self.limits.model_dump(), self.cost_of_sweep(name)
         if total.excess(limits) <= 1.0:
             return []
@@ -217,14 +215,14 @@ class Configuration(Section):
         end = self.cases[self.sweeps[name].case].start_time + 50.0
         short = self._sum_of(name, ({"half_width": m, "end_time": end} for m in many))
         key = "windows" if short.excess(limits) < ordinary.excess(limits) else "half_widths"
-        return [(key, cost.refusal(total, limits))]
+        return [(key, cost.name_excess(total, limits))]
 
     def cost_of_sweep(self, name: str) -> RunCost:
-        """Return what all runs of a sweep take, one after another."""
+        """Return the cost of all runs of a sweep, one after another."""
         return self._sum_of(name, ({"half_width": m} for m in self.sweeps[name].half_widths))
 
     def _sum_of(self, name: str, changes: Iterable[Mapping]) -> RunCost:
-        """Return what the problem of a sweep takes, run once with each of the changes."""
+        """Return the total cost of the problem of a sweep, run once with each of the changes."""
         problem, case = self.swept_problem(name), self.cases[self.sweeps[name].case]
         return cost.total(case.cost({**problem, **values}) for values in changes)
 
@@ -235,35 +233,30 @@ class Configuration(Section):
         if all_faults := survey.faults_of(self.cases[survey.case]):
             return all_faults
         limits, total = self.limits.model_dump(), self.cost_of_survey(name)
-        return [("axes", cost.refusal(total, limits))] if total.excess(limits) > 1.0 else []
+        return [("axes", cost.name_excess(total, limits))] if total.excess(limits) > 1.0 else []
 
     def surveyed_problem(self, name: str) -> dict:
-        """Return the problem whose values a survey changes."""
+        """Return the problem, as plain values, that a survey varies."""
         return self.cases[self.surveys[name].case].problem(snapshot_step=None, times=None)
 
     def values_by_half_width(self, name: str) -> dict[int, dict[str, Any]]:
-        """Return, for each half-width of a survey, the parameters that are functions of the sites.
-
-        So a function is evaluated on the sites of each run.
-        """
+        """Return, by half-width, the values of the parameters that are functions of the sites."""
         survey = self.surveys[name]
         return self.cases[survey.case].values_by_half_width(survey.half_widths)
 
     def plain_survey(self, name: str) -> dict:
-        """Return a survey as plain values, as the parameters of a job have them."""
+        """Return a survey as plain values, for the parameters of a job."""
         survey = self.surveys[name]
-        members = survey.members and survey.members.model_dump()
-        names, window = survey.keep, survey.window and list(survey.window)
         return {
             "axes": survey.plan.axes,
-            "members": members,
-            "keep": names,
-            "window": window,
+            "members": survey.members and survey.members.model_dump(),
+            "keep": survey.keep,
+            "window": survey.window and list(survey.window),
             "by_half_width": self.values_by_half_width(name),
         }
 
     def cost_of_survey(self, name: str, chunks: int = 1) -> RunCost:
-        """Return what one of so many parts takes, if each run is as dear as the dearest corner."""
+        """Return the cost of a chunk of a survey if each run costs as much as the worst corner."""
         survey, base = self.surveys[name], self.cases[self.surveys[name].case]
         runs = -(-prod(survey.plan.shape) // chunks)
         dearest = max(
@@ -274,14 +267,11 @@ class Configuration(Section):
         return dearest._replace(seconds=twice * runs * dearest.seconds)
 
     def cost_of(self, case: str, solver: str | None = None) -> RunCost:
-        """Return what a run of a case takes, with its snapshots."""
+        """Return the cost of a run of a case, with its snapshots."""
         return self.cases[case].cost(self.shown_problem(case, solver))
 
     def long_runs(self) -> list[str]:
-        """Return a sentence on each run that will last for minutes, to be said before it starts.
-
-        Runs by another solver than the default come first.
-        """
+        """Return the messages before a run: remarks on solvers, then the costs of long runs."""
         costs = {}
         for name, case in self.cases.items():
             subject, estimate_cost = self.cost_estimate(name)
@@ -289,28 +279,21 @@ class Configuration(Section):
             costs[f"cases.{name}: {subject} {verb}"] = estimate_cost(case.shown_problem())
         costs |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
         costs |= {f"surveys.{n}: its runs take": self.cost_of_survey(n) for n in self.surveys}
-        long = [
-            f"{subject} {run_cost}"
-            for subject, run_cost in costs.items()
-            if run_cost.seconds > cost.WORTH_SAYING
-        ]
+        long = [f"{k} {total}" for k, total in costs.items() if total.seconds > cost.WORTH_SAYING]
         solvers = {name: case.problem()["solver"] for name, case in self.cases.items()}
         remarks = {name: remark_on(solver) for name, solver in solvers.items()}
         return [*(f"cases.{name}: {text}" for name, text in remarks.items() if text), *long]
 
-    def problem(self, case: str, solver: str | None = None, **changes) -> dict:
-        """Return a case as plain values of a Problem.
-
-        `solver` takes the place of the case's own, `changes` that of other keys.
-        """
+    def problem(self, case: str, solver: str | None = None, **changes: Any) -> dict:
+        """Return a case as plain values of a Problem, with another solver and other `changes`."""
         return self.cases[case].problem(**self._by(solver), **changes)
 
     def shown_problem(self, case: str, solver: str | None = None) -> dict:
-        """Return the problem, with snapshots enough for a picture if the case names no number."""
+        """Return the problem, with enough snapshots for a picture if the case specifies none."""
         return self.cases[case].shown_problem(**self._by(solver))
 
     def swept_problem(self, sweep: str, solver: str | None = None) -> dict:
-        """Return the case of a sweep as plain values, to be run to the end of the last window."""
+        """Return the problem of a sweep as plain values, up to the end of its last time window."""
         section = self.sweeps[sweep]
         changes = {
             "end_time": max(end for _, end in section.windows),
@@ -327,7 +310,7 @@ class Configuration(Section):
 
 
 def load(raw: dict) -> Configuration:
-    """Return the validated configuration, or raise ConfigurationError with every fault."""
+    """Return the validated configuration; raises ConfigurationError, which lists all errors."""
     try:
         return Configuration.model_validate(raw)
     except ValidationError as error:

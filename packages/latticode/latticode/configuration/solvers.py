@@ -1,6 +1,6 @@
-"""The solvers' controls: what may stand below `solver` and `solvers`, and the defaults.
+"""The controls of solvers: the allowed keys below `solver` and `solvers`, and their defaults.
 
-They follow from the methods of the library; see `latticode.integrators.method`.
+Both follow from the methods in `latticode.integrators.methods`.
 """
 
 from functools import reduce
@@ -26,9 +26,9 @@ DEFAULT = {"name": "taylor", FLAG: True}
 
 
 class DefaultMethod(Section):
-    """The controls of the default method, with a flag where nobody named a solver.
+    """The controls of the default method, with a flag that is set if the user chose no solver.
 
-    The flag lets `dop853` take over where there is no power series.
+    The flag lets `dop853` replace `taylor` if the solution has no power series.
     """
 
     @model_serializer(mode="wrap")
@@ -40,7 +40,7 @@ class DefaultMethod(Section):
 
 
 class Auto(Section):
-    """Two families of methods, which must agree to an error of the fields, of full scale."""
+    """Two methods of different families, whose fields must agree within `error` of full scale."""
 
     name: Literal["auto"] = "auto"
     error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
@@ -53,7 +53,7 @@ def _field(control: Control) -> tuple[Any, Any]:
 
 
 def model_of_controls(method: Method) -> type[Section]:
-    """Return the model of a mapping with the name of a method and its controls."""
+    """Return the pydantic model of a solver: the name of a method, and its controls."""
     kind, is_default = type(method), method.name == DEFAULT["name"]
     fields = {"name": (Literal[method.name], method.name)}
     fields |= {key: _field(control) for key, control in method.controls.items()}
@@ -64,33 +64,33 @@ def model_of_controls(method: Method) -> type[Section]:
 
 
 CONTROLS = {name: model_of_controls(method) for name, method in METHODS.items()} | {"auto": Auto}
-"""The models of all solvers by name."""
+"""The pydantic models of all solvers, by name."""
 Taylor, Dop853 = CONTROLS["taylor"], CONTROLS["dop853"]
 Solvers = create_model(
     "Solvers",
     __base__=Section,
-    __doc__="The controls of each solver where a case names it without giving its own.",
+    __doc__="The controls of each solver, for cases that set none themselves.",
     **{name: (controls, controls()) for name, controls in CONTROLS.items()},
 )
 Solver = Annotated[reduce(or_, CONTROLS.values()), Field(discriminator="name")]
 
 
 def with_controls(item: Any, shared: Any) -> Any:
-    """Return a case or sweep whose solver is a mapping, completed from the shared controls."""
+    """Return a case or sweep with its solver as a mapping, completed with the `shared` controls."""
     raw_solver = item.get("solver") if isinstance(item, dict) else None
     raw_solver = {"name": raw_solver} if isinstance(raw_solver, str) else raw_solver
     if not isinstance(raw_solver, dict) or not isinstance(shared, dict):
         return item
     name = raw_solver.get("name")
     controls = shared.get(name) if isinstance(name, str) else None
-    controls = _sound(name, controls) if isinstance(controls, dict) else {}
+    controls = _valid_controls(name, controls) if isinstance(controls, dict) else {}
     return {**item, "solver": {**controls, **raw_solver}}
 
 
-def _sound(name: str, controls: dict) -> dict:
-    """Return the shared controls without their faults, which are told where they stand alone.
+def _valid_controls(name: str, controls: dict) -> dict:
+    """Return the shared controls without the invalid ones.
 
-    Each case that uses the solver would repeat them.
+    These are reported once, under `solvers`, and not again by every case that uses the solver.
     """
     if name not in Solvers.model_fields:
         return controls

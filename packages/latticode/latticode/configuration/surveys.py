@@ -1,6 +1,6 @@
-"""A survey as people write it: its case, axes, members, what is kept, and in how many parts."""
+"""A survey as a user writes it: its case, axes, members, kept results and number of chunks."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from math import prod
 from typing import Annotated, Any
 
@@ -29,9 +29,9 @@ from .values import (
 
 MOST_RUNS = 10_000_000
 FARTHEST = 5.0
-"""Normal draws are hardly ever larger."""
+"""In standard deviations; normal random numbers are hardly ever larger."""
 MOST_CHECKED = 1000
-"""Of an axis with more values only the ends are checked before the runs."""
+"""The longest axis with all values checked before the runs; of longer ones, the ends are."""
 
 
 class GridSection(Section):
@@ -48,18 +48,18 @@ class GridSection(Section):
 
 
 def _as_axis(value: Any) -> Any:
-    """Return the values of an axis; refuse arrays among them."""
+    """Return the values of an axis; rejects an array in place of a number."""
     if isinstance(value, dict):
         return GridSection.model_validate(value).values
     if isinstance(value, list) and any(isinstance(item, list | np.ndarray) for item in value):
         raise fault(
-            "has a list of numbers where a run takes one; for values by site let the axis be a"
-            " number in the equations, such as p.strength * p.disorder"
+            "has a list where each run needs one number; to vary values by site, vary a number"
+            " that multiplies them in the equations, such as p.strength in p.strength * p.disorder"
         )
     return value
 
 
-def _one_of(known) -> BeforeValidator:
+def _one_of(known: Collection[str]) -> BeforeValidator:
     def check(name: Any) -> Any:
         if name not in known:
             raise fault(f"is {excerpt_of(name)}; give one of {', '.join(known)}")
@@ -74,7 +74,7 @@ KeptName = Annotated[str, _one_of(survey.NAMES)]
 
 
 class MembersSection(Section):
-    """Copies of each run, whose initial data differ by a random relative change."""
+    """An ensemble: copies of each run from randomly perturbed initial data."""
 
     count: Count
     size: Positive
@@ -83,12 +83,12 @@ class MembersSection(Section):
 
 
 class SurveySection(Section):
-    """Many runs of a case, and how many parts they are made in."""
+    """Many runs of a case: over axes of values, and for members of an ensemble."""
 
     case: Name
     axes: dict[str, Axis] = {}
     together: dict[str, Column] = {}
-    """What varies along one more axis, the last: all at once, from one value to the next."""
+    """Values that vary together along one more axis, the last: lists of equal length, by name."""
     members: MembersSection | None = None
     keep: Annotated[list[KeptName], Field(min_length=1), Distinct] = ["max_l2"]
     window: Window | None = None
@@ -98,14 +98,14 @@ class SurveySection(Section):
     def _consistent(self) -> "SurveySection":
         if len({len(values) for values in self.together.values()}) > 1:
             counts = ", ".join(f"{len(values)} of {name}" for name, values in self.together.items())
-            raise faults([("together", f"has {counts}; give as many values of each")])
+            raise faults([("together", f"has {counts}; give the same number of values for each")])
         all_faults, runs = [], prod(self.plan.shape)
         if twice := self.axes.keys() & self.together.keys():
-            all_faults.append(("together", f"varies {min(twice)}, which is an axis of its own"))
+            all_faults.append(("together", f"varies {min(twice)}, which is listed under axes too"))
         if not (self.axes or self.together or self.members):
-            all_faults.append(("axes", "is empty, and there are no members: give what is varied"))
+            all_faults.append(("axes", "is empty, and there are no members: give an axis"))
         if runs > MOST_RUNS:
-            all_faults.append(("axes", f"make {runs} runs; a survey may have {MOST_RUNS}"))
+            all_faults.append(("axes", f"make {runs} runs; the most is {MOST_RUNS}"))
         if self.window and not 0 <= self.window[0] < self.window[1]:
             text = f"[{self.window[0]:g}, {self.window[1]:g}] does not run forward from a time >= 0"
             all_faults.append(("window", text))
@@ -115,7 +115,7 @@ class SurveySection(Section):
 
     @property
     def plan(self) -> survey.Survey:
-        """The survey as the simulation takes it, its numbers real or whole where they are such."""
+        """The survey for `latticode.simulation`; numbers are real or whole where possible."""
         columns = self._columns()
         axes = {name: columns[name] for name in self.axes}
         if rows := [columns[name] for name in self.together]:
@@ -125,27 +125,28 @@ class SurveySection(Section):
         return survey.Survey(axes, tuple(self.keep), self.window, members)
 
     def _columns(self) -> dict[str, list]:
-        """Return the values of all that varies, by name."""
+        """Return the values of all parameters, lengths and initial values that vary, by name."""
         columns = {**self.axes, **self.together}
         return {name: [_plain_number(name, z) for z in values] for name, values in columns.items()}
 
     @property
     def half_widths(self) -> list[int]:
-        """The half-widths of its axes, none where all chains have that of the case."""
+        """The half-widths in the axes; empty if half_width does not vary."""
         return sorted(set(self._columns().get("half_width", [])))
 
     def faults_of(self, case: CaseSection) -> list[tuple[str, str]]:
-        """Return what keeps the survey from being made of a case, and under which key."""
+        """Return pairs (key, error) if a case cannot be surveyed in this way."""
         all_faults = []
         for key, names in (("axes", self.axes), ("together", self.together)):
             for name in names:
                 text = survey.fault_of_axis(name, case.varied, case.data, len(case.fields))
                 if name == "half_width" and case.sites is not None:
-                    text = "half_width: the case has a number of sites; give it half_width instead"
+                    text = "half_width: the case has the key sites; replace it by half_width"
                 all_faults += [(key, text)] if text else []
         twice = {name for name in [*self.axes, *self.together] if name in self.keep}
         all_faults += [
-            ("keep", f"{name} is an axis too, and its dataset has one {name}") for name in twice
+            ("keep", f"{name} is an axis too; the dataset cannot have both: leave one of them out")
+            for name in twice
         ]
         if all_faults:
             return all_faults
@@ -167,7 +168,7 @@ class SurveySection(Section):
         return all_faults
 
     def _faults_of_members(self, case: CaseSection) -> list[tuple[str, str]]:
-        """Return why no solver can follow data as large as those of a member may be."""
+        """Return an error if the data of a member may be too large to be integrated."""
         factor = 1.0 + FARTHEST * self.members.size
         larger = {site: [factor * z for z in data] for site, data in case.data.items()}
         try:
@@ -176,16 +177,16 @@ class SurveySection(Section):
             )
         except ValidationError as error:
             texts = [text for fault in error.errors() for _, text in _texts(fault)]
-            return [("members.size", f"is {self.members.size:g}, and {texts[0]}")]
+            return [("members.size", f"is {self.members.size:g}: {texts[0]}")]
         return []
 
     def corners(self) -> list[dict[str, Any]]:
-        """Return the first and the last value of all axes together: runs that are checked."""
+        """Return two runs to check: the first values of all axes, and the last values."""
         columns = self._columns()
         return [{name: values[end] for name, values in columns.items()} for end in (0, -1)]
 
     def _values_one_by_one(self) -> Iterator[dict[str, Any]]:
-        """Yield each value but the ends of each axis, at the first values of the others."""
+        """Yield the inner values of each axis, with the first values of the other axes."""
         columns = self._columns()
         first = {name: values[0] for name, values in columns.items()}
         for name in self.axes:

@@ -1,6 +1,6 @@
-"""The kinds of values that stand in a configuration: numbers, names, lists without repetition.
+"""Types of values in a configuration: numbers, names, lists without duplicates.
 
-What pydantic would read in silence, such as `true` for 1 or "1 0" for 10, is refused in words.
+They reject, with a message, what pydantic would silently convert: `true` to 1, or "1 0" to 10.
 """
 
 import math
@@ -19,15 +19,15 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|[-+]?\.?(inf|nan)", re.ASCII | re.I)
-"""A number as a word: YAML 1.1 takes 1e-7 for a word, since it has no point."""
+"""A number as a string: YAML 1.1 reads 1e-7 as a string, because it has no decimal point."""
 MOST_DIGITS = 15
-"""A whole number of more digits cannot be counted to, and would not fit into the datasets."""
+"""The most digits of a whole number; longer ones are useless as counts and overflow in datasets."""
 LONGEST_SHOWN = 60
-"""Names are no longer than that either: they make file names, whose length file systems bound."""
+"""The most characters of a value in a message, and of a name: file systems limit file names."""
 
 
 def excerpt_of(value: Any) -> str:
-    """Return a value as a message shows it: short, whatever its length, and words in quotes."""
+    """Return a value as text for a message: strings in quotes, and long values shortened."""
     if value is None:
         return "empty"
     if isinstance(value, int) and not isinstance(value, bool) and digits(value) > MOST_DIGITS + 3:
@@ -37,24 +37,24 @@ def excerpt_of(value: Any) -> str:
 
 
 def digits(value: int) -> int:
-    """Return the number of decimal digits of a whole number, without writing it out."""
+    """Return the number of decimal digits of a whole number; an estimate if there are thousands."""
     if abs(value).bit_length() < 10_000:
         return len(str(abs(value)))
-    return int(abs(value).bit_length() * 0.30103) + 1  # Python writes no longer ones
+    return int(abs(value).bit_length() * 0.30103) + 1  # Python does not print such numbers
 
 
 def fault(text: str) -> PydanticCustomError:
-    """Return the error that says this of the value where it stands."""
+    """Return an error with this text, which pydantic reports at the path of the checked value."""
     return PydanticCustomError("fault", "{text}", {"text": text})
 
 
 def faults(texts_by_key: list[tuple[str, str]]) -> PydanticCustomError:
-    """Return the error that says of each key, whose path starts where this is raised, its text."""
+    """Return an error that holds pairs (key, text); keys are relative to the checked value."""
     return PydanticCustomError("faults", "{found}", {"found": texts_by_key})
 
 
 def _require_number(value: Any, kind: str = "a number") -> Any:
-    """Refuse what would be read as a number without being one."""
+    """Return the value unchanged; rejects values that pydantic would convert to a number."""
     if isinstance(value, bool):
         raise fault(f"is {value}, not {kind}")
     if isinstance(value, int) and digits(value) > MOST_DIGITS + 3:
@@ -67,9 +67,9 @@ def _require_number(value: Any, kind: str = "a number") -> Any:
 
 
 def as_whole(value: Any) -> Any:
-    """Return the whole number that a word such as "1e6" or "20.0" means; leave all else as it is.
+    """Return a string such as "1e6" or "20.0" as a whole number, and any other value unchanged.
 
-    YAML takes 1e6 for a word, and 1.0e6 for a number.
+    YAML reads 1e6 as a string, but 1.0e6 as a number.
     """
     if isinstance(value, str) and NUMBER.fullmatch(value.strip(" ")):
         number = float(value)
@@ -85,7 +85,7 @@ def _countable(value: int) -> int:
 
 
 def as_complex(value: Any) -> complex:
-    """Read 2, 2.0 or "-0.3+0.4j" as Python writes complex numbers; refuse what is not finite."""
+    """Return 2, 2.0 or "-0.3+0.4j" as a complex number; rejects infinity and NaN."""
     try:
         if isinstance(value, str):
             value = re.sub(r" *([-+]) *", r"\1", value.strip(" "))
@@ -118,8 +118,8 @@ def _distinct(values: list) -> list:
 def _aperiodic(name: str) -> str:
     if re.search(r"(.+?)\1{19}", name):
         raise fault(
-            f"is {excerpt_of(name)}, which repeats the same letters twenty times: Snakemake takes"
-            " such a file name for an endless recursion"
+            f"is {excerpt_of(name)}, which repeats a group of letters 20 times; choose another"
+            " name: Snakemake takes such a file name for an endless recursion"
         )
     return name
 
@@ -143,7 +143,7 @@ Name = Annotated[
     AfterValidator(_aperiodic),
 ]
 Distinct = AfterValidator(_distinct)
-"""Beside the type of a list: no value stands in it twice."""
+"""An annotation of the type of a list: rejects duplicate values."""
 Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
 Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
 Counts = Annotated[list[Count], Field(min_length=1), Distinct]
@@ -152,14 +152,14 @@ Window = tuple[Number, Number]
 
 
 class Section(BaseModel):
-    """A mapping of the configuration: unknown keys are faults."""
+    """A mapping of the configuration; rejects unknown keys."""
 
-    # `defer_build`: most models are parts of one, and are validated with it alone
+    # `defer_build`: most sections are only validated as parts of a larger model
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
 
 
 def section_of(**keys: Any) -> type[Section]:
-    """Return the model of a mapping that has all of these keys, each of its type."""
+    """Return the pydantic model of a mapping with these required keys, each with its type."""
     return create_model("Mapping", __base__=Section, **{key: (of, ...) for key, of in keys.items()})
 
 

@@ -1,4 +1,4 @@
-"""Datasets on disk: reading and writing them, and what their variables are called."""
+"""Datasets on disk: reading and writing them, and the names of their variables."""
 
 import os
 import shutil
@@ -9,15 +9,15 @@ from pathlib import Path
 
 
 class DatasetError(RuntimeError):
-    """A file of results that cannot be written, or read back; the message names the file."""
+    """A file of results cannot be written or read; the message names the file."""
 
 
 @contextmanager
 def complete_or_absent(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`, which is renamed to `path` if the block succeeds.
+    """Yield a temporary path in the same folder; rename it to `path` if the block succeeds.
 
-    So a file appears whole or not at all. Raises DatasetError where the disk is full or read-only,
-    or something stands in the way.
+    So `path` is never incomplete. Raises DatasetError if the disk is full or read-only, if `path`
+    is a folder, or if one of its folders is a file.
     """
     path = Path(path)
     partial = path.with_name(f".{os.getpid()}.{path.name}")
@@ -31,38 +31,38 @@ def complete_or_absent(path: str | Path) -> Iterator[Path]:
             raise
         raise not_written(path, error) from error
     finally:
-        with suppress(OSError):  # where the folder is none, or read-only, there is nothing
+        with suppress(OSError):  # in a missing or read-only folder nothing was written
             partial.unlink(missing_ok=True)
 
 
 def _clear_after_killed(path: Path) -> None:
-    """Remove what processes that were killed left of the file."""
+    """Remove the temporary files of `path` that killed processes have left."""
     for left in path.parent.glob(f".*.{escape(path.name)}"):
         _, number, _ = left.name.split(".", 2)
         if number.isdigit():
             try:
-                os.kill(int(number), 0)  # asks whether there is such a process, and does nothing
+                os.kill(int(number), 0)  # signal 0 only checks that the process exists
             except ProcessLookupError:
                 left.unlink()
-            except PermissionError:  # there is one, of another user
+            except PermissionError:  # it exists, and belongs to another user
                 continue
 
 
 def _is_about(error: OSError, partial: Path) -> bool:
-    """Return whether an error came from writing this file and not from reading another."""
+    """Return whether an error is from writing this file, not from reading another one."""
     if error.filename is None:
-        return error.errno is not None  # a full disk: a write knows no name
+        return error.errno is not None  # such as a full disk: errors of `write` have no file name
     return Path(error.filename) in (partial, *partial.parents)
 
 
 def not_written(path: str | Path, error: Exception) -> DatasetError:
-    """Return the error that says which file could not be written, why, and the way out."""
+    """Return the error for a file that could not be written, with the reason and the remedy."""
     path = Path(path)
-    # one whole file may be written inside of another: the user knows the name of the outer one
+    # `complete_or_absent` may be nested; the message has the name without the temporary prefix
     path = path.with_name(path.name.removeprefix(f".{os.getpid()}."))
     existing = next(folder for folder in path.absolute().parents if folder.exists())
     if not existing.is_dir():
-        return DatasetError(f"could not write {path}: {existing} is a file and no folder; move it")
+        return DatasetError(f"could not write {path}: {existing} is a file, not a folder; move it")
     if path.is_dir():
         return DatasetError(f"could not write {path}: it is a folder; move it")
     why = getattr(error, "strerror", None) or error

@@ -1,16 +1,17 @@
-"""What a check returns: coordinates, variables, and the tolerances of those that decide."""
+"""Checks as datasets: coordinates and variables, some of them with a tolerance."""
 
 from collections.abc import Iterable, Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .registry import NAMES
 
 
 def table(title: str, coords: dict, **variables: dict) -> dict:
-    """Return a check's numbers in the form that `xarray.Dataset.from_dict` takes.
+    """Return the numbers of a check as a dictionary for `xarray.Dataset.from_dict`.
 
-    Coordinates have the long names of the registry, or their own names in words.
+    The long name of a coordinate is from the registry, or is its name with spaces for underscores.
     """
     described = {
         name: variable(values, (name,), NAMES.get(name, name.replace("_", " ")))
@@ -20,11 +21,16 @@ def table(title: str, coords: dict, **variables: dict) -> dict:
 
 
 def variable(
-    values, dims: Iterable[str], long_name: str, units: str = "1", tolerance=None, digits=None
+    values: ArrayLike,
+    dims: Iterable[str],
+    long_name: str,
+    units: str = "1",
+    tolerance: float | None = None,
+    digits: int | None = None,
 ) -> dict:
-    """Return one variable; if it has a `tolerance`, a sound check keeps the values below that.
+    """Return a variable of a check. The check fails if a value exceeds the `tolerance`.
 
-    Where a library decides the last bits of the values, they are `rounded` to so many `digits`.
+    Values are rounded to `digits` significant digits if their last bits depend on a library.
     """
     attrs = {"long_name": long_name, "units": units}
     if digits is not None:
@@ -34,17 +40,17 @@ def variable(
     return {"dims": tuple(dims), "data": np.asarray(values), "attrs": attrs}
 
 
-def rounded(values, digits: int) -> np.ndarray:
-    """Return the values rounded to so many significant digits."""
+def rounded(values: ArrayLike, digits: int) -> np.ndarray:
+    """Return the values rounded to this number of significant `digits`."""
     values = np.asarray(values, dtype=float)
     texts = [f"{value:.{digits}g}" for value in values.ravel()]
     return np.array(texts, dtype=float).reshape(values.shape)
 
 
 def columns(dims: Iterable[str], descriptions: Mapping, numbers: Mapping) -> dict[str, dict]:
-    """Return variables of the same dimensions: the `numbers` by their names.
+    """Return variables of the same dimensions from arrays of `numbers` by name.
 
-    `descriptions` has the long name of each, or a pair of that and its tolerance.
+    `descriptions` has, by name, a long name or a pair (long name, tolerance).
     """
     pairs = {
         name: (description, None) if isinstance(description, str) else description
@@ -59,9 +65,9 @@ def columns(dims: Iterable[str], descriptions: Mapping, numbers: Mapping) -> dic
 def tabulate(
     title: str, coords: dict, rows: Iterable[Mapping], descriptions: Mapping, **more: dict
 ) -> dict:
-    """Return the table of `rows`: the numbers at each point of `coords`, whose last one runs first.
+    """Return the table of `rows`, one row for each point of `coords`, the last coordinate fastest.
 
-    Only the numbers of a row that `descriptions` describes are stored, as by `columns`; `more` are
+    A row has numbers by name; those in `descriptions` (see `columns`) are stored. `more` are
     variables of other dimensions.
     """
     rows, shape = list(rows), tuple(len(points) for points in coords.values())
@@ -70,9 +76,9 @@ def tabulate(
 
 
 def deciding(check: dict) -> dict[str, tuple[float, float]]:
-    """Return (largest value, tolerance) of each deciding variable of a check.
+    """Return (largest value, tolerance) for each variable of a check with a tolerance, by name.
 
-    Takes a check, or what `xarray.Dataset.to_dict` makes of its dataset.
+    `check` is from `table`, or from `xarray.Dataset.to_dict`.
     """
     return {
         name: (
@@ -85,15 +91,15 @@ def deciding(check: dict) -> dict[str, tuple[float, float]]:
 
 
 def broken(check: dict) -> dict[str, float]:
-    """Return the deciding variables of a check above their tolerance, with their largest value.
+    """Return the largest values of the variables that exceed their tolerance, by name.
 
-    A value that is not a number counts as broken.
+    NaN counts as exceeding it.
     """
     return {name: worst for name, (worst, limit) in deciding(check).items() if not worst <= limit}
 
 
 def describe(name: str, check: dict) -> str:
-    """Return a line for each deciding variable above its tolerance, or that the check holds."""
+    """Return a message for each variable that exceeds its tolerance, or that the check holds."""
     faults = [
         f"CHECK VIOLATED: {name}: {variable} is {worst:.6g}, tolerance {limit:.6g}"
         for variable, (worst, limit) in deciding(check).items()

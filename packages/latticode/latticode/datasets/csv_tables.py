@@ -1,24 +1,27 @@
-"""What a dataset holds of its runs as a table in CSV, for spreadsheets and other programs."""
+"""Norms and kept results of runs as CSV tables, for spreadsheets and other programs."""
 
 import csv
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import DatasetError, complete_or_absent
 
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
 AS_COLUMNS = "component", "conserved_quantity", "quantity", "statistic", "window"
-"""Dimensions with a column for each of their values; each place on the others is a row."""
+"""Dimensions that become columns, one for each value; the other dimensions become rows."""
 
 
-def write_csv(path: str | Path, dataset) -> None:
-    """Write the norms of a run or sweep, or what a survey kept of each run, as a table.
+def write_csv(path: str | Path, dataset: "Dataset") -> None:
+    """Write the norms of a run or sweep, or the kept results of a survey, as a table.
 
-    Its rows are the places on the axes of the first variable of an xarray.Dataset: the times, the
-    half-widths, or the runs. Each column has its units in brackets. What has other axes, such as
-    the snapshots of a run, is left out. Raises DatasetError where nothing can stand in a table.
+    A row is a point on the axes of the first variable: a time, a half-width, or a run. The heading
+    of a column has its units in brackets. Variables with other axes, such as snapshots, are left
+    out. Raises DatasetError if no variable fits the table.
     """
     first = next(iter(dataset.data_vars.values()), None)
     rows = [name for name in getattr(first, "dims", ()) if name not in AS_COLUMNS]
@@ -27,15 +30,18 @@ def write_csv(path: str | Path, dataset) -> None:
         if columns and {*rows} == {*values.dims} - {*AS_COLUMNS}:
             columns |= _columns(name, values, rows)
     if len(columns) <= len(rows):
-        raise DatasetError(f"could not write {path}: the dataset has no norms and nothing kept")
+        raise DatasetError(f"could not write {path}: the dataset has no norms or kept results")
     with complete_or_absent(path) as partial, open(partial, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
 
 
-def _axes(dataset, rows: list[str]) -> dict[str, list]:
-    """Return the values of each axis at all places, the last axis fastest."""
+def _axes(dataset: "Dataset", rows: list[str]) -> dict[str, list]:
+    """Return the columns of the axes `rows`: the value of each axis in every row of the table.
+
+    The last axis varies fastest.
+    """
     variables = [dataset[name] for name in rows]
     grids = np.meshgrid(*(np.arange(variable.size) for variable in variables), indexing="ij")
     pairs = zip(variables, grids, strict=True)
@@ -45,8 +51,8 @@ def _axes(dataset, rows: list[str]) -> dict[str, list]:
     }
 
 
-def _columns(name: str, values, rows: list[str]) -> dict[str, list]:
-    """Return the columns of a variable: one for each place on its other dimensions."""
+def _columns(name: str, values: "DataArray", rows: list[str]) -> dict[str, list]:
+    """Return the columns of a variable, one for each point on its dimensions that are not rows."""
     column_dimensions = [dimension for dimension in values.dims if dimension not in rows]
     columns = {}
     for place in product(*(values[dimension].values.tolist() for dimension in column_dimensions)):
@@ -55,5 +61,5 @@ def _columns(name: str, values, rows: list[str]) -> dict[str, list]:
     return columns
 
 
-def _head(name: Any, values) -> str:
+def _head(name: Any, values: "DataArray") -> str:
     return f"{name} [{values.attrs.get('units', '1')}]"

@@ -1,17 +1,20 @@
-"""Digests of variables: two that are equal hold the same values, on any machine."""
+"""Digests of variables: equal digests mean equal values, on any machine."""
 
 import json
 from hashlib import sha256
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 
 def plain_bytes(values: np.ndarray) -> bytes:
-    """Return the content of an array in a form that no machine and no way of keeping it changes.
+    """Return the content of an array as bytes that do not depend on machine or file format.
 
-    Processors write a NaN with either sign, which means nothing, so all NaN are written alike.
-    Zeros of either sign and infinities stay apart. Numbers are little-endian.
+    Numbers are little-endian. All NaN become the same bytes, since their sign depends on the
+    processor; zeros of different sign remain different.
     """
     if values.dtype.kind in "OUT":
         return json.dumps([str(word) for word in values.flat]).encode()
@@ -21,7 +24,7 @@ def plain_bytes(values: np.ndarray) -> bytes:
 
 
 def digest_values(dimensions: tuple[str, ...], values: Any) -> str:
-    """Return the SHA-256 of an array: of its dimensions, its kind of numbers, and every bit."""
+    """Return the SHA-256 of an array, which covers its dimensions, its type and every bit."""
     array = np.asarray(values)
     kind = "words" if array.dtype.kind in "OUT" else array.dtype.name
     shape = [f"{name}={size}" for name, size in zip(dimensions, array.shape, strict=True)]
@@ -29,8 +32,8 @@ def digest_values(dimensions: tuple[str, ...], values: Any) -> str:
     return sha256(head + plain_bytes(array)).hexdigest()
 
 
-def digest(dataset) -> str:
-    """Return the SHA-256 of the variables of an xarray.Dataset: of their names and their values."""
+def digest(dataset: "Dataset") -> str:
+    """Return the SHA-256 of the names and values of all variables of a dataset."""
     texts = [
         f"{name} {digest_values(variable.dims, variable.values)}"
         for name, variable in sorted(dataset.variables.items())
@@ -39,5 +42,5 @@ def digest(dataset) -> str:
 
 
 def fingerprint(text: str) -> str:
-    """Return what PNG and PDF carry of the description that stands beside them: its SHA-256."""
+    """Return the SHA-256 of a text; PNG and PDF files contain that of their description."""
     return sha256(text.encode("utf-8")).hexdigest()

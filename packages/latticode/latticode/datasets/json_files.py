@@ -1,7 +1,7 @@
-"""JSON results with a checksum, so that a changed byte is told before anything reads a number.
+"""JSON results with a checksum, so that a changed byte is an error and not a wrong number.
 
-A dataset has its checksum after the last byte of HDF5 (see `netcdf`). JSON allows nothing after its
-end, so that the checksum is the last entry of the object: the SHA-256 of all bytes before it.
+A dataset has its checksum after the last byte of HDF5 (see `netcdf`). In JSON, which allows nothing
+after its end, the checksum is the last entry of the object: the SHA-256 of all bytes before it.
 """
 
 import json
@@ -15,37 +15,36 @@ from . import complete_or_absent
 from .netcdf import readable
 
 ENTRY = "sha256"
-"""The name of the entry; no result may have one of its own."""
+"""The key of the checksum; results must not use it."""
 
 END = re.compile(rf',\n "{ENTRY}": "([0-9a-f]{{64}})"\n}}\n\Z')
 
 
 def write_json(path: str | Path, content: Mapping[str, Any]) -> None:
-    """Write an object with its checksum; raises ValueError as `sealed` does."""
+    """Write an object with its checksum; raises the errors of `sealed`."""
     with complete_or_absent(path) as partial:
         Path(partial).write_bytes(sealed(content).encode())
 
 
 def sealed(content: Mapping[str, Any]) -> str:
-    """Return the JSON of an object that has an entry, a line for each number, and its checksum.
+    """Return the JSON of a non-empty object with its checksum, with each number on its own line.
 
-    Raises ValueError for NaN and infinity, which JSON has no word for.
+    Raises ValueError for NaN and infinity, which JSON cannot represent.
     """
     text = json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False).removesuffix("\n}")
     return f'{text},\n "{ENTRY}": "{_checksum(text)}"\n}}\n'
 
 
 def load_json(path: str | Path) -> dict[str, Any]:
-    """Return what `write_json` wrote, without the checksum.
+    """Return the object that `write_json` has written, without the checksum.
 
-    Raises DatasetError, which names the file and the way out, for one that is missing, damaged or
-    edited.
+    Raises DatasetError, with the remedy, if the file is missing, damaged or edited.
     """
     with readable(path):
         text = Path(path).read_bytes().decode()
         end = END.search(text)
         if end is None or end[1] != _checksum(text[: end.start()]):
-            raise ValueError("its content is not the one that was written")
+            raise ValueError("its content does not match its checksum")
         return {key: value for key, value in json.loads(text).items() if key != ENTRY}
 
 

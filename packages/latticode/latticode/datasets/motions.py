@@ -18,7 +18,7 @@ from .stated import describe_run
 
 
 def measure_exponents(problem: Problem, exponent_count: int, name: str = "lyapunov") -> xr.Dataset:
-    """Return exponents and their errors (number,), and the growth (number, growth_tau)."""
+    """Return Lyapunov exponents and errors (number,), and tangent growth (number, growth_tau)."""
     spectrum = measure_spectrum(problem, exponent_count)
     axes = ("number", "growth_tau")
     coordinates = {"number": np.arange(1, len(spectrum.exponents) + 1), "growth_tau": spectrum.tau}
@@ -39,7 +39,7 @@ def section_at(
     problem: Problem, when: Node, direction: str, site: int, name: str = "section"
 ) -> xr.Dataset:
     """Return the times (crossing,) and states (part, component, site, crossing) of a section."""
-    if problem.solver["name"] == "auto":  # its outputs are those of two methods
+    if problem.solver["name"] == "auto":  # two methods; a section needs one
         method = pair_of(problem.equations.methods)[0]
         problem = problem.changed(solver={"name": method, "rtol": 1e-13, "atol": 1e-13})
     crossings = find_crossings(problem, when, site, direction)
@@ -62,7 +62,10 @@ def section_at(
 def find_section(
     problem: Problem, when: Mapping[str, Any], direction: str, site: int, name: str
 ) -> xr.Dataset:
-    """Return the section at which the only density of a model, as plain values, crosses zero."""
+    """Return the section where a density crosses zero.
+
+    `when` is a model, as plain values, with the density as its only conserved quantity.
+    """
     ((function, density),) = Model.of_plain(when).conserved.items()
     return section_at(problem, density, direction, site, name).assign_attrs(when=function)
 

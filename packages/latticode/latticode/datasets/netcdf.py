@@ -1,19 +1,18 @@
-"""netCDF-4 datasets: every variable has a name for people and units, every file is whole.
+"""netCDF-4 datasets: each variable has a long name and units, and each file a checksum.
 
-Writing needs netCDF4 alone, so that a simulation does not pay for importing xarray.
+Writing uses only netCDF4, so that a simulation does not import xarray.
 
-Each file ends with a digest, because storage can corrupt data silently. HDF5 can keep a checksum of
-each array of numbers, and every reader then detects a changed number. It keeps none for text, for
-single numbers, and for the tables of the places of an array's pieces; a damaged table can crash the
-HDF5 library. So the last line of a file, which HDF5 ignores, holds the SHA-256 of all bytes before
-it, which is verified before HDF5 opens the file.
+Storage can corrupt data silently. HDF5 stores checksums of numeric arrays only: not of text, single
+numbers, or the index of the chunks of an array, and a damaged index can crash the HDF5 library. So
+each file ends with a seal, a line that HDF5 ignores. It has the SHA-256 of all bytes before it, and
+is verified before HDF5 opens the file.
 """
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import netCDF4
 import numpy as np
@@ -22,23 +21,26 @@ from . import DatasetError, complete_or_absent, not_written
 from .csv_tables import write_csv
 from .registry import WAYS, complete, describe
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 MARK = b"\nSHA-256 of all bytes before this line: "
 LENGTH = len(MARK) + 64 + 1
 """Bytes of the seal: the mark, 64 hexadecimal digits and the end of the line."""
 
 
 class Variable(NamedTuple):
-    """Values on named dimensions, with CF-style attributes."""
+    """Values on named dimensions, with CF attributes."""
 
     dimensions: tuple[str, ...]
     values: Any
-    long_name: str = ""  # that of the registry
+    long_name: str = ""  # if empty, it is from the registry
     units: str = "1"
-    attributes: Mapping[str, Any] = {}  # others, such as `significant_digits` of rounded values
+    attributes: Mapping[str, Any] = {}  # further ones, such as `significant_digits`
 
 
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
-    """Write a dataset; a fault (a full disk, say) leaves no file, and its message names it."""
+    """Write a dataset; raises DatasetError, and leaves no file, if this fails."""
     with (
         _sealed(path) as partial,
         netCDF4.Dataset(partial, "w", format="NETCDF4") as file,
@@ -50,7 +52,7 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
 
 @contextmanager
 def _sealed(path: str | Path) -> Iterator[Path]:
-    """Yield a path to write to; if that succeeds, add the seal, and rename the file to `path`."""
+    """Yield a path to write to; if the block succeeds, add the seal and rename to `path`."""
     try:
         with complete_or_absent(path) as partial:
             yield partial
@@ -67,9 +69,9 @@ def _seal(content: bytes) -> bytes:
     return MARK + sha256(content).hexdigest().encode() + b"\n"
 
 
-def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
-    """Return the xarray.Dataset that `read` would return of what `write` writes."""
-    import xarray  # here, so that writing does without it
+def as_xarray(variables: Mapping[str, Variable], attributes: Mapping) -> "Dataset":
+    """Return the dataset that `write` and then `read` would give."""
+    import xarray  # here, so that writing does not import it
 
     def as_variable(name: str, variable: Variable) -> xarray.Variable:
         values = np.asarray(variable.values)
@@ -77,9 +79,9 @@ def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
         words = _attributes(name, variable)
         return xarray.Variable(variable.dimensions, values, words)
 
-    all_of_them = {name: as_variable(name, variable) for name, variable in variables.items()}
-    coordinates = {k: v for k, v in all_of_them.items() if v.dims == (k,)}
-    values = {k: v for k, v in all_of_them.items() if k not in coordinates}
+    converted = {name: as_variable(name, variable) for name, variable in variables.items()}
+    coordinates = {k: v for k, v in converted.items() if v.dims == (k,)}
+    values = {k: v for k, v in converted.items() if k not in coordinates}
     return xarray.Dataset(values, coordinates, complete(attributes, "in memory"))
 
 
@@ -87,14 +89,15 @@ def _attributes(name: str, variable: Variable) -> dict[str, Any]:
     return describe(name, variable.long_name, variable.units) | dict(variable.attributes)
 
 
-def save(path: str | Path, dataset) -> None:
-    """Write an xarray.Dataset as `write` does, or as a table where the path ends in .csv.
+def save(path: str | Path, dataset: "Dataset") -> None:
+    """Write a dataset as netCDF, or as a CSV table if the path ends in .csv.
 
-    Raises DatasetError for any other ending than .csv and .nc.
+    Raises DatasetError for any other suffix than .nc or .csv, for complex values, and if the file
+    cannot be written.
     """
     if not hasattr(dataset, "data_vars"):
-        way = "; data.to_dataset(name=...) makes one" if hasattr(dataset, "to_dataset") else ""
-        raise DatasetError(f"this saves a dataset, and not a {type(dataset).__name__}{way}")
+        way = "; convert it by data.to_dataset(name=...)" if hasattr(dataset, "to_dataset") else ""
+        raise DatasetError(f"save needs a dataset, not a {type(dataset).__name__}{way}")
     ending = Path(path).suffix
     if ending == ".csv":
         return write_csv(path, dataset)
@@ -104,7 +107,7 @@ def save(path: str | Path, dataset) -> None:
         str(name) for name, variable in dataset.items() if variable.dtype.kind == "c"
     ]:
         raise DatasetError(
-            f"{path}: {of_complex[0]} is complex, and files hold real numbers: save its parts,"
+            f"{path}: {of_complex[0]} is complex, but files contain real numbers only: save"
             f" {of_complex[0]}.real and {of_complex[0]}.imag"
         )
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
@@ -113,8 +116,8 @@ def save(path: str | Path, dataset) -> None:
         variable.attrs.update(
             describe(str(name), attributes["long_name"], attributes["units"] or "1")
         )
-        # CF forbids a missing value in coordinates, and xarray would state one for every variable.
-        # It stands beside the compression that the caller may have asked for.
+        # CF forbids a fill value of coordinates, but xarray would add one to every variable. Other
+        # entries of the encoding, such as compression, are kept.
         variable.encoding["_FillValue"] = None
         if _has_checksum(variable.values):
             variable.encoding |= {"fletcher32": True, "contiguous": False}
@@ -123,7 +126,7 @@ def save(path: str | Path, dataset) -> None:
 
 
 def _has_checksum(values: np.ndarray) -> bool:
-    """Return whether HDF5 can keep a checksum of the values: not of words and single numbers."""
+    """Return whether HDF5 can store a checksum of the values: only of arrays of numbers."""
     return values.ndim > 0 and values.size > 0 and values.dtype.kind in "biuf"
 
 
@@ -145,33 +148,33 @@ def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> Non
     target[...] = values
 
 
-def read(path: str | Path):
-    """Return the dataset at `path` as an xarray.Dataset in memory, its file closed.
+def read(path: str | Path) -> "Dataset":
+    """Return the dataset in a file; it is in memory, and the file is closed.
 
-    Raises DatasetError where it is missing, damaged, or not what was written.
+    Raises DatasetError if the file is missing, damaged or edited.
     """
-    import xarray  # here, so that writing does without it
+    import xarray  # here, so that writing does not import it
 
     if not isinstance(path, str | Path):
-        raise DatasetError(f"this takes the path of a dataset, and not a {type(path).__name__}")
+        raise DatasetError(f"give the path of a dataset, not a {type(path).__name__}")
     if not path or Path(path).is_dir():
-        raise DatasetError(f"{str(path) or 'an empty path'} is a folder: name a dataset in it")
+        raise DatasetError(f"{str(path) or 'an empty path'} is a folder: give a file in it")
     with readable(path):
         return xarray.load_dataset(path, engine="netcdf4")
 
 
 @contextmanager
 def readable(path: str | Path) -> Iterator[None]:
-    """Check the file's seal, and raise DatasetError, which says the way out, for all that fails.
+    """Verify the seal of a file, and turn any error of the block into a DatasetError with a remedy.
 
-    A file without a seal is left to HDF5, since other programs write such files. A damaged file can
-    hold an unreadable name or an impossible size, for which libraries have many kinds of errors.
+    Files without a seal are accepted, since other programs write them. Any error, because libraries
+    raise many types for a damaged file, such as one with unreadable names or impossible sizes.
     """
     try:
         content = Path(path).read_bytes()
         written, line = content[:-LENGTH], content[-LENGTH:]
         if line.startswith(MARK) and line != _seal(written):
-            raise DatasetError("its content is not the one that was written")
+            raise DatasetError("its content does not match its checksum")
         yield
     except FileNotFoundError:
         raise DatasetError(f"{path} is missing: {WAYS['make']} to make it") from None

@@ -1,11 +1,11 @@
 """Names of variables and attributes in datasets: each name has one meaning.
 
-Names that several datasets share stand here with their long names, so that a writer need not
-describe them and cannot give them another meaning. A quantity of one study is described where
-it is computed; a test reads all datasets of a run and fails where one name means two things.
+Names that several datasets share are listed here with their long names. A quantity of only one
+study is described where it is computed. A test reads all datasets of a run, and fails if a name has
+two meanings.
 
-Equations are taken as dimensionless. So a rate is "per unit of time" and its units are "1", as
-UDUNITS asks for; angles are in "rad".
+Equations are treated as dimensionless: a rate "per unit of time" has the units "1", as UDUNITS
+requires. Angles are in "rad".
 """
 
 from collections.abc import Mapping
@@ -16,11 +16,11 @@ from latticode.integrators.methods import NAMED
 
 CONVENTIONS = "CF-1.11"
 MADE_BY = {"version": __version__, "history": f"computed by latticode {__version__}"}
-"""What made a dataset; a program that calls the library names itself here."""
+"""Attributes that name the program that computed a dataset; a program replaces them by its own."""
 WAYS = {"make": "call simulate and save"}
-"""What a message tells a user to do; a program that calls the library names its own commands."""
+"""Remedies in messages; a program replaces them by its own commands."""
 UNITS = ("1", "rad", "s", "s-1", "byte", "byte s-1")
-"""All units in use; each is one that UDUNITS parses."""
+"""All allowed units; UDUNITS can parse each of them."""
 
 NAMES = {
     # coordinates
@@ -47,16 +47,16 @@ NAMES = {
     "final": "field at the end time",
     "state": "field at the snapshots",
 }
-"""Long names of variables that several datasets share; all of them have the units "1". A program
-that calls the library adds its own, or gives its own words for these."""
+"""Long names of variables that several datasets share; their units are "1". A program may add names
+or replace long names."""
 ANGLES = ("linf", "l2", "modulus", "final", "state", "error")
-"""Those that are angles in "rad" where pendula are followed."""
+"""Variables that may also be in "rad": they are angles if the equations are those of pendula."""
 
 
 SOLVER_NAMES = {name: method.label for name, method in NAMED.items()} | {
     "auto": "two methods by error"
 }
-"""The solvers as figures and pages write them."""
+"""The names of solvers in figures and pages."""
 
 
 class NamingError(ValueError):
@@ -64,21 +64,21 @@ class NamingError(ValueError):
 
 
 def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]:
-    """Return `long_name` and `units` of a variable; the registry names what has no long name.
+    """Return `long_name` and `units` of a variable; an empty long name is read from the registry.
 
-    Raises NamingError if nobody names the variable, or if its units are not among UNITS.
+    Raises NamingError if there is no long name in either, or if the units are not allowed.
     """
     if not (long_name or name in NAMES):
         raise NamingError(f"{name}: has no long_name; give it one by .attrs['long_name'] = ...")
     known = ("1", "rad") if name in ANGLES else ("1",) if name in NAMES else UNITS
     if units not in known:
-        raise NamingError(f"{name}: has the units {units!r}; known are {', '.join(known)}")
+        raise NamingError(f"{name}: has the units {units!r}; give one of {', '.join(known)}")
     return {"long_name": long_name or NAMES[name], "units": units}
 
 
 def complete(attributes: Mapping[str, Any], title: str) -> dict[str, Any]:
-    """Return a dataset's attributes together with those that every file has.
+    """Return the attributes of a dataset with those that all files share.
 
-    No date, host, user or path is among them: two runs give the same content.
+    There is no date, host, user or path, so that two runs give the same content.
     """
     return {"title": title, **attributes, "Conventions": CONVENTIONS, **MADE_BY}

@@ -1,7 +1,7 @@
-"""What was computed, as attributes of a dataset: the problem, and what else its job was given.
+"""Provenance as attributes of a dataset: its problem, and the other arguments of its job.
 
-So every file says with which constants, initial conditions, seeds and grids it was computed, or
-names the datasets that have them.
+So every file records its constants, initial conditions, seeds and grids, or the names of the
+datasets that do.
 """
 
 import json
@@ -14,14 +14,12 @@ from latticode.equations.initial_values import write_initial
 from latticode.simulation.problem import Problem
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
-"""The attributes that name the function of a job, and the datasets that it has read."""
-
-
+"""The attributes with the name of the function of a job, and with the datasets that it has read."""
 OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_every")
 
 
 def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
-    """Return the attributes that say what was solved, and by which controls."""
+    """Return attributes that describe a problem and the solver with its controls."""
     attributes = {key: getattr(problem, key) for key in OF_A_PROBLEM}
     if problem.site_count is not None:
         del attributes["half_width"]
@@ -38,10 +36,7 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
 
 
 def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[str, Any]:
-    """Return the attributes that have one value in all descriptions, but for those `without`.
-
-    Of runs and sweeps that are read again they say what problem all of them solve.
-    """
+    """Return the attributes with the same value in all descriptions, except those in `without`."""
     first, *later = descriptions
     return {
         key: value
@@ -53,12 +48,12 @@ def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[
 def stated(
     arguments: Mapping[str, Any], variables: Iterable[str], read: list[str], function: Callable
 ) -> dict[str, Any]:
-    """Return what the function of a job was given as attributes, which are numbers and text.
+    """Return the arguments of the function of a job as attributes, which are numbers and strings.
 
-    A list is written as JSON. A table of single values with names becomes an attribute for each
-    entry, any other table JSON. Several problems have an attribute for each value that all of them
-    share, and one for the values in which they differ. What the `variables` of the dataset hold is
-    left out. `read` names the datasets that the `function` has read.
+    A mapping of single values becomes one attribute per entry; other mappings and lists become
+    JSON. Several problems become one attribute for each value that they share, and one in JSON for
+    all values that differ. Values that the `variables` of the dataset contain are left out. `read`
+    has the names of the datasets that the `function` has read.
     """
     variables, attributes = set(variables), {}
     for name, value in arguments.items():
@@ -74,28 +69,21 @@ def stated(
         }
         stored_as_variables = {key for value in differing.values() for key in value} <= variables
         attributes |= shared | ({} if stored_as_variables else {name: _json(differing)})
-    known = {
-        name: value for name, value in attributes.items() if value is not None
-    }  # an infinite chain
-    attributes = {name: value for name, value in known.items() if name not in variables}
+    attributes = {
+        name: value
+        for name, value in attributes.items()
+        if value is not None and name not in variables  # None: the length of an infinite chain
+    }
     attributes[COMPUTED_BY] = f"{function.__module__}.{function.__name__}"
     return attributes | ({COMPUTED_FROM: ", ".join(read)} if read else {})
 
 
 def _problems(value: Any) -> dict[str, Problem]:
-    """Return problems by name, none where the value is something else."""
-    if isinstance(value, Mapping):
-        named = {str(key): value_or_problem for key, value_or_problem in value.items()}
-    else:
-        named = {
-            str(k): value_or_problem
-            for k, value_or_problem in enumerate(value if isinstance(value, list) else [value])
-        }
-    return (
-        named
-        if all(isinstance(value_or_problem, Problem) for value_or_problem in named.values())
-        else {}
-    )
+    """Return problems by name; {} if the value does not consist of problems."""
+    if not isinstance(value, Mapping):
+        value = dict(enumerate(value if isinstance(value, list) else [value]))
+    named = {str(key): entry for key, entry in value.items()}
+    return named if all(isinstance(entry, Problem) for entry in named.values()) else {}
 
 
 def _plain_attributes(name: str, value: Any) -> dict[str, Any]:
@@ -114,14 +102,11 @@ def _plain_attributes(name: str, value: Any) -> dict[str, Any]:
 
 
 def _is_named(key: Any, value: Any) -> bool:
-    """Return whether an entry is a single value whose name can stand in that of an attribute."""
+    """Return whether an entry is a single value, with a key that can be part of a name."""
     single = value is None or isinstance(value, str | int | float | complex | np.generic)
     return single and f"_{key}".isidentifier()
 
 
 def _json(value: Any) -> str:
-    """Return JSON, and what it has no word for, such as a complex number, as Python writes it."""
-    return json.dumps(
-        value,
-        default=lambda value_or_array: getattr(value_or_array, "tolist", value_or_array.__repr__)(),
-    )
+    """Return a value as JSON; an object that JSON does not know becomes a list or its `repr`."""
+    return json.dumps(value, default=lambda item: getattr(item, "tolist", item.__repr__)())

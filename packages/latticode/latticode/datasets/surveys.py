@@ -1,4 +1,4 @@
-"""Surveys as datasets: an axis of the survey is a dimension, and what is kept a variable."""
+"""Surveys as datasets: each axis is a dimension, and each kept result a variable."""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
@@ -28,22 +28,23 @@ LONG_NAMES = {
     "exponent": "exponent of time with which the power of all fields grows in the window",
     "divergence": "first time at which a run by another method differs visibly; infinite: at none",
 }
-"""What is kept, in words."""
+"""Long names of kept results."""
 TEXTS = {
-    "failure": "why a run failed, which has NaN; empty where it did not",
-    "remark": "why a run is not by the solver of the case; empty where it is",
-    "unfinished": "why a run was not made; empty where it was",
+    "failure": "why a run failed, so its results are NaN; empty if it did not fail",
+    "remark": "why a run is not by the solver of the case; empty if it is",
+    "unfinished": "why a run was not executed; empty if it was",
 }
+"""Long names of messages on runs; each is empty for most runs."""
 COUNTS = {
     "failure": "failed_runs",
     "remark": "runs_by_another_solver",
     "unfinished": "unfinished_runs",
 }
-"""What is said of runs where there is something to say, and the attributes with their numbers."""
+"""Attributes with the number of runs that have a message, by the variable of the messages."""
 
 
 def make_survey(name: str, problem: Problem, survey: Mapping[str, Any]) -> ManyRuns:
-    """Return the runs of a survey that plain values describe, which give its dataset's contents."""
+    """Return the runs of a survey, given as plain values; they conclude with its `Contents`."""
     members = survey["members"] and Members(**survey["members"])
     plan = Survey(
         survey["axes"],
@@ -63,7 +64,7 @@ def make_survey(name: str, problem: Problem, survey: Mapping[str, Any]) -> ManyR
 def survey_contents(
     name: str, problem: Problem, survey: Survey, values: Mapping[str, np.ndarray]
 ) -> Contents:
-    """Return the contents of the dataset on a survey of `problem`."""
+    """Return the contents of the dataset of a survey of `problem`; `values` has its results."""
     axes = {axis: names_of_axis(axis) for axis in survey.axes}
     dimensions = [_without_index(names[0]) for names in axes.values()]
     variables = {}
@@ -113,7 +114,7 @@ def survey_contents(
 
 
 def runs_in(survey: "Dataset", names: Iterable[str], shape: Sequence[int]) -> Retained:
-    """Return what an interrupted survey, in its dataset, kept of the runs that are done."""
+    """Return the kept results of the finished runs in the dataset of an interrupted survey."""
     texts = np.full(prod(shape), "", object)
     for kind in (kind for kind in TEXTS if kind in survey):
         messages = survey[kind].values.ravel()
@@ -128,12 +129,12 @@ def runs_in(survey: "Dataset", names: Iterable[str], shape: Sequence[int]) -> Re
 
 
 def _without_index(axis: str) -> str:
-    """Return the name of an axis as that of a variable: without points and signs."""
+    """Return the name of an axis as the name of a variable, without dots and minus signs."""
     return axis.replace(".-", "_minus_").replace(".", "_")
 
 
 def _axis(axis: str, dimension: str, axis_values: Sequence, fields: Sequence[str]) -> Variable:
-    """Return the values of an axis; complex ones are written as Python writes them."""
+    """Return the variable of an axis; complex values become strings, as Python prints them."""
     values = np.asarray(axis_values)
     if np.iscomplexobj(values):
         values = values.real if not values.imag.any() else np.array([str(z) for z in values])
@@ -151,4 +152,4 @@ def _long_name(number: str) -> str:
         return LONG_NAMES[number]
     if number in OF_FIELDS:
         return LONG_NAMES[statistic].format(norm=NAMES[norm])
-    return f"what the function {number} returns"
+    return f"result of the function {number}"

@@ -1,4 +1,4 @@
-"""Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
+"""Trajectories and sweeps as datasets: variables, and attributes that describe the problem."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -20,7 +20,7 @@ Contents = tuple[dict[str, Variable], dict[str, Any]]
 
 
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
-    """Return the contents of the dataset on a run of `problem`."""
+    """Return the contents of the dataset of a run of `problem`."""
     equations = problem.equations
     variables = trajectory_variables(problem, trajectory)
     if equations.stores_final:
@@ -33,7 +33,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
-    """Return norms, conserved quantities that have variables of their own, and snapshots."""
+    """Return norms, conserved quantities with names of their own, and snapshots."""
     names, every = problem.equations.names, len(trajectory.snapshot_tau)
     variables = {
         "tau": Variable(("tau",), trajectory.tau),
@@ -78,7 +78,7 @@ def _conserved(trajectory: Trajectory) -> dict[str, Variable]:
 
 
 def final_state(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
-    """Return the state at the end time: both parts of each field, (part, component, site)."""
+    """Return the state at the end time (part, component, site), with its coordinates."""
     names, final = problem.equations.names, trajectory.final
     if final.ndim == 2:
         final = np.stack([final.real, final.imag])
@@ -97,7 +97,7 @@ def sweep_contents(
     windows: Iterable[tuple[float, float]],
     sweep: Mapping[str, np.ndarray],
 ) -> Contents:
-    """Return the contents of the dataset on a sweep of `problem` over half-widths."""
+    """Return the contents of the dataset of a sweep of `problem` over half-widths."""
     axes, names = ("half_width", "quantity", "statistic", "window"), problem.equations.names
     variables = {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
@@ -114,6 +114,6 @@ def sweep_contents(
 
 
 def count_work(counts: Sequence) -> dict[str, int]:
-    """Return the work of one run (3,), or of many (run, 3), as attributes."""
+    """Return the total work as attributes, from counts (3,) of one run or (run, 3) of many."""
     names = "steps", "rejected_steps", "right_hand_sides"
     return dict(zip(names, np.reshape(counts, (-1, 3)).sum(axis=0).tolist(), strict=True))

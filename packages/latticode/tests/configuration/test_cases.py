@@ -60,11 +60,11 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
         ),
         ("initial: {0: [1]}, parameters: {gamma: .inf}", "gamma: is inf, which is not finite"),
         ("initial: [0, 0, 1, 0, 0]", "initial: has 5 values for 61 sites"),
-        ("initial: {0: 1}", "site 0 has 1; give a list of a value for each field"),
+        ("initial: {0: 1}", "site 0 has 1; give a list with a value for each field"),
         ("initial: {0: [1, 2]}", "site 0 has 2 values; give 1, [u]"),
-        ("initial: {0: [1]}, omega: 1", "omega: is not a known key; known are model, parameters"),
+        ("initial: {0: [1]}, omega: 1", "omega: is not a known key; give one of model, parameters"),
         ("initial: {0: [1]}, half_width: 2, parameters: {gamma: [1, 2]}", "2 values for 5 sites"),
-        ("initial: {0: [1]}, solver: kahan_li", "kahan_li does not take the model mine.py"),
+        ("initial: {0: [1]}, solver: kahan_li", "kahan_li cannot integrate the model mine.py"),
         ("half_width: 2", "initial: is missing"),
         ("initial: {0: [1.0e+6]}", "initial: the run turns the data by"),
         ("initial: {0: [1.0e+200]}", "initial: the squares of the data or the constants overflow"),
@@ -269,7 +269,7 @@ def test_numbers_drawn_before_the_equations_are_taken_as_parameters():
 
 def test_a_configuration_carries_no_code():
     text = "raise SystemExit(3)"
-    with pytest.raises(ConfigurationError, match="a configuration holds no code"):
+    with pytest.raises(ConfigurationError, match="a configuration cannot contain code"):
         load({"cases": {"mine": {"model": {"name": "a.py", "text": text}, "initial": {0: [1]}}}})
 
 
@@ -304,5 +304,5 @@ def test_longer_chains_of_a_sweep_have_the_same_values_at_the_same_sites():
         return sweep(case(model=model, half_width=3, end_time=2), [1, 3], windows=[(1, 2)])["l2"]
 
     np.testing.assert_array_equal(swept(lambda n: n * n), swept([9, 4, 1, 0, 1, 4, 9]))
-    with pytest.raises(ConfigurationError, match="other values at the same sites"):
+    with pytest.raises(ConfigurationError, match="values at a site change"):
         swept(lambda n: n + n.size)

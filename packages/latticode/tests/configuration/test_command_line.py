@@ -16,8 +16,8 @@ def test_entries_have_the_values_that_a_file_has():
 @pytest.mark.parametrize(
     ("entries", "told"),
     [
-        (["hours=010"], "hours: 010 is read as a number to the base 8"),
-        (["cases={mine: {omega: 010}}"], "cases.mine.omega: 010 is read as a number to the base 8"),
+        (["hours=010"], "hours: 010 is read as a number in base 8"),
+        (["cases={mine: {omega: 010}}"], "cases.mine.omega: 010 is read as a number in base 8"),
         (["cases={mine: {omega: 1, omega: 2}}"], "cases.mine.omega: the key is given twice"),
         (['cases={"mine": 1, "mine": 2}'], "cases: the key 'mine' is given twice"),
         (["cases={a: 1}", "cases={b: 1}"], "cases: is given twice"),

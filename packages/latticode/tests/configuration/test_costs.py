@@ -2,7 +2,7 @@
 
 import pytest
 from latticode import Case, Model, abs2, lap, simulate, survey, sweep
-from latticode.configuration.cost import RunCost, demand, refusal, steps_of
+from latticode.configuration.cost import RunCost, demand, name_excess, steps_of
 from latticode.configuration.files import ConfigurationError
 
 MORE = "more than a million"
@@ -25,9 +25,9 @@ def test_costs_are_said_in_words(cost, words):
 
 
 def test_a_little_too_much_memory_is_not_printed_as_what_is_allowed():
-    said = refusal(RunCost(1.0, 8.01e9), LIMITS)
-    assert "a little over 8 GB of memory, and limits.gigabytes allows 8 GB;" in said
-    assert "about 1 second and 9 GB of memory" in refusal(RunCost(1.0, 9e9), LIMITS)
+    said = name_excess(RunCost(1.0, 8.01e9), LIMITS)
+    assert "a little over 8 GB of memory, but limits.gigabytes allows 8 GB;" in said
+    assert "about 1 second and 9 GB of memory" in name_excess(RunCost(1.0, 9e9), LIMITS)
 
 
 # --- How many steps a run takes

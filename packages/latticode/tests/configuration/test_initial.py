@@ -65,7 +65,7 @@ def test_a_function_is_evaluated_on_the_sites_of_each_chain_and_an_array_is_not(
     assert case.changed(half_width=20).data[15] == (pulse(15),)
     with pytest.raises(ConfigurationError, match="initial: has 17 values for 41 sites"):
         CASE.changed(initial=PULSE).changed(half_width=20)
-    with pytest.raises(ConfigurationError, match="site 8 of case 'sweep' lies outside"):
+    with pytest.raises(ConfigurationError, match="site 8 of case 'sweep' is outside"):
         sweep(case, [4, 8], windows=[(1, 2)])
 
 
@@ -167,10 +167,10 @@ def test_a_list_in_a_configuration_is_a_number_for_each_site(tmp_path):
         (lambda n: np.random.default_rng().random(n.size), "with other values each time"),
         (lambda n: "a", "initial: is 'a', not numbers"),
         ([1, 2, 3], "initial: has 3 values for 17 sites"),
-        ([[1], [2, 3]], "whose rows are not of one length"),
+        ([[1], [2, 3]], "with rows of different lengths"),
         ("nothere.nc", "initial: nothere.nc is missing"),
         ("nothere.npy", "initial: nothere.npy cannot be read"),
-        (7, "initial: is 7, not data by site such as {0: [1, 0.1]}, an array of a number"),
+        (7, "initial: is 7, not data by site such as {0: [1, 0.1]}, an array of numbers"),
         (np.ones((2, 17)), "initial: has 2 x 17 values for 17 sites"),
     ],
 )
@@ -184,10 +184,10 @@ def test_parts_of_runs_that_are_no_data_are_refused_by_key(halves):
     first, _ = halves
     wider = simulate(CASE.changed(half_width=12))
     for initial, message in (
-        (first["state"], "has the dimension snapshot; choose one, as by .sel(snapshot=...)"),
+        (first["state"], "has the dimension snapshot; select one value, as by .sel(snapshot=...)"),
         (first[["l2"]], "is a dataset without the fields at the end of a run"),
         (first["final"].assign_coords(component=["v"]), "has no field u; it has v"),
-        (wider, "lies outside the chain, whose sites run from -8 to 8"),
+        (wider, "is outside the chain of the sites -8 to 8"),
         (first["l2"].isel(tau=0), "has no dimension site"),
     ):
         with pytest.raises(ConfigurationError) as error:

@@ -56,7 +56,7 @@ def test_what_varies_together_is_the_last_axis():
         ({"axes": {"half_width": [1, 0, 3]}}, "surveys.map.axes: at half_width = 0"),
         ({"together": {"c": [1, 1, 1], "half_width": [3, 0, 4]}}, "axes: at c = 1, half_width = 0"),
         ({"together": {"c": [1], "half_width": [1, 2]}}, "together: has 1 of c, 2 of half_width"),
-        ({"axes": {"c": [1]}, "together": {"c": [1]}}, "together: varies c, which is an axis"),
+        ({"axes": {"c": [1]}, "together": {"c": [1]}}, "together: varies c, which is listed"),
         ({"together": {"d": [1]}}, "surveys.map.together: 'd' names nothing to change"),
         ({"axes": {"end_time": [1, 1.01]}}, "at end_time = 1.01, end_time: 1.01 is not a whole"),
         ({"axes": {"exponent": [1]}, "keep": ["exponent"]}, "keep: exponent is an axis too"),
@@ -64,7 +64,10 @@ def test_what_varies_together_is_the_last_axis():
         ({"axes": {"c": [1]}, "window": [2, 1]}, r"\[2, 1\] does not run forward"),
         ({"axes": {"c": [1]}, "window": [2, 9]}, "ends at 9, after the shortest run, which ends"),
         ({"members": {"count": 3, "size": 0.1, "seed": 1, "kind": "odd"}}, "give one of even, un"),
-        ({"members": {"count": 10**8, "size": 0.1, "seed": 1}}, "a survey may have 10000000"),
+        (
+            {"members": {"count": 10**8, "size": 0.1, "seed": 1}},
+            "axes: make .* runs; the most is 10000000",
+        ),
         (
             {"axes": {"end_time": [500]}, "members": {"count": 10**7, "size": 0.1, "seed": 1}},
             "limits.hours allows 1 h",

@@ -88,7 +88,7 @@ def test_a_dataset_cut_anywhere_is_rejected(dataset):
 
 
 @pytest.mark.parametrize(
-    ("path", "words"), [("", "is a folder: name"), ("/", "^/ is a folder: name"), (3, "not a int")]
+    ("path", "words"), [("", "is a folder: give"), ("/", "^/ is a folder: give"), (3, "not a int")]
 )
 def test_what_is_no_file_at_all_is_not_to_be_deleted(path, words):
     with pytest.raises(DatasetError, match=words) as message:

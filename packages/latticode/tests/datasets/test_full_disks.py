@@ -88,7 +88,7 @@ def test_what_stands_in_the_way_is_named_and_stays(tmp_path):
     (tmp_path / "results").write_text("mine")
     (tmp_path / "a.png").mkdir()
     for name, words in (
-        ("results/figures/b.png", r"b\.png: .*results is a file and no folder; move it"),
+        ("results/figures/b.png", r"b\.png: .*results is a file, not a folder; move it"),
         ("a.png", r"a\.png: it is a folder; move it"),
     ):
         with (

@@ -90,7 +90,7 @@ def test_of_plain_numbers_they_are_those_of_python():
 
 def test_the_power_series_refuses_them_and_the_default_goes_on_by_dop853(capsys):
     model = Model(fields="x", parameters={}, d2_dt2=lambda p, x: -abs(x) * x)
-    with pytest.raises(ConfigurationError, match="taylor does not take the model, which has max, "):
+    with pytest.raises(ConfigurationError, match="integrate the model, which has max, "):
         Case(model=model, initial={0: [1]}, solver="taylor")
     run = simulate(Case(model=model, half_width=1, initial={0: [1]}, end_time=1))
     assert run.attrs["solver"] == "dop853"

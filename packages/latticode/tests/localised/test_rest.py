@@ -58,7 +58,7 @@ def test_a_survey_and_a_file_take_one_site_alone(lorenz, tmp_path):
 )
 def test_one_site_is_refused_where_a_neighbour_is_seen(functions):
     model = Model(fields="u", parameters={}, **functions)
-    with pytest.raises(ConfigurationError, match="equations look 1 site along the chain"):
+    with pytest.raises(ConfigurationError, match="it must be at least 1, because the model uses"):
         Case(model=model, half_width=0, initial={0: [1]})
 
 

@@ -109,7 +109,7 @@ def test_what_is_no_section_or_spectrum_is_refused():
         section(case, lambda p, u: u.real, "left")
     with pytest.raises(ConfigurationError, match="site: is 4; the sites run from 0 to 3"):
         section(case, lambda p, u: u.real, site=4)
-    with pytest.raises(ConfigurationError, match="when: is no function"):
+    with pytest.raises(ConfigurationError, match="when: is not a function"):
         section(case, 0.5)
     with pytest.raises(ModelError, match="returns a complex number; give a real one"):
         section(case, lambda p, u: u)

@@ -94,20 +94,20 @@ def test_a_configuration_takes_them_too(tmp_path):
     case = {"model": str(tmp_path / "mine.py"), "sites": 4, "initial": {3: [1]}}
     settings = load({"cases": {"mine": case}})
     assert settings.problem("mine")["site_count"] == 4
-    with pytest.raises(ConfigurationError, match="give it half_width, which a sweep changes"):
+    with pytest.raises(ConfigurationError, match="replace it by half_width, which a sweep changes"):
         load({"cases": {"mine": case}, "sweeps": {"long": {"case": "mine", "half_widths": [9]}}})
 
 
 @pytest.mark.parametrize(
     ("keys", "message"),
     [
-        ({"sites": 4, "half_width": 2}, "sites: is given beside half_width"),
+        ({"sites": 4, "half_width": 2}, "sites: cannot be combined with half_width"),
         ({"sites": 0}, "sites: is 0; it must be at least 1"),
         (
             {"sites": 4, "initial": {4: [1]}},
-            "site 4 lies outside the chain, whose",
+            "site 4 is outside the chain",
         ),
-        ({"sites": 4, "initial": {-1: [1]}}, "to 3"),
+        ({"sites": 4, "initial": {-1: [1]}}, "is outside the chain of the sites 0 to 3"),
         ({"half_width": None}, "half_width: is empty; give half_width or sites"),
         ({"N": 4}, "give half_width, or sites in your own models"),
     ],

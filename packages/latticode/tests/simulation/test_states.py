@@ -80,7 +80,7 @@ def test_less_is_kept_for_less_memory():
     [
         ({"times": [0.5, 3]}, "times: 3 lies after the end of the run at 2"),
         ({"times": [0.03]}, "times: 0.03 is not a whole number of output steps of 0.025; the near"),
-        ({"times": [1], "snapshot_step": 1}, "times: and snapshot_step both say when fields are"),
+        ({"times": [1], "snapshot_step": 1}, "times: cannot be combined with snapshot_step"),
         ({"times": []}, "times: is empty; give at least 1"),
         ({"times": [1, 1]}, "times: the same value is given twice: 1"),
         ({"times": [-1]}, "times.0: is -1; it must be at least 0"),
