@@ -2,10 +2,9 @@
 
 A method of another family integrates the problem again, with tight tolerances. The difference of
 the two runs, in the norms and in the fields at all sites, is the error of the worse run. If the
-first run used the default solver with its default tolerances, this is the error of double
-precision. The growth of a random tangent vector shows whether the motion is chaotic, and when
-rounding errors become visible. The last check finds a localised state near the initial data, with
-its stability.
+first run used the default solver and tolerances, this is the error of double precision. The growth
+of a random tangent vector shows whether the motion is chaotic, and when rounding errors become
+visible. The last check finds a localised state near the initial data, and its stability.
 """
 
 from collections.abc import Collection, Mapping
@@ -170,10 +169,7 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
             "growth rate of a tangent vector, second half, per unit of tau",
         ),
         "exponent_error": (mean_rate_error(tau, log_growth, middle), "standard error of the rate"),
-        "late_growth": (
-            late,
-            "logarithm of tangent growth over growth of the solution, second half",
-        ),
+        "late_growth": (late, "logarithm of tangent growth over solution growth, second half"),
         "chaotic": (chaotic, "chaotic (1: yes, 0: no)"),
         "divergence_rounding": (
             problem.start_time + predict(tau, amplified, ROUNDING),
@@ -190,7 +186,7 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
 # --- A localised state ----------------------------------------------------------------------------
 
 LOCALISED = 0.01
-"""The largest ratio of the value at the farthest sites to the value at the centre."""
+"""A localised state has values at its farthest sites below this fraction of the largest one."""
 
 
 def check_breather(problem: Problem) -> xr.Dataset:
@@ -208,10 +204,8 @@ def check_breather(problem: Problem) -> xr.Dataset:
     sizes = moduli.max(axis=0)
     away = np.abs(np.arange(sizes.size) - sizes.argmax())
     end = sizes[away >= away.max() - 1].max() / sizes.max()
-    waves, state_exponents = (
-        exponents(problem, state._replace(x=0.0 * state.x)),
-        exponents(problem, state),
-    )
+    waves = exponents(problem, state._replace(x=0.0 * state.x))
+    state_exponents = exponents(problem, state)
     period = 2.0 * np.pi / abs(state.frequency) if state.frequency else 1.0
     growth, multipliers = state_exponents.real.max(), np.exp(period * state_exponents)
     frequencies = "distance of the frequency from those of linear waves"

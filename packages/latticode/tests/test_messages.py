@@ -31,11 +31,7 @@ def set_end_time():
 @pytest.mark.parametrize(
     ("call", "error", "words"),
     [
-        (
-            lambda: draw_survey(simulate(CASE)),
-            ConfigurationError,
-            "expected a survey from `survey`",
-        ),
+        (lambda: draw_survey(simulate(CASE)), ConfigurationError, "expected a survey from `surv"),
         (
             lambda: simulate(CASE.changed(half_width=10**7)),
             ConfigurationError,
@@ -59,11 +55,7 @@ def set_end_time():
             "give one of taylor, dop853, ode45, crank_nicolson, auto",
         ),
         (lambda: save("z.nc", COMPLEX), DatasetError, "save z.real and z.imag"),
-        (
-            lambda: save("z.nc", COMPLEX["z"]),
-            DatasetError,
-            "convert it by data.to_dataset(name=...)",
-        ),
+        (lambda: save("z.nc", COMPLEX["z"]), DatasetError, "it by data.to_dataset(name=...)"),
         (lambda: survey(CASE, ["a"]), ConfigurationError, "axes: is ['a'], not a mapping of"),
         (lambda: survey(CASE, {"a": [1]}, keep=[]), ConfigurationError, "keep: is empty"),
         (lambda: survey(CASE, {"a": [1]}, window=3), ConfigurationError, "is 3, not a pair"),

@@ -64,10 +64,8 @@ class PaperConfiguration(schema.Configuration):
         if of_case := entry.faults_of(case):
             yield from of_case
         elif (total := entry.cost(case)).excess(limits := self.limits.model_dump()) > 1.0:
-            yield (
-                "count" if hasattr(entry, "count") else "case",
-                cost.name_excess(total, limits),
-            )
+            key = "count" if hasattr(entry, "count") else "case"
+            yield key, cost.name_excess(total, limits)
 
     def cost_of_motion(self, section: str, name: str) -> RunCost:
         """Return the cost of an entry of `spectra` or `sections`."""

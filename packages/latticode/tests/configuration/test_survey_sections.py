@@ -64,10 +64,7 @@ def test_what_varies_together_is_the_last_axis():
         ({"axes": {"c": [1]}, "window": [2, 1]}, r"\[2, 1\] does not run forward"),
         ({"axes": {"c": [1]}, "window": [2, 9]}, "ends at 9, after the shortest run, which ends"),
         ({"members": {"count": 3, "size": 0.1, "seed": 1, "kind": "odd"}}, "give one of even, un"),
-        (
-            {"members": {"count": 10**8, "size": 0.1, "seed": 1}},
-            "axes: make .* runs; the most is 10000000",
-        ),
+        ({"members": {"count": 10**8, "size": 0.1, "seed": 1}}, "0 runs; the most is 10000000"),
         (
             {"axes": {"end_time": [500]}, "members": {"count": 10**7, "size": 0.1, "seed": 1}},
             "limits.hours allows 1 h",
