@@ -30,7 +30,7 @@ def variable(
 ) -> dict:
     """Return a variable of a check. The check fails if a value exceeds the `tolerance`.
 
-    Values are rounded to `digits` significant digits if their last bits depend on a library.
+    Pass `digits`, the number of significant digits to round to, if last bits depend on a library.
     """
     attrs = {"long_name": long_name, "units": units}
     if digits is not None:
