@@ -1,6 +1,6 @@
 """A Snakemake job that calls a function and writes the dataset or datasets that it returns."""
 
-from pendula.contract.log import Progress, run  # first: its hook logs an import that fails
+from pendula.contract.log import run  # first: its hook logs an import that fails
 
 # isort: split
 
@@ -16,6 +16,7 @@ from latticode.datasets.trajectories import Contents
 from latticode.simulation.runs import ManyRuns, join_chunks, run_chunk
 from pendula.contract.arguments import Arguments, function_of, load_arguments
 from pendula.contract.kinds import KINDS
+from replication.logs import Progress
 from xarray import Dataset
 
 
@@ -35,7 +36,8 @@ def compute(snakemake: Any) -> None:
     if isinstance(result, ManyRuns):
         if chunk := snakemake.wildcards.get("chunk"):
             return write_chunk(snakemake.output[0], result, chunk)
-        result = result.conclude(retained_of(result, snakemake.input.get("chunks")))
+        chunks = snakemake.input.get("chunks")
+        result = result.conclude(retained_of(result, chunks, snakemake.output[0]))
     results = [result] if len(snakemake.output) == 1 else result
     for path, contents in zip(snakemake.output, results, strict=True):
         save_with_provenance(path, contents, function, arguments)
@@ -63,17 +65,20 @@ def without_provenance(attributes: Mapping[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in attributes.items() if key not in provenance}
 
 
-def retained_of(runs: ManyRuns, files: Sequence[str] | None) -> dict[str, np.ndarray]:
-    """Return the results of all runs: read from the files of chunks, or computed if None."""
+def retained_of(runs: ManyRuns, files: Sequence[str] | None, path: str) -> dict[str, np.ndarray]:
+    """Return the results of all runs: read from the files of chunks, or computed if None.
+
+    The log reports how many of the runs of `path` are done.
+    """
     if files:
         return join_chunks(map(arrays_in, files))
-    return run_chunk(runs.problems, runs.retain, progress=Progress())
+    return run_chunk(runs.problems, runs.retain, progress=Progress(f"runs of {path}"))
 
 
 def write_chunk(path: str, runs: ManyRuns, chunk: str) -> None:
     """Make the runs of one chunk, such as ".parts/2-of-8", and write their results."""
     number, count = map(int, re.findall(r"\d+", chunk))
-    retained = run_chunk(runs.problems, runs.retain, number - 1, count, Progress())
+    retained = run_chunk(runs.problems, runs.retain, number - 1, count, Progress(f"runs of {path}"))
     variables = {
         name: Variable(
             ("run", *(f"{name}_{axis}" for axis in range(1, values.ndim))), values, "of each run"

@@ -48,6 +48,23 @@ def test_equal_articles_have_equal_bytes_and_the_pages_that_a_journal_wants():
     assert "width:" not in "".join(re.findall(r"image\(.*", ARTICLE.convert(text, "typst")))
 
 
+def minutes_to_read(text: str) -> float:
+    """Return how long paragraphs take at 220 words a minute; a formula is a word."""
+    formulas = re.compile(r"\$[^$]*\$")
+    paragraphs = re.split(r"\n\n+", formulas.sub("x", text))
+    apart = ("|", "![", "**Figure", "**Table", "```", "# ")
+    words = [part.split() for part in paragraphs if not part.startswith(apart)]
+    return sum(map(len, words)) / 220
+
+
+def test_the_replication_is_read_in_ten_minutes_and_what_is_new_in_another_ten():
+    """Without captions, tables and references."""
+    text = (ROOT / "docs/article.md").read_text("utf-8").partition("\n## References")[0]
+    replication, new = text.split("\n## Beyond the paper")
+    assert minutes_to_read(replication) < 10
+    assert minutes_to_read(new) < 10
+
+
 def test_the_page_asks_no_network_and_its_formulas_are_set(page):
     assert "default-src 'none'" in page
     head = {tag["name"]: tag["content"] for tag in Tags(page).all("meta") if "name" in tag}

@@ -70,9 +70,9 @@ def test_an_interrupted_job_leaves_no_half_of_a_file(tmp_path, number):
 STEPS = """
 import time
 from types import SimpleNamespace
-from pendula.contract import log
-log.time = SimpleNamespace(monotonic=iter(range(0, 10**6, 60)).__next__)
-progress = log.Progress()
+from replication import logs
+logs.time = SimpleNamespace(monotonic=iter(range(0, 10**6, 60)).__next__)
+progress = logs.Progress()
 for done in range(1, 41):
     progress(done, 40)
 """

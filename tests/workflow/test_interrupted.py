@@ -27,7 +27,7 @@ def kill_in_a_long_chain(folder):
         try:
             wait_for(
                 lambda: (
-                    (log.exists() and "2 of 12 runs done" in log.read_text())
+                    (log.exists() and "2 of 12 runs of " in log.read_text())
                     or process.poll() is not None
                 )
             )

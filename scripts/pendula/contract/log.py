@@ -42,10 +42,6 @@ gc.set_threshold(100_000)
 
 SECONDS_BETWEEN_STEPS = 5.0
 """The screen shows at most one step of a long job in this time; its log has all steps."""
-STEPS = 20
-"""Number of times that a job of many runs logs how many are done."""
-WORTH_SHOWING = 10.0
-"""Remaining time is logged if it is at least this, in s."""
 NO_LOG = os.EX_IOERR
 """Exit status of a job that failed and could not write the reason to its log."""
 INTERRUPTED = 130
@@ -124,37 +120,6 @@ def run(body: Callable[[Any], None], snakemake: Any) -> None:
     finally:
         sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
         output.close()
-
-
-class Progress:
-    """Logs how many runs of a study are done, and the time that is left."""
-
-    def __init__(self) -> None:
-        self.start = time.monotonic()
-
-    def __call__(self, done: int, count: int) -> None:
-        """Log that `done` of `count` runs are done, STEPS times in all."""
-        if done % max(1, count // STEPS) == 0:
-            left = (count - done) * (time.monotonic() - self.start) / done
-            log_step(f"{done} of {count} runs done{time_left(left)}")
-
-
-def time_left(seconds: float) -> str:
-    """Return ", about 3 min left", or nothing if this is less than WORTH_SHOWING."""
-    if seconds < WORTH_SHOWING:
-        return ""
-    for size, unit in ((3600.0, "h"), (60.0, "min")):
-        if seconds >= 1.5 * size:
-            return f", about {seconds / size:.0f} {unit} left"
-    return f", about {seconds:.0f} s left"
-
-
-def log_step(text: str) -> None:
-    """Write a line on the progress of a job to its log, and sometimes to the screen."""
-    if isinstance(sys.stdout, _Output):
-        sys.stdout.step(f"{text}\n")
-    else:
-        print(text)
 
 
 def message_of(error: Exception) -> str:

@@ -56,6 +56,13 @@ def right():
     return case, chain, steps, bound(case, steps)
 
 
+def test_the_outputs_that_are_reached_are_reported(right):
+    case, calls = right[0], []
+    frames.certify(case, BITS, ORDER, 10, lambda *numbers: calls.append(numbers))
+    count = len(case.times)
+    assert calls == [(done, count) for done in range(1, count + 1)]
+
+
 def test_a_curve_with_twice_the_digits_lies_within_the_bound(right):
     case, chain, steps, _ = right
     finer, better = make_steps(case, 2 * BITS, 2 * ORDER)

@@ -3,6 +3,7 @@
 from latticode.datasets.netcdf import Variable
 from latticode.datasets.stated import describe_run
 from latticode.datasets.trajectories import Contents
+from replication.logs import Progress
 
 from pendula.many_cases import COMPONENTS
 from pendula.problem import PaperProblem
@@ -15,7 +16,7 @@ def certify_curve(
 ) -> Contents:
     """Return the dataset of a curve: its norms, and a proven bound of their errors."""
     proof = {"bits": bits, "order": order, "outputs_per_frame": outputs_per_frame}
-    curve = frames.certify(problem, **proof)
+    curve = frames.certify(problem, **proof, progress=Progress(f"outputs of {name}"))
     norms, of_tau = ("component", "tau"), ("tau",)
     variables = {
         "tau": Variable(of_tau, curve.tau),

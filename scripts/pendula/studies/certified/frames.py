@@ -68,7 +68,7 @@ step has fewer than a million roundings, which the factor `UP` covers; TINY cove
 underflow.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import sqrt
 from typing import NamedTuple
@@ -318,11 +318,17 @@ def multiply_transposed(left: np.ndarray, right: np.ndarray) -> np.ndarray:
 # --- The curve at its outputs ---------------------------------------------------------------------
 
 
-def certify(problem: PaperProblem, bits: int, order: int, outputs_per_frame: int) -> CertifiedCurve:
+def certify(
+    problem: PaperProblem,
+    bits: int,
+    order: int,
+    outputs_per_frame: int,
+    progress: Callable[[int, int], None] = lambda done, count: None,
+) -> CertifiedCurve:
     """Return the curve at the outputs of a problem, with a proven bound of its error.
 
-    The coefficients are in units of 2^-bits, and the polynomials of the given order. Raises
-    NotEvenError and StepError.
+    The coefficients are in units of 2^-bits, and the polynomials of the given order. `progress` is
+    called with the numbers of outputs reached and of all. Raises NotEvenError and StepError.
     """
     chain = make_half_chain(problem, bits)
     state, initial_error = round_initial_data(problem, chain)
@@ -343,6 +349,7 @@ def certify(problem: PaperProblem, bits: int, order: int, outputs_per_frame: int
         )
         if count and count % outputs_per_frame == 0:
             tube = change_frame(tube)
+        progress(count + 1, problem.times.size)
     return CertifiedCurve(
         problem.times, *compute_norms(np.array(states)), np.array(contributions).T
     )
