@@ -286,7 +286,7 @@ def test_numbers_of_a_link_are_taken_with_all_their_digits(live):
         ("tau=51", "can show 0 to 50 "),
         ("case=fig7", "fig4_large, and shows fig2_small."),
         ("boundary=", "boundary = ; "),
-        ("detuning=1", "detuning, which is no setting."),
+        ("detuning=1", "detuning, which is not a setting."),
     ],
 )
 def test_a_link_that_the_page_cannot_show_is_told(live, link, said):

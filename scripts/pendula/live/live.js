@@ -2,9 +2,9 @@
 
 const byId = (id) => document.getElementById(id);
 const PARTS = ["a_re", "a_im", "b_re", "b_im"];
-const SHOWN = ["mu", "perturbation", "tau"]; // what a link holds beside the case and its settings
+const SHOWN = ["mu", "perturbation", "tau"]; // parameters of a link besides the case and its settings
 let settings;
-let rejected = []; // what the page cannot show of a link
+let rejected = []; // messages about parts of a link that the page cannot show
 
 const chosenCase = () => data.cases[byId("case").selectedIndex];
 const isOfPaper = () => Object.entries(chosenCase().settings).every(([key, value]) => settings[key] === value);
@@ -12,10 +12,10 @@ const horizonOfPaper = () => (isOfPaper() ? chosenCase().horizon : null);
 const perturbation = () => Number(byId("perturbation").value);
 const shownTime = () => Number(byId("tau").value);
 
-// --- Runs: one at a time, and of the settings that change meanwhile only the last ones ----------
+// --- Runs: one at a time; if settings change meanwhile, the last ones are run next --------------
 
 let isSolving = false;
-let isOutdated = false; // the settings have changed since the run that is on its way
+let isOutdated = false; // the settings have changed since the current run began
 const update = async () => {
   isOutdated = true;
   if (isSolving) return;
@@ -66,13 +66,13 @@ const showTime = () => {
   drawPendula();
 };
 const compareAll = async () => {
-  const rows = await Promise.all(data.cases.map(async (one) => {
-    const marks = marksOf(await solve(one.settings, one.output_step), one.every);
-    const accepted = new Uint32Array(decodeBase64(one.marks).buffer);
+  const rows = await Promise.all(data.cases.map(async (paperCase) => {
+    const marks = marksOf(await solve(paperCase.settings, paperCase.output_step), paperCase.every);
+    const accepted = new Uint32Array(decodeBase64(paperCase.marks).buffer);
     const first = accepted.findIndex((mark, i) => mark !== marks[i]);
     const [className, text] = first < 0
-      ? ["same", `✓ ${one.title}: the same at all ${accepted.length} times`]
-      : ["different", `✗ ${one.title}: first differs at τ = ${Number((first * one.output_step).toPrecision(12))}`];
+      ? ["same", `✓ ${paperCase.title}: the same at all ${accepted.length} times`]
+      : ["different", `✗ ${paperCase.title}: first differs at τ = ${Number((first * paperCase.output_step).toPrecision(12))}`];
     return Object.assign(document.createElement("li"), { className, textContent: text });
   }));
   byId("bits").replaceChildren(...rows);
@@ -81,7 +81,7 @@ const compareAll = async () => {
 
 // --- Settings and the address -------------------------------------------------------------------
 
-// Take settings, and let all controls show them.
+// Use settings, show them on all controls, and run them.
 const apply = (chosen) => {
   settings = chosen;
   for (const [key, value] of Object.entries(settings)) {
@@ -99,17 +99,17 @@ const isInRange = (key, text) => {
   const number = Number(text);
   return text.trim() && number >= min && number <= max && (step < 1 || Number.isInteger(number));
 };
-// Set a control; if it would silently show something else, let the page say so, and return false.
+// Set a control and return true; if it cannot show the value, report it and return false.
 const setControl = (key, text) => {
   const { options, value, min, max, step } = byId(key);
   byId(key).value = text;
   const possible = options ? Array.from(options, (option) => option.value) : [`${min} to ${max} (step ${step})`];
   if (options ? possible.includes(text) : text.trim() && Number(text) === Number(byId(key).value)) return true;
   byId(key).value = value;
-  rejected.push(`The link says ${key} = ${text}; this page can show ${possible.join(", ")}, and shows ${value}.`);
+  rejected.push(`The link has ${key} = ${text}; this page can show ${possible.join(", ")}, and shows ${value}.`);
   return false;
 };
-// Show what a link names of a case, or of the first one; without a time, play it from the start.
+// Show the case and settings of a link, by default the first case; without a time, play from the start.
 const show = (link) => {
   const values = new URLSearchParams(link);
   const accept = (keys) => keys.filter((key) => values.has(key) && setControl(key, values.get(key)));
@@ -125,12 +125,12 @@ const show = (link) => {
   apply({ ...chosenCase().settings });
   apply({ ...settings, ...Object.fromEntries(keys.flatMap(read)) });
   const isPlaying = !values.has("tau") && !isStill.matches;
-  byId("mu").value = 0.5 / largestOf(PARTS.map((part) => Math.abs(settings[part]))); // it begins with a radian
+  byId("mu").value = 0.5 / largestOf(PARTS.map((part) => Math.abs(settings[part]))); // the largest swing begins at one radian
   byId("perturbation").value = 0;
   byId("tau").value = isPlaying ? 0 : settings.end_time;
   accept(SHOWN);
   const unknown = [...values.keys()].filter((key) => !["case", ...keys, ...SHOWN].includes(key));
-  rejected.push(...unknown.map((key) => `The link says ${key}, which is no setting.`));
+  rejected.push(...unknown.map((key) => `The link has ${key}, which is not a setting.`));
   showExperiment(link);
   setPlaying(isPlaying ? performance.now() : null);
 };
@@ -145,14 +145,14 @@ const showAndPush = (link) => {
   show(link);
   push();
 };
-const showExperiment = (link) => document.querySelectorAll("#experiments > div").forEach((one) => {
-  one.hidden = one.dataset.link !== link;
+const showExperiment = (link) => document.querySelectorAll("#experiments > div").forEach((experiment) => {
+  experiment.hidden = experiment.dataset.link !== link;
 });
 
 // --- Time and playing ---------------------------------------------------------------------------
 
 const isStill = matchMedia("(prefers-reduced-motion: reduce)");
-let lastFrame = null; // the time of the picture before, while it plays
+let lastFrame = null; // time of the previous frame while playing, null otherwise
 let nextFrame;
 const moveTo = (tau) => {
   byId("tau").value = Math.min(Math.max(tau, 0), settings.end_time);

@@ -1,6 +1,6 @@
 // Axes with curves against time, as the text of an SVG element of 400 by 195; pages share them.
 
-// A number with a few digits, as a text that minus signs and powers do not make unreadable.
+// Write a number with a few digits and a minus sign.
 const formatNumber = (number, digits = 4) => {
   const isSmall = number && Math.abs(number) < 1e-3;
   return (isSmall ? number.toExponential(2) : String(Number(number.toPrecision(digits)))).replaceAll("-", "−");

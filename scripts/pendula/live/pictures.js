@@ -1,8 +1,8 @@
 // Pictures of the run that the page shows: curves, maps of moduli, and the pendula at one time.
 
 let run, perturbed, divergence; // the run, one from perturbed data or null, and when the two differ
-let outputIndex = 0; // of the time that is shown
-let phase = 0; // of the swings in the picture of the pendula
+let outputIndex = 0; // of the displayed time
+let phase = 0; // of the swinging pendula
 
 // Draw axes against time in an SVG element, with curves of A and B, then of the perturbed A and B.
 const drawPanel = (id, least, most, curves) => {
@@ -23,8 +23,8 @@ const drawNorm = (norm) => {
   drawPanel(norm, 0, 1.03 * Math.max(...curves.map(largestOf), 1e-9), curves);
 };
 
-// Draw the moduli at the sites n and -n, a pixel each: the larger one is, the less paper shows through.
-const MOST_COLUMNS = 700; // more are not seen
+// Draw the moduli at the sites n and -n, a pixel each: the larger, the more opaque.
+const MOST_COLUMNS = 700; // a screen does not show more
 const drawModuli = () => {
   const stride = Math.ceil(run.tau.length / MOST_COLUMNS);
   const columns = Math.ceil(run.tau.length / stride);

@@ -1,7 +1,7 @@
 "use strict";
 
-// Runs by the worker, and what they tell: hashes of their bits, how long the motion stays localised,
-// and when two of them differ.
+// Runs by the worker, and what is computed from them: hashes of their bits, how long the motion stays
+// localised, and when two runs differ.
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const largestOf = (values) => values.reduce((a, b) => Math.max(a, b), 0);
@@ -17,7 +17,7 @@ worker.onmessage = ({ data: { number, run, message } }) => {
   else resolve(run && withViews(run));
 };
 worker.onerror = ({ message }) => waiting.forEach(({ reject }) => reject(new Error(message)));
-const ask = (message) => new Promise((resolve, reject) => {
+const callWorker = (message) => new Promise((resolve, reject) => {
   sent += 1;
   waiting.set(sent, { resolve, reject });
   worker.postMessage({ number: sent, ...message });
@@ -41,8 +41,8 @@ const withViews = (run) => {
 };
 
 // Solve from settings; `outputStep` is the time between two outputs.
-let solve = (settings, outputStep) => ask({ settings, outputStep });
-const loadSolver = () => ask({ setup: { solver: data.solver, faults: data.faults } });
+let solve = (settings, outputStep) => callWorker({ settings, outputStep });
+const loadSolver = () => callWorker({ setup: { solver: data.solver, faults: data.faults } });
 
 // A hash for each output time, over the words of its norms, its energy and, at each `every`-th of
 // them, its moduli in single precision, as the datasets have them.
@@ -64,7 +64,7 @@ const marksOf = ({ tau, linf, l2, energy, sites, modulus }, every) => {
 };
 
 // Return the first time at which the central pair and its neighbours hold at most half of the power,
-// read as often as the datasets keep moduli.
+// at the times at which the datasets hold moduli.
 const endOfLocalised = ({ sites, tau, modulus }, every) => {
   const isLeft = (i) => {
     const power = (n) => modulus(0, n, i) ** 2 + modulus(1, n, i) ** 2;
@@ -75,7 +75,7 @@ const endOfLocalised = ({ sites, tau, modulus }, every) => {
   return tau.find((_, i) => i % every === 0 && isLeft(i)) ?? Infinity;
 };
 
-// Return the first time at which the norms of two runs differ by the visible part of full scale.
+// Return the first time at which the norms of two runs differ by the visible fraction of full scale.
 const divergenceTime = (first, second) => {
   const pairs = ["linf", "l2"].flatMap((norm) => [0, 1].map((k) => [first[norm][k], second[norm][k]]));
   const limits = pairs.map((pair) => data.visible * (Math.max(...pair.map(largestOf)) || 1));

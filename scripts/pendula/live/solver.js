@@ -1,7 +1,7 @@
-// The worker: it runs the project's compiled kernel, which webassembly.js of the library loads, so
-// that the page answers while a run takes its time.
+// The worker: it runs the project's compiled kernel, loaded by webassembly.js of the library. The
+// page stays responsive meanwhile.
 
-const ENDS = { dirichlet: 0n, free: 1n, periodic: 1n }; // an even solution on a ring sees itself
+const ENDS = { dirichlet: 0n, free: 1n, periodic: 1n }; // on a ring an even solution is mirrored at the end
 const MIRROR = 3n; // the end at the centre of an even chain
 
 // Return the solver as a function of settings and of the step of its outputs. A run holds, on half of

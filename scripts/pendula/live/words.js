@@ -1,4 +1,4 @@
-// What the page says of a run in sentences.
+// Sentences about a run.
 
 const untilTime = (time, digits) => (time < settings.end_time ? `until τ = ${formatNumber(time, digits)}` : "to the end");
 const describeLocalised = () => {
@@ -27,7 +27,7 @@ const describeTime = () => {
     + `The energy has changed by ${formatNumber(run.energy[outputIndex] - run.energy[0])} since τ = 0.`;
 };
 
-// What the page does not keep: files of what it shows.
+// Files to download: the norms as CSV, and the case as YAML.
 const writeCsv = () => {
   const columns = [run.tau, ...run.l2, ...run.linf, run.energy];
   const rows = Array.from(run.tau, (_, i) => columns.map((values) => values[i]));
