@@ -173,5 +173,5 @@ def test_a_survey_with_failed_runs_is_drawn_and_says_how_many_are_left_out():
     found = survey(case, {"k": [0.1, 0.5, 9.0]}, keep=["final_l2"])
     assert found.attrs["failed_runs"] == 1 and str(found["failure"][2].values).startswith("taylor")
     drawn = surveys.gather_survey(found)
-    assert "failed are left out; there are 1." in drawn.attrs["caption"]
+    assert "Failed runs (1) are left out." in drawn.attrs["caption"]
     assert len(notebook.draw_survey(found).axes) == 1

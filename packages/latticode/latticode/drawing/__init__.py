@@ -1,1 +1,1 @@
-"""How figures of runs and sweeps look, how they are saved, and what they show in words."""
+"""Figures of runs, sweeps, surveys and localised states: their style, files and descriptions."""

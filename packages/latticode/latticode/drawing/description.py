@@ -1,12 +1,12 @@
-"""What a figure shows, in words and numbers, written beside the picture as JSON.
+"""A description of a figure as JSON text, saved next to the picture.
 
-Pixels do not say which of two curves is A. So all that a reader would read, what tells curves
-apart, and which rows of the data they show, is kept as text: the figure diff compares it word by
-word on any machine, where the pixels of letters depend on a library of fonts.
+Pixels do not show which of two curves is A, and the pixels of letters depend on the font library.
+The description has all texts of the figure, the look of each curve, and the rows of the data that
+it shows. A figure diff can compare it word by word on any machine.
 
-Numbers keep DIGITS digits, which is finer than a pixel and coarser than what processors round
-otherwise. Places on the page are left out, since they follow the width of letters; an annotation
-stands at a point of its panel, or some points of type away from it.
+Numbers are rounded to DIGITS digits, which is finer than a pixel and coarser than the differences
+between processors. Positions on the page are omitted, because they depend on the width of letters.
+The position of an annotation is a point of its panel, or an offset from one in points.
 """
 
 import json
@@ -35,11 +35,11 @@ from .shown_data import Rows
 DIGITS = 6
 """Significant digits of limits, positions and ranges: a panel is about 2000 pixels wide."""
 LINE = 220
-"""What fits into so many letters stands in one line: so each curve and each text has a line."""
+"""Length in characters up to which a JSON value is one line, enough for any curve or text."""
 
 
 def describe(figure: Figure, data: xr.Dataset) -> dict[str, Any]:
-    """Return the description of a figure that has been drawn, and of the data that it shows."""
+    """Return the description of a drawn figure, with the digest of its data."""
     mapped = (artist for axes in figure.axes for artist in (*axes.images, *axes.collections))
     bars = {artist.colorbar.ax for artist in mapped if getattr(artist, "colorbar", None)}
     rows = Rows(data)
@@ -59,7 +59,7 @@ def _without_empty(entries: dict[str, Any]) -> dict[str, Any]:
 
 
 def as_text(description: Any, indent: int = 0) -> str:
-    """Return the JSON of a description, with one line for each curve, text or axis."""
+    """Return a description as JSON, with one line for each curve, text or axis."""
     line = json.dumps(description, ensure_ascii=False, allow_nan=False)
     if len(line) + indent <= LINE or not isinstance(description, dict | list):
         return line
@@ -79,7 +79,7 @@ def _panel(axes: Axes, is_bar: bool, rows: Rows) -> dict[str, Any]:
     drawn = {
         "title": " | ".join(filter(None, titles)),
         "kind": "colour bar" if is_bar else "panel",
-        # left, bottom, right and top in the grid, before margins are made for text
+        # left, bottom, right and top in the grid, before the layout makes room for text
         "place_in_grid": [round(x, 3) for x in grid.get_position(axes.figure).extents]
         if grid
         else [],
@@ -122,7 +122,7 @@ def _legend(legend: Legend) -> dict[str, Any]:
 
 
 def _seen(artists: Iterable[Artist]) -> list[Artist]:
-    """Return the artists that are drawn."""
+    """Return the visible artists."""
     return [artist for artist in artists if artist.get_visible()]
 
 
@@ -136,7 +136,7 @@ def _curve(line: Line2D, rows: Rows) -> dict[str, Any]:
 
 
 def _cut(line: Line2D, x: np.ndarray, y: np.ndarray) -> dict[str, str]:
-    """Return on which side of its panel a curve leaves it: below, above, or both."""
+    """Return the sides where a curve leaves the limits of each axis: below, above, or both."""
     if line.get_transform() != line.axes.transData:
         return {}
     sides = {}
@@ -148,7 +148,7 @@ def _cut(line: Line2D, x: np.ndarray, y: np.ndarray) -> dict[str, str]:
 
 
 def _area(area: Collection, rows: Rows) -> dict[str, Any]:
-    """Return bands, bars and maps of colour: the colours, and between what they lie."""
+    """Describe a band, bars or a colour map: the colours and the ranges of x and y."""
     if isinstance(area, QuadMesh):
         corners = area.get_coordinates().reshape(-1, 2)
         return _named(area) | _mapped(area, rows) | _ranges(*corners.T)
@@ -156,7 +156,7 @@ def _area(area: Collection, rows: Rows) -> dict[str, Any]:
     corners = np.concatenate([np.empty((0, 2)), *outlines])
     rows_shown = {}
     if isinstance(area, FillBetweenPolyCollection) and len(outlines) == 1:
-        length = (len(corners) - 3) // 2  # there along one edge, and back along the other
+        length = (len(corners) - 3) // 2  # the outline follows one edge, then returns on the other
         edges = corners[1 : length + 1], corners[length + 2 : -1][::-1]
         rows_shown = {
             "shows": " and ".join(filter(None, (rows.of_curve(*edge.T) for edge in edges)))
@@ -172,7 +172,10 @@ def _shape(patch: Patch) -> dict[str, Any]:
 
 
 def _mapped(image: ColorizingArtist, rows: Rows) -> dict[str, Any]:
-    """Return the map of colours and its limits; a reversed map has the ends exchanged."""
+    """Describe an image: its shape, its limits, and the first, middle and last colour of its map.
+
+    The colours reveal a reversed map.
+    """
     values = np.ma.filled(np.ma.asarray(image.get_array(), float), np.nan)
     ends = [to_hex(image.cmap(share)) for share in (0.0, 0.5, 1.0)]
     described = {
@@ -188,13 +191,13 @@ def _mapped(image: ColorizingArtist, rows: Rows) -> dict[str, Any]:
 
 
 def _named(artist: Artist) -> dict[str, str]:
-    """Return the label by which a legend names the artist; matplotlib's own begin with _."""
+    """Return the label of the artist in a legend; matplotlib's default labels begin with _."""
     label = str(artist.get_label())
     return {} if not label or label.startswith("_") else {"label": label}
 
 
 def _look(artist: Artist) -> dict[str, Any]:
-    """Return colours and strokes."""
+    """Return colours, line styles and markers."""
     if isinstance(artist, Line2D):
         look = {"colour": _colours([artist.get_color()], artist), "line": artist.get_linestyle()}
         if look["line"] != "None":
@@ -214,7 +217,7 @@ def _look(artist: Artist) -> dict[str, Any]:
 
 
 def _colours(colours: Iterable, artist: Artist) -> str:
-    """Return one colour or several as #rrggbb, with their opacity where it is not full."""
+    """Return the different colours as #rrggbb, each followed by its opacity if that is below 1."""
     alpha = artist.get_alpha()
     rgba = (to_rgba(colour, alpha) for colour in colours)
     names = [to_hex(colour) + (f" {colour[3]:.3g}" if colour[3] < 1 else "") for colour in rgba]
@@ -222,7 +225,7 @@ def _colours(colours: Iterable, artist: Artist) -> str:
 
 
 def _text(text: Text) -> dict[str, Any]:
-    """Return a text, where it stands, and what its position is given in."""
+    """Describe a text: its colour, its position, and the coordinates of that position."""
     described = {"text": text.get_text(), "colour": to_hex(text.get_color())}
     if isinstance(text, Annotation):
         described |= {"points_at": [_round(x) for x in text.xy], "of": str(text.xycoords)}

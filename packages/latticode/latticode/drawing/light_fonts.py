@@ -1,7 +1,7 @@
-"""DejaVu Sans for a PDF: all letters, without the tables that it takes longest to cut down.
+"""DejaVu Sans without some OpenType tables, with which PDF files are written faster.
 
-For each PDF, matplotlib cuts a font down to the letters that the figure uses. About half of this
-time goes into the tables of ligatures and of marks on letters, which the PDF does not need.
+For each PDF, matplotlib reduces a font to the letters that the figure uses. About half of this time
+goes into tables of ligatures and accents, which the PDF does not need.
 """
 
 from collections.abc import Iterator
@@ -16,15 +16,15 @@ from latticode.datasets import DatasetError, not_written
 
 FAMILY, SLANTS = "DejaVu Sans", ("normal", "oblique")
 LEFT_OUT = ("GDEF", "GPOS", "GSUB")
-"""OpenType: classes, places and replacements of letters; letters that are drawn closer together
-when they meet are named in the older table "kern" too."""
+"""OpenType tables of classes, positions and substitutions of letters. Kerning does not need them,
+because the older table "kern" has it too."""
 
 
 @contextmanager
 def light_fonts() -> Iterator[None]:
-    """Let matplotlib find such fonts in place of the whole ones, and the whole ones afterwards.
+    """Let matplotlib use the reduced fonts inside the block.
 
-    Raises DatasetError if they find no room in the folder for temporary files.
+    Raises DatasetError if they cannot be written to the folder for temporary files.
     """
     fonts = [FontProperties(family=FAMILY, style=slant) for slant in SLANTS]
     paths = [Path(fontManager.findfont(font)) for font in fonts]
@@ -33,11 +33,11 @@ def light_fonts() -> Iterator[None]:
         try:
             for font in paths:
                 fontManager.addfont(_without_tables(font, folder))
-            # of fonts that suit equally well, matplotlib takes the first
+            # matplotlib uses the first of several fonts that match equally well
             fontManager.ttflist[:] = fontManager.ttflist[len(before) :] + before
             yield
         finally:
-            fontManager.addfont(paths[0])  # for then matplotlib forgets which fonts it has found
+            fontManager.addfont(paths[0])  # clears matplotlib's cache of matching fonts
             fontManager.ttflist[:] = before
 
 
@@ -45,15 +45,15 @@ def light_fonts() -> Iterator[None]:
 def _temporary_folder() -> Iterator[Path]:
     try:
         temporary = TemporaryDirectory()
-    except OSError as error:  # its text names all folders that were tried
-        text = f"{error.strerror}: make room in one, or name another folder in TMPDIR"
+    except OSError as error:  # its text lists all folders that were tried
+        text = f"{error.strerror}: free space in one of them, or set TMPDIR to another folder"
         raise DatasetError(text) from error
     with temporary as folder:
         yield Path(folder)
 
 
 def _without_tables(font: Path, folder: Path) -> Path:
-    """Return a copy of a font in this folder without the tables that are left out."""
+    """Return the path of a copy of a font, in `folder`, without the tables LEFT_OUT."""
     with TTFont(font, lazy=True, recalcBBoxes=False, recalcTimestamp=False) as opened:
         for table in LEFT_OUT:
             if table in opened:

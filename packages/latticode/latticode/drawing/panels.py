@@ -1,10 +1,12 @@
-"""Panels of runs and sweeps: moduli over time and sites, norms against the half-width."""
+"""Panels of runs and sweeps: fields over time and sites, norms against the half-width."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colorizer import ColorizingArtist
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
@@ -12,16 +14,16 @@ from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from . import style
 from .strips import NORMS
 
-MARKERS = {"l2": "o", "linf": "s"}  # the shapes tell the norms apart in grey too
+MARKERS = {"l2": "o", "linf": "s"}  # different shapes distinguish the norms in greyscale too
 SIZES = {"max": 3.6, "mean": 2.4}
 BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.2}
 OFFSET = 1.1
-"""Bars of ensembles stand so far beside the dots, and cover none: a factor on the half-width."""
+"""Factor on the half-width by which error bars of ensembles are moved, so as not to cover dots."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
 
 def positive(curve: xr.DataArray) -> xr.DataArray:
-    """Return the part of a curve that a logarithmic axis can show."""
+    """Return the positive values of a curve, which a logarithmic axis can show."""
     return curve.where(curve > 0).dropna("tau")
 
 
@@ -31,27 +33,28 @@ def over_time(run: xr.Dataset) -> xr.Dataset:
 
 
 def values_over_time(run: xr.Dataset) -> xr.Dataset:
-    """Return the values of real fields, with their signs, over the times of the snapshots."""
+    """Return the signed values of real fields over the times of the snapshots."""
     values = run["state"].sel(part="value", drop=True)
     return _by_time(run[["snapshot_tau"]].assign(value=values))
 
 
 def _by_time(fields: xr.Dataset) -> xr.Dataset:
     fields = fields.set_coords("snapshot_tau")
-    fields = fields.drop_vars("snapshot", errors="ignore")  # the same times, in a notebook
+    fields = fields.drop_vars("snapshot", errors="ignore")  # in a notebook: the same times
     return fields.swap_dims(snapshot="snapshot_tau")
 
 
 def draw_moduli(
     figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str], evenly: bool = True
 ) -> None:
-    """Draw the moduli of each field of one case, under its name, on one scale of colours.
+    """Draw the moduli of each field of one case in a panel of `row`, with one colour scale.
 
-    Snapshots whose times are not `evenly` spaced are as wide as the time between them.
+    `names` complete the titles of the panels. Pass evenly=False if the snapshots are not equally
+    spaced in time: each is then as wide as its time interval.
     """
     moduli = case["modulus"]
     peak = float(moduli.max()) or 1.0
-    norm = PowerNorm(0.5, vmin=0, vmax=peak)  # else one bright site blackens the rest
+    norm = PowerNorm(0.5, vmin=0, vmax=peak)  # on a linear scale one large site hides all others
     look = {"cmap": "inferno", "norm": norm}
     image = _draw_fields(row, moduli, names, r"$|{field}|$,  {name}", evenly, **look)
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
@@ -66,7 +69,8 @@ def draw_values(
 ) -> None:
     """Draw the values of each real field of one case: blue is negative, white zero, red positive.
 
-    All fields have one scale, which reaches as far below zero as above.
+    All fields have one colour scale, symmetric about zero. `names` and `evenly` are those of
+    `draw_moduli`.
     """
     values = case["value"]
     peak = float(np.abs(values).max()) or 1.0
@@ -83,8 +87,8 @@ def is_even(times: np.ndarray) -> bool:
 
 
 def _draw_fields(
-    row: np.ndarray, fields: xr.DataArray, names: list[str], title: str, evenly: bool, **look
-):
+    row: np.ndarray, fields: xr.DataArray, names: list[str], title: str, evenly: bool, **look: Any
+) -> ColorizingArtist:
     """Draw each field over time and sites, and return the last image."""
     fields = fields.transpose("component", "site", "snapshot_tau")
     times, sites = fields["snapshot_tau"].values, fields["site"].values
@@ -110,10 +114,11 @@ def join_sweeps(
     norms: list[str],
     stored_attributes: Sequence[str] = ("initial",),
 ) -> xr.Dataset:
-    """Return readings of the norms of all fields in each sweep, by the name of its panel.
+    """Return the norms of all fields along (panel, reading, half_width), one panel for each sweep.
 
-    A reading is a statistic and a window of time as the sweeps name them, such as ("max",
-    "[10, 50]"). `stored_attributes` are attributes, as `style.join` takes them.
+    A reading is a statistic and a time window by their labels in the sweeps, such as ("max",
+    "[10, 50]"). `stored_attributes` are attributes of the sweeps that become variables over the
+    panels.
     """
     panels = [_read(sweep[list(norms)], readings) for sweep in sweeps.values()]
     statistics, windows = zip(*readings.values(), strict=True)
@@ -130,10 +135,10 @@ def _read(sweep: xr.Dataset, readings: dict[str, tuple[str, str]]) -> xr.Dataset
 
 
 def draw_sweep(axes: Axes, panel: xr.Dataset, fields: str) -> None:
-    """Draw the norms of one panel against the half-width, and bars of their ensembles.
+    """Draw the norms of one panel against the half-width, with error bars of ensembles.
 
-    Maxima are filled, means are hollow. Each norm and reading has a label for a legend, and the
-    bars have one. `fields` says on the axis what the norms are of.
+    Maxima are filled, means are hollow. Every curve has a label for a legend. `fields` are the
+    symbols of the fields on the y axis.
     """
     norms = [name for name in reversed(NORMS) if name in panel]
     label = f"mean ± SD of {int(panel.get('members', 0))} runs"

@@ -1,7 +1,7 @@
-"""Figures of a run, of a sweep and of a localised state, with every parameter in the titles.
+"""Figures of a run, a sweep and a localised state, with all parameters in the titles.
 
-`gather_...` returns what `draw_...` draws, with a caption. A program that calls the library may
-name parameters and fields in its own way, by `Naming`.
+`gather_...` returns the dataset that `draw_...` draws, with a caption. A program that uses the
+library can replace the symbols of parameters and fields with a `Naming`.
 """
 
 import json
@@ -23,13 +23,13 @@ from . import panels, strips, style
 from .strips import NORMS, Strip
 
 FEW = 8
-"""Ticks for so many half-widths fit below a panel."""
+"""Largest number of half-widths of which each gets a tick."""
 COLOURS = ("red", "blue")
-"""Of the first two fields, as captions name them."""
+"""Colours of the first two fields, as named in captions."""
 RUNS = [Strip("", ""), Strip("second_", "second run, by another method")]
 DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
 LONGEST, LONGEST_FIELDS = 46, 12
-"""A formula with more characters leaves no room for the rest of a title, or of an axis' label."""
+"""Largest number of characters of a formula in a title, and of the fields in an axis label."""
 NORMS_CAPTION = (
     "Norms of {fields} against τ: ℓ∞ on the left and ℓ² on the right. If a run by another method "
     "differs visibly, a dashed line marks the time, and the other run is shown below."
@@ -51,17 +51,17 @@ SWEEP_CAPTION = (
 
 
 class Naming(NamedTuple):
-    """How titles write what the attributes of a dataset hold."""
+    """Symbols of parameters and fields in titles."""
 
-    symbols: Mapping[str, str] = {"half_width": "M"}  # of attributes, in TeX
-    fields: tuple[str, ...] = ()  # of the initial data, where they are not those of the run
+    symbols: Mapping[str, str] = {"half_width": "M"}  # symbols in TeX of a dataset's attributes
+    fields: tuple[str, ...] = ()  # names of the initial data; if empty, the fields of the run
 
 
 PLAIN_NAMING = Naming()
 
 
 def name_parameters(attributes: Mapping, naming: Naming = PLAIN_NAMING) -> str:
-    """Return the parameters of the equations, and the half-width where there is only one."""
+    """Return the model, its parameters and the attributes with a symbol, as text for a title."""
     known = {s: attributes[key] for key, s in naming.symbols.items() if key in attributes}
     symbols = ",  ".join(f"${symbol} = {float(value):.4g}$" for symbol, value in known.items())
     if "parameters" not in attributes:
@@ -74,7 +74,7 @@ def name_parameters(attributes: Mapping, naming: Naming = PLAIN_NAMING) -> str:
 
 
 def name_initial(initial: str, fields: tuple[str, ...]) -> str:
-    """Return initial data, as datasets keep them ({site: [A, B]}), as written in a title."""
+    """Return initial data, stored in datasets as {site: [A, B]}, as text for a title."""
     sites = read_initial(initial)
     ((site, values),) = sites.items() if len(sites) == 1 else [(0, ())]
     if len(values) != len(fields):
@@ -85,19 +85,19 @@ def name_initial(initial: str, fields: tuple[str, ...]) -> str:
 
 
 def name_data(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> str:
-    """Return the initial data, or the number of sites if they do not fit into a title."""
+    """Return the initial data of a run, or their number of sites if they do not fit in a title."""
     fields = naming.fields or tuple(data.attrs["fields"].split(", "))
     named = name_initial(data.attrs["initial"], fields)
     return named if len(named) <= LONGEST else "data on 1 site"
 
 
 def name_data_and_ends(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> str:
-    """Return the initial data and the kind of ends."""
+    """Return the initial data and the boundary condition, as text for a title."""
     return f"{name_data(data, naming)},  {ends_of(data.attrs['boundary']).label}"
 
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
-    """Return the norms of a trajectory, beside the second run that its checks hold."""
+    """Return the norms of a trajectory, and those of the second run if `checks` are passed."""
     names = [str(name) for name in run["component"].values]
     coloured = [f"{name} ({colour})" for name, colour in zip(names, COLOURS, strict=False)]
     fields = " and ".join(coloured) if len(names) <= len(COLOURS) else ", ".join(names)
@@ -113,7 +113,7 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
 def draw_norms(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
     """Draw l-infinity left and l2 right, the first field red and the second blue.
 
-    Where the two runs diverge the second has strips of its own below; elsewhere it is not drawn.
+    The second run is drawn only if the two runs diverge, in strips below the first.
     """
     has_strip = strips.diverges(data)
     figure, (grid,) = strips.draw_cases([data], [RUNS if has_strip else [Strip("", "")]])
@@ -124,9 +124,9 @@ def draw_norms(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
 
 
 def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
-    """Return the values of real fields, else moduli, over the times of the snapshots.
+    """Return the values of real fields over the times of the snapshots, otherwise the moduli.
 
-    A run that keeps moduli alone has no values.
+    A run that stores only moduli has no values.
     """
     names = [str(name) for name in run["component"].values]
     signed = "state" in run and "value" in run["part"].values
@@ -138,7 +138,7 @@ def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
-    """Draw the moduli or values of all fields side by side, on one scale of colours."""
+    """Draw the moduli or values of all fields side by side, with one colour scale."""
     figure = style.new_figure(style.WIDTH, 2.5)
     count = data.sizes["component"]
     row = figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
@@ -152,17 +152,20 @@ def draw_spacetime(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
 
 
 def gather_breather(checks: xr.Dataset) -> xr.Dataset:
-    """Return the localised state that the checks of a run hold, if they hold one."""
+    """Return the variables of the localised state in the checks of a run, with a caption."""
     breather = checks[[name for name in checks.data_vars if name.startswith("breather")]]
     return breather.assign_attrs(caption=BREATHER_CAPTION)
 
 
 @style.styled
 def draw_breather(data: xr.Dataset) -> Figure:
-    """Draw moduli over sites left; right the multipliers, or the exponents of a steady state."""
+    """Draw the moduli over sites left, and right the multipliers, or exponents if it is steady.
+
+    If there is no state, the figure shows the reason.
+    """
     figure = style.new_figure(style.WIDTH, 2.7)
     if "breather" not in data:
-        reason = data.attrs.get("breather_refusal", "the checks looked for none")
+        reason = data.attrs.get("breather_refusal", "the checks did not search for one")
         figure.text(0.5, 0.5, f"no localised state: {reason}", ha="center")
         return figure
     left, right = figure.subplots(1, 2)
@@ -189,7 +192,7 @@ def gather_sweep(
 ) -> xr.Dataset:
     """Return the maximum of the norms of all fields over one window, and their mean over another.
 
-    Both are taken over the sweep's first window where none is given.
+    Both windows default to the first of the sweep.
     """
     first = str(sweep["window"].values[0])
     windows = max_window or first, mean_window or first
@@ -220,7 +223,7 @@ def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
 
 
 def _mark_widths(axes: Axes, widths: np.ndarray) -> None:
-    """Mark the half-widths themselves where they are few; a logarithm has no place for zero."""
+    """Put ticks at the half-widths if they are few, and use a linear axis if one is zero."""
     if widths.min() == 0:
         axes.set_xscale("linear")
     if len(widths) <= FEW or widths.min() == 0:

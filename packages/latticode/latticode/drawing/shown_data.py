@@ -1,7 +1,7 @@
-"""Which rows of its data a figure shows: known by their content, so that a curve cannot be another.
+"""Names of the rows of the data that the curves of a figure show, recognised by their values.
 
-A curve that is reversed, scaled or of another variable is no row of the data, or another row. This
-holds on any machine, for chaotic data too, because data and picture are of the same run.
+A curve that is reversed, scaled or of the wrong variable thus has no name or a different one. This
+works on any machine, for chaotic data too, because data and figure are from the same run.
 """
 
 from collections.abc import Iterator
@@ -12,11 +12,11 @@ import numpy as np
 import xarray as xr
 
 FEWEST = 4
-"""Rows with fewer numbers are not looked for: they are equal by chance."""
+"""Smallest number of finite values of a row; shorter rows may be equal by chance."""
 
 
 class Place(NamedTuple):
-    """A row or plane of a dataset: its variable, and where it lies along each other dimension."""
+    """A row or plane of a dataset: its variable, and its index along every other dimension."""
 
     key: str
     along: tuple[tuple[str, int], ...]
@@ -28,16 +28,16 @@ class Place(NamedTuple):
 
 
 class Rows:
-    """The names of the rows and planes of a dataset, by what they hold."""
+    """The names of the rows and planes of a dataset, by their values."""
 
-    def __init__(self, data: xr.Dataset):
+    def __init__(self, data: xr.Dataset) -> None:
         self.data = data
         self.known: dict[tuple, dict[bytes, Place]] = {}
 
     def name(self, values: np.ndarray) -> str:
-        """Return which row, first or last part of a row, or plane holds these values, if one does.
+        """Return the name of the row or plane that has these values, "" if there is none.
 
-        A row may have gaps, which a curve leaves out.
+        The values may be the start or the end of a row, or a row without its NaN.
         """
         if np.isfinite(values).sum() < FEWEST:
             return ""
@@ -47,7 +47,7 @@ class Rows:
         return place.name_in(self.data) if place else ""
 
     def of_curve(self, x: np.ndarray, y: np.ndarray) -> str:
-        """Return what a curve shows, as in `l2 [small, A] over tau`."""
+        """Return the names of the rows that a curve shows, such as `l2 [small, A] over tau`."""
         return " over ".join(filter(None, [self.name(y), self.name(x)]))
 
 
@@ -57,7 +57,7 @@ def _content(values: np.ndarray) -> bytes:
 
 
 def _contents(data: xr.Dataset, shape: tuple[int, ...]) -> Iterator[tuple[bytes, Place]]:
-    """Yield content and place of all that has this shape."""
+    """Yield content and place of every row or plane, or part of one, that has this shape."""
     for key, variable in data.variables.items():
         if variable.dtype.kind not in "fi":
             continue
@@ -76,7 +76,7 @@ def _contents(data: xr.Dataset, shape: tuple[int, ...]) -> Iterator[tuple[bytes,
 def _slices(
     key: str, variable: xr.Variable, axes: tuple[int, ...]
 ) -> Iterator[tuple[Place, np.ndarray]]:
-    """Yield place and values of each row or plane along these axes."""
+    """Yield place and values of each row or plane along `axes` of a variable."""
     remaining = [axis for axis in range(variable.ndim) if axis not in axes]
     dimensions = [str(variable.dims[axis]) for axis in remaining]
     values = variable.values.transpose(*remaining, *axes)
@@ -85,7 +85,10 @@ def _slices(
 
 
 def _label(dimension: str, index: int, data: xr.Dataset) -> str:
-    """Return the word at a place along a dimension, or the dimension and its number there."""
+    """Return the coordinate at an index along a dimension, after the dimension if it is a number.
+
+    A dimension without coordinates gets the index instead.
+    """
     if dimension not in data.variables:
         return f"{dimension} {index}"
     label = data[dimension].values[index]

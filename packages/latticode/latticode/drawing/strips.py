@@ -1,7 +1,7 @@
-"""Norms of fields against time: a run, and in strips below it what it must be told apart from.
+"""Norms of fields against time: a run, and in strips below it the runs to compare it with.
 
-After two chaotic runs have diverged, their curves in one panel cannot be read. So each stands in a
-strip of its own, all on the same scales, and a dashed line shows from when on they differ.
+After two chaotic runs have diverged, their curves are unreadable in one panel. Each run therefore
+has its own strip, on the same scales, and a dashed line marks the divergence time.
 """
 
 from collections.abc import Sequence
@@ -19,18 +19,19 @@ from . import style
 
 NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
 UNDER = {"lw": 2.0, "label": "wide, pale: multiprecision reference"}
-"""Curves under others are wider than these, so that they are seen."""
+"""Look of curves below others, wide enough to be seen."""
 TALL, LOW = 1.15, 0.66
-"""Heights in inches: of a panel that stands alone, and of a strip."""
+"""Heights in inches of a single panel and of a strip."""
 HEADROOM = 1.06
-"""The axis ends so far above the largest value."""
+"""Upper end of the y axis over the largest value."""
 DIVERGED = {"color": "black", "lw": 0.6, "dashes": (4, 2), "zorder": 3}
 
 
 class Strip(NamedTuple):
-    """One strip: its variables are named `prefix` and the norm; those of `under` may lie below.
+    """One strip of a case: it shows the variables whose names are `prefix` followed by a norm.
 
-    Variables over "quantile" are bands from the first to the last, with a line in the middle.
+    The curves with the prefix `under` are drawn below them. Variables (quantile, ...) are drawn as
+    bands between three quantiles, with a line at the middle one.
     """
 
     prefix: str
@@ -39,9 +40,9 @@ class Strip(NamedTuple):
 
 
 def draw_cases(cases: Sequence[xr.Dataset], strips: Sequence[Sequence[Strip]]) -> tuple:
-    """Return a new figure and its axes by case, (strip, norm): l-infinity left and l2 right.
+    """Return a new figure and the axes (strip, norm) of each case: l-infinity left, l2 right.
 
-    `cases` hold norms over component and tau, and may hold the `divergence_time` that is marked.
+    `cases` have norms (component, tau), and may have a `divergence_time`, which is marked.
     """
     heights = [TALL if len(of_case) == 1 else LOW * len(of_case) for of_case in strips]
     figure = style.new_figure(style.WIDTH, sum(heights) + 0.25 * len(heights) + 0.4)
@@ -70,7 +71,7 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
         prefixes = {prefix for s in strips for prefix in (s.prefix, s.under or s.prefix)}
         names_shown = [f"{prefix}{name}" for prefix in prefixes]
         top = max(float(case[curves].max()) for curves in names_shown)
-        axes.set_ylim(0, HEADROOM * top or 1.0)  # a chain at rest has no scale of its own
+        axes.set_ylim(0, HEADROOM * top or 1.0)  # the norms of a chain at rest are zero
         axes.set_xlim(0, float(case[name].dropna("tau", how="all")["tau"].max()))
         axes.yaxis.set_major_locator(MaxNLocator(5 if len(strips) == 1 else 3))
     return grid
@@ -101,19 +102,22 @@ def _draw_bands(axes: Axes, bands: xr.DataArray) -> None:
 
 
 def pale_of(field: int) -> str:
-    """Return the colour of bands of a field, and of its curves that lie under others."""
+    """Return the pale colour of a field, for bands and for curves below others."""
     return style.PALE.get(style.colour_of(field), "0.8")
 
 
 def diverges(case: xr.Dataset) -> bool:
-    """Return whether a time is known from when on the case's curves differ."""
+    """Return whether the case has a finite divergence time."""
     return "divergence_time" in case and bool(np.isfinite(case["divergence_time"]))
 
 
 def name_legend(
     figure: Figure, components: Sequence[str], mark: str = "", under: bool = False
 ) -> None:
-    """Put one legend above all: the components, what lies under them, and the dashed line."""
+    """Put one legend above all panels: the components, the reference, and the dashed line.
+
+    The reference is listed if `under`, and the dashed line if `mark`, its label, is not empty.
+    """
     fields = range(len(components))
     lines = [Line2D([], [], color=style.colour_of(i), lw=1.6) for i in fields]
     labels = [f"${style.symbol(component)}$" for component in components]

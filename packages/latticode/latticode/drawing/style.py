@@ -1,4 +1,4 @@
-"""One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
+"""The style of all figures (sizes, fonts, colours), their legends, and how they are saved."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from textwrap import fill, wrap
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -35,52 +36,55 @@ LINE_WIDTH = 0.7
 """The width of a line, in points."""
 
 WIDTH = 16.4 / 2.54
-"""The width of a figure in inches: that of the article's text, so that it is printed as drawn."""
+"""The width of a figure in inches, equal to the text width of the article."""
 NOTE = 110
-"""The width of a note below the panels, in letters."""
+"""The width of a note below the panels, in characters."""
 
 WITHOUT_INDICES, WITH_INDICES = 8, 10
 """Sizes of text in points. Mathtext draws indices and powers at 0.7 of the size."""
 INDEX = re.compile(r"\$[^$]*[_^]")
 LETTER, HANDLE = 0.5, 4.8
-"""Mean width of a letter, and width of a legend's line with the space around it, by the size."""
+"""Mean width of a letter, and width of a legend handle with the space around it, relative to the
+size of the text."""
 MARGIN = 0.55
 """Inches between two panels, for the ticks and labels of the right one."""
 
 ON_COLOURS = {
-    "color": "white", "lw": 1.0, "ls": (0, (3, 1.5)),
+    "color": "white",
+    "lw": 1.0,
+    "ls": (0, (3, 1.5)),
     "path_effects": [withStroke(linewidth=2.2, foreground="black")],
-}  # fmt: skip
-"""A dashed line that is seen on every colour of a map, and in a legend on white."""
+}
+"""A dashed line that is visible on every colour of a map, and on white in a legend."""
 
 RED, BLUE = "#e8402f", "#123b8c"
-"""Two colours of a lightness so different that they stay apart in grey."""
+"""Two colours that can be distinguished by their lightness in greyscale."""
 PALE = {RED: "#f0a79f", BLUE: "#9db2de"}
-"""Colours of bands, and of curves that lie under others."""
+"""Pale variants, for bands and for curves below others."""
 
 LOOKS = {name: method.look or (f"C{i}", "o") for i, (name, method) in enumerate(NAMED.items())}
-"""The colour of each method, and the marker that distinguishes it in grey too."""
+"""The colour of each method, and its marker, which distinguishes it in greyscale."""
 MARKERS = {name: marker for name, (_, marker) in LOOKS.items()}
 COLOURS = {name: colour for name, (colour, _) in LOOKS.items()} | {"l2": RED, "linf": BLUE}
 
 
 def colour_of(field: int) -> str:
-    """Return the colour of a field by its place: the first is red, the second blue."""
+    """Return the colour of a field by its number: 0 is red, 1 is blue."""
     return (RED, BLUE)[field] if field < 2 else f"C{field}"
 
 
 def symbol(name: str, site: str = "") -> str:
-    """Return the name of a field in TeX, to stand between dollars, and as an index its site.
+    """Return the name of a field in TeX, without dollar signs, with `site` as an index.
 
-    What follows an underscore is an index too. A long name, or no formula, stands as it is.
+    Text after an underscore becomes an index too. A long name, and one with other characters than
+    letters and digits or with two underscores in a row, is set as text.
 
     >>> symbol("u"), symbol("u", "n"), symbol("psi_1", "n"), symbol("u__1", "n")
     ('u', 'u_n', 'psi_{1,n}', '\\\\text{u__1}_n')
     """
     stem, *indices = pieces = name.split("_")
     if len(name) > LONGEST_SYMBOL or not all(
-        piece_of_name.isalnum() and max(piece_of_name) <= LAST_IN_MATHTEXT
-        for piece_of_name in pieces
+        piece.isalnum() and max(piece) <= LAST_IN_MATHTEXT for piece in pieces
     ):
         stem, indices = rf"\text{{{name}}}", []
     if not indices:
@@ -89,16 +93,16 @@ def symbol(name: str, site: str = "") -> str:
 
 
 def plain_text(text: str) -> str:
-    """Return a text in which dollars are dollars, and no formula begins."""
+    """Return a text with escaped dollar signs, which would otherwise begin a formula."""
     return text.replace("$", r"\$")
 
 
 LONGEST_SYMBOL = 12
 """Letters in the name of a field that is printed as a symbol with indices."""
 LAST_IN_MATHTEXT = "\U0001ffff"
-"""Mathtext takes no letter beyond this one."""
+"""The last character that mathtext accepts."""
 
-# the library's own defaults first: a reader's matplotlibrc must not change the figures
+# start from matplotlib's defaults, because a user's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
     "font.family": "DejaVu Sans",
     "font.size": WITHOUT_INDICES,
@@ -115,9 +119,9 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "lines.linewidth": LINE_WIDTH,
     "legend.frameon": False,
     "legend.handlelength": 2,
-    "axes.titley": 1.0,  # no ticks stand above a panel: else each title measures them many times
-    "pdf.fonttype": 42,  # TrueType, which journals accept: they reject Type 3
-    "ps.fonttype": 42,  # else a PDF has each font in parts of 256 letters, each cut out anew
+    "axes.titley": 1.0,  # otherwise matplotlib measures ticks above the panel for each title
+    "pdf.fonttype": 42,  # TrueType: journals reject Type 3
+    "ps.fonttype": 42,  # otherwise a font is split into subsets of 256 letters, which takes longer
     "figure.dpi": DPI,
 }
 
@@ -129,11 +133,11 @@ def _style() -> Iterator[None]:
 
 
 styled = _style()
-"""Decorator: every `draw` runs under this style, and leaves the caller's untouched."""
+"""Decorator of functions that draw: they use this style, and the caller's style is unchanged."""
 
 
 class ShownFigure(Figure):
-    """A figure that a notebook shows without pyplot."""
+    """A figure that a notebook displays without pyplot."""
 
     @styled
     def _repr_png_(self) -> bytes:
@@ -143,7 +147,7 @@ class ShownFigure(Figure):
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """Return an empty figure of this size in inches that arranges its own margins."""
+    """Return an empty figure of this size in inches, with constrained layout."""
     figure = ShownFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
@@ -200,9 +204,9 @@ def count_columns(figure: Figure, labels: Sequence[str], most: int, size: float)
 def name_legend(
     figure: Figure, *panels: Axes, columns: int = 7, fontsize: float | None = None
 ) -> None:
-    """Put one legend for all panels above them; its lines are thick enough to show their colour.
+    """Put one legend for all panels above them, in at most `columns` columns.
 
-    What several panels show is named once. A row has at most so many columns.
+    A label of several panels is listed once. Legend lines are thick enough to show their colour.
     """
     named = {}
     for axes in panels:
@@ -218,14 +222,14 @@ def name_legend(
         line.set_linewidth(max(1.6, line.get_linewidth()))
 
 
-def legend_above(figure: Figure, handles: Sequence, labels: Sequence[str], **look) -> None:
-    """Put a legend above all panels. Handles in a tuple share a label, side by side."""
+def legend_above(figure: Figure, handles: Sequence, labels: Sequence[str], **look: Any) -> None:
+    """Put a legend above all panels. Handles in a tuple are drawn side by side with one label."""
     side_by_side = {tuple: HandlerTuple(ndivide=None, pad=0.3)}
     figure.legend(handles, labels, loc="outside upper center", handler_map=side_by_side, **look)
 
 
 def name_units(values: xr.DataArray) -> str:
-    """Return the units of a quantity as its axis names them; nothing where it has none."""
+    """Return the units of a quantity for its axis label, such as " (s)"; "" if it has none."""
     units = values.attrs.get("units", "1")
     return "" if units == "1" else f" ({units})"
 
@@ -233,7 +237,7 @@ def name_units(values: xr.DataArray) -> str:
 def join(
     datasets: list[xr.Dataset], names: list[str], dim: str, attributes: Sequence[str] = ()
 ) -> xr.Dataset:
-    """Return datasets stacked along a new dimension; `attributes` become variables over it."""
+    """Return datasets stacked along a new dimension, with `attributes` as variables over it."""
     stacked = xr.concat(
         [data.drop_attrs(deep=False) for data in datasets],
         xr.Variable(dim, names),
@@ -257,15 +261,14 @@ def save(
     description: str | Path,
     note: str = "",
 ) -> None:
-    """Write the figure twice, its data and its description: whole files, the same bytes every time.
+    """Write the figure as PNG and PDF, its data, and its description.
 
-    A `note` stands below the panels.
-
-    Both pictures carry the fingerprint of the description, and the description that of the data, so
-    that a picture of other data is told by its content; and a digest of what they show (`seals`).
+    Each file is complete or absent, and has the same bytes every time. `note` is printed below the
+    panels. Both pictures contain the fingerprint of the description and a checksum (see `seals`);
+    the description contains the digest of the data. A picture of different data is thus detected.
     """
     if note:
-        # without a layout engine, nothing makes room: half of the space below the panels is free
+        # without a layout engine the panels are not moved: only the left half below them is free
         has_layout = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
         text = fill(note, NOTE if has_layout else NOTE * 2 // 5)
         figure.supxlabel(text, x=0.5 if has_layout else 0.22, fontsize=7)
@@ -277,7 +280,7 @@ def save(
         complete_or_absent(description) as new_description,
     ):
         _measure_less(figure)
-        # not savefig, which draws everything once more to find out what it will draw
+        # not savefig, which draws the figure twice
         figure.canvas.draw()
         text = as_text(describe(figure, data)) + "\n"
         new_description.write_text(text, encoding="utf-8")
@@ -286,7 +289,7 @@ def save(
         inside = {"Software": None, "Panels": _panels(figure), "Description": mark}
         inside[PIXELS] = digest_of_pixels(pixels)
         imsave(new_png, pixels, dpi=figure.dpi, metadata=inside, format="png", pil_kwargs=quick)
-        figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
+        figure.set_layout_engine("none")  # the PDF uses the margins that are computed already
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         with light_fonts(), BytesIO() as drawn:
             FigureCanvasPdf(figure).print_pdf(drawn, metadata={**undated, "Keywords": mark})
@@ -295,9 +298,9 @@ def save(
 
 
 def _measure_less(figure: Figure) -> None:
-    """Leave out of the layout the sides of panels that have no ticks, since they reach no further.
+    """Exclude the sides of panels that have no ticks from the layout, which they do not affect.
 
-    To measure a side, matplotlib finds all ticks of its axis anew.
+    Measuring a side is slow, because matplotlib computes all ticks of its axis again.
     """
     for axes in figure.axes:
         for axis, first, second in ((axes.xaxis, "bottom", "top"), (axes.yaxis, "left", "right")):

@@ -69,7 +69,7 @@ def test_a_full_disk_of_temporary_files_is_named_in_place_of_that_of_the_figure(
 def test_where_no_folder_takes_temporary_files_the_variable_that_names_one_is_told(monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", None)
     monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: ["/proc/absent"])
-    words = r"/proc/absent.*: make room in one, or .*TMPDIR"
+    words = r"/proc/absent.*: free space in one of them, or set TMPDIR"
     with pytest.raises(DatasetError, match=words), light_fonts():
         pass
 
