@@ -62,7 +62,7 @@ def set_end_time():
         (
             lambda: survey(CASE, {"a": [1]}, keep=[lambda problem, run: 1]),
             ConfigurationError,
-            "keep: a function is kept under its name, and this one has none",
+            "keep: a function is stored under its name, and this one has none",
         ),
         (lambda: CASE.changed(model=None), ConfigurationError, "model: is empty; give a Model"),
         (lambda: CASE.changed(model=abs2), ConfigurationError, "give a Model, or the path of"),

@@ -10,7 +10,7 @@ import numpy as np
 from latticode.integrators.families import instead_of_taylor
 from latticode.simulation.problem import Problem
 from latticode.simulation.runs import ManyRuns, Retained
-from latticode.simulation.survey import CHAINS, OF_FIELDS, Members, Survey, names_of_axis
+from latticode.simulation.survey import OF_FIELDS, OF_RUNS, Members, Survey, names_of_axis
 from latticode.simulation.survey_runs import TEXT, runs_of_survey
 
 from .netcdf import Variable
@@ -148,7 +148,7 @@ def _axis(axis: str, dimension: str, axis_values: Sequence, fields: Sequence[str
 
 def _long_name(number: str) -> str:
     statistic, _, norm = number.partition("_")
-    if number in CHAINS:
+    if number in OF_RUNS:
         return LONG_NAMES[number]
     if number in OF_FIELDS:
         return LONG_NAMES[statistic].format(norm=NAMES[norm])

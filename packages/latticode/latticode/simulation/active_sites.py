@@ -1,9 +1,9 @@
-"""Runs on an infinite chain that integrate only the sites in motion, -W..W, or 0..W of even data.
+"""Runs on an infinite chain that integrate only the active sites: -W..W, or 0..W of even data.
 
 W grows by a block when a site near an end exceeds `rest_threshold` times the largest amplitude. For
-short runs 1e-20 is small enough. A pulled front, driven by its leading edge, slows down if the edge
-is cut off (Brunet and Derrida, Phys. Rev. E 56 (1997) 2597). Long runs therefore use 1e-150, about
-the smallest number whose square is a normal double.
+short runs 1e-20 is small enough. A pulled front is driven by its leading edge and slows down if the
+edge is cut off (Brunet and Derrida, Phys. Rev. E 56 (1997) 2597). Long runs therefore use 1e-150,
+about the smallest number whose square is a normal double.
 
 A run is divided into time intervals. Sites are added only between them.
 """
@@ -24,7 +24,7 @@ from .problem import Problem
 from .traced import TracedEquations
 
 BLOCK, GUARD = 64, 32
-"""Number of sites by which W grows, and number of sites at an end that must be at rest when an
+"""Number of sites by which W grows, and number of sites at each end that must be at rest when an
 interval starts. No front may cross GUARD sites within an interval."""
 INTERVAL = 2.0
 """Default length of an interval, in units of time."""
@@ -35,7 +35,7 @@ class Interval(NamedTuple):
 
     times: np.ndarray  # (time,), output times, both ends included
     record: ObservableRecord  # its snapshots hold the state at every output
-    state: np.ndarray  # (row, 1 + site + 1) with ghosts; the run continues with it, even if changed
+    state: np.ndarray  # (row, 1 + site + 1) with ghosts; changing it changes the run from here on
     right_half: np.ndarray  # (row, site), the sites 0..W of the state
 
 
@@ -48,7 +48,7 @@ def integrate_intervals(
     model. Raises IntegrationError if the solver cannot finish an interval.
     """
     even = _is_even(problem.initial)
-    runs = _Runs(problem, even)
+    chain = _GrowingChain(problem, even)
     width = problem.initial.shape[1] // 2 + BLOCK
     state = pack(place(problem.initial, width), Reduction(even, synchronised=False))
     steps = round(problem.span / problem.output_step)
@@ -57,7 +57,7 @@ def integrate_intervals(
         state = widen(state, rest_threshold, even)
         last = min(first + steps_of_interval, steps)
         times = problem.start_time + problem.output_step * np.arange(first, last + 1)
-        record = runs.advance(state, times)
+        record = chain.advance(state, times)
         right_half = state[:, 1 if even else 1 + width_of(state, even) : -1]
         yield Interval(times, record, state, right_half)
 
@@ -72,7 +72,7 @@ def widen(state: np.ndarray, rest_threshold: float, even: bool = True) -> np.nda
 
 
 def width_of(state: np.ndarray, even: bool) -> int:
-    """Return W, the number of the last site of a state (row, 1 + site + 1) with two ghosts."""
+    """Return W, the last site of a state (row, 1 + site + 1) with two ghosts."""
     return state.shape[1] - 3 if even else (state.shape[1] - 3) // 2
 
 
@@ -80,14 +80,14 @@ def _is_even(initial: np.ndarray) -> bool:
     return np.array_equal(initial, initial[:, ::-1])
 
 
-class _Runs:
-    """Runs of one problem on growing numbers of sites.
+class _GrowingChain:
+    """The kernels of one problem on a growing number of sites.
 
-    Work arrays are allocated once per number of sites, because allocating them for every interval
-    would take 10 % of its time.
+    Work arrays are allocated only when the number of sites changes, because allocating them for
+    every interval would take 10 % of its time.
     """
 
-    def __init__(self, problem: Problem, even: bool):
+    def __init__(self, problem: Problem, even: bool) -> None:
         self.problem, self.even = problem, even
         self.columns = 0
         self.prepared: tuple[CompiledMethod, Any, np.ndarray]

@@ -29,8 +29,8 @@ class GaveUpError(IntegrationError):
 class CompiledMethod(NamedTuple):
     """A method compiled with the equations of a model.
 
-    `work` is the number of work arrays, if it depends on the model. `in_tiles` is true if the
-    kernels can divide a chain into tiles.
+    `work` is the number of work arrays if it depends on the model, otherwise 0. `in_tiles` is true
+    if the kernels can divide a chain into tiles.
     """
 
     method: Method
@@ -54,7 +54,7 @@ class ResultNames(NamedTuple):
     """Names of results in datasets; an empty text keeps the default long name of the variable."""
 
     components: tuple[str, ...]
-    parts: tuple[str, ...] = ("re", "im")  # rows of a component, without one that is always zero
+    parts: tuple[str, ...] = ("re", "im")  # rows of a component, except a row that is always zero
     title: str = "Norms"
     units: str = "1"  # of the fields
     norms: str = ""  # ", of ...", appended to the long names of norms
@@ -114,7 +114,7 @@ class Equations(ABC):
     # --- Arguments and results of the kernels
 
     def find_reduction(self) -> Reduction:
-        """Return the smallest part of the chain whose run has the bits of the whole chain's."""
+        """Return the smallest part of the chain that gives the same bits as the whole chain."""
         return find_reduction(self.problem.amplitudes)
 
     @abstractmethod
@@ -146,4 +146,4 @@ class Equations(ABC):
 
     @abstractmethod
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-        """Return fields of a `Trajectory` on the whole chain, from record and final state `y`."""
+        """Return entries of a `Trajectory` on the whole chain, from record and final state `y`."""

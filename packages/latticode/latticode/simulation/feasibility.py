@@ -1,8 +1,8 @@
-"""Checks before a run, which reject one that could not end or whose result would be noise.
+"""Checks before a run, which reject runs that would not end or would return only rounding errors.
 
-The configuration checks before any job starts. `simulate` checks again, because not all problems
-come from a configuration. The solvers report errors that appear only during a run: a state that
-overflows, or a step that becomes too short.
+The configuration checks its cases before any job starts. `simulate` checks again, because not all
+problems come from a configuration. The solvers report errors that appear only during a run: a state
+that overflows, or a step that becomes too short.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from latticode.integrators.methods import METHODS
 MOST_STEPS = 1e9
 """Maximum number of steps of a run: more would take hours."""
 ROUNDING = 1e-16
-"""Smallest tolerance relative to the data: below it rounding errors dominate."""
+"""Smallest tolerance relative to the data; below it, rounding errors dominate."""
 SMALLEST_DATA = 1e-153
 """Smallest amplitude: the squares of smaller ones, in norms and energy, lose digits or vanish."""
 
@@ -30,7 +30,7 @@ def find_fault(
     solver: Mapping,
     clock: float = 1.0,
 ) -> Obstacle | None:
-    """Return the key and the reason why a run of length `span` is impossible, else None.
+    """Return the key to change and the reason why a run of length `span` is rejected, else None.
 
     `peak` is the largest initial amplitude, `values` are constants by key, and `rates` bounds of
     relative rates by the key they depend on. `clock` is the solver's time per unit of time.
@@ -56,9 +56,9 @@ def _find_in_data(
     constants: Mapping, peak: float, span: float, rates: Mapping[str, float]
 ) -> Obstacle | None:
     values = {**constants, "initial": peak, "end_time": span}
-    endless = [key for key, value in values.items() if not isfinite(value)]
-    if endless:
-        return endless[0], "the data or the constants are not finite"
+    not_finite = [key for key, value in values.items() if not isfinite(value)]
+    if not_finite:
+        return not_finite[0], "the data or the constants are not finite"
     if 0.0 < peak < SMALLEST_DATA:
         return "initial", f"the data are so small ({peak:.0e}) that their squares vanish"
     fastest = max(rates, key=rates.get)
@@ -68,7 +68,7 @@ def _find_in_data(
     if angle > MOST_STEPS:
         return (
             fastest if rates[fastest] > span else "end_time",
-            f"the run turns the data by {angle:.0e} radians, more than {MOST_STEPS:.0e}",
+            f"the phases advance by {angle:.0e} radians, more than {MOST_STEPS:.0e}",
         )
     return None
 
@@ -90,10 +90,10 @@ def _find_in_tolerances(solver: Mapping, peak: float) -> Obstacle | None:
         return None
     rtol, atol = float(solver["rtol"]), float(solver["atol"])
     if not (rtol >= 0.0 and atol >= 0.0):
-        text = f"the tolerances {rtol:g} and {atol:g} are not both numbers of at least zero"
+        text = f"the tolerances must be numbers of at least zero, not {rtol:g} and {atol:g}"
         return "solver.rtol", text
     if not rtol * peak + atol >= ROUNDING * peak:
-        text = f"the tolerances {rtol:g} and {atol:g} lie below the rounding of the data"
+        text = f"the tolerances {rtol:g} and {atol:g} are below the rounding errors of the data"
         return "solver.rtol", text
     if 0.0 < peak < atol:
         text = f"the data ({peak:.0e}) are smaller than the absolute tolerance {atol:g}"

@@ -1,17 +1,15 @@
-"""Compiled runs that Ctrl-C ends at once.
+"""Compiled runs that Ctrl-C stops immediately.
 
-Python tells its main thread of an interrupt between two of its own instructions. A compiled run is
-a single instruction that may take hours, and an interrupt that comes while LLVM compiles may be
-lost altogether. So another thread does the run, and the caller waits for it in Python. Where the
-wait is interrupted, the caller raises a flag, which the kernels read at every step. What the run
-has written by then is dropped, so that nobody sees half of a result.
+Python handles signals in its main thread, and only between bytecodes. A compiled run is a single
+bytecode that may take hours, and an interrupt during a compilation by LLVM may be lost. A worker
+thread therefore executes the run, while the caller waits for it in Python. If the wait is
+interrupted, the caller sets a flag, which the kernels read at every step. The incomplete results
+are discarded.
 
-A thread that has done a run waits for the next one: to start one takes as long as a short run.
-To hand over a run costs time too: who makes many runs hands over a function that makes them all.
-
-Between two cores the handing over takes up to half as long as a run of a short chain. So the main
-thread does a run by itself if that run is compiled already, and then the other thread waits: for
-the descriptor to which Python writes every signal at once, whatever the main thread does.
+Starting a thread takes as long as a short run, so workers are reused. Passing a run to a worker
+takes up to half as long as a run of a short chain. For many runs, pass one function that executes
+them all. Once a function is compiled, the main thread executes it. A second thread then reads the
+file descriptor to which Python writes each signal when it arrives, and sets the flag.
 """
 
 import os
@@ -29,44 +27,44 @@ import numpy as np
 
 
 class Interrupted(KeyboardInterrupt):
-    """Work that Ctrl-C ended. Python and Jupyter show it as one line, without a traceback."""
+    """Ctrl-C stopped some work; Python and Jupyter print its message without a traceback."""
 
-    def __init__(self, *words: str) -> None:
-        super().__init__(*words)
+    def __init__(self, *message: str) -> None:
+        super().__init__(*message)
         if sys.excepthook is sys.__excepthook__:
-            sys.excepthook = _show_in_a_line
+            sys.excepthook = _print_message
 
     def _render_traceback_(self) -> list[str]:
-        """Return what IPython shows."""
+        """Return the lines that IPython prints in place of a traceback."""
         return [str(self)]
 
 
-def _show_in_a_line(kind: type[BaseException], error: BaseException, traceback: Any) -> None:
+def _print_message(kind: type[BaseException], error: BaseException, traceback: Any) -> None:
     if isinstance(error, Interrupted):
         print(error, file=sys.stderr)
     else:
         sys.__excepthook__(kind, error, traceback)
 
 
-LOOK = 0.1
-"""Seconds between two looks of a waiting caller at what happened meanwhile."""
+POLLING_INTERVAL = 0.1
+"""Seconds between two checks of a waiting caller."""
 PATIENCE = 0.5
-"""Seconds that an interrupted caller waits for the end of a step; compilation may take longer."""
+"""Seconds that an interrupted caller waits for the run to stop; a compilation may take longer."""
 
 
 class _Worker:
-    """A thread that does one run after another."""
+    """A thread that executes one run after another."""
 
     def __init__(self) -> None:
         self.runs, self.ends = SimpleQueue(), SimpleQueue()
-        # A daemon thread, so that the interpreter can leave while that thread still compiles.
+        # a daemon thread, so that the interpreter can exit while the thread still compiles
         threading.Thread(target=self._work, daemon=True).start()
 
     def _work(self) -> None:
         while task := self.runs.get():
             _thread_state.stop = task[1][-1]
             end = _end_of(*task)
-            del task  # arrays of a run that is over
+            del task  # frees the arrays of the run
             self.ends.put(end)
             del end
 
@@ -74,12 +72,12 @@ class _Worker:
 def _end_of(run: Callable, arguments: tuple) -> tuple[Any, BaseException | None]:
     try:
         return run(*arguments), None
-    except BaseException as fault:
-        return None, fault
+    except BaseException as error:
+        return None, error
 
 
 class _Watch:
-    """A thread that raises the flag of the main thread's run when Python writes an interrupt."""
+    """A thread that sets the flag of the main thread's run when an interrupt arrives."""
 
     CAUGHT_UP = b"\xff"  # no number of a signal
 
@@ -91,7 +89,7 @@ class _Watch:
         threading.Thread(target=self._look, daemon=True).start()
 
     def descriptor(self) -> int:
-        """Return where Python shall write its signals."""
+        """Return the file descriptor for `signal.set_wakeup_fd`."""
         return self._written.fileno()
 
     def _look(self) -> None:
@@ -102,23 +100,23 @@ class _Watch:
                 self._caught_up.put(True)
 
     def catch_up(self) -> None:
-        """Return when all that was written is read, so that it raises the flag of no later run."""
+        """Wait until all signals written so far are read, so that none stops a later run."""
         self._written.send(self.CAUGHT_UP)
         self._caught_up.get()
 
 
 _thread_state = threading.local()
-"""In a worker: the flag of the run that it does."""
+"""In a worker: the flag of its current run."""
 _idle: list[_Worker] = []
-"""Workers that wait for a run."""
+"""Workers without a run."""
 _watch: list[_Watch] = []
-"""What watches the main thread's runs, if it has done any."""
+"""The watch of the main thread, after its first run."""
 _done: weakref.WeakSet[Callable] = weakref.WeakSet()
-"""Functions that were called before. For arguments of other types one may still be compiled."""
+"""Functions that were called before, and are compiled at least for some types of arguments."""
 
 
 def _forget_threads() -> None:
-    """A fork has none of the threads of its parent."""
+    """Clear the lists of threads in a forked process, which has none of its parent's threads."""
     _idle.clear()
     _watch.clear()
 
@@ -128,12 +126,11 @@ if hasattr(os, "register_at_fork"):  # Windows has no forks
 
 
 def interruptible(run: Callable, *arguments: Any) -> Any:
-    """Return run(*arguments, stop), a run that ends when the flag `stop` is raised.
+    """Return run(*arguments, stop), a run that Ctrl-C can stop.
 
-    `stop` is an array of one boolean; `run` releases the GIL and reads the flag at every step, or
-    calls this function for such runs, which share its thread and flag. Raises whatever the run
-    raises, and KeyboardInterrupt if the caller is interrupted meanwhile, or if it is one of many
-    threads and the main thread is interrupted.
+    The flag `stop` is an array of one boolean. `run` must release the GIL and read the flag at
+    every step, or call this function for such runs, which then share its thread and flag. Raises
+    the errors of the run, and KeyboardInterrupt if the caller or the main thread is interrupted.
     """
     stop = getattr(_thread_state, "stop", None)
     if stop is not None:
@@ -149,22 +146,22 @@ def interruptible(run: Callable, *arguments: Any) -> Any:
 
 
 def _can_be_watched() -> bool:
-    """Return whether this is the main thread, and nobody else has taken its interrupts."""
+    """Return whether this is the main thread, and no other code handles its interrupts."""
     if threading.current_thread() is not threading.main_thread():
         return False
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
         return False
-    descriptor = signal.set_wakeup_fd(-1)  # there is no other way to ask
+    descriptor = signal.set_wakeup_fd(-1)  # the only way to read the current descriptor
     if descriptor != -1:
         signal.set_wakeup_fd(descriptor)
     return descriptor == -1
 
 
 def _run_watched(run: Callable, arguments: tuple) -> Any:
-    """Return run(*arguments, stop), which this thread calls, while another waits for Ctrl-C.
+    """Return run(*arguments, stop), called in this thread while the watch waits for Ctrl-C.
 
-    Meanwhile an interrupt raises the flag alone: numba kills Python where it raises an exception in
-    a kernel that makes its result.
+    During the run an interrupt only sets the flag. An exception would abort Python if it were
+    raised while numba converts the result of a kernel.
     """
     if not _watch:
         _watch.append(_Watch())
@@ -175,7 +172,7 @@ def _run_watched(run: Callable, arguments: tuple) -> Any:
         signal.set_wakeup_fd(watch.descriptor(), warn_on_full_buffer=False)
         return run(*arguments, stop)
     finally:
-        # in this order: whatever was written to the descriptor has raised the flag here as well
+        # in this order: the handler above has then set the flag for all signals in the descriptor
         signal.set_wakeup_fd(-1)
         signal.signal(signal.SIGINT, signal.default_int_handler)
         if stop[0]:
@@ -184,26 +181,26 @@ def _run_watched(run: Callable, arguments: tuple) -> Any:
 
 
 def _run_by_worker(run: Callable, arguments: tuple) -> Any:
-    """Return run(*arguments, stop), which another thread calls, while this one waits for it."""
+    """Return run(*arguments, stop), called in a worker while this thread waits for it."""
     stop, worker = np.zeros(1, np.bool_), None
     try:
-        worker = _take()
+        worker = _idle_worker()
         worker.runs.put((run, (*arguments, stop)))
-        result, fault = _wait(worker.ends)
+        result, error = _wait(worker.ends)
     except BaseException:
         stop[0] = True
         if worker is not None:
-            worker.runs.put(None)  # it may be busy for long: others get another one
+            worker.runs.put(None)  # ends the worker after its run, which may take long
             with suppress(Empty):
                 worker.ends.get(timeout=PATIENCE)
         raise
     _idle.append(worker)
-    if fault is not None:
-        raise fault
+    if error is not None:
+        raise error
     return result
 
 
-def _take() -> _Worker:
+def _idle_worker() -> _Worker:
     try:
         return _idle.pop()
     except IndexError:
@@ -213,21 +210,21 @@ def _take() -> _Worker:
 def _wait(ends: SimpleQueue) -> tuple[Any, BaseException | None]:
     while True:
         try:
-            return ends.get(timeout=LOOK)
+            return ends.get(timeout=POLLING_INTERVAL)
         except Empty:
             if _main_thread_is_interrupted():
                 raise KeyboardInterrupt from None
 
 
 def _main_thread_is_interrupted() -> bool:
-    """Return whether the main thread is leaving some block because of Ctrl-C.
+    """Return whether the main thread is handling a KeyboardInterrupt.
 
-    Python tells nobody but the main thread. A pool of threads that it leaves waits for its runs,
-    which would go on to their ends.
+    Python raises it only in the main thread. When this leaves a pool of threads, it waits for their
+    runs, which must therefore stop by themselves.
     """
     main = threading.main_thread()
     if main is threading.current_thread():
         return False
     handled = sys._current_exceptions().get(main.ident)
-    handled = handled[1] if isinstance(handled, tuple) else handled  # as Python 3.11 gives it
+    handled = handled[1] if isinstance(handled, tuple) else handled  # a tuple in Python 3.11
     return isinstance(handled, KeyboardInterrupt)

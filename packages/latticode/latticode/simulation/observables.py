@@ -28,8 +28,8 @@ def blank_record(
 ) -> ObservableRecord:
     """Return uninitialised arrays for `times` outputs, with a snapshot at every `every`-th of them.
 
-    Snapshots hold moduli if `parts` is 0, otherwise states. Conserved `quantities` may take half of
-    the time of an output; runs that need only norms have none.
+    Snapshots are moduli if `parts` is 0, otherwise states. `quantities` is the number of conserved
+    quantities: computing them may take half of the time of an output.
     """
     count = (times - 1) // every + 1 if every else 0
     moduli_shape = (components, sites, count)
@@ -47,7 +47,7 @@ def blank_record(
 def sums_over_chain(chain: Any, a: np.ndarray, b: np.ndarray) -> tuple[float, float]:
     """Return the sums of two rows (column,) over the sites of the whole chain.
 
-    They add pairs of sites from the centre outwards, so that half of an even chain gives the same
+    Pairs of sites are added from the centre outwards, so that half of an even chain gives the same
     bits. Both sums run in parallel, because each addition must wait for the previous one.
     """
     mirrored = chain.left == MIRROR
@@ -70,7 +70,7 @@ def norms_by(square: Callable) -> Callable:
     """Return the kernel that writes the norms of a state, from square(y, row, j) = |A_n|^2."""
 
     @inlined_by_llvm
-    def write_norms(chain, y, i, record):
+    def write_norms(chain: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
         """Write the l-infinity and l2 norms of each component over the whole chain."""
         squares, last = record.scratch, y.shape[0] // 2 - 1
         for k in range(last + 1):
@@ -78,8 +78,8 @@ def norms_by(square: Callable) -> Callable:
                 squares[k, j] = square(y, 2 * k, j)
         for row in range(0, last + 1, 2):
             next_row = min(row + 1, last)  # a single component is summed twice
-            sum_of_one, sum_of_other = sums_over_chain(chain, squares[row], squares[next_row])
-            record.l2[row, i], record.l2[next_row, i] = sqrt(sum_of_one), sqrt(sum_of_other)
+            first, second = sums_over_chain(chain, squares[row], squares[next_row])
+            record.l2[row, i], record.l2[next_row, i] = sqrt(first), sqrt(second)
         for k in range(last + 1):
             record.linf[k, i] = sqrt(largest_magnitude(squares[k, 1:-1]))
 
@@ -91,8 +91,8 @@ def observer(square: Callable, keep_site: Callable) -> Callable:
     write_norms = norms_by(square)
 
     @uncached
-    def observe(system, y, i, record):
-        """Reduce the state `y` to the observables of output `i`."""
+    def observe(system: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
+        """Write the observables of the state `y` at output `i`."""
         write_norms(system, y, i, record)
         if record.every > 0 and i % record.every == 0:
             for k in range(y.shape[0] // 2):
@@ -105,7 +105,7 @@ def observer(square: Callable, keep_site: Callable) -> Callable:
 @inlined_by_llvm
 def keep_modulus(y: np.ndarray, k: int, j: int, snapshot: int, snapshots: np.ndarray) -> None:
     """Store the modulus of a component, or both its parts if `snapshots` has four dimensions."""
-    if snapshots.ndim == 4:  # numba compiles one of the two
+    if snapshots.ndim == 4:  # numba compiles only the branch that applies
         for row in range(2):
             snapshots[row, k, j - 1, snapshot] = y[2 * k + row, j]
     else:
@@ -114,12 +114,14 @@ def keep_modulus(y: np.ndarray, k: int, j: int, snapshot: int, snapshots: np.nda
 
 @inlined_by_llvm
 def keep_parts(y: np.ndarray, k: int, j: int, snapshot: int, snapshots: np.ndarray) -> None:
+    """Store both parts of a component."""
     for row in range(2):
         snapshots[row, k, j - 1, snapshot] = y[2 * k + row, j]
 
 
 @inlined_by_llvm
 def square_of_angle(y: np.ndarray, row: int, j: int) -> float:
+    """Return the square of a real field, which is the angle of a pendulum."""
     return y[row, j] * y[row, j]
 
 

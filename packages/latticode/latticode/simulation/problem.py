@@ -1,8 +1,12 @@
 """An initial-value problem together with the equations that integrate it."""
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from latticode.equations.initial_values import InitialValueProblem
+
+if TYPE_CHECKING:
+    from .equations import Equations
 
 
 class Problem(InitialValueProblem):
@@ -12,10 +16,9 @@ class Problem(InitialValueProblem):
     """
 
     @cached_property
-    def equations(self):
-        """The `Equations` that integrate the problem and name its results; nothing is compiled."""
-        from .traced import (
-            TracedEquations,
-        )  # imported here: configurations make problems without kernels
+    def equations(self) -> "Equations":
+        """The equations that integrate the problem and name its results; nothing is compiled."""
+        # imported here, because configurations create problems without kernels
+        from .traced import TracedEquations
 
         return TracedEquations(self)

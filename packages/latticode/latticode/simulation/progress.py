@@ -1,7 +1,7 @@
 """A progress bar for work of more than two seconds, in a terminal or a notebook.
 
-A thread checks the progress twice a second. The work itself does nothing for it: the thread counts
-the norms that a run has written, or the runs in the table of a survey.
+A thread checks the progress twice a second. It counts the norms that a run has written, or the runs
+that a survey has stored, so that the work itself takes no longer.
 """
 
 import os
@@ -26,14 +26,14 @@ COMPILING = "{desc} {elapsed}"
 class _Work:
     """Work in progress: how much of it is done, its total, and its bar if it is shown."""
 
-    def __init__(self, name: str, runs: Sized | None, total: int):
+    def __init__(self, name: str, runs: Sized | None, total: int) -> None:
         self.name, self.runs = name, runs
         self.lock, self.bar, self.is_over = threading.Lock(), None, False
         self.begun = monotonic()
         self.restart(name, (lambda: len(runs)) if runs is not None else None, total)
 
     def restart(self, label: str, done: Callable[[], int] | None, total: int) -> None:
-        """Restart the count, for example for the outputs of the next run."""
+        """Start counting again, for example the outputs of the next run."""
         self.label, self.done, self.total = label, done, total
         self.since, self.first = monotonic(), done() if done else 0
         self.close()
@@ -85,7 +85,7 @@ class _Work:
 class _Compilations:
     """Counter of the numba compilations in progress."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.running, self.is_listening = 0, False
 
     def listen(self) -> None:
@@ -108,9 +108,9 @@ class _Compilations:
 
 compilations = _Compilations()
 _at_work: list[_Work] = []
-"""The work whose progress is shown, if there is any."""
+"""The work whose progress is shown, at most one entry."""
 _threads: list[threading.Thread] = []
-"""The thread that draws the bars, after the first work has started."""
+"""The thread that draws the bars, once it has started."""
 
 if hasattr(os, "register_at_fork"):  # Windows has no forks
     os.register_at_fork(after_in_child=lambda: (_at_work.clear(), _threads.clear()))
@@ -120,8 +120,8 @@ if hasattr(os, "register_at_fork"):  # Windows has no forks
 def show_progress(name: str, runs: Sized | None = None, total: int = 1) -> Iterator[None]:
     """Show the progress of the work in the block after two seconds.
 
-    `runs` is a container to which a survey adds its `total` runs. Without it, each run in the block
-    calls `follow`. Raises Interrupted, which prints a single line, on Ctrl-C.
+    `runs` is a container to which a survey adds its `total` runs; without it, each run in the block
+    calls `follow`. On Ctrl-C raises Interrupted, which prints a single line.
     """
     work = None
     if not _at_work and is_visible():
@@ -144,7 +144,7 @@ def show_progress(name: str, runs: Sized | None = None, total: int = 1) -> Itera
 
 
 def follow(outputs: np.ndarray, label: str) -> None:
-    """Show the progress of a run by the entries of `outputs` (time,) that it has written."""
+    """Show the progress of a run as the share of `outputs` (time,) that it has written."""
     for work in _at_work:
         if work.runs is None:
             outputs.fill(np.nan)

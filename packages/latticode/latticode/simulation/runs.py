@@ -41,15 +41,13 @@ def run_chunk(
     numbers = range(chunk, len(problems), chunks)
     retained = {} if retained is None else retained
 
-    def make_all(
-        stop: np.ndarray,
-    ) -> None:  # in one call, because each hand-over to a thread takes time
+    def make_all(stop: np.ndarray) -> None:
         for done, number in enumerate(numbers, 1):
             if number not in retained:
                 retained[number] = make(problems[number])
             progress(done, len(numbers))
 
-    interruptible(make_all)
+    interruptible(make_all)  # one call for all runs, because each call takes time
     return table_of([retained[number] for number in numbers])
 
 
@@ -63,9 +61,8 @@ def join_chunks(chunks: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndar
     """Return the results of all chunks in the order of the runs, each (run, ...)."""
     chunks, tables = list(chunks), {}
     for name in chunks[0]:
-        values = [
-            chunk[name] for chunk in chunks if name in chunk
-        ]  # a chunk without runs has no values
+        # a chunk without runs has no values
+        values = [chunk[name] for chunk in chunks if name in chunk]
         rank, kind = max(array.ndim for array in values), np.result_type(*values)
         values = [array.reshape(array.shape + (1,) * (rank - array.ndim)) for array in values]
         shape = np.max([array.shape[1:] for array in values], axis=0).astype(int)
@@ -124,9 +121,9 @@ class ManyRuns(NamedTuple):
 def run_until_interrupted(
     problems: Sequence[Problem], make: Make, cores: int, retained: Retained
 ) -> dict[str, np.ndarray]:
-    """Return the results of `run_all`; after Ctrl-C with NaN for the runs that are not finished.
+    """Return the results of `run_all` and show its progress.
 
-    Shows progress. Raises Interrupted if no run is finished.
+    After Ctrl-C, unfinished runs have NaN; if none is finished, Interrupted is raised.
     """
     try:
         with show_progress("survey", retained, len(problems)):
@@ -140,11 +137,11 @@ def run_until_interrupted(
 
 
 UNFINISHED = "unfinished: the survey was interrupted before this run"
-"""The text stored for a run that was not finished."""
+"""The text stored for an unfinished run."""
 
 
 def nothing_like(value: Any) -> np.ndarray:
-    """Return the placeholder, NaN or a text, for a result of a run that was not finished."""
+    """Return the placeholder, NaN or a text, for a result of an unfinished run."""
     values = np.asarray(value)
     if values.dtype.kind == "U":
         return np.array(UNFINISHED)

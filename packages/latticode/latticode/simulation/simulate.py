@@ -1,4 +1,4 @@
-"""The trajectory of a problem, by one run or by two methods of different families that agree."""
+"""The trajectory of a problem, by one method or by two of different families that agree."""
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -32,25 +32,23 @@ SINGULAR = (
     " site"
 )
 """Likely reason why the rates are not finite at the start."""
-
-
-JUMPS = "; where a rate jumps, as by sign or where, give larger tolerances, such as 1e-8"
+JUMPS = "; a rate is discontinuous (sign or where): use larger tolerances, such as 1e-8"
 """Advice if a step across a discontinuity would become too short."""
-NEEDS_NO_SERIES = "; dop853 needs no power series, and may go on"
-"""Advice if the solution has no power series at some time, as |u| at a zero of u."""
+NEEDS_NO_SERIES = "; try dop853, which needs no power series"
+"""Advice if the solution may have no power series at some time, such as |u| at a zero of u."""
 
 
 class Trajectory(NamedTuple):
     """The solution of a problem on the whole chain.
 
-    Components are the fields of the model. Norms of real fields are those of their values.
+    Components are the fields of the model. Norms of real fields are norms of their values.
     """
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
-    final: np.ndarray  # at the end time: complex (component, site), or real as `state`
+    modulus: np.ndarray  # (component, site, snapshot), empty without snapshots
+    final: np.ndarray  # complex (component, site), or of real fields (part, component, site)
     outcome: Outcome
     solver: dict[str, Any]  # {"name": ..., **controls} of the run
     snapshot_tau: np.ndarray = np.empty(0)
@@ -69,8 +67,8 @@ def simulate(
     `reduction` is the part of the chain that is integrated, by default the smallest that the exact
     symmetries allow. With `conserved` the conserved quantities are computed. The solver is one that
     integrates the model, or {"name": "auto", "error": ...}. If the default solver `taylor` stops
-    early, `dop853` repeats the run. Raises IntegrationError if the run would not end, the solver
-    stops early, or the result is not finite.
+    early, `dop853` repeats the run. Raises IntegrationError if the run would take too long, the
+    solver stops early, or the result is not finite.
     """
     if problem.snapshots_at:
         return chosen_snapshots(
@@ -89,7 +87,7 @@ def simulate(
         try:
             return _simulate_once(problem.changed(solver=controls), reduction, conserved)
         except IntegrationError:
-            raise error from None  # dop853 stops too, so taylor is not the cause
+            raise error from None  # dop853 fails too: the series are not the cause
 
 
 def _simulate_once(problem: Problem, reduction: Reduction | None, conserved: bool) -> Trajectory:
@@ -109,21 +107,21 @@ def _simulate_once(problem: Problem, reduction: Reduction | None, conserved: boo
 
 
 def remark_on_start(problem: Problem) -> str:
-    """Return a remark if a run starts late and is not bit-identical to one from time 0, else ""."""
-    same = [name for name in problem.equations.methods if NAMED[name].continues_exactly]
-    if not problem.start_time or problem.solver["name"] in same:
+    """Return a remark if a continued run is not bit-identical to one run from time 0, else ""."""
+    exact = [name for name in problem.equations.methods if NAMED[name].continues_exactly]
+    if not problem.start_time or problem.solver["name"] in exact:
         return ""
-    to_the_bit = f"; {same[0]} goes on with the same bits" if same else ""
+    alternative = f"; {exact[0]} would be bit-identical" if exact else ""
     return (
-        f"the run starts at {problem.start_time:g}, where its steps begin anew: it agrees with one"
-        f" run from 0 to the error of {problem.solver['name']}, not to the last bit{to_the_bit}"
+        f"the run starts at {problem.start_time:g}: it agrees with one run from 0 within the error"
+        f" of {problem.solver['name']}, but is not bit-identical{alternative}"
     )
 
 
 def integrate(
     equations: Equations, cut: Reduction, conserved: bool = True
 ) -> tuple[Any, np.ndarray, Outcome]:
-    """Return the observables, the final state and the outcome of a run of the part `cut`.
+    """Return observables, final state and outcome of a run of the part `cut` of the chain.
 
     Raises IntegrationError as `simulate` does.
     """
@@ -134,7 +132,7 @@ def integrate(
     name, methods = problem.solver["name"], equations.methods
     if name not in methods:
         known = ", ".join(methods)
-        raise IntegrationError(f"{name} does not take {problem.model.name}: these do: {known}")
+        raise IntegrationError(f"{name} cannot integrate {problem.model.name}; use {known}")
     compiled = equations.compiled(name)
     y, times, system = equations.start(cut), equations.times, equations.system(cut)
     size = y.shape[0] // 2, y.shape[1] - 2, len(times)
@@ -151,7 +149,7 @@ def integrate(
     must_be_finite += [record.conserved] if equations.names.quantities else []
     for values in must_be_finite:
         if not np.isfinite(values).all():
-            why = "the state, its norms or what it conserves overflow"
+            why = "the state, its norms or its conserved quantities overflow"
             raise _stopped(problem, problem.end_time, why)
     return record, y, outcome
 
@@ -190,8 +188,8 @@ def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
 SNAPSHOTS = 20
 """Least number of times at which fields are compared, if the problem has no snapshots."""
 MARGIN = 2.0
-"""Bound of the larger error of two methods over their difference: errors of different families
-hardly cancel."""
+"""Assumed bound on the larger error of two methods, divided by their difference. Errors of methods
+of different families hardly cancel."""
 SELF_AGREEMENT = 0.1
 """A method agrees with itself if a finer tolerance changes its result by less than this fraction of
 the difference of two methods."""
@@ -200,30 +198,28 @@ the difference of two methods."""
 def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) -> Trajectory:
     """Return the trajectory of a problem whose solver is {"name": "auto", "error": ...}.
 
-    A tolerance does not bound the error at the end, least of all in chaotic motion, and no method
-    detects its own mistakes. Two methods of different families therefore run the problem at finer
-    and finer tolerances until their difference is within the error. If each agrees with itself but
-    not with the other, one is wrong, and a third method decides which.
+    A tolerance does not bound the error at the end, least of all in chaotic motion. Two methods of
+    different families therefore run the problem at finer and finer tolerances until their
+    difference is within the error. If each converges, but to another result than the other, one is
+    wrong, and a third method decides which.
 
     `make` runs a problem by a named solver. The controls of the trajectory include its method, the
     requested and the estimated error, and the method that confirmed it. Raises IntegrationError if
     the methods do not agree within the error.
     """
     every = problem.snapshot_every or max(1, (len(problem.times) - 1) // SNAPSHOTS)
-    runs = _Runs(problem.changed(snapshot_every=every), problem.solver["error"], make)
+    runs = _ComparedRuns(problem.changed(snapshot_every=every), problem.solver["error"], make)
     methods = problem.equations.methods
     try:
         trajectory = runs.agreeing(methods)
-    except GaveUpError:
+    except GaveUpError:  # taylor stops if the solution has no power series at some time
         if "taylor" not in methods:
             raise
-        trajectory = runs.agreeing(
-            [name for name in methods if name != "taylor"]
-        )  # the solution has no power series at some time
+        trajectory = runs.agreeing([name for name in methods if name != "taylor"])
     return trajectory if problem.snapshot_every else without_snapshots(trajectory)
 
 
-class _Runs(NamedTuple):
+class _ComparedRuns(NamedTuple):
     """Runs of one problem by several methods, with snapshots at the same times."""
 
     problem: Problem
@@ -263,7 +259,7 @@ class _Runs(NamedTuple):
         lost = between.first_above(self.error / MARGIN)
         raise IntegrationError(
             f"auto: runs in double precision agree to {self.error:g} only before"
-            f" {self.symbol} = {lost:g}: end the run earlier, or ask for a larger error"
+            f" {self.symbol} = {lost:g}; reduce the end time or allow a larger error"
         )
 
     def accepted(self, first: Trajectory, second: Trajectory, **more: str) -> Trajectory:
@@ -276,9 +272,9 @@ class _Runs(NamedTuple):
     def supported(
         self, pair: tuple[Trajectory, ...], between: Agreement, third: str | None
     ) -> Trajectory:
-        """Return the one of two trajectories that agrees with a run by a third method.
+        """Return the trajectory of a pair that agrees with a run by a third method.
 
-        Each of the two methods agrees with itself and not with the other, so that one is wrong.
+        Raises IntegrationError if neither does.
         """
         names = [trajectory.solver["name"] for trajectory in pair]
         differ = f"{names[0]} and {names[1]} differ by {between.largest:.1e} at any tolerance"
@@ -289,13 +285,13 @@ class _Runs(NamedTuple):
                 if MARGIN * self.compared(trajectory, judge).largest <= self.error:
                     name = trajectory.solver["name"]
                     return self.accepted(
-                        trajectory, judge, disagreement=f"{differ}; {third} like {name}"
+                        trajectory, judge, disagreement=f"{differ}; {third} agrees with {name}"
                     )
-        supports = f"and {third} supports neither" if third else "and no third method can decide"
+        undecided = f"{third} agrees with neither" if third else "there is no third method"
         since = between.first_above(self.error / MARGIN)
         raise IntegrationError(
-            f"auto: {differ}, from {self.symbol} = {since:g} on, {supports}: ask for a larger"
-            " error, or run both by name and compare"
+            f"auto: {differ}, from {self.symbol} = {since:g} on, and {undecided};"
+            " allow a larger error, or run both methods and compare"
         )
 
 
@@ -306,19 +302,18 @@ def angle_of(problem: Problem) -> float:
 
 
 def without_snapshots(run: Trajectory) -> Trajectory:
-    """Return a trajectory without snapshots."""
+    """Return a run without its snapshots."""
     return _at_snapshots(run, np.arange(0))
 
 
 def chosen_snapshots(run: Trajectory, problem: Problem) -> Trajectory:
-    """Return a trajectory with only the snapshots that the problem chooses, out of those at every
-    `snapshot_every`-th output."""
+    """Return a run with only the snapshots that the problem requests."""
     numbers = problem.snapshot_outputs
     return _at_snapshots(run, numbers // problem.snapshot_every)
 
 
 def _at_snapshots(run: Trajectory, numbers: np.ndarray) -> Trajectory:
-    """Return a trajectory with only the snapshots of these numbers (from 0)."""
+    """Return a run with only the snapshots of these numbers, counted from 0."""
     return run._replace(
         modulus=run.modulus[..., numbers],
         state=None if run.state is None else run.state[..., numbers],

@@ -2,8 +2,8 @@
 
 An axis names what it changes: a parameter of the model ("omega"), "half_width", "end_time", or the
 initial value of a field at a site ("initial.0.1": site 0, the second field). Names separated by
-commas vary together; each value of such an axis is a tuple. Runs are numbered with the members
-fastest, then the last axis, and each depends only on its number. `survey_runs` executes them.
+commas vary together; each value of such an axis is a tuple. Runs are numbered such that the member
+varies fastest, then the last axis. A run depends only on its number. `survey_runs` executes them.
 """
 
 import inspect
@@ -20,14 +20,14 @@ from .problem import Problem
 
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")
 OF_FIELDS = tuple(f"{statistic}_{norm}" for statistic in STATISTICS for norm in NORMS)
-CHAINS = ("exponent", "divergence")
-"""Names of results with one number per field, and of those with one number per run."""
-NAMES = (*OF_FIELDS, *CHAINS)
+OF_RUNS = ("exponent", "divergence")
+"""Names of results with one number per field, and with one number per run."""
+NAMES = (*OF_FIELDS, *OF_RUNS)
 """Names of all results that a survey can keep."""
 
 
 class Members(NamedTuple):
-    """An ensemble: `count` copies of each run with a relative perturbation `size` of the data."""
+    """An ensemble: `count` runs, whose initial data have relative perturbations of size `size`."""
 
     count: int
     size: float
@@ -40,12 +40,12 @@ class Survey(NamedTuple):
 
     axes: Mapping[str, Sequence]
     keep: tuple[str | Callable[..., Any], ...] = ("max_l2",)
-    """Names, and functions that take the problem of a run and its trajectory."""
+    """Names of results, or functions of the problem and the trajectory of a run."""
     window: tuple[float, float] | None = None
     """Time window of maxima, means and exponents, both ends included; None for the whole run."""
     members: Members | None = None
     by_half_width: Mapping[int, Mapping[str, Any]] = MappingProxyType({})
-    """Values at all sites of the parameters that are functions of the site, by half-width."""
+    """Values of the parameters that are functions of the site, by half-width."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -57,7 +57,7 @@ class Survey(NamedTuple):
 class Surveyed(Sequence):
     """The sequence of problems of a survey, each created when it is read."""
 
-    def __init__(self, problem: Problem, survey: Survey):
+    def __init__(self, problem: Problem, survey: Survey) -> None:
         self.problem, self.survey = problem, survey
         self.shape, self.names = survey.shape, [names_of_axis(axis) for axis in survey.axes]
 
@@ -65,7 +65,7 @@ class Surveyed(Sequence):
         return prod(self.shape)
 
     def values_of(self, number: int) -> dict[str, Any]:
-        """Return the values on the axes of a run, by name."""
+        """Return the values that vary along the axes, by name, in one run."""
         place = np.unravel_index(number, self.shape) if self.shape else ()
         values: dict[str, Any] = {}
         for names, axis, i in zip(self.names, self.survey.axes.values(), place, strict=False):
@@ -107,22 +107,22 @@ def names_of(survey: Survey) -> list[str]:
     """Return the names of the kept results; raise ValueError for an unknown one."""
     for quantity in survey.keep:
         if not callable(quantity) and quantity not in NAMES:
-            raise ValueError(f"keep: there is no {quantity!r}; there are {', '.join(NAMES)}")
-        if callable(quantity) and (fault := _fault_of_function(quantity)):
-            raise ValueError(f"keep: {fault}")
+            raise ValueError(f"keep: unknown result {quantity!r}; give one of {', '.join(NAMES)}")
+        if callable(quantity) and (reason := _why_invalid(quantity)):
+            raise ValueError(f"keep: {reason}")
     return [
         quantity if isinstance(quantity, str) else quantity.__name__ for quantity in survey.keep
     ]
 
 
-def _fault_of_function(function: Callable) -> str | None:
+def _why_invalid(function: Callable) -> str | None:
     name = getattr(function, "__name__", "")
     if not name.isidentifier():
-        return "a function is kept under its name, and this one has none: make it by def"
+        return "a function is stored under its name, and this one has none (a lambda?): use def"
     try:
         inspect.signature(function).bind(None, None)
     except TypeError:
-        return f"{name} must take (problem, run)"
+        return f"{name} must accept the arguments (problem, run)"
     return None
 
 
@@ -142,9 +142,10 @@ def fault_of_axis(
         or not all(number.lstrip("-").isdigit() for number in place)
     ):
         options = ", ".join([*parameters, "half_width", "end_time"])
-        return f"{name!r} names nothing to change; give one of {options}, or initial.SITE.FIELD"
+        return f"{name!r} cannot be varied; give one of {options}, or initial.SITE.FIELD"
     site, field = map(int, place)
     if site not in sites or not 0 <= field < fields:
         known = ", ".join(map(str, sorted(sites)))
-        return f"{name!r} has no initial value: the sites {known} do, in the fields 0..{fields - 1}"
+        allowed = f"SITE is one of {known}, and FIELD one of 0..{fields - 1}"
+        return f"{name!r} has no initial value: {allowed}"
     return None

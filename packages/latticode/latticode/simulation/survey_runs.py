@@ -13,16 +13,16 @@ from latticode.numerics.elementary import log
 from .problem import Problem
 from .runs import ManyRuns, Run, reshape_runs, run_all
 from .simulate import IntegrationError, Trajectory, simulate
-from .survey import CHAINS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
+from .survey import OF_RUNS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
 from .sweep import mean_of, within
 
 
 def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str, np.ndarray]:
     """Return the results of a survey by name, each (*survey.shape, ...).
 
-    A failed run has NaN and its reason in "failure"; a run by another solver than the problem's has
-    the reason in "remark". One line is printed for each kind. Raises ValueError for an unknown
-    result or axis.
+    A failed run has NaN and the reason in "failure". A run that used another solver than the
+    problem's has the reason in "remark". Prints a line for each of the two. Raises ValueError for
+    an unknown result or axis.
     """
     return runs_of_survey(problem, survey).make(run)
 
@@ -43,7 +43,7 @@ def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
 
 
 def _in_shape(problems: Surveyed, table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Return the results of all runs in the survey's shape; print a line if runs failed."""
+    """Return the results of all runs in the survey's shape; print a line for each of KINDS."""
     texts = table.pop(TEXT)
     for kind, outcome in KINDS.items():
         chosen = np.char.startswith(texts, kind)
@@ -58,12 +58,12 @@ def _in_shape(problems: Surveyed, table: dict[str, np.ndarray]) -> dict[str, np.
 
 KINDS = {
     "failure": "failed and have NaN",
-    "remark": "are by another solver",
-    "unfinished": "are not made; to go on from the others, give the result as resume",
+    "remark": "used another solver",
+    "unfinished": "are unfinished; to continue, pass the result as resume",
 }
-"""Printed description of runs by the kind of their text."""
+"""Printed description of the runs whose text begins with the key."""
 TEXT = "text"
-"""Name of the result with the reason of a failure or remark; empty if there is none."""
+"""Name of the result that has the reason of a failure or remark, else an empty text."""
 
 
 def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
@@ -81,7 +81,7 @@ def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
         if callable(quantity):
             quantities[quantity.__name__] = np.nan if run is None else quantity(problem, run)
         elif run is None:
-            quantities[quantity] = np.nan if quantity in CHAINS else np.full(fields, np.nan)
+            quantities[quantity] = np.nan if quantity in OF_RUNS else np.full(fields, np.nan)
         elif quantity == "divergence":
             quantities[quantity] = _divergence(problem, run)
         elif quantity == "exponent":
@@ -91,7 +91,9 @@ def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
     return quantities
 
 
-def _statistic(run: Trajectory, window, statistic: str, norm: str) -> np.ndarray:
+def _statistic(
+    run: Trajectory, window: tuple[float, float] | None, statistic: str, norm: str
+) -> np.ndarray:
     """Return the maximum, mean or final value of a norm of each field, (field,)."""
     series = getattr(run, norm)
     if statistic == "final":
@@ -101,7 +103,7 @@ def _statistic(run: Trajectory, window, statistic: str, norm: str) -> np.ndarray
 
 
 def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
-    """Return the exponent of time in the growth of the total power in the window."""
+    """Return the exponent q of a fit power ~ tau^q of the total power in the window."""
     start, end = window or (run.tau[1], run.tau[-1])
     inside = within(run.tau, (start, end)) & (run.tau > 0.0)
     power = np.add.reduce(run.l2 * run.l2)[inside]

@@ -1,4 +1,4 @@
-"""A case repeated over half-widths, its norms reduced to maxima and means over windows."""
+"""A case over many half-widths, with the maxima and means of its norms over time windows."""
 
 from collections.abc import Sequence
 
@@ -32,33 +32,33 @@ def runs_of_sweep(
 ) -> ManyRuns:
     """Return the runs of a sweep; their conclusion is the result of `sweep`.
 
-    If a run ends before the motion reaches the ends of the chain, longer chains give the same, and
-    later ones are not run. This does not hold if parameters depend on the site.
+    If a run ends before the motion reaches the ends of the chain, longer chains give the same
+    statistics and are not run, unless parameters depend on the site.
     """
     problem = problem.changed(snapshot_every=0, snapshots_at=())
     uniform = not (problem.site_dependent or problem.model.matrices)
     enough, inside, printed = np.inf, None, False
 
-    def make(one: Problem) -> dict[str, np.ndarray]:
+    def make(chain: Problem) -> dict[str, np.ndarray]:
         nonlocal enough, inside, printed
-        if one.half_width >= enough:
+        if chain.half_width >= enough:
             return inside
-        trajectory = simulate(one, conserved=False)
+        trajectory = simulate(chain, conserved=False)
         if (remark := remark_on(trajectory.solver)) and not printed:
-            print(f"half-width {one.half_width}: {remark}", flush=True)
+            print(f"half-width {chain.half_width}: {remark}", flush=True)
             printed = True
         statistics = windowed(trajectory, windows)
         if uniform and _is_inside(trajectory):
-            enough, inside = one.half_width, statistics
+            enough, inside = chain.half_width, statistics
         return statistics
 
     return ManyRuns([problem.changed(half_width=width) for width in half_widths], make, dict)
 
 
 def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.ndarray]:
-    """Return the statistics "l2" and "linf", (quantity, statistic, window), and the "work".
+    """Return the statistics "l2" and "linf", (quantity, statistic, window), and the "work" (3,).
 
-    The work is the number of steps, of rejected steps, and of evaluations, (3,).
+    The work is the numbers of steps, rejected steps and evaluations.
     """
     return {
         "l2": _over_windows(trajectory.tau, pair_l2(trajectory), windows),
@@ -68,7 +68,7 @@ def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.
 
 
 def _is_inside(trajectory: Trajectory) -> bool:
-    """Return whether the motion has not reached the ends of the chain."""
+    """Return whether both ends of the chain are still at rest at the end of the run."""
     power = square_modulus(trajectory.final)
     return bool(power[..., [0, -1]].max() <= REACHED * power.max())
 
@@ -86,7 +86,7 @@ def pair_linf(trajectory: Trajectory) -> np.ndarray:
 def _over_windows(tau: np.ndarray, series: np.ndarray, windows: Sequence[Window]) -> np.ndarray:
     """Return maxima and means of `series` over windows, (quantity, statistic, window)."""
     inside = [series[:, within(tau, window)] for window in windows]
-    statistics = [[one.max(axis=1) for one in inside], [mean_of(one) for one in inside]]
+    statistics = [[norms.max(axis=1) for norms in inside], [mean_of(norms) for norms in inside]]
     return np.array(statistics).transpose(2, 0, 1)
 
 

@@ -27,7 +27,7 @@ from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .observables import ObservableRecord, blank_record
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
-"""Mode of numpy.pad beyond the ends of a chain, by the sites whose values the ends read."""
+"""Modes of numpy.pad for values beyond the ends, by the sites where the ends take their values."""
 HEAD_OF_RUNS = """
 from latticode.integrators.methods import NAMED
 from latticode.kernels.compiled import kernel
@@ -102,17 +102,18 @@ def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
     clocks = (0.0,) * 2 * len(inputs.clocks)
     ends = choose_ends(problem.boundary, reduction)
     couplings = _couplings(problem, inputs, sites)
-    return System(constants, clocks, at_sites, wide, _sums(problem), couplings, *ends)
+    densities = _density_workspace(problem)
+    return System(constants, clocks, at_sites, wide, densities, couplings, *ends)
 
 
 DENSE = 0.25
 """Fraction of nonzero entries above which a matrix is multiplied in full, which is faster."""
 
 
-def _couplings(problem: InitialValueProblem, parts: ModelInputs, sites: int) -> Couplings:
+def _couplings(problem: InitialValueProblem, inputs: ModelInputs, sites: int) -> Couplings:
     """Return the coupling matrices of a model, and memory for the vectors they multiply."""
     values, names = problem.parameter_values, sorted(problem.model.matrices)
-    count, padded = max(1, len(parts.couples)), -(-sites // LANES) * LANES
+    count, padded = max(1, len(inputs.couples)), -(-sites // LANES) * LANES
     matrices = [values[name] for name in names]
     entries = _flat_entries(matrices, sites)
     in_full = any(len(matrix["rows"]) > DENSE * sites * sites for matrix in matrices)
@@ -134,7 +135,7 @@ def _flat_entries(matrices: list, sites: int) -> tuple[np.ndarray, np.ndarray, n
     return np.array([*weights, 0.0]), np.array([*columns, 0], np.int64), starts
 
 
-def _sums(problem: InitialValueProblem) -> DensityWorkspace:
+def _density_workspace(problem: InitialValueProblem) -> DensityWorkspace:
     """Return the workspace of the densities of conserved quantities."""
     model, reach = problem.model, problem.model.reach_of_densities
     if not model.conserved:
@@ -223,9 +224,9 @@ class TracedEquations(Equations):
         return rates_of(self.problem.model, self.problem.parameters, peak)
 
     def find_reduction(self) -> Reduction:
-        """Return the half of the chain if data, equations and parameters are even in n, else all.
+        """Return half of the chain if data, equations and parameters are even in n, else all.
 
-        The half then has the same bits as the whole chain.
+        The half gives the same bits as the whole chain.
         """
         problem = self.problem
         if problem.site_count is not None:  # the chain 0..N-1 has no centre site
@@ -255,7 +256,7 @@ class TracedEquations(Equations):
         return blank_record(components, sites, times, every, quantities, parts=2)
 
     def collect(self, record: ObservableRecord, y: np.ndarray, cut: Reduction) -> dict[str, Any]:
-        """Return fields of a `Trajectory` on the whole chain, from record and final state `y`."""
+        """Return entries of a `Trajectory` on the whole chain, from record and final state `y`."""
         model, count = self.problem.model, len(self.names.parts)
         final_rows = np.array([unfold(y[part::2, 1:-1], cut) for part in range(count)])
         state = np.array([unfold(part, cut) for part in record.snapshots[:count]])

@@ -66,10 +66,10 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
         ("initial: {0: [1]}, half_width: 2, parameters: {gamma: [1, 2]}", "2 values for 5 sites"),
         ("initial: {0: [1]}, solver: kahan_li", "kahan_li cannot integrate the model mine.py"),
         ("half_width: 2", "initial: is missing"),
-        ("initial: {0: [1.0e+6]}", "initial: the run turns the data by"),
+        ("initial: {0: [1.0e+6]}", "initial: the phases advance by"),
         ("initial: {0: [1.0e+200]}", "initial: the squares of the data or the constants overflow"),
         ("initial: {0: [1.0e-160]}", "initial: the data are so small"),
-        ("initial: {0: [1]}, parameters: {epsilon: 1.0e+9}", "parameters: the run turns the data"),
+        ("initial: {0: [1]}, parameters: {epsilon: 1.0e+9}", "parameters: the phases advance by"),
     ],
 )
 def test_faults_of_a_case_are_told_by_key(configured, keys, message):

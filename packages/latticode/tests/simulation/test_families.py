@@ -51,7 +51,7 @@ def test_auto_raises_where_no_third_method_can_decide():
 def test_auto_raises_where_three_methods_follow_three_motions():
     equations = with_wrong("ode45", equations=with_wrong("taylor"), rate=-EXTRA_TURN)
     one = problem(equations, solver=AUTO)
-    with pytest.raises(IntegrationError, match="and ode45 supports neither: ask for a larger"):
+    with pytest.raises(IntegrationError, match="and ode45 agrees with neither; allow a larger"):
         simulation.simulate(one)
 
 

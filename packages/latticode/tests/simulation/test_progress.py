@@ -128,7 +128,7 @@ def test_an_interrupted_survey_goes_on_from_the_runs_that_are_done(cores, as_in_
     done = (part["unfinished"] == "").values
     assert 0 < done.sum() < 6 and part.attrs["unfinished_runs"] == 6 - done.sum()
     assert np.isnan(part["final_l2"].values[~done]).all()
-    assert f"{6 - done.sum()} of 6 runs are not made; to go on" in capsys.readouterr().out
+    assert f"{6 - done.sum()} of 6 runs are unfinished; to continue" in capsys.readouterr().out
     made = len(calls)
     whole = survey(CASE, {"c": VALUES}, keep=keep, resume=part)
     assert sorted(calls[made:]) == [c for c, was in zip(VALUES, done, strict=True) if not was]
