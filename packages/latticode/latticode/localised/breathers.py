@@ -14,8 +14,8 @@ In the frame that rotates with the state, perturbations grow as exp(mu tau) with
 of the derivative of F + i lambda. Floquet multipliers are exp(2 pi mu / abs(lambda)).
 
 A state that is even in n is computed on the sites 0..M. Its even and odd perturbations then have
-separate matrices. If real parts (or values) drive only imaginary parts (or rates) and vice versa,
-as in reversible equations around a real state, mu^2 are the eigenvalues of a matrix of half the
+separate matrices. In reversible equations around a real state, real parts (or values) drive only
+imaginary parts (or rates) and vice versa; mu^2 are then the eigenvalues of a matrix of half the
 size. LAPACK's last digits depend on the machine, so published results must be rounded.
 """
 
@@ -30,16 +30,17 @@ from latticode.simulation.traced import TracedEquations
 from .linearised import EVEN, ODD, linearise
 
 MOST_UNKNOWNS = 1000
-"""The eigenvalues of a larger matrix take more than a minute."""
+"""Largest size of a matrix; the eigenvalues of a larger one take more than a minute."""
 TOLERANCE, ITERATIONS = 1e-13, 30
-"""Of Newton's method: the largest remaining rate over largest slope times largest value; steps."""
+"""Newton's method stops at rates below TOLERANCE times the largest slope times the largest value,
+or fails after this number of steps."""
 FIRST_STEP, SMALLEST_STEP, LARGEST_CHANGE = 1 / 8, 1 / 4096, 0.2
 """First and smallest step of the coupling; largest change of a state in one step, relative to its
 largest value. A larger change may lead to a different family of states."""
 DAMPING = 1e-12
 """Damping of Newton's method (Levenberg), relative to the largest squared slope."""
 NOISE = 1e-5
-"""Accuracy of exponents: double ones, as of a phase, are accurate to the root of rounding."""
+"""Accuracy of exponents: double ones, such as those of a phase, lose half of the digits."""
 
 
 class NoStateError(ArithmeticError):
@@ -69,7 +70,7 @@ class LocalisedState(NamedTuple):
         return np.concatenate([fields[..., :0:-1], fields], axis=2) if self.even else fields
 
     def weights(self, problem: Problem) -> np.ndarray:
-        """Return how many sites of the whole chain each entry of x represents."""
+        """Return the number of sites of the whole chain that each entry of x represents."""
         count = 2 * len(problem.model.fields)
         sites = np.full(self.x.size // count, 2.0 if self.even else 1.0)
         sites[0] = 1.0
@@ -77,13 +78,13 @@ class LocalisedState(NamedTuple):
 
 
 def flat(fields: np.ndarray, even: bool = False) -> np.ndarray:
-    """Return complex fields (field, site) as a flat real state; of the sites 0..M if `even`."""
+    """Return complex fields (field, site) as a flat real state, on the sites 0..M if `even`."""
     half = fields[:, fields.shape[1] // 2 :] if even else fields
     return np.stack([half.real, half.imag], axis=1).ravel()
 
 
 def widened(problem: Problem, state: LocalisedState) -> LocalisedState:
-    """Return an even state padded with zeros to the longer chain of `problem`, to start from."""
+    """Return an even state padded with zeros to the longer chain of `problem`."""
     rows = state.x.reshape(2 * len(problem.model.fields), -1)
     more = problem.half_width + 1 - rows.shape[1]
     return state._replace(x=np.pad(rows, [(0, 0), (0, more)]).ravel())
@@ -99,7 +100,7 @@ def turning(problem: Problem, size: int) -> np.ndarray:
 def can_turn(problem: Problem) -> bool:
     """Return whether the equations have a global phase symmetry.
 
-    It is tested at one random state, where rates without the symmetry almost surely break it.
+    The test compares the rates of one random state before and after a rotation of the phase.
     """
     if problem.model.real:
         return False
@@ -115,8 +116,8 @@ def newton(
 ) -> LocalisedState:
     """Return the state to which Newton's method converges from `state`.
 
-    It has the given `power`, or is steady if that is None. `coupling` is the fraction of the full
-    coupling between sites. Raises NoStateError if the method does not converge.
+    The state has the given `power`, or is steady if `power` is None. `coupling` is the fraction of
+    the full coupling between sites. Raises NoStateError if the method does not converge.
     """
     turn, weights, least = turning(problem, state.x.size), state.weights(problem), np.inf
     for _ in range(ITERATIONS):
@@ -145,8 +146,8 @@ def newton(
 def least_change(matrix: np.ndarray, rates: np.ndarray) -> np.ndarray:
     """Return the least-squares solution of matrix @ step = -rates with the smallest norm.
 
-    The damping selects it (K. Levenberg, Quart. Appl. Math. 2 (1944) 164). The equations leave
-    some directions free: the phase, and the position of a state that can be shifted.
+    The solution is not unique where the phase or the position of the state is free. Damping selects
+    the smallest one (K. Levenberg, Quart. Appl. Math. 2 (1944) 164).
     """
     normal = matrix.T @ matrix
     normal[np.diag_indices_from(normal)] += DAMPING * np.abs(normal).max()
@@ -169,7 +170,7 @@ def find_state(problem: Problem) -> LocalisedState:
         most = MOST_UNKNOWNS // (2 * len(data))
         raise NoStateError(f"the chain has {problem.sites} sites; give at most {most}")
     if linearise(problem, flat(0.0 * data))[0].any():
-        raise NoStateError("rest does not solve the equations, so that no state can decay to it")
+        raise NoStateError("rest does not solve the equations, so no state can decay to it")
     try:
         state, power = uncoupled(problem, even)
     except NoStateError:
@@ -215,12 +216,12 @@ def coupled(problem: Problem, state: LocalisedState, power: float | None) -> Loc
             raise NoStateError(f"continuation fails at {reached:.3g} of the coupling")
     if abs(state.growth) > NOISE:
         change = "grow" if state.growth > 0.0 else "decay"
-        raise NoStateError(f"its power would {change}, at the rate {2.0 * abs(state.growth):.3g}")
+        raise NoStateError(f"its power would {change} at the rate {2.0 * abs(state.growth):.3g}")
     return state
 
 
 def exponents(problem: Problem, state: LocalisedState) -> np.ndarray:
-    """Return the exponents mu of perturbations, complex, sorted, per unit of tau, to 9 decimals."""
+    """Return the sorted complex exponents mu of perturbations, per unit of tau, to 9 decimals."""
     rates = []
     for parity in (EVEN, ODD) if state.even else (None,):
         matrix = linearise(problem, state.x, parity=parity)[1]

@@ -22,7 +22,7 @@ from latticode.kernels.compiled import inlined_by_numba, kernel
 
 @kernel
 def inner(chain: Any, u: np.ndarray, v: np.ndarray) -> float:
-    """Return the scalar product of two states over the chain; they may store half of it."""
+    """Return the scalar product of two states over the whole chain, even if they store half."""
     total = 0.0
     for row in range(u.shape[0]):
         for j in range(1, u.shape[1] - 1):
@@ -79,21 +79,31 @@ def size_of_solution(chain: Any, bundle: np.ndarray, count: int) -> float:
 
 @kernel
 def observe_nothing(chain: Any, bundle: np.ndarray, i: int, record: Any) -> None:
-    """Record nothing: only the bundle at the end of each interval is needed."""
+    """Do nothing: only the bundle at the end of each interval is needed."""
 
 
 def build(bundle_rates: Callable, at_time: Callable = at_any_time) -> Callable:
     """Return the kernel that integrates a bundle over the intervals between successive `times`.
 
     After each interval it writes the `lengths` (interval, vector) of the tangent vectors and the l2
-    norm of the solution into `sizes` (interval,). It returns the status of the solver. Autonomous
-    equations (no `at_time`) start every interval at times[0]; all intervals must be equally long.
+    norm of the solution into `sizes` (interval,). It returns the status of the solver. Without
+    `at_time` every interval starts at times[0], and all intervals must be equally long.
     """
     solve = dop853.build(bundle_rates, observe_nothing, at_time=at_time)
     driven = at_time is not at_any_time
 
     @inlined_by_numba
-    def carry(chain, bundle, times, controls, work, record, lengths, sizes, stop):
+    def carry(
+        chain: Any,
+        bundle: np.ndarray,
+        times: np.ndarray,
+        controls: tuple[float, ...],
+        work: np.ndarray,
+        record: Any,
+        lengths: np.ndarray,
+        sizes: np.ndarray,
+        stop: np.ndarray,
+    ) -> int:
         status = DONE
         for i in range(lengths.shape[0]):
             span = times[i : i + 2] if driven else times[:2]

@@ -21,8 +21,8 @@ def linearise(
     `state` and rates are (row, site), flattened: the rows are the real and imaginary parts of each
     field, or its value and its rate. With a `parity` the state is even and has the sites 0..M; the
     matrix is then that of EVEN perturbations on the sites 0..M, or of ODD ones on the sites 1..M.
-    With a `coupling` c each neighbour's value v is replaced by c v + (1 - c) u, where u is the
-    value at the site itself: at c = 0 the sites are independent.
+    `coupling` is the fraction c of the full coupling: each neighbour's value v is replaced by
+    c v + (1 - c) u, where u is the value at the site itself.
     """
     model, values = problem.model, problem.parameter_values
     places = places_seen(model.reach, problem.boundary, problem.sites, parity)
@@ -34,12 +34,8 @@ def linearise(
             return leaf.operands[0] if leaf.operands else 0.0
         by = leaf.operands[-1]
         if leaf.operation == "parameter":
-            values_at_leaf = values[leaf.operands[0]]
-            return (
-                values_at_leaf
-                if np.ndim(values_at_leaf) == 0
-                else moved(values_at_leaf, by, problem.boundary)
-            )
+            constant = values[leaf.operands[0]]
+            return constant if np.ndim(constant) == 0 else moved(constant, by, problem.boundary)
         row = state_rows[2 * leaf.operands[0] + leaf.operands[1]]
         if by == 0:
             return row
@@ -47,10 +43,10 @@ def linearise(
         return coupling * factor * row[seen.astype(int)] + (1.0 - coupling) * row
 
     (row, column, by), nodes = _slopes(model)
-    values_of_nodes = np.empty((len(nodes), sites))
-    for k, value_of_node in enumerate(evaluate(nodes, value)):
-        values_of_nodes[k] = value_of_node
-    rates, slopes = values_of_nodes[:rows], values_of_nodes[rows:]
+    rates_and_slopes = np.empty((len(nodes), sites))
+    for k, entries in enumerate(evaluate(nodes, value)):
+        rates_and_slopes[k] = entries
+    rates, slopes = rates_and_slopes[:rows], rates_and_slopes[rows:]
     sites_of_rows = np.arange(sites)
     seen, _, sign = places[:, model.reach + by[:, None] + sites_of_rows]
     line = (row[:, None] * sites + sites_of_rows) * rows + column[:, None]
@@ -69,9 +65,9 @@ def linearise(
 
 @lru_cache
 def places_seen(reach: int, boundary: str, sites: int, parity: int | None) -> np.ndarray:
-    """Return the index of the site whose value is read at each place, and two factors, (3, place).
+    """Return for each place the index of the site with its value, and two factors, (3, place).
 
-    The places are the sites with `reach` more beyond each end. The factors multiply the value in
+    The places are the sites and `reach` places beyond each end. The factors multiply the value in
     the state and in a perturbation; they are 0 at places that the boundary keeps at rest.
     """
     ends, half_width = ends_of(boundary), sites // 2

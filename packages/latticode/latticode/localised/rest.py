@@ -1,7 +1,7 @@
-"""Detection of sites that stay at rest at an unstable point, such as unexcited, uncoupled ones.
+"""Detection of sites that stay at rest at an unstable point, such as unexcited, uncoupled sites.
 
 Perturbations of such a site grow although nothing moves there. The Lyapunov exponent of the whole
-chain is the largest growth rate, so it may belong to such a site instead of the motion.
+chain is the largest growth rate, so it may be that of such a site instead of the motion.
 """
 
 import numpy as np
@@ -21,9 +21,9 @@ def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarra
     """Return the sites at rest where perturbations grow, and the largest growth rate.
 
     A site is at rest if it `is_constant` (site,) during the run and its rates vanish at the start.
-    Its perturbations are linearised with all other sites fixed. They count if they grow by more
-    than a factor of e during the run. If the equations have no derivative there, the array of sites
-    is empty.
+    Perturbations of all such sites are linearised with the moving sites fixed. They count if they
+    grow by more than a factor of e during the run. The array of sites is empty if the equations
+    have no derivative at rest.
     """
     with np.errstate(all="ignore"):
         rates, matrix = linearise(problem, flat(problem.amplitudes))
@@ -44,9 +44,9 @@ def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarra
 def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
     """Return a warning about sites that stay at rest at an unstable point; "" if there are none.
 
-    `moduli` (component, site, snapshot) are those of a run; at rest they are constant. Equations
-    that depend on time, models with a coupling matrix and chains with more than MOST_UNKNOWNS
-    unknowns are not tested.
+    `moduli` (component, site, snapshot) are those of a run; at rest they are constant. Not tested
+    are equations that depend on time, models with a coupling matrix, and chains with more than
+    MOST_UNKNOWNS unknowns.
     """
     unknowns = len(problem.model.rates) * problem.sites
     is_constant = (moduli == moduli[:, :, :1]).all(axis=(0, 2))
@@ -65,8 +65,8 @@ def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
     subject = f"sites {names} rest" if unstable.size > 1 else f"site {names} rests"
     way_out = "give such sites initial values"
     if problem.model.farthest == 0:
-        way_out += ", or leave them out by half_width: 0, as the equations see no neighbour"
+        way_out += ", or omit them with half_width: 0, because the equations have no coupling"
     return (
         f"{subject} at an unstable point, where a perturbation grows at the rate {rate:.4g}; the "
-        f"exponent may be that of these sites instead of the motion's: {way_out}"
+        f"Lyapunov exponent may be that of these sites and not of the motion: {way_out}"
     )

@@ -1,7 +1,7 @@
 """Poincare sections: the times and states at which a function of the fields crosses zero.
 
-A crossing is detected by a change of sign between two outputs. It is located by short runs from the
-first of them, so that its error is that of the solver and not of an interpolation.
+A crossing is detected as a change of sign between two outputs. It is located by short runs from the
+first output, so that its error is that of the solver and not of an interpolation.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ from .linearised import places_seen
 DIRECTIONS = {"up": (1.0,), "down": (-1.0,), "both": (1.0, -1.0)}
 """The signs of the slope at a crossing, by the name of a direction."""
 OUTPUTS_AT_ONCE = 500
-"""Number of outputs whose states are held in memory at a time."""
+"""Number of outputs with states in memory at the same time."""
 MOST_STEPS = 200
 """Maximum number of steps of the root search; bisecting every third step needs far fewer."""
 
@@ -119,8 +119,8 @@ def _value_at(problem: Problem, when: Node, column: int) -> Callable[[np.ndarray
 def find_root(value: Callable[[float], float], start: float, end: float) -> float:
     """Return the root of a function that changes sign between two times, to rounding.
 
-    This is the Illinois method: false position that halves the value at an end point retained
-    twice, with a bisection at every third step.
+    The Illinois method is used: false position, where the value at an end point that stays the same
+    is halved. Every third step is a bisection.
     """
     low, high = value(start), value(end)
     for step in range(1, MOST_STEPS):

@@ -16,7 +16,7 @@ SEED, FEWEST_STEPS = 20170817, 64
 
 
 class Spectrum(NamedTuple):
-    """Lyapunov exponents per unit of tau, largest first, and the growth of tangent vectors."""
+    """Lyapunov exponents per unit of tau, in falling order, and the growth of tangent vectors."""
 
     tau: np.ndarray  # (time,)
     log_growth: np.ndarray  # (number, time), natural logarithm of the growth of a tangent vector
@@ -40,7 +40,7 @@ def measure_spectrum(problem: Problem, count: int) -> Spectrum:
     rng, fields = np.random.default_rng(SEED), problem.model.fields
     drawn = [random_tangent(problem.sites, rng, fields=len(fields)) for _ in range(count)]
     tangents = np.array(drawn)
-    # an imaginary part that the equations neither read nor change is not a degree of freedom
+    # imaginary parts that the equations neither read nor change are not degrees of freedom
     fixed = [fields.index(name) for name in problem.model.without_imaginary_parts]
     tangents[:, fixed] = tangents[:, fixed].real
     step = min(STEP, problem.span / FEWEST_STEPS)

@@ -26,8 +26,7 @@ from latticode.simulation.traced import make_system
 from .bundles import orthonormalise, size_of_solution
 
 STEP = 0.25
-"""Time between orthonormalisations. On the paper's chains no perturbation grows by more than a
-factor of e per unit of tau."""
+"""Default time between orthonormalisations, suitable for growth rates of order 1."""
 TOLERANCE = 1e-9
 CARRY = """
 from {home} import bundles
@@ -71,10 +70,11 @@ def grow(
 ) -> TangentGrowth:
     """Return the growth of `tangents` (vector, field, site), perturbations of a problem's data.
 
-    They must be linearly independent. Their imaginary parts perturb those of complex fields, or the
-    rates of real fields. With `even` only half of the chain is integrated; solution and tangent
-    vectors must then be even. `end_time` and `step`, the time between orthonormalisations, are
-    relative to the start. Raises IntegrationError if dop853 cannot finish the run.
+    `tangents` must be linearly independent. Their imaginary parts perturb the imaginary parts of
+    complex fields, or the rates of real fields. With `even` only half of the chain is integrated;
+    solution and tangent vectors must then be even. `end_time` counts from the start of the problem,
+    and `step` is the time between orthonormalisations. Raises IntegrationError if dop853 cannot
+    finish the run.
     """
     cut, count = Reduction(even, synchronised=False), len(tangents)
     if problem.model.form == "dt":  # the second row of a field is zero

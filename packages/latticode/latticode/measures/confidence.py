@@ -33,15 +33,15 @@ class ConfidenceInterval(NamedTuple):
 
 
 def student(freedom: float, confidence: float = CONFIDENCE) -> float:
-    """Return the two-sided quantile of Student's t for this many degrees of freedom."""
+    """Return the two-sided quantile of Student's t with `freedom` degrees of freedom."""
     return _rounded(special.stdtrit(freedom, 0.5 * (1.0 + confidence)))
 
 
 def mean_limits(values: ArrayLike, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return the mean of `values` (member, ...) over the members, with its interval by Student's t.
 
-    Estimate and ends have the shape (...). Members must be independent of each other. With one
-    member the interval is infinite.
+    Estimate and ends have the shape (...). Members must be independent. With one member the
+    interval is infinite.
     """
     values = np.asarray(values, dtype=float)
     members, mean = len(values), values.mean(axis=0)
@@ -67,8 +67,9 @@ def difference_limits(
 def chance_inside(most: int, draws: int, members: int) -> float:
     """Return the probability that at most `most` of `draws` lie in the range of `members` values.
 
-    All values are independent and have one continuous distribution, which does not matter: counted
-    are their orders with enough draws before the first or after the last member. Three digits.
+    All values are independent with the same continuous distribution. The result depends only on
+    their order: it is the share of orders with enough draws below the first or above the last
+    member, to three digits.
     """
     total = special.gammaln(np.array([draws + members + 1.0, members + 1.0, draws + 1.0]))
     outside = np.arange(draws - most, draws + 1.0)
@@ -80,7 +81,10 @@ def chance_inside(most: int, draws: int, members: int) -> float:
 
 
 def chance_of_counts(least: int, members: int, share: float) -> float:
-    """Return the probability of >= `least` successes in `members` trials of probability `share`."""
+    """Return the probability of at least `least` successes in `members` trials, to three digits.
+
+    Each succeeds with probability `share`.
+    """
     return float(f"{special.bdtrc(least - 1.0, members, share):.3g}")
 
 
@@ -89,11 +93,10 @@ def chance_below(score: float, freedom: float) -> float:
     return float(f"{special.stdtr(freedom, score):.3g}")
 
 
-def _freedom(variances, draws):
-    """Return Welch's degrees of freedom of a difference, from the variances of the two means."""
-    below = sum(
-        variance * variance / (count - 1) for variance, count in zip(variances, draws, strict=True)
-    )
+def _freedom(variances: Sequence[float], counts: Sequence[int]) -> float:
+    """Return Welch's degrees of freedom of a difference of means, from the variances of both."""
+    pairs = zip(variances, counts, strict=True)
+    below = sum(variance * variance / (count - 1) for variance, count in pairs)
     return sum(variances) * sum(variances) / below
 
 
@@ -102,9 +105,9 @@ def ratio_limits(
 ) -> ConfidenceInterval:
     """Return the ratio of two means, mean[1] / mean[0], with Fieller's confidence interval.
 
-    `mean` and `error` hold the two means and their standard errors, each over `members` members.
-    The source is J. R. Stat. Soc. B 16 (1954) 175. Student's t has `members` - 1 degrees of
-    freedom. The interval is infinite if mean[0] does not differ significantly from zero.
+    `mean` and `error` are the two means and their standard errors, each over `members` members. The
+    interval uses Student's t with `members` - 1 degrees of freedom (J. R. Stat. Soc. B 16 (1954)
+    175). It is infinite if mean[0] does not differ significantly from zero.
     """
     (below, above), t = mean, student(members - 1, confidence)
     variances = [(t * relative_error) * (t * relative_error) for relative_error in error]
@@ -121,7 +124,7 @@ def ratio_limits(
 def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return `count` / `members` with the exact confidence interval of Clopper and Pearson.
 
-    The source is Biometrika 26 (1934) 404.
+    Biometrika 26 (1934) 404.
     """
     tail = 0.5 * (1.0 - confidence)
     low = special.betaincinv(count, members - count + 1, tail) if count else 0.0
@@ -132,10 +135,9 @@ def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Co
 def median_limits(values: ArrayLike, confidence: float = CONFIDENCE) -> ConfidenceInterval:
     """Return the median of `values` (member,) with order statistics as its confidence interval.
 
-    The interval holds for any distribution. Values may be infinite: a lifetime that has not ended
-    by the end of the observation counts as longer than all others. If all members are observed
-    equally long, this is the Kaplan-Meier median. An end of the interval is infinite if too few
-    lifetimes have ended.
+    The interval is valid for any distribution. Values may be infinite, such as a lifetime that has
+    not ended during the observation. If all members are observed equally long, the result is the
+    Kaplan-Meier median. An end of the interval is infinite if too few lifetimes have ended.
     """
     ordered = np.sort(np.asarray(values, dtype=float))
     members, tail = len(ordered), 0.5 * (1.0 - confidence)
@@ -151,9 +153,9 @@ def event_rate(
 ) -> ConfidenceInterval:
     """Return the rate of events per unit of time among the members without an event by `start`.
 
-    `times` (member,) are those of the events, infinite if a member has none by `end`. The interval
-    is the exact one of a Poisson count (F. Garwood, Biometrika 28 (1936) 437). The result is NaN if
-    every member has had its event by `start`.
+    `times` (member,) are the times of the events, infinite if a member has none by `end`. The
+    interval is the exact one of a Poisson count (F. Garwood, Biometrika 28 (1936) 437). The result
+    is NaN if every member had its event by `start`.
     """
     left = np.asarray([time - start for time in times if time > start])
     if not left.size:
@@ -168,12 +170,11 @@ def event_rate(
 def order_limits(
     groups: Sequence[np.ndarray], confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return the share of pairs whose value from the earlier group is larger, with its interval.
+    """Return the share of pairs in which the value of the earlier group is larger, with interval.
 
-    Pairs combine values of two different `groups`; equal values count half, and values may be
-    infinite. The width of the interval is that of Jonckheere's test (Biometrika 41 (1954) 133): if
-    all values have the same distribution, it contains 1/2 with this confidence, or with a higher
-    one if some values are equal.
+    A pair has values of two different `groups`; equal values count half, and values may be
+    infinite. The width of the interval is that of Jonckheere's test (Biometrika 41 (1954) 133). If
+    all values have the same distribution, the interval contains 1/2 with at least this confidence.
     """
     larger = pairs = 0.0
     for earlier, later in combinations([np.asarray(group, float) for group in groups], 2):

@@ -12,8 +12,7 @@ The divergence time is the first output time at which the difference exceeds a l
 visible fraction. Datasets and texts distinguish three cases:
 
 - a finite number if the runs diverge;
-- infinity if they do not diverge while both runs last. If one ends first, its end is the last time
-  for which this holds: see `known_until`;
+- infinity if they do not diverge by the end of the shorter run (see `known_until`);
 - NaN if it is unknown, because a run is missing or solves another problem.
 """
 
@@ -33,7 +32,6 @@ VISIBLE = 0.01
 NORMS = ("linf", "l2")
 PARAMETERS = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "output_step")
 
-
 ABSENT = "infinite: at no tau that both have; NaN: not known"
 """The meaning of times that are not finite, for the long names of variables."""
 
@@ -49,18 +47,18 @@ def norm_difference(
     return np.max([_curve_difference(linf_a, linf_b), _curve_difference(l2_a, l2_b)], axis=(0, 1))
 
 
-def _curve_difference(a, b) -> np.ndarray:
+def _curve_difference(a: ArrayLike, b: ArrayLike) -> np.ndarray:
     a, b = np.asarray(a, float), np.asarray(b, float)
     scale = np.maximum(a.max(axis=-1), b.max(axis=-1))[..., None]
     return np.abs(a - b) / np.where(scale == 0.0, 1.0, scale)
 
 
 def field_difference(first: ArrayLike, second: ArrayLike, sizes: ArrayLike) -> np.ndarray:
-    """Return the largest difference of the fields at any site over full scale, (time,).
+    """Return the largest difference of two runs at any site, relative to full scale, (time,).
 
     `first` and `second` are (curve, site, time), complex or real, at the same times. The curves are
     the values of all fields, followed by their rates if the equations are of second order. The full
-    scale of a curve is its largest modulus in either run, but at least the entry of its field in
+    scale of a curve is its largest modulus in either run, but at least the value for its field in
     `sizes` (field,). A field at rest in both runs has the difference 0.
     """
     first, second = np.asarray(first), np.asarray(second)
@@ -84,11 +82,11 @@ def first_above(tau: ArrayLike, values: ArrayLike, level: float) -> np.ndarray |
 
 
 def difference(first: "xr.Dataset", second: "xr.Dataset") -> "xr.DataArray":
-    """Return the difference of two stored trajectories, (tau), over the times that both have.
+    """Return the difference of two stored trajectories, (tau), at the times that both have.
 
     The result has the name and the attributes of a variable of a dataset.
     """
-    import xarray as xr  # imported here: it is slow, and callers from kernels do not need it
+    import xarray as xr  # imported here, because it is slow and not every caller needs it
 
     second = at_times(second, first["tau"]).dropna("tau")
     tau = second["tau"]
@@ -109,7 +107,7 @@ def at_times(trajectory: "xr.Dataset", tau: "xr.DataArray") -> "xr.Dataset":
 def divergence_time(difference: "xr.DataArray", level: float = VISIBLE) -> "xr.DataArray":
     """Return the first tau at which a `difference` (..., tau) exceeds `level`, shape (...).
 
-    It is infinite if the runs never differ by so much, and NaN if no difference is known.
+    It is infinite if the difference never exceeds the level, and NaN if no difference is known.
     """
     values = difference.transpose(..., "tau")
     times = difference.isel(tau=0, drop=True).copy(data=first_above(values["tau"], values, level))
@@ -124,7 +122,7 @@ def known_until(difference: "xr.DataArray") -> "xr.DataArray":
 
 
 def is_of_same_case(trajectory: "xr.Dataset", reference: "xr.Dataset") -> bool:
-    """Return whether two stored trajectories solve the same problem, end times apart."""
+    """Return whether two stored trajectories solve the same problem, except for the end time."""
     return all(trajectory.attrs[key] == reference.attrs[key] for key in PARAMETERS)
 
 

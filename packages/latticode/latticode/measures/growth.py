@@ -19,9 +19,9 @@ ROUNDING = 2.0**-53
 
 
 def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarray:
-    """Return the mean rate of `log_growth` (..., time) from `start` to the end, (...).
+    """Return the mean rate per unit of tau of `log_growth` (..., time) from `start` on, (...).
 
-    It is per unit of tau. For a tangent vector this estimates a Lyapunov exponent.
+    For a tangent vector this estimates a Lyapunov exponent.
     """
     first = int(np.searchsorted(tau, start))
     span = tau[-1] - tau[first]
@@ -49,11 +49,11 @@ def is_chaotic(
 
     The criterion: over the second half of the run, `log_growth` (..., time) minus log(`size`) grows
     by more than `many`, even after subtracting `errors` standard errors. `size` (..., time) is the
-    l2 norm of the solution. The growth is relative to it, because in a chain that leaves an
-    equilibrium the solution and the tangent vector grow at the same rate.
+    l2 norm of the solution. It is subtracted because the solution grows as fast as the tangent
+    vector in a chain that leaves an equilibrium.
     """
     middle = tau[-1] / 2
-    with np.errstate(divide="ignore", invalid="ignore"):  # at rest the size is zero
+    with np.errstate(divide="ignore", invalid="ignore"):  # the size is zero at rest
         relative = log_growth - log(size)
         rate = mean_rate(tau, relative, middle)
         error = mean_rate_error(tau, relative, middle)
@@ -61,16 +61,16 @@ def is_chaotic(
 
 
 def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Return the logarithm of the factor by which a steady relative error has grown, (time,).
+    """Return the logarithm of the relative error at each time, (time,), for a unit error rate.
 
-    Errors arise at a relative rate of 1 per unit of tau: at each time s in proportion to `size`(s),
-    the l2 norm of the solution. Until tau they grow by exp(log_growth(tau) - log_growth(s)). All
-    arguments are (time,). The result is the logarithm of the relative error at tau.
+    At each time s an error of `size`(s) per unit of tau is added; `size` is the l2 norm of the
+    solution. By time tau it has grown by exp(log_growth(tau) - log_growth(s)). All arguments are
+    (time,).
     """
     log_weights = log(size[1:] * np.diff(tau)) - log_growth[1:]
     peak = np.maximum.accumulate(log_weights)
     before = np.concatenate([[-np.inf], peak[:-1]])
-    # each sum is relative to its largest term, against overflow; a new peak rescales the sum before
+    # against overflow each sum is divided by its largest term, so a new peak rescales the sum
     terms = zip(exp(before - peak).tolist(), exp(log_weights - peak).tolist(), strict=True)
     sums = accumulate(terms, lambda total, term: total * term[0] + term[1], initial=0.0)
     total = peak + log(np.array(list(sums)[1:])) + log_growth[1:] - log(size[1:])
@@ -78,5 +78,5 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
 
 
 def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
-    """Return the first tau at which `error` per unit of tau has grown to VISIBLE, else infinity."""
+    """Return the first tau at which errors of `error` per unit of tau reach VISIBLE, or inf."""
     return first_above(tau, log_amplification, log(VISIBLE / error))

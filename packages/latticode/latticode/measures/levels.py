@@ -11,10 +11,10 @@ LEVEL = 5e-3
 def levelling(
     half_widths: np.ndarray, values: np.ndarray, tolerance: float = LEVEL, least: int = 3
 ) -> float:
-    """Return the smallest half-width from which on all values agree with the last to `tolerance`.
+    """Return the smallest half-width from which on all values agree with the last value.
 
-    The tolerance is relative. The result is infinite if fewer than `least` values agree, because
-    the last value always agrees with itself.
+    `tolerance` is relative. The result is infinite if fewer than `least` values agree; the last
+    value always agrees with itself.
     """
     return _first_of_tail(half_widths, np.abs(values / values[-1] - 1.0) <= tolerance, least)
 

@@ -27,9 +27,9 @@ def largest(trajectory: "xr.Dataset") -> np.ndarray:
 
 
 def drift(energy: ArrayLike) -> np.ndarray:
-    """Return abs(H(tau) - H(0)) of an `energy` (..., time), its error of conservation, (..., time).
+    """Return the conservation error abs(H(tau) - H(0)) of an `energy` (..., time), same shape.
 
-    The paper does not specify whether its drift is this difference or relative to H(0).
+    ASSUME: the paper does not specify whether its drift is this difference or relative to H(0).
     """
     energy = np.asarray(energy, dtype=float)
     return np.abs(energy - energy[..., :1])

@@ -2,7 +2,8 @@
 
 Two fronts of speed v that leave a power P at each site behind them give l2^2 = 2 v P tau + b, where
 b comes from the transient at the start. A fit of a power of tau without b is biased while b is not
-negligible, so b is fitted too. All sums are written out: their last bits depend on no library.
+negligible, so b is fitted too. The fits call no linear algebra library, because its last bits
+depend on the machine.
 """
 
 from functools import lru_cache
@@ -15,14 +16,14 @@ from latticode.numerics.elementary import expm1, log
 from .confidence import CONFIDENCE, ConfidenceInterval, mean_limits, student
 
 BLOCKS = 10
-"""Number of time intervals treated as independent for the error of a single curve."""
+"""Number of time intervals that count as independent in the error of a single curve."""
 
 STEPS, SETTLED = 20, 1e-10
 """Maximum number of Gauss-Newton steps for the exponent, and the change at which they stop."""
 
 LEAST, MOST, GRID, NEARLY_ZERO = -1.0, 3.0, 0.05, 1e-4
-"""Lowest and highest exponent, the spacing of the grid that is searched first, and the smallest
-exponent: the law at 0 is a limit, and this value replaces those closer to 0."""
+"""Lowest and highest exponent, spacing of the grid of the first search, and smallest modulus of an
+exponent: it replaces smaller ones, because the law at 0 is a limit."""
 
 
 class Line(NamedTuple):
@@ -49,7 +50,7 @@ class LateGrowth(NamedTuple):
     slope: ConfidenceInterval
     offset: float
     relative: ConfidenceInterval
-    """Rise of the line from its first to its last time, relative to the mean of the curves."""
+    """Rise of the line over the fitted times, relative to the mean of the curves."""
 
 
 def fit_line(
@@ -58,9 +59,9 @@ def fit_line(
     """Return the line values = slope x + offset through curves (member, x), from x = `start` on.
 
     `x` is tau or a function of it: with 2 (v tau - delay log tau) the slope is the power P of a
-    site. The confidence interval is that of the mean over the members. These are independent, so
-    that it holds for curves with long correlation times too. A single curve is divided into BLOCKS
-    time intervals instead.
+    site. The confidence interval is that of the mean over the independent members, and thus valid
+    for curves with long correlation times. A single curve is divided into BLOCKS time intervals
+    instead.
     """
     is_fitted = x >= start
     lines = [lay_line(x[is_fitted], series[is_fitted]) for series in values]
@@ -100,10 +101,8 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
     for _ in range(STEPS):
         law, change = _law(x, q[..., None])
         slope_of_change = _slope(law, change)
-        alone = _centred(change) - slope_of_change * _centred(
-            law
-        )  # the component that neither a nor b can fit
-        share = (alone * squares).sum(axis=-1) / (alone * alone).sum(axis=-1)
+        residual = _centred(change) - slope_of_change * _centred(law)  # neither a nor b can fit it
+        share = (residual * squares).sum(axis=-1) / (residual * residual).sum(axis=-1)
         slope = _slope(law, squares - share[..., None] * change)[..., 0]
         step = np.divide(share, slope, out=np.zeros_like(share), where=slope != 0.0)
         before, q = q, np.clip(q + step, first - GRID, first + GRID)
@@ -123,10 +122,9 @@ def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def _laws_of_grid(x: bytes) -> tuple[np.ndarray, np.ndarray]:
-    """Return the exponents of the grid, and their laws centred and normalised, (exponent, time).
+    """Return the exponents of the grid, and their centred and normalised laws, (exponent, time).
 
-    `x` holds log(tau / tau[-1]) as bytes, which the cache can hash: all curves with the same times
-    share one result.
+    `x` is log(tau / tau[-1]) as bytes, which the cache can hash.
     """
     exponents = np.linspace(LEAST, MOST, round((MOST - LEAST) / GRID) + 1)
     laws = _centred(_law(np.frombuffer(x), exponents[:, None])[0])
@@ -144,7 +142,7 @@ def _slope(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _law(x: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (exp(2 q x) - 1) / (2 q), which tends to x at q = 0, and its derivative by q."""
+    """Return (exp(2 q x) - 1) / (2 q), which tends to x as q -> 0, and its derivative by q."""
     p = 2.0 * np.where(np.abs(q) > NEARLY_ZERO, q, NEARLY_ZERO)
     law = expm1(p * x) / p
     return law, 2.0 * (x * (1.0 + p * law) - law) / p

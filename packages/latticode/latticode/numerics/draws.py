@@ -8,9 +8,9 @@ from .elementary import complex_of, log
 def normal(rng: np.random.Generator, size: int | tuple[int, ...] | None) -> np.ndarray:
     """Return standard normal numbers of shape `size`; beyond 3.65 rounded to 40 binary places.
 
-    NumPy computes the tail with the C library's log1p, whose last bit depends on the machine. The
-    C library's exp only decides whether NumPy rejects a few draws; a last bit of it hardly ever
-    changes such a decision.
+    NumPy computes the tail with the C library's log1p, whose last bit depends on the machine. It
+    also uses the C library's exp, but only to accept or reject a few draws, which a last bit hardly
+    ever changes.
     """
     drawn = rng.normal(size=size)
     return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)

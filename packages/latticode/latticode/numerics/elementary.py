@@ -7,11 +7,12 @@ a fixed order. IEEE 754 rounds these identically everywhere, NumPy rounds after 
 numba without fastmath fuses none. The reductions follow fdlibm (Sun, 1993).
 
 Functions of `x` take real numbers or arrays of any precision and return doubles of the same shape;
-NaN gives NaN. Each docstring gives the range of arguments and the error in units in the last place
+NaN gives NaN. Each docstring states the range of arguments and the error in units in the last place
 (ulp). Logarithms return their limits at 0 and infinity. tests/numerics/test_elementary.py measures
 the errors and checks a hash of the bits.
 """
 
+from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from math import factorial
 
@@ -32,28 +33,30 @@ C4, C6, C8, C10, C12, C14, C16, C18 = ((-1) ** n / factorial(2 * n) for n in ran
 ATANH = [2 / (2 * n + 1) for n in range(1, 13)]
 
 
-def _horner(coefficients, x):
+def _horner(coefficients: Sequence[float], x: Real) -> Real:
+    """Return the polynomial of these coefficients at x, the constant first."""
     total = coefficients[-1]
     for coefficient in coefficients[-2::-1]:
         total = total * x + coefficient
     return total
 
 
-def _sum(a, b):
+def _sum(a: Real, b: Real) -> tuple[Real, Real]:
     """Return the rounded sum a + b and its rounding error (Knuth's two-sum)."""
     total = a + b
     second = total - a
     return total, (a - (total - second)) + (b - second)
 
 
-def _product(a, b):
+def _product(a: Real, b: Real) -> tuple[Real, Real]:
     """Return the rounded product a * b and its rounding error (Dekker, Veltkamp)."""
     (a_high, a_low), (b_high, b_low) = _halves(a), _halves(b)
     total = a * b
     return total, ((a_high * b_high - total) + a_high * b_low + a_low * b_high) + a_low * b_low
 
 
-def _halves(a):
+def _halves(a: Real) -> tuple[Real, Real]:
+    """Return a as an exact sum of two numbers with half of the digits."""
     long = SPLITTER * a
     high = long - (long - a)
     return high, a - high
@@ -62,7 +65,7 @@ def _halves(a):
 # --- Exponentials and logarithms ----------------------------------------------------------------
 
 
-def _reduced_exp(x, low=0.0):
+def _reduced_exp(x: Real, low: Real = 0.0) -> tuple[Real, np.ndarray]:
     """Return t and the integer k with exp(x + low) = (1 + t) 2^k and abs(t) < 0.42."""
     x = np.asarray(x, dtype=float).clip(-750.0, 710.0)  # outside, the result is 0 or infinity
     k = np.nan_to_num(np.rint(x * (1.0 / LN2[0])))
@@ -84,32 +87,32 @@ sqrt = np.sqrt  # IEEE 754 rounds it identically everywhere
 
 
 def expm1(x: Real) -> Real:
-    """Return e^x - 1, with an error below 1.5 ulp, for x < 709."""
+    """Return e^x - 1 for x < 709, with an error below 1.5 ulp."""
     t, k = _reduced_exp(x)
     return (np.ldexp(1.0, k) - 1.0) + np.ldexp(t, k)
 
 
 def sinh(x: Real) -> Real:
-    """Return the hyperbolic sine, with an error below 2 ulp, for abs(x) < 709."""
+    """Return the hyperbolic sine for abs(x) < 709, with an error below 2 ulp."""
     grown = expm1(np.abs(x))
     return np.copysign(0.5 * (grown + grown / (1.0 + grown)), x)
 
 
 def cosh(x: Real) -> Real:
-    """Return the hyperbolic cosine, with an error below 1.5 ulp, for abs(x) < 709."""
+    """Return the hyperbolic cosine for abs(x) < 709, with an error below 1.5 ulp."""
     grown = exp(np.abs(x))
     return 0.5 * (grown + 1.0 / grown)
 
 
-def _reduced_log(x):
+def _reduced_log(x: Real) -> tuple[Real, Real]:
     """Return f and an integer k, as a float, with x = (1 + f) 2^k and 1/2 <= (1 + f)^2 < 2."""
     mantissa, k = np.frexp(x)
     small = mantissa < np.sqrt(0.5)
     return np.where(small, 2.0 * mantissa, mantissa) - 1.0, k - np.where(small, 1.0, 0.0)
 
 
-def _where_positive(x, value):
-    """Return `value` where x is positive and finite; elsewhere -inf, inf or NaN, as log(x) is."""
+def _where_positive(x: Real, value: Real) -> Real:
+    """Return `value` where x is positive and finite, elsewhere log(x): -inf, inf or NaN."""
     limit = np.where(x == 0.0, -np.inf, np.where(x == np.inf, np.inf, np.nan))
     return np.where((x > 0.0) & (x < np.inf), value, limit)[()]
 
@@ -124,7 +127,7 @@ def log(x: Real) -> Real:
     return _where_positive(x, k * LN2[0] - ((half - (series + k * LN2[1])) - f))
 
 
-def _log_pair(x):
+def _log_pair(x: Real) -> tuple[Real, Real]:
     """Return log(x) for finite x > 0 as an unevaluated sum of two numbers, to about 60 bits."""
     f, k = _reduced_log(x)
     sum_high, sum_low = _sum(2.0, f)
@@ -137,7 +140,7 @@ def _log_pair(x):
 
 
 def power(x: Real, y: Real) -> Real:
-    """Return x^y for 0 < x < inf, with an error below 1 ulp if the result is a normal number."""
+    """Return x^y for 0 < x < inf, with an error below 1 ulp if the result is a normal double."""
     high, low = _log_pair(np.asarray(x, dtype=float))
     product_high, product_low = _product(np.asarray(y, dtype=float), high)
     t, k = _reduced_exp(product_high, product_low + y * low)
@@ -204,7 +207,7 @@ def cosine_near_zero(x: Real, low: Real = 0.0) -> Real:
 
 
 def sine_and_cosine(x: Real) -> tuple[Real, Real]:
-    """Return sin(x) and cos(x), with errors below 1 ulp, for abs(x) < 1.6e6; else NaN."""
+    """Return sin(x) and cos(x) for abs(x) < 1.6e6, else NaN, with errors below 1 ulp."""
     x = np.asarray(x, dtype=float)
     x = np.where(np.abs(x) < 1.6e6, x, np.nan)
     k = np.rint(x * (1.0 / HALF_PI[0]))
@@ -221,12 +224,12 @@ def sine_and_cosine(x: Real) -> tuple[Real, Real]:
 
 
 def sin(x: Real) -> Real:
-    """Return the sine, with an error below 1 ulp, for abs(x) < 1.6e6; else NaN."""
+    """Return the sine for abs(x) < 1.6e6, else NaN, with an error below 1 ulp."""
     return sine_and_cosine(x)[0]
 
 
 def cos(x: Real) -> Real:
-    """Return the cosine, with an error below 1 ulp, for abs(x) < 1.6e6; else NaN."""
+    """Return the cosine for abs(x) < 1.6e6, else NaN, with an error below 1 ulp."""
     return sine_and_cosine(x)[1]
 
 
@@ -234,14 +237,14 @@ def cos(x: Real) -> Real:
 
 
 def complex_of(real: Real, imaginary: Real) -> Complex:
-    """Return real + i imaginary, without a product with i, which some processors would fuse."""
+    """Return real + i imaginary, without multiplying by i, which some processors would fuse."""
     pair = np.empty(np.broadcast_shapes(np.shape(real), np.shape(imaginary)), complex)
     pair.real, pair.imag = real, imaginary
     return pair[()]
 
 
 def product(a: Complex, b: Complex) -> Complex:
-    """Return the product a b of complex numbers or arrays, in real arithmetic without fusing."""
+    """Return the product a b of complex numbers or arrays, without fused operations."""
     a, b = np.asarray(a), np.asarray(b)
     return complex_of(a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real)
 
@@ -269,7 +272,7 @@ def square_root(z: Complex) -> Complex:
 
 
 def modulus(z: Complex) -> Real:
-    """Return abs(z), with an error of 1 ulp; scaled by a power of two against overflow."""
+    """Return abs(z), with an error of 1 ulp, and without overflow of the squares."""
     z = np.asarray(z)
     largest = np.maximum(np.abs(z.real), np.abs(z.imag))
     k = np.frexp(np.where(np.isfinite(largest), largest, 1.0))[1]

@@ -48,7 +48,7 @@ def test_what_varies_together_is_the_last_axis():
         ({"case": "mien", "axes": {"c": [1]}}, "there is no case 'mien'; did you mean 'mine'"),
         ({"axes": {"d": [1]}}, "surveys.map.axes: 'd' cannot be varied; give one of c, exp"),
         ({"axes": {"initial.2.0": [1]}}, "has no initial value: SITE is one of 0, 1, and"),
-        ({"axes": {"initial.0.1": [1]}}, r"in the fields 0..0"),
+        ({"axes": {"initial.0.1": [1]}}, "FIELD one of 0..0"),
         ({"axes": {"c": []}}, "surveys.map.axes.c: is empty; give at least 1"),
         ({"axes": {"c": [1, 1.0]}}, "the same value is given twice"),
         ({"axes": {"c": {"first": 0, "last": 1, "points": 1}}}, "it must be at least 2"),

@@ -186,12 +186,12 @@ def test_multipliers_are_those_of_integrations_over_a_period():
         (
             Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u - 0.1j * u),
             [1],
-            "its power would decay, at the rate 0.2",
+            "its power would decay at the rate 0.2",
         ),
         (
             Model(fields="u", parameters={}, i_dt=lambda p, u: abs2(u) * u + 0.1j * u),
             [1],
-            "its power would grow, at the rate 0.2",
+            "its power would grow at the rate 0.2",
         ),
         (
             Model(fields="x", parameters={}, d2_dt2=lambda p, x: 0.2 * lap(x) - np.sin(x)),

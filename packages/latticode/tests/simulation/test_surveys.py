@@ -161,10 +161,10 @@ def test_reasons_of_failed_runs_are_joined_from_parts(parts):
     [
         ({"omgea": [1.0]}, ("max_l2",), "axes: 'omgea' cannot be varied; give one of eps"),
         ({"initial.1.0": [1.0]}, ("max_l2",), "has no initial value: SITE is one of 0, and"),
-        ({"initial.0.2": [1.0]}, ("max_l2",), r"in the fields 0\.\.1"),
+        ({"initial.0.2": [1.0]}, ("max_l2",), r"FIELD one of 0\.\.1"),
         ({"omega": [1.0]}, ("max_l3",), "keep: unknown result 'max_l3'; give one of max_l2"),
         ({"omega": [1.0]}, (lambda problem, run: 1.0,), "this one has none .a lambda"),
-        ({"omega": [1.0]}, (abs,), r"keep: abs must take \(problem, run\)"),
+        ({"omega": [1.0]}, (abs,), r"keep: abs must accept the arguments \(problem, run\)"),
     ],
 )
 def test_what_cannot_be_done_is_said_before_any_run(axes, keep, told):
