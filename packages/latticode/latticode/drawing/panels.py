@@ -58,10 +58,8 @@ def draw_moduli(
     look = {"cmap": "inferno", "norm": norm}
     image = _draw_fields(row, moduli, names, r"$|{field}|$,  {name}", evenly, **look)
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
-    units = moduli.attrs.get("units", "1")
-    bar.set_label(
-        f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)", fontsize="medium"
-    )
+    units = "" if moduli.attrs.get("units", "1") == "1" else f"{moduli.attrs['units']}, "
+    bar.set_label(f"modulus ({units}square-root scale)", fontsize="medium")
 
 
 def draw_values(
@@ -144,15 +142,13 @@ def draw_sweep(axes: Axes, panel: xr.Dataset, fields: str) -> None:
     label = f"mean ± SD of {int(panel.get('members', 0))} runs"
     for name in norms:
         for reading in panel["reading"].values:
-            statistic = panel.sel(reading=reading)
-            words = f"{statistic['statistic'].item()} on {statistic['window'].item()}"
-            dots = statistic[name].dropna("half_width")
-            look = {"label": f"{NORMS[name]}, {words}"} | _sweep_look(
-                name, statistic["statistic"].item()
-            )
-            axes.plot(dots["half_width"], dots, **look)
-            if "members" in panel and statistic[f"{name}_mean"].notnull().any():
-                bars = statistic[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
+            read = panel.sel(reading=reading)
+            statistic, dots = read["statistic"].item(), read[name].dropna("half_width")
+            name_of_curve = f"{NORMS[name]}, {statistic} on {read['window'].item()}"
+            look = _sweep_look(name, statistic)
+            axes.plot(dots["half_width"], dots, label=name_of_curve, **look)
+            if "members" in panel and read[f"{name}_mean"].notnull().any():
+                bars = read[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
                 middles, halves = bars.data_vars.values()
                 axes.errorbar(OFFSET * bars["half_width"], middles, halves, label=label, **BAR)
     axes.set_xscale("log")

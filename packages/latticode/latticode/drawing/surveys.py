@@ -15,11 +15,7 @@ from . import style
 MOST_PANELS = 4
 IN_HEIGHT = 28
 """Number of letters of a line beside a panel."""
-CAPTION_BY_KIND = {
-    "line": "against {x}",
-    "map": "over {x} and {y}",
-    "points": "of each member",
-}
+CAPTION_BY_KIND = {"line": "against {x}", "map": "over {x} and {y}", "points": "of each member"}
 
 
 def gather_survey(survey: xr.Dataset) -> xr.Dataset:

@@ -231,10 +231,8 @@ def exponents(problem: Problem, state: LocalisedState) -> np.ndarray:
         else:
             rates.append(_eigenvalues(matrix, len(problem.model.fields)))
     values = np.concatenate(rates)
-    clean = [
-        np.where(np.abs(re_or_im) < NOISE, 0.0, re_or_im) for re_or_im in (values.real, values.imag)
-    ]
-    return np.sort_complex(np.round(clean[0], 9) + 1j * np.round(clean[1], 9))
+    real, imaginary = (np.where(np.abs(x) < NOISE, 0.0, x) for x in (values.real, values.imag))
+    return np.sort_complex(np.round(real, 9) + 1j * np.round(imaginary, 9))
 
 
 def _values_alone(matrix: np.ndarray, fields: int) -> np.ndarray:

@@ -55,9 +55,8 @@ def linearise(
         index = (line * sites + at).astype(int)
         return np.bincount(index.ravel(), slopes.ravel(), minlength=(rows * sites) ** 2)
 
-    matrix = placed(seen, coupling * sign * slopes) + placed(
-        sites_of_rows, (1.0 - coupling) * slopes
-    )
+    matrix = placed(seen, coupling * sign * slopes)
+    matrix += placed(sites_of_rows, (1.0 - coupling) * slopes)
     first = int(parity == ODD)
     matrix = matrix.reshape(rows, sites, rows, sites)[:, first:, :, first:]
     return rates.ravel(), matrix.reshape(rows * (sites - first), -1)

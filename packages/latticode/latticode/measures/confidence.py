@@ -112,13 +112,11 @@ def ratio_limits(
     (below, above), t = mean, student(members - 1, confidence)
     variances = [(t * relative_error) * (t * relative_error) for relative_error in error]
     bottom = below * below - variances[0]
-    ratio = above / below
+    ratio, both = above / below, above * below
     if bottom <= 0.0:
         return ConfidenceInterval(ratio, -np.inf, np.inf)
     root = sqrt(variances[1] * bottom + variances[0] * above * above)
-    return ConfidenceInterval(
-        ratio, (above * below - root) / bottom, (above * below + root) / bottom
-    )
+    return ConfidenceInterval(ratio, (both - root) / bottom, (both + root) / bottom)
 
 
 def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> ConfidenceInterval:

@@ -92,10 +92,8 @@ def difference(first: "xr.Dataset", second: "xr.Dataset") -> "xr.DataArray":
     tau = second["tau"]
     first = first.sel(tau=tau)
     norms = (run[name].transpose(..., "tau").values for run in (first, second) for name in NORMS)
-    attributes = {
-        "long_name": "largest difference of the norms relative to their scale",
-        "units": "1",
-    }
+    long_name = "largest difference of the norms relative to their scale"
+    attributes = {"long_name": long_name, "units": "1"}
     return xr.DataArray(norm_difference(*norms), {"tau": tau}, ("tau",), "difference", attributes)
 
 

@@ -114,9 +114,8 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
 def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
     """Return the grid's exponent with the smallest sum of squared residuals of each curve."""
     exponents, laws = _laws_of_grid(x)
-    explained = [
-        (laws * square).sum(axis=-1) ** 2 for square in squares.reshape(-1, laws.shape[-1])
-    ]
+    curves = squares.reshape(-1, laws.shape[-1])
+    explained = [(laws * curve).sum(axis=-1) ** 2 for curve in curves]
     return exponents[np.argmax(explained, axis=-1)].reshape(squares.shape[:-1])
 
 

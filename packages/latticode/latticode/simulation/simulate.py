@@ -71,13 +71,10 @@ def simulate(
     solver stops early, or the result is not finite.
     """
     if problem.snapshots_at:
-        return chosen_snapshots(
-            simulate(problem.changed(snapshots_at=()), reduction, conserved), problem
-        )
+        run = simulate(problem.changed(snapshots_at=()), reduction, conserved)
+        return chosen_snapshots(run, problem)
     if problem.solver["name"] == "auto":
-        return _simulate_to_error(
-            problem, lambda tried: _simulate_once(tried, reduction, conserved)
-        )
+        return _simulate_to_error(problem, lambda run: _simulate_once(run, reduction, conserved))
     try:
         return _simulate_once(problem, reduction, conserved)
     except GaveUpError as error:
@@ -283,10 +280,8 @@ class _ComparedRuns(NamedTuple):
             judge = self.by(third, tolerance)
             for trajectory in reversed(pair):
                 if MARGIN * self.compared(trajectory, judge).largest <= self.error:
-                    name = trajectory.solver["name"]
-                    return self.accepted(
-                        trajectory, judge, disagreement=f"{differ}; {third} agrees with {name}"
-                    )
+                    decision = f"{differ}; {third} agrees with {trajectory.solver['name']}"
+                    return self.accepted(trajectory, judge, disagreement=decision)
         undecided = f"{third} agrees with neither" if third else "there is no third method"
         since = between.first_above(self.error / MARGIN)
         raise IntegrationError(

@@ -115,10 +115,9 @@ def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
 def _divergence(problem: Problem, run: Trajectory) -> float:
     """Return the first time at which a run by another method differs visibly; inf if never."""
     method = other_family(run.solver["name"], problem.equations.methods)
+    solver = {"name": method, "rtol": 1e-13, "atol": 1e-13}
     try:
-        second_run = simulate(
-            problem.changed(solver={"name": method, "rtol": 1e-13, "atol": 1e-13}), conserved=False
-        )
+        second_run = simulate(problem.changed(solver=solver), conserved=False)
     except IntegrationError:
         return np.nan
     difference = norm_difference(run.linf, run.l2, second_run.linf, second_run.l2)
