@@ -98,7 +98,7 @@ def plain_text(text: str) -> str:
 
 
 LONGEST_SYMBOL = 12
-"""Letters in the name of a field that is printed as a symbol with indices."""
+"""Largest number of characters in the name of a field that is printed as a symbol."""
 LAST_IN_MATHTEXT = "\U0001ffff"
 """The last character that mathtext accepts."""
 
@@ -154,26 +154,26 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def size_of(*texts: str) -> int:
-    """Return the size in points at which the indices of texts, if any, have seven points."""
+    """Return the size in points for these texts, WITH_INDICES if one has an index or a power."""
     return WITH_INDICES if any(map(INDEX.search, texts)) else WITHOUT_INDICES
 
 
 def count_letters(text: str) -> int:
-    """Return about how many letters wide a text with formulas is."""
+    """Return the approximate width of a text with formulas, in letters."""
     symbols = re.sub(r"\\[a-zA-Z]+", "x", text.replace(r"\text", ""))
     return len(re.sub(r"[${}_^\\]", "", symbols))
 
 
 def letters_above(axes: Axes, size: float) -> int:
-    """Return about how many letters of a size in points fit above or below a panel."""
+    """Return the approximate number of letters of a size in points that fit above a panel."""
     columns = axes.get_subplotspec().get_gridspec().ncols
     return int(72 * (axes.figure.get_figwidth() / columns - MARGIN) / (LETTER * size))
 
 
 def set_title(axes: Axes, title: str) -> None:
-    """Put a title above a panel, at the left; a new line may begin after a comma with two blanks.
+    """Put a title above a panel, at the left, and enlarge the figure by its additional lines.
 
-    A part that is no formula begins new lines wherever it has to. The figure grows by these lines.
+    Lines break after commas with two spaces; text without a formula may break at any space.
     """
     size = size_of(title)
     room, lines = letters_above(axes, size), []
@@ -184,14 +184,14 @@ def set_title(axes: Axes, title: str) -> None:
         if lines:
             lines[-1] += ","
         lines += [part] if "$" in part else wrap(part, room)
-    highest = max(other.get_title(loc="left").count("\n") for other in axes.figure.axes)
+    highest = max(panel.get_title(loc="left").count("\n") for panel in axes.figure.axes)
     more = max(0, len(lines) - 1 - highest)
     axes.figure.set_figheight(axes.figure.get_figheight() + more * 1.2 * size / 72)
     axes.set_title("\n".join(lines), loc="left", fontsize=size)
 
 
 def count_columns(figure: Figure, labels: Sequence[str], most: int, size: float) -> int:
-    """Return how many columns of a legend with these labels fit above the panels."""
+    """Return the number of columns, at most `most`, of a legend that fits above the panels."""
     widths = [size * (LETTER * count_letters(label) + HANDLE) for label in labels]
     for columns in range(min(most, len(labels)), 1, -1):
         rows = -(-len(labels) // columns)
