@@ -160,7 +160,7 @@ class Value:
         """Apply a ufunc of NumPy, as its functions and scalars do, if it is one of UFUNCS."""
         rule = UFUNCS.get(ufunc.__name__)
         if rule is None or method != "__call__":
-            text = f"{ufunc.__name__} of a field or a parameter has no rule"
+            text = f"{ufunc.__name__} of a field or a parameter is not supported"
             raise ModelError(f"{text}; write it with {', '.join(KNOWN)}")
         if ufunc.__name__ == "power" and isinstance(operands[0], Value):
             return Value.__pow__(*operands)
@@ -344,7 +344,7 @@ def _real_part(w: Value, function: str) -> Node:
 def _of_real(name: str, w: Value) -> Value:
     w = Value.of(w)
     if w.im is not ZERO:
-        raise ModelError(f"{name} of a complex number has no rule")
+        raise ModelError(f"{name} of a complex number is not supported")
     return Value(node(name, w.re))
 
 

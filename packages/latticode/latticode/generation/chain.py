@@ -1,32 +1,37 @@
-"""The chain that all models share: a state and its sites, what the ends see, and the walk over it.
+"""What all models share: the layout of a state, values beyond the ends, and the loop over sites.
 
-State. A real array `y[row, 1 + site]` with two rows for each of the two components (A and B, or x
-and y), or the rows of the first alone where the two are the same. The sites are -M..M, or 0..M
-where the data are even in n. The first and the last column are ghosts, which hold what the ends of
-the chain see beyond themselves, so that no formula needs to know where it is.
+State. A real array `y[row, 1 + site]` with two rows for each component (A and B, or x and y). If
+both components are the same, only the first has rows. Sites are -M..M, or 0..M if the data are even
+in n. The first and last columns are ghosts: they contain the values beyond the ends, so that one
+formula applies to all sites.
 
-Bits. Both symmetries are invariants of the equations, and the kernels keep them to the last bit:
-neighbours are summed as (right + left) - 2 centre, which rounds alike under reflection, and both
-components go through the same operations in the same order. Half of an even chain and one component
-of a chain whose components are the same therefore have the bits of the whole.
+Bits. The equations preserve both symmetries, and so do the kernels, to the last bit. Neighbours are
+summed as (right + left) - 2 centre, which rounds alike under reflection, and both components
+undergo the same operations in the same order. Half of an even chain thus has the bits of the whole
+chain, and so has one of two equal components.
 
-A `chain` is what a model takes for its parameters, with the kinds of its two ends, `left` and
+A `chain` is a named tuple of the model's parameters and of the kinds of its ends, `left` and
 `right`.
 """
 
 from collections.abc import Callable
+from typing import Any
+
+import numpy as np
 
 from latticode.equations.ends import ANTIPERIODIC, FREE, MIRROR, PERIODIC
 from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import LANES, vector_views
 
+Array = np.ndarray
+
 
 @kernel
-def close(chain, y) -> None:
-    """Fill the ghost columns of `y` with what the ends of the chain see.
+def close(chain: Any, y: Array) -> None:
+    """Fill the ghost columns of `y` with the values beyond the ends of the chain.
 
-    A site next to a free end sees its own value, so that its bond vanishes. A mirror stands at
-    site 0 of an even chain, whose left neighbour has the value of the right one.
+    Beyond a free end this is the value of the last site, so that its bond vanishes. The mirror of
+    an even chain is at site 0, whose left neighbour has the value of its right neighbour.
     """
     n = y.shape[1] - 2
     for row in range(y.shape[0]):
@@ -49,8 +54,11 @@ def close(chain, y) -> None:
 
 
 @kernel
-def seen_at(chain, site, sites) -> int:
-    """Return the site, counted from 0, whose value stands at `site`; -1 where one at rest does."""
+def seen_at(chain: Any, site: int, sites: int) -> int:
+    """Return which site has the value of `site`, which may be beyond an end; -1 if it is at rest.
+
+    Sites are counted from 0.
+    """
     if 0 <= site < sites:
         return site
     end = chain.left if site < 0 else chain.right
@@ -62,15 +70,15 @@ def seen_at(chain, site, sites) -> int:
 
 
 @kernel
-def sign_at(chain, site, sites) -> float:
-    """Return the factor of the value that stands at `site`, counted from 0."""
+def sign_at(chain: Any, site: int, sites: int) -> float:
+    """Return the sign with which `site` has the value of the site `seen_at`."""
     outside = site < 0 or site >= sites
     return -1.0 if outside and chain.left == ANTIPERIODIC else 1.0
 
 
 @kernel
-def widen(chain, y, wide) -> None:
-    """Write the rows of `y` into `wide`, which has more ghost columns, and fill these."""
+def widen(chain: Any, y: Array, wide: Array) -> None:
+    """Write the rows of `y` into `wide`, which has more ghost columns, and fill these too."""
     sites = y.shape[1] - 2
     reach = (wide.shape[1] - sites) // 2
     for row in range(y.shape[0]):
@@ -81,10 +89,10 @@ def widen(chain, y, wide) -> None:
 
 
 @kernel
-def unfold(chain, y, wide) -> None:
+def unfold(chain: Any, y: Array, wide: Array) -> None:
     """Write the rows of `y`, which may be half of an even chain, into `wide`.
 
-    This has all sites of the chain and as many more at each end, which are filled.
+    `wide` has all sites of the chain, and ghost columns at both ends, which are filled too.
     """
     sites, middle = y.shape[1] - 2, wide.shape[1] // 2
     for row in range(y.shape[0]):
@@ -95,10 +103,10 @@ def unfold(chain, y, wide) -> None:
 
 
 @inlined_by_llvm
-def sum_from_middle(terms) -> float:
+def sum_from_middle(terms: Array) -> float:
     """Return the sum of a row (column,) of the whole chain, from its middle outwards.
 
-    The sites n and -n come together, so that even data and their reflection have the same bits.
+    The terms of n and -n are added first, so that data and their reflection have the same sum.
     """
     middle = terms.size // 2
     total = terms[middle]
@@ -108,35 +116,35 @@ def sum_from_middle(terms) -> float:
 
 
 @inlined_by_llvm
-def modulus2(y, re, j) -> float:
+def modulus2(y: Array, re: int, j: int) -> float:
     """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
     return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
 
 
 @kernel
-def can_be_tiled(chain) -> bool:
-    """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""
+def can_be_tiled(chain: Any) -> bool:
+    """Return whether tiles of the chain may take a step one by one, which a ring does not allow."""
     return chain.left != PERIODIC and chain.left != ANTIPERIODIC
 
 
-def at_every_site(rule, rows=2) -> Callable:
-    """Return the function that applies `rule(chain, states, re, j, dy)` to all sites.
+def at_every_site(rule: Callable, rows: int = 2) -> Callable:
+    """Return write(chain, states, dy), which applies `rule(chain, states, re, j, dy)` to all sites.
 
-    It goes through both components, or takes so many `rows` at once, a vector of sites at a time
-    where a row is as long as that. The last block of a row then overlaps the one before and writes
-    the same bits again, which costs less than a remainder that goes site by site.
+    The rule writes `rows` rows from `re` on; the default is one component. If a row has at least
+    LANES sites, it is processed in vectors. The last vector may overlap the one before and rewrites
+    the same bits, which is faster than single sites.
     """
 
     @inlined_by_llvm
-    def walk(chain, states, dy, width):
+    def walk(chain: Any, states: tuple, dy: Any, width: int) -> None:
         last = dy.shape[1] - 1 - width  # the column at which the last block starts
         for re in range(0, dy.shape[0], rows):
             for j in range(1, dy.shape[1] - 1, width):
                 rule(chain, states, re, min(j, last), dy)
 
     @inlined_by_llvm
-    def write(chain, states, dy):
-        """`states` is a tuple of states of the shape of `dy`, whose ghosts are filled."""
+    def write(chain: Any, states: tuple, dy: Array) -> None:
+        """Write `dy` from a tuple of states with filled ghosts."""
         if dy.shape[1] - 2 < LANES:
             walk(chain, states, dy, 1)
         else:

@@ -1,7 +1,7 @@
-"""Kernels of a traced model, written as a module in the style of `amplitudes`: rates and series.
+"""Kernels of a traced model, generated as the text of a module: rates and power series.
 
-The text of the module depends on the model alone, and on which of its parameters have a value for
-each site. It is kept beside the kernels, which are named by it (see latticode.kernels.cache).
+The text depends only on the model and on which of its parameters have a value for each site. It is
+saved next to the cached kernels, whose folder is named by a hash of it (latticode.kernels.cache).
 """
 
 import sys
@@ -48,15 +48,15 @@ CLOCK_SERIES = """\
 
 @cache
 def inputs_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> ModelInputs:
-    """Return the parts of rates, and of what their series carry along."""
-    # where a function becomes a leaf, a sign may move out of a constant: -p.k / (1 + x * x)
+    """Return the constants, clocks and couplings of the rates and of their series."""
+    # replacing a function by a leaf may move a sign out of a constant: -p.k / (1 + x * x)
     with_leaves, _, carried_rates = with_carried(list(rates), site_dependent)
     carried = (expression for pair in carried_rates for expression in pair)
     return inputs_of([*rates, *with_leaves, *carried], site_dependent)
 
 
 def at_time_text(inputs: ModelInputs, names: Names) -> str:
-    """Return the function `at_time`, which puts the functions of the time into a system."""
+    """Return the text of `at_time`, which returns the system with its clocks at time t."""
     now, count = [], len(inputs.clocks)
     for i, clock in enumerate(inputs.clocks):
         value = "t, 1.0"
@@ -71,7 +71,7 @@ def at_time_text(inputs: ModelInputs, names: Names) -> str:
 
 
 def clocks_text(inputs: ModelInputs, names: Names) -> str:
-    """Return the functions that continue the functions of the time as power series."""
+    """Return the text of `continue_series`, which also writes the power series of the clocks."""
     series, count = [], len(inputs.clocks)
     for i, clock in enumerate(inputs.clocks):
         speed = "0.0"
@@ -82,11 +82,11 @@ def clocks_text(inputs: ModelInputs, names: Names) -> str:
 
 
 def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
-    """Return the text of the module of a model with these rates, and their series."""
+    """Return the text of the module with these rates and their power series."""
     inputs = inputs_of_rates(rates, site_dependent)
     names = Names(inputs)
     texts = [HEAD, rates_text(rates, names, reach), at_time_text(inputs, names)]
-    if not switches(rates):  # else there is no power series
+    if not switches(rates):  # a rate that switches has no power series
         texts[2:2] = [SeriesWriter(rates, names, site_dependent).text(reach)]
         texts.append(clocks_text(inputs, names))
     return "".join(texts)
@@ -100,17 +100,17 @@ def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
 
 
 def conserved_text(model: Model, site_dependent: frozenset[str], observe: str) -> str:
-    """Return `observe`, which keeps what a model conserves beside what the other one keeps."""
+    """Return the text of `observe`, which calls another `observe` and stores conserved sums."""
     densities = tuple(model.conserved.values())
     names = Names(inputs_of(densities, site_dependent))
     return densities_text(densities, names, model.reach_of_densities, len(model.fields), observe)
 
 
 def load_series(model: Model) -> ModuleType:
-    """Return the module with the series of two fields that move alike: continue_in_waves, WORK.
+    """Return the module with the series of two exchangeable fields: continue_in_waves, WORK.
 
-    The system has the parameters and the clocks of the model by their names. The coefficients of
-    the clocks are expected one after the other from `spare_start` on.
+    Its system is a named tuple of the model's parameters and clocks. The coefficients of the clocks
+    must be stored one after another from `spare_start` on.
     """
     names = Names(inputs_of_rates(model.rates, frozenset()), by_name=True)
     return load_text(
@@ -119,18 +119,15 @@ def load_series(model: Model) -> ModuleType:
 
 
 def load_rule(rates: tuple[Node, ...], *states: str) -> Callable:
-    """Return the function (system, states, re, j, dy) that writes the rates at one site.
-
-    See `rate_rules.rule_text`.
-    """
+    """Return the function (system, states, re, j, dy) of `rule_text`, compiled."""
     return load_text(HEAD + rule_text(rates, states)).rates_at_site
 
 
 def load_function(nodes: tuple[Node, ...]) -> Callable:
-    """Return the function (system, seen) of the values of nodes, in numbers of any kind.
+    """Return a Python function (system, seen) that computes the values of nodes.
 
-    They may be arrays or expressions. seen(field, part, by) gives those of a field at the site
-    n + `by`, and the system has the parameters by their names.
+    seen(field, part, by) returns the value of a field at the site n + `by`. It may be a number,
+    an array or an expression. `system` has the parameters as attributes.
     """
     rule = Rule(Names(inputs_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
     values = ", ".join(map(rule.value, nodes))
@@ -142,10 +139,10 @@ def load_function(nodes: tuple[Node, ...]) -> Callable:
 
 @cache
 def load_text(text: str) -> ModuleType:
-    """Return the module of a text, kept in a file so that its kernels can be.
+    """Return the module with this text, which is saved to a file because its kernels are cached.
 
-    numba restores a kept kernel only where it can import the modules of its parts, so the module
-    has a name that follows from its text in every process.
+    numba loads a cached kernel only if it can import its module, so the name of the module depends
+    only on its text.
     """
     file = keep_source("model.py", text)
     module = ModuleType(f"latticode_model_{file.parent.name}")

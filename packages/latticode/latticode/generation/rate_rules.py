@@ -1,9 +1,10 @@
-"""The text of rules that write the rates of a traced model at one site, or at a vector of sites.
+"""The text of rules that write the rates of a traced model at one site or a vector of sites.
 
-Every node of the graph is a statement, in the order of the trace.
+Each node of the graph becomes a statement, in the order of the trace.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 from latticode.equations.graph import MOTION, Node, in_order
 from latticode.equations.model import Model
@@ -24,8 +25,8 @@ def rates(system, y, dy):
     {prepare}{couple}
     write_rates(system, ({states},), dy)
 """
-"""The rates of a state. A call of each stage would pass the system, which is a kilobyte of values,
-and took runs by dop853 on short chains two to four times as long."""
+"""The rates of a state. They are inlined, because a call would pass the system, a kilobyte of
+values, in each stage: runs of dop853 on short chains took two to four times as long."""
 TANGENT_RATES = """
 write_tangent_rates = at_every_site(tangent_rates_at_site, {rows})
 @kernel
@@ -41,7 +42,7 @@ def bundle_rates(system, bundle, slopes):
 COUPLED = """
 write_{name} = at_every_site({name}_at_site, {rows})
 """
-"""What a matrix multiplies, written at all sites at once."""
+"""The factors of matrices, written at all sites before the multiplication."""
 CONSERVED = """
 write_densities = at_every_site(densities_at_site, {rows})
 @kernel
@@ -58,16 +59,17 @@ def observe(system, y, i, record):
 
 
 class Rule:
-    """Statements that compute nodes from the fields; place(component, part, by) is one of a field.
+    """Statements that compute nodes from the fields.
 
-    A plain number stands first in a product or a sum, since it may stand there beside a vector.
+    place(component, part, by) is the text of a field at the site n + `by`. In a product or sum of a
+    number and a vector, the number comes first.
     """
 
-    def __init__(self, names: Names, place: Callable[[int, int, int], str]):
+    def __init__(self, names: Names, place: Callable[[int, int, int], str]) -> None:
         self.code, self.names, self.place = FunctionText(1), names, place
 
     def value(self, expression: Node) -> str:
-        """Return the name of a value, whose statements are written where they are not yet."""
+        """Return the name of a value; the first call writes its statements."""
         return self.code.name(expression, lambda: self._text(expression))
 
     def is_scalar(self, expression: Node) -> bool:
@@ -110,10 +112,10 @@ class Rule:
             case "log" | "sqrt" as which, a:
                 name = {"log": "logarithm", "sqrt": "root"}[which]
                 return f"{name}_and_inverse({self.value(a)})[0]"
-        raise ModelError(f"{expression.operation} of a field or of the time has no rule")
+        raise ModelError(f"{expression.operation} of a field or of time is not supported")
 
     def _factor(self, expression: Node) -> str:
-        """Return the name of a factor of a product, which is zero where it is tiny: see `rest`."""
+        """Return the name of a factor of a product, set to zero where it is tiny (see `rest`)."""
         return self.code.name(
             ("factor", expression), lambda: f"zero_below(TINY, {self.value(expression)})"
         )
@@ -125,7 +127,7 @@ class Rule:
         return f"{first} {sign} {second}"
 
     def write(self, rows: list[str], rates: tuple[Node, ...]) -> str:
-        """Return the statements that write rates to rows; one number becomes that of all sites."""
+        """Return the statements that write rates to rows; a scalar rate is written at all sites."""
         values = [self.value(rate) for rate in rates]
         for c, (row, rate, value) in enumerate(zip(rows, rates, values, strict=True)):
             row_of_field = (c // 2, c % 2) if not self.names.couples else (0, 0)
@@ -135,7 +137,7 @@ class Rule:
 
 
 def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
-    """Return the functions that write the rates of a state, one row of it for each of `rates`."""
+    """Return the text of the functions that write the rates of a state, one row for each rate."""
     wide, at = reach > 1, bool(names.at_sites)
     arguments = names, reach, ("y",), len(rates) // 2
     states = ("system.wide" if wide else "y") + ", system.at" * at
@@ -154,10 +156,10 @@ def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
 
 
 def tangents_text(tangent: Model, names: Names) -> str:
-    """Return the functions that write the rates of a bundle: of a solution and its tangent vectors.
+    """Return the text of the functions that write the rates of a solution and tangent vectors.
 
-    All have as many rows as the solution, and lie one after the other. `tangent` is what
-    `Model.tangent` returns, with whose rates a system is made.
+    They are in one array, the bundle: first the rows of the solution, then as many rows for each
+    tangent vector. `tangent` is the model that `Model.tangent` returns; the system is made for it.
     """
     rows = len(tangent.rates) // 2
     wide, at = tangent.reach > 1, bool(names.at_sites)
@@ -184,11 +186,11 @@ def tangents_text(tangent: Model, names: Names) -> str:
 
 
 def _coupling(
-    name: str, stages: list[list[Node]], states: str, indent: int, names: Names, *arguments
+    name: str, stages: list[list[Node]], states: str, indent: int, names: Names, *arguments: Any
 ) -> tuple[str, str]:
-    """Return the rules of what matrices multiply, and the statements that multiply by them.
+    """Return the rules that write factors of matrices, and the statements that multiply.
 
-    The products of a stage are made when those of earlier stages are known.
+    Each stage needs the products of earlier stages.
     """
     rules, lines = [], []
     for stage, couples in enumerate(stages):
@@ -210,7 +212,7 @@ def _coupling(
 def densities_text(
     densities: tuple[Node, ...], names: Names, reach: int, fields: int, observe: str
 ) -> str:
-    """Return the function `observe` that keeps the sums of densities beside what another keeps."""
+    """Return the text of `observe`: it calls another `observe` and stores sums of densities."""
     rule = _rule_of_rows("densities", densities, names, reach, ("y",), fields)
     at = ", sums.at" * bool(names.at_sites)
     return rule + CONSERVED.format(rows=len(densities), observe=observe, at=at)
@@ -225,9 +227,9 @@ def _rule_of_rows(
     fields: int,
     rows: list[int] | None = None,
 ) -> str:
-    """Return the rule that writes all rates at a site; each of `states` has so many fields.
+    """Return the text of the rule that writes rates at a site to `rows`, by default the first ones.
 
-    The rates go to `rows` if there are any, else to the rows from the first on.
+    `fields` is the number of fields in each of the `states`.
     """
     offset = reach - 1
 
@@ -244,10 +246,10 @@ def _rule_of_rows(
 
 
 def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
-    """Return the rule for two fields that move alike, or for one where they are the same.
+    """Return the text of the rule that writes the rates of one of two exchangeable fields.
 
-    `rates` are those of the four rows; the fields are two of each of `states`. The system has the
-    parameters by their names.
+    The four `rates` are those of both fields. Each of the `states` has two fields, or one if both
+    are equal. The parameters are attributes of the system.
     """
     require_exchangeable(rates)
     rows = [["re", "re + 1"], ["other", "other + 1"]]

@@ -1,14 +1,14 @@
-"""What the power series of all models share: the ends of the chain, and the order of the work.
+"""What the power series of all models share: values beyond the ends, and the loop over blocks.
 
-How a series lies in memory, in blocks of sites, says latticode.integrators.taylor; `m` is that
-memory.
+A series is stored in blocks of sites, in the memory `m`: see latticode.integrators.taylor.
 
-Bits. Each lane does what a site alone would, so it changes no bit where in its block a site stands;
-neighbours are summed as in the right-hand sides, and so half of an even chain has the bits of the
-whole.
+Bits. They do not depend on a site's position in its block, because all lanes execute the same
+operations. Neighbours are summed as in right-hand sides, so half of an even chain has the bits of
+the whole chain.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 from latticode.equations.ends import ANTIPERIODIC, PERIODIC
 from latticode.integrators.taylor import (
@@ -17,6 +17,7 @@ from latticode.integrators.taylor import (
     ORDER,
     ORDER_STRIDE,
     RIGHT,
+    PowerSeries,
     X,
     Y,
     block_start,
@@ -28,27 +29,27 @@ from latticode.kernels.simd import LANES, fill, keep_lanes, load, store
 from .chain import seen_at, sign_at
 
 # --- The ends of the chain: `close` of `chain`, one order at a time ------------------------
-# The padding of a last block holds what its ghost holds, in every order: so it never exceeds what
-# the sites hold, and what sums or compares whole blocks needs no mask.
+# The padding of a last block has the values of its ghost in every order. These never exceed the
+# values of sites, so whole blocks can be summed or compared without a mask.
 
 
 @inlined_by_llvm
-def place_of(chain, series, site) -> int:
-    """Return where from the start of an order a site lies that stands for `site`; -1 if at rest."""
+def place_of(chain: Any, series: PowerSeries, site: int) -> int:
+    """Return where an order has the value of `site`, also beyond an end; -1 if it is at rest."""
     at = seen_at(chain, site, (series.blocks - 1) * LANES + series.sites_in_last)
     return at // LANES * BLOCK_SIZE + at % LANES if at >= 0 else -1
 
 
-def close_ends(reach) -> Callable:
-    """Return what fills ghosts and padding of an order where equations look `reach` sites far."""
+def close_ends(reach: int) -> Callable:
+    """Return the function that fills ghosts and padding of order k, for rates of this reach."""
 
     @inlined_by_llvm
-    def close(chain, series, k, at_left, at_right):
+    def close(chain: Any, series: PowerSeries, k: int, at_left: bool, at_right: bool) -> None:
         m, sites_in_last, before = series.memory, series.sites_in_last, series.blocks - 1
         for i in range(reach):
             after_end = place_of(chain, series, before * LANES + sites_in_last + i)
             before_start = place_of(chain, series, -1 - i)
-            sign = sign_at(chain, -1, 1)  # of what stands beyond both ends
+            sign = sign_at(chain, -1, 1)  # of the values beyond both ends
             for component in range(series.components):
                 ghosts = ghosts_start(series, component)
                 for re_im in range(X, Y + 1, Y - X):
@@ -65,7 +66,7 @@ def close_ends(reach) -> Callable:
                             m[ghosts + RIGHT + re_im + sites_in_last + i - LANES] = value
                     if at_left:
                         value = sign * m[start + before_start] if before_start >= 0 else 0.0
-                        if i == 0:  # at once: a vector is read sooner if it is written as one
+                        if i == 0:  # the whole vector, which is then faster to read
                             store(m, ghosts + LEFT + re_im, fill(value))
                         else:
                             m[ghosts + LEFT + re_im + LANES - 1 - i] = value
@@ -77,8 +78,11 @@ def close_ends(reach) -> Callable:
 
 
 @inlined_by_llvm
-def sides_of(series, k, component, block) -> tuple[int, int, int]:
-    """Return where a block begins at order `k`, and where the blocks, or ghosts, beside it do."""
+def sides_of(series: PowerSeries, k: int, component: int, block: int) -> tuple[int, int, int]:
+    """Return where order `k` begins in the previous block, in the block and in the next one.
+
+    The first and last blocks have ghosts as neighbours.
+    """
     u = block_start(series, component, block) + k * ORDER_STRIDE
     ghosts = ghosts_start(series, component)
     left = u - BLOCK_SIZE if block > 0 else ghosts + LEFT
@@ -86,34 +90,35 @@ def sides_of(series, k, component, block) -> tuple[int, int, int]:
     return left, u, right
 
 
-# --- The order of the work ----------------------------------------------------------------------
+# --- The loop over orders and blocks ------------------------------------------------------------
 
 SHORT = 32
-"""A chain of more blocks gains by waves."""
+"""Chains of more blocks are computed in waves, which is faster for them."""
 GROUP = 8
-"""Blocks that take an order together: with those that lag behind them they fit into the cache."""
+"""Blocks whose order is computed together. They and the blocks one order behind fit into the
+cache."""
 
 
-def in_waves(write_next_order, reach, everywhere=False) -> Callable:
-    """Return the function that continues a series, given the rule for one order of some blocks.
+def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -> Callable:
+    """Return the function that continues a series, from a rule for one order of some blocks.
 
-    write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 of the
-    blocks `first` to `last` - 1 of each component from what lies up to `reach` sites beyond them.
-    Where it is `everywhere`, because a matrix couples all sites, each order is written at once.
+    write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 in the
+    blocks `first` to `last` - 1 of each component. It reads up to `reach` sites beyond them. With
+    `everywhere` each order is written in all blocks at once, because a matrix couples all sites.
     """
     close_order = close_ends(reach)
 
     @uncached
-    def continue_series(chain, series):
+    def continue_series(chain: Any, series: PowerSeries) -> None:
         """Write the coefficients of all orders from those of order 0.
 
-        A short chain goes order by order. A long one goes in waves from left to right, so that the
-        blocks at work fit into the cache (wavefront or skewed tiling): each order lags behind the
-        one before by a block, since a coefficient needs that of the blocks next to its own. Both
-        ways do the same operations on each block, and so give the same bits.
+        A short chain is computed order by order. A long one is computed in waves from left to
+        right, whose blocks fit into the cache (wavefront or skewed tiling). Each order lags one
+        block behind the previous one, because it needs that order in the neighbouring blocks. The
+        operations on each block, and thus the bits, are the same.
         """
         blocks = series.blocks
-        # a ring has no side to start from
+        # the first block of a ring needs the last one
         at_once = everywhere or blocks <= SHORT or chain.left in (PERIODIC, ANTIPERIODIC)
         group, lag = (blocks, 0) if at_once else (GROUP, 1)
         for start in range(0, blocks + lag * ORDER, group):

@@ -1,4 +1,4 @@
-"""Functions of power series, as text: the coefficients of f(s) from those of s.
+"""The text of functions of power series: the coefficients of f(s) from those of s.
 
     exp       k e_k = sum_{j=1}^k j s_j e_{k-j}
     sine      k a_k = sum_{j=1}^k j s_j b_{k-j}, and with a minus those of the cosine b from a
@@ -6,8 +6,8 @@
     log       k s_0 l_k = k s_k - sum_{j=1}^{k-1} j l_j s_{k-j}
     root      2 r_0 r_k = s_k - sum_{j=1}^{k-1} r_j r_{k-j}
 
-Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1. No rate of s is
-needed, so that s may be what stands beyond an end of the chain.
+Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1. The rate of s is not
+needed, so s may be a value beyond an end of the chain.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ from latticode.equations.graph import Node, node
 from .statements import FunctionText
 
 PAIR = {"sin": ("sin", "cos"), "cos": ("sin", "cos")}
-"""Functions whose coefficients follow from one another."""
+"""Functions whose coefficients are computed together."""
 STARTS = {
     "sin": "sine_and_cosine({s})",
     "exp": "exponential({s})",
@@ -25,7 +25,7 @@ STARTS = {
     "log": "logarithm_and_inverse({s})[0]",
     "sqrt": "root_and_inverse({s})[0]",
 }
-"""The functions themselves, which are the coefficients of order 0."""
+"""The coefficients of order 0: the functions themselves."""
 TERMS = {
     "sin": ("(1.0 * j) * {s[j]} * {b[k - j]}", "(1.0 * j) * {s[j]} * {a[k - j]}"),
     "exp": ("(1.0 * j) * {s[j]} * {a[k - j]}",),
@@ -43,19 +43,19 @@ VALUES = {
 }
 """The coefficients of order k > 0 from the sums."""
 WITHOUT_LAST = ("log", "sqrt")
-"""The functions whose sums end before j = k."""
+"""The functions whose sums end at j = k - 1."""
 
 
 def members(function: Node) -> list[Node]:
-    """Return a function and what its coefficients need beside its argument, in their order."""
+    """Return the functions whose coefficients are computed with those of `function`, itself too."""
     pair = PAIR.get(function.operation)
     return [node(name, *function.operands) for name in pair] if pair else [function]
 
 
 class _Coefficients:
-    """The text of the coefficients of a node by their order."""
+    """The texts of a node's coefficients, by order."""
 
-    def __init__(self, expression: Node, load: Callable[[Node, str], str]):
+    def __init__(self, expression: Node, load: Callable[[Node, str], str]) -> None:
         self.expression, self.load = expression, load
 
     def __getitem__(self, order: str | int) -> str:
@@ -71,8 +71,8 @@ def write_function(
 ) -> None:
     """Write the statements that store the coefficients of order k of a function and its members.
 
-    load(node, order) is the text of a coefficient, store(node, text) that of a statement that keeps
-    one of order k. The argument is known to order k.
+    load(node, order) is the text of a coefficient; store(node, text) is the text of the statement
+    that stores a coefficient of order k. The argument must be known to order k.
     """
     rows = members(function)
     kind = rows[0].operation

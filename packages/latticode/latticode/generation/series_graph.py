@@ -1,12 +1,12 @@
-"""What power series make of the graph of a model: halves of squares, and functions of the fields.
+"""Changes to a model's graph for power series: halves of squares, and functions carried along.
 
-A function of the fields at a site obeys a differential equation of its own, made of products alone:
-exp(s) has the rate exp(s) s', 1 / s has -s' / s^2, and so on. So it is carried along with the
-fields, as if it were one more. At the beginning of each step it is computed from its argument.
+A function of the fields at a site satisfies a differential equation with products only: the rate of
+exp(s) is exp(s) s', that of 1 / s is -s' / s^2, and so on. Such a function is therefore carried
+along like an additional field. At the start of each step it is computed from its argument.
 
-Beyond the ends of a chain no equation holds: a neighbour there has the series that the ends give
-it, and no rate. So a function of neighbours stays where it is in the graph, and its coefficients
-follow from those of its argument (`series_functions`).
+A site beyond an end of the chain has values but no equation, so its rates are unknown. A function
+of neighbours therefore remains in the graph, and its coefficients are computed from those of its
+argument (`series_functions`).
 """
 
 from typing import NamedTuple
@@ -31,8 +31,7 @@ from .statements import is_clock
 
 
 def with_half_squares(nodes: list[Node]) -> list[Node]:
-    """Return expressions with squares as twice half of them: the sum over orders of a half is
-    half as long."""
+    """Return expressions with squares as 2 (a^2 / 2): the sum over orders is half as long."""
 
     def change(expression: Node, operands: list[Node]) -> Node | None:
         if (
@@ -54,7 +53,7 @@ def is_product(expression: Node) -> bool:
 
 
 def is_sum_of_products(expression: Node) -> bool:
-    """Return whether a node is made of products by sums and constant factors alone."""
+    """Return whether a node is a sum of products, possibly with constant factors."""
     if is_product(expression):
         return True
     if expression.operation in ("add", "sub", "neg"):
@@ -63,19 +62,19 @@ def is_sum_of_products(expression: Node) -> bool:
 
 
 def carried(i: int) -> Node:
-    """Return the leaf of a row that is carried along."""
+    """Return the leaf of row `i` of the functions carried along."""
     return node("carried", i)
 
 
 class Carried(NamedTuple):
-    """Functions of one argument that are carried along together, as rows from `first` on."""
+    """Functions of one argument that are carried along together, in rows from `first` on."""
 
     kind: str
     argument: Node
     first: int
 
     def rates(self, speed: Node) -> list[Node]:
-        """Return the rates of the rows, where the argument has the rate `speed`."""
+        """Return the rates of the rows, for an argument with the rate `speed`."""
         first, second = carried(self.first), carried(self.first + 1)
         match self.kind:
             case "turn":  # sine, cosine
@@ -91,23 +90,28 @@ class Carried(NamedTuple):
 
 
 KINDS = {
-    "sin": ("turn", 0), "cos": ("turn", 1), "exp": ("exp", 0), "div": ("inverse", 0),
-    "log": ("log", 0), "sqrt": ("sqrt", 0),
-}  # fmt: skip
-"""The functions that are carried along: of each the kind, and its row among those of the kind."""
+    "sin": ("turn", 0),
+    "cos": ("turn", 1),
+    "exp": ("exp", 0),
+    "div": ("inverse", 0),
+    "log": ("log", 0),
+    "sqrt": ("sqrt", 0),
+}
+"""Functions that can be carried along: the kind of each, and its row among those of this kind."""
 ROWS = {"turn": 2, "exp": 1, "inverse": 1, "log": 2, "sqrt": 2}
+"""The number of rows of each kind."""
 
 
 def is_function(expression: Node) -> bool:
-    """Return whether the coefficients of a node follow from those of its argument."""
+    """Return whether a node is a function, whose coefficients follow from its argument's."""
     return expression.operation in KINDS and expression.level == MOTION
 
 
 def has_rate(argument: Node, rates: list[Node]) -> bool:
-    """Return whether the rate of an expression is known at every site, next to an end too.
+    """Return whether the rate of an expression is known at every site, even next to an end.
 
-    That of a field beyond an end is known where it is a field itself, as a velocity is. A product
-    of a matrix stays where it is.
+    A field beyond an end has a known rate only if that rate is itself a field (a velocity). The
+    rate of a product with a matrix is not known.
     """
     return not leaves_in([argument], "matrix") and all(
         by == 0 or rates[2 * component + re_im].operation == "field"
@@ -118,8 +122,11 @@ def has_rate(argument: Node, rates: list[Node]) -> bool:
 def with_carried(
     rates: list[Node], site_dependent: frozenset[str]
 ) -> tuple[list[Node], list[Carried], list[tuple[Node, Node]]]:
-    """Return the rates with the functions that are carried along as leaves, these functions, and
-    (argument, rate) of each of their rows. Functions of neighbours stay in the rates."""
+    """Return the rates with leaves for functions carried along, and these functions.
+
+    The third value has (argument, rate) for each row of the functions. Functions of neighbours
+    remain in the rates.
+    """
     groups: dict[tuple[str, Node], Carried] = {}
 
     def as_leaf(expression: Node, operands: list[Node]) -> Node | None:

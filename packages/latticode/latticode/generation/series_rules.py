@@ -1,11 +1,11 @@
 """The text of rules that continue the power series of a traced model.
 
-The coefficient of order k of a sum is the sum of those of its terms, that of a product is a sum
-over orders (see `series_sums`), and a row u with the rate F has u_{k+1} = F_k / (k + 1). All orders
-are kept of what stands in a product or in a function of neighbours (see `series_functions`), and of
-nothing else. Partial sums of an odd order are kept of a
-sum of products as a whole. The factor 1 / (k + 1) goes into the constants of the terms of a rate
-where that costs no multiplication more.
+A row u with the rate F has u_{k+1} = F_k / (k + 1). The coefficient of order k of a sum is the sum
+of its terms' coefficients; that of a product is a sum over orders (see `series_sums`). All orders
+are stored only for factors of products and for functions of neighbours with their arguments (see
+`series_functions`). For a sum of products, the known terms of the next odd order are summed first
+and stored as one number. The factor 1 / (k + 1) is moved into the constants of a rate's terms if
+this takes no additional multiplication.
 """
 
 from itertools import chain
@@ -30,7 +30,7 @@ from .statements import FunctionText, Names, require_exchangeable, stages_of
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
 SHIFTS = {1: "right_neighbours", LANES - 1: "left_neighbours"}
-"""Functions of two blocks in a row, by the lane of the first at which their values begin."""
+"""Functions of two successive blocks, by the lane of the first block at which the result begins."""
 STARTS = {
     "turn": (("sine", "cosine"), "sine_and_cosine({})"),
     "exp": (("grown",), "exponential({})"),
@@ -38,7 +38,8 @@ STARTS = {
     "log": (("logarithm", "inverse"), "logarithm_and_inverse({})"),
     "sqrt": (("root", "inverse"), "root_and_inverse({})"),
 }
-"""What is carried along at order 0: the names of the rows, and what computes them."""
+"""The functions carried along at order 0: the names of their rows, and the text that computes
+them."""
 RULE = """
 SPARE = {spare} * LANES
 WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
@@ -55,7 +56,7 @@ continue_in_waves = in_waves(write_next_order, {reach}{everywhere})
 class SeriesWriter:
     """The text of the rule that continues the series of a model.
 
-    One that is for fields that are `alike` is written once, and goes through both of them.
+    For `exchangeable` fields the text has the statements of one field, in a loop over both.
     """
 
     def __init__(
@@ -64,7 +65,7 @@ class SeriesWriter:
         names: Names,
         site_dependent: frozenset[str],
         exchangeable: bool = False,
-    ):
+    ) -> None:
         self.exchangeable, self.names = exchangeable, names
         rows = list(model_rates[:2] if exchangeable else model_rates)
         rates, self.groups, self.row_rates = with_carried(rows, site_dependent)
@@ -79,21 +80,21 @@ class SeriesWriter:
         nodes = in_order([*self.rates, *self.flows])
         self.products = [expression for expression in nodes if is_product(expression)]
         self.functions = [expression for expression in nodes if is_function(expression)]
-        self.stored = (
-            self._number_stored()
-        )  # what is kept of each block beside the fields, and its place
+        # numbers of the nodes that are stored in addition to the fields
+        self.stored = self._number_stored()
         self.sums = CauchySumWriter(self.products, self.load, self.clocks)
         if exchangeable:
             require_exchangeable(model_rates, self.stored)
-        self.partial: dict[tuple[int, Node], int] = {}  # sums of products that are not kept
-        # the products of matrices that follow each pass over the blocks but for the last
+        # numbers of the sums of products whose known terms alone are stored
+        self.partial: dict[tuple[int, Node], int] = {}
+        # products with matrices, computed after each pass over the blocks except the last
         self.stages = stages_of([*self.rates, *self.flows])
-        self.stage = 0  # the pass that is written
+        self.stage = 0  # the current pass
         self.couples = {
             expression: i for i, expression in enumerate(chain.from_iterable(self.stages))
         }
         more = max(0, len(self.stored) - self.components)
-        self.spare = more * (ORDER + 1)  # vectors of a block beside its own
+        self.spare = more * (ORDER + 1)  # additional vectors per block
 
     def _number_stored(self) -> dict[Node, int]:
         operands = [operand for product in self.products for operand in product.operands]
@@ -104,8 +105,8 @@ class SeriesWriter:
         return {expression: i for i, expression in enumerate(needed)}
 
     def _is_stored(self, expression: Node) -> bool:
-        """Return whether all orders are known anyway: of clocks, of fields at the site, and of the
-        difference of two of these."""
+        """Return whether all orders are in memory anyway: for clocks, fields at the site, and
+        differences of two such fields."""
         if expression.operation == "sub":
             return all(a.operation == "field" and self._is_stored(a) for a in expression.operands)
         return expression in self.clocks or (
@@ -115,7 +116,7 @@ class SeriesWriter:
     # --- Places in memory
 
     def place(self, expression: Node, order: str) -> str:
-        """Return where the coefficient of an order of a kept node or a field lies."""
+        """Return the text of the index of a coefficient, for a stored node or a field."""
         if expression not in self.stored:
             component, re_im, _ = expression.operands
             return f"i{component} + ({order}) * ORDER_STRIDE + {'XY'[re_im]}"
@@ -125,9 +126,9 @@ class SeriesWriter:
         return f"s + ({(i - self.components) * (ORDER + 1)} + {order}) * LANES"
 
     def partial_place(self, expression: Node, even: bool) -> str:
-        """Return where a sum of products of an odd order waits for its last terms.
+        """Return the text of the index at which the known terms of an odd order are stored.
 
-        The places of the order after it are free until then.
+        If possible, they use memory of the order after it, which is still free.
         """
         if expression in self.stored:
             return self.place(expression, "k + 1" if even else "k")
@@ -137,7 +138,7 @@ class SeriesWriter:
         return f"s + {self.spare + i - len(self.rates)} * LANES"
 
     def load(self, expression: Node, order: str) -> str:
-        """Return the coefficient of an order of what is kept or stored, from memory."""
+        """Return the text that loads a coefficient of a stored node, a field or a clock."""
         if expression in self.clocks:
             return f"fill(m[d + {self.clocks[expression] * (ORDER + 1)} + {order}])"
         if expression.operation == "sub" and expression not in self.stored:
@@ -145,13 +146,13 @@ class SeriesWriter:
             return f"(load(m, {self.place(a, order)}) - load(m, {self.place(b, order)}))"
         return f"load(m, {self.place(expression, order)})"
 
-    # --- The order of the work
+    # --- The statements of an order
 
     def body(self, even: bool) -> tuple[list[str], list[list[str]]]:
-        """Return the factors of an order, and the statements that write order k + 1 of a block.
+        """Return the statements of the factors of an order, and those that write order k + 1.
 
-        Where matrices couple sites, each product of one follows from what all blocks hold: then
-        there are as many lists of statements as there are passes over the blocks.
+        The latter are one list for each pass over the blocks. There are several passes if matrices
+        couple sites, because a product with a matrix needs the factors of all blocks.
         """
         written: set[Node] = set()
         passes = []
@@ -178,15 +179,15 @@ class SeriesWriter:
         return [f"        {name} = {text}" for text, name in factors.items()], [*passes, code.lines]
 
     def _in_block(self, row: int) -> str:
-        """Return where the block at work lies in a row of what is coupled."""
+        """Return the text of the index of the current block in a row of `Couplings`."""
         return f"{row} * system.couplings.products_by_block.shape[1] + block * LANES"
 
     def _write_kept(
         self, code: FunctionText, roots: list[Node] | None, written: set[Node], even: bool
     ) -> None:
-        """Write the kept coefficients of order k that the roots need, and the sums of products.
+        """Write the stored coefficients of order k that the roots need, and the sums of products.
 
-        Those that an earlier pass has `written` are loaded; without roots all are needed.
+        Without roots all are needed. Coefficients `written` by an earlier pass are loaded.
         """
         depth = self._depths()
         needed = set(depth if roots is None else _in_order_up_to_products(roots))
@@ -217,8 +218,7 @@ class SeriesWriter:
         written.update(expression for expression in needed_now if expression.operation != "carried")
 
     def _depths(self) -> dict[Node, int]:
-        """Return how many products or functions stand inside one another in each node: so many
-        passes."""
+        """Return for each node how deeply products and functions are nested in it."""
         depth: dict[Node, int] = {}
         for expression in in_order([*self.rates, *self.flows, *self.stored]):
             depth[expression] = max((depth[a] for a in expression.inputs), default=0)
@@ -226,7 +226,7 @@ class SeriesWriter:
         return depth
 
     def _write_functions(self, code: FunctionText, nodes: list[Node], even: bool) -> None:
-        """Write the coefficients of order k of those of the nodes that are functions."""
+        """Write the coefficients of order k of the functions among the nodes."""
         written: set[Node] = set()
         for function in filter(is_function, nodes):
             if function not in written:
@@ -234,11 +234,11 @@ class SeriesWriter:
                 write_function(code, function, self.load, self._store, even)
 
     def _store(self, expression: Node, text: str) -> str:
-        """Return the statement that keeps the coefficient of order k."""
+        """Return the statement that stores the coefficient of order k."""
         return f"store(m, {self.place(expression, 'k')}, zero_below(TINY, {text}))"
 
     def _start_carried(self, code: FunctionText) -> None:
-        """Write the functions that are carried along at order 0, from their arguments."""
+        """Write order 0 of the functions carried along, computed from their arguments."""
         for group in self.groups:
             argument = self._start(self.angles[group.first], code)
             code("if k == 0:")
@@ -249,7 +249,7 @@ class SeriesWriter:
                 code(f"store(m, {place}, zero_below(TINY, {name}))", 1)
 
     def _start(self, expression: Node, code: FunctionText) -> str:
-        """Return the expression of the coefficient of order 0."""
+        """Return the text of the coefficient of order 0."""
         if expression.level == CONSTANT:
             return self._constant(expression)
         if expression in self.clocks:
@@ -265,7 +265,7 @@ class SeriesWriter:
         return self._text(code, expression, True)
 
     def _combined(self, code: FunctionText, expression: Node, stage: str) -> str:
-        """Return a sum of products, each by its sum `stage`: now, next or last."""
+        """Return the text of a sum of products, each by its name for `stage`: now, next or last."""
         if is_product(expression):
             return code.known((stage, expression))
         if expression.level == CONSTANT:
@@ -282,7 +282,7 @@ class SeriesWriter:
         return code.name(("value", expression), lambda: self._text(code, expression, even))
 
     def _text(self, code: FunctionText, expression: Node, even: bool) -> str:
-        """Return the expression of the coefficient of order k."""
+        """Return the text of the coefficient of order k."""
         if is_sum_of_products(expression):
             return self._sum_text(code, expression, even)
         if expression.level == CONSTANT:
@@ -304,7 +304,7 @@ class SeriesWriter:
                 return f"{self._constant(a)} * {self._value(code, b, even)}"
             case "add" | "sub" as how, a, b:
                 return f"{self._value(code, a, even)} {SIGNS[how]} {self._value(code, b, even)}"
-        raise ModelError(f"{expression.operation} of a field or of the time has no rule")
+        raise ModelError(f"{expression.operation} of a field or of time is not supported")
 
     def _constant(self, expression: Node) -> str:
         if expression in self.names.at_sites:
@@ -331,13 +331,13 @@ class SeriesWriter:
     # --- The coefficient of order k + 1 of a row
 
     def _next(self, code: FunctionText, rate: Node, even: bool, factors: dict[str, str]) -> str:
-        """Return the coefficient of order k of a rate, over k + 1."""
+        """Return the text of a rate's coefficient of order k, divided by k + 1."""
         without_factor = [term for term in self._terms(rate) if not self._has_factor(term)]
         if len(without_factor) > 1 or rate.operation == "field":
             return f"share * {self._value(code, rate, even)}"
 
         def write(term: Node, sign: str) -> tuple[str, str]:
-            """Return the sign of a term and the rest; `sign` goes into its factor if it has one."""
+            """Return the sign and text of a term; its constant, if any, takes `sign` instead."""
             if self._has_factor(term):
                 factor = f"{sign.replace('+', '')}(share * {self._constant(term.operands[0])})"
                 name = factors.setdefault(factor, f"f{len(factors)}")
@@ -356,7 +356,7 @@ class SeriesWriter:
         return sign.replace("+", "") + text
 
     def _has_factor(self, expression: Node) -> bool:
-        """Return whether 1 / (k + 1) can go into a constant that multiplies a term."""
+        """Return whether a term has a constant factor that can absorb 1 / (k + 1)."""
         if (
             expression.operation != "mul"
             or expression.level == CONSTANT
@@ -369,17 +369,17 @@ class SeriesWriter:
         )
 
     def _terms(self, expression: Node) -> list[Node]:
-        """Return the terms of a sum; a sum of products is one term, and one of constants."""
+        """Return the terms of a sum; a sum of products or of constants counts as one term."""
         if expression.level == CONSTANT or is_sum_of_products(expression):
             return [expression]
         if expression.operation not in ("add", "sub", "neg"):
             return [expression]
         return [term for operand in expression.operands for term in self._terms(operand)]
 
-    # --- The whole
+    # --- The text of all functions
 
     def text(self, reach: int) -> str:
-        """Return the functions that continue the series."""
+        """Return the text of the functions that continue the series."""
         (factors, even), (_, odd) = self.body(True), self.body(False)
         clocks = -(-len(self.clocks) * (ORDER + 1) // LANES) * LANES  # in whole vectors
         begin = self._begin(clocks)
@@ -399,7 +399,7 @@ class SeriesWriter:
         )
 
     def _in_passes(self, begin: list[str], passes: list[list[str]]) -> list[str]:
-        """Return the loops over blocks, and between them the products of matrices."""
+        """Return the loops over blocks, with the products with matrices between them."""
         lines = [*begin, *passes[0]]
         for couples, statements in zip(self.stages, passes[1:], strict=True):
             for expression in couples:
@@ -415,7 +415,7 @@ class SeriesWriter:
         return lines
 
     def _begin(self, clocks: int) -> list[str]:
-        """Return the loop over blocks, and where each of them and its neighbours begin."""
+        """Return the beginning of the loop over blocks, with the starts of block and neighbours."""
         components = {c: str(c) for c in range(self.components)}
         block = "block"
         if self.exchangeable:
@@ -436,7 +436,7 @@ class SeriesWriter:
 
 
 def _in_order_up_to_products(nodes: list[Node]) -> list[Node]:
-    """Return nodes after their operands, without the operands of products with a matrix."""
+    """Return the nodes and their operands in order, without operands of products with a matrix."""
     ordered: dict[Node, None] = {}
 
     def visit(expression: Node) -> None:

@@ -1,11 +1,11 @@
-"""Sums over orders, as text: the coefficients of products and of halves of squares.
+"""The text of sums over orders: the coefficients of products and of halves of squares.
 
     (a b)_k = sum_{j=0}^k a_j b_{k-j},
-    (a^2 / 2)_k = sum_{0 <= j < k/2} a_j a_{k-j}, and a_{k/2}^2 / 2 where k is even.
+    (a^2 / 2)_k = sum_{0 <= j < k/2} a_j a_{k-j}, plus a_{k/2}^2 / 2 if k is even.
 
-Orders go in pairs. The pass over an even order k also sums the products of order k + 1, but for the
-terms that hold its unknown coefficients; the pass over order k + 1 adds these. Of a function of the
-time all orders are known.
+Orders are computed in pairs. The pass for an even order k also sums the known terms of order k + 1,
+those without coefficients of order k + 1. The pass for order k + 1 adds the other terms. All orders
+of a clock are known.
 """
 
 from collections.abc import Callable, Collection
@@ -16,15 +16,16 @@ from .statements import FunctionText
 
 
 class CauchySumWriter:
-    """Writes the sums of some products, and names each by ("now", product) for an even order k.
+    """Writes the sums of products, and registers names for them in a `FunctionText`.
 
-    What is known of order k + 1 then has the name ("next", product), and in the pass over that
-    order ("last", product) is the rest of it. load(node, order) is the text of a coefficient.
+    In the pass for an even order k, ("now", product) is the sum of order k, and ("next", product)
+    the known terms of order k + 1. In the pass for that order, ("last", product) is the sum of its
+    other terms. load(node, order) is the text of a coefficient.
     """
 
     def __init__(
         self, products: list[Node], load: Callable[[Node, str], str], clocks: Collection[Node]
-    ):
+    ) -> None:
         self.load, self.clocks = load, clocks
         self.names = {product: f"q{i}" for i, product in enumerate(products)}
 
@@ -49,11 +50,11 @@ class CauchySumWriter:
             code.alias(("next", product), f"{self.names[product]}n")
 
     def _ends(self, code: FunctionText, operand: Node) -> list[str]:
-        """Return the names of the coefficients of orders 0 and k."""
+        """Return the names of an operand's coefficients of orders 0 and k."""
         return [code.name((operand, order), self.load(operand, order)) for order in ("0", "k")]
 
     def _last(self, code: FunctionText, product: Node) -> str:
-        """Return the terms that hold a coefficient of the odd order k."""
+        """Return the text of the terms with a coefficient of the odd order k."""
         (a0, ak), *second = (self._ends(code, operand) for operand in product.operands)
         if not second:
             return f"{a0} * {ak}"
@@ -63,7 +64,7 @@ class CauchySumWriter:
         )
 
     def _write_squares(self, code: FunctionText, squares: list[tuple[str, Node]]) -> None:
-        """Write the sums q of order k, and those qn of order k + 1 but for a_0 a_{k+1}."""
+        """Write the sums q of order k, and the sums qn of order k + 1 without a_0 a_{k+1}."""
         for q, a in squares:
             middle = code.name((a, "k // 2"), self.load(a, "k // 2"))
             code(f"{q}, {q}n = 0.5 * {middle} * {middle}, fill(0.0)")
@@ -76,7 +77,7 @@ class CauchySumWriter:
             code(f"{q}n = {q}n + {q}l * {q}h", 1)
 
     def _write_unequal(self, code: FunctionText, products: list[tuple[str, Node, Node]]) -> None:
-        """Write the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} for order k + 1: one loop."""
+        """Write in one loop the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} (order k + 1)."""
         firsts = {a: f"a{i}" for i, (_, a, _) in enumerate(products)}
         seconds = {b: f"b{i}" for i, (_, _, b) in enumerate(products)}
         for a, name in firsts.items():

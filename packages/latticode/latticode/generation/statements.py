@@ -1,6 +1,6 @@
-"""Statements of generated kernels, and the names of the numbers that these take from outside."""
+"""Statements of generated kernels, and the names of their inputs: constants, clocks, matrices."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from typing import NamedTuple
 
 from latticode.equations.graph import (
@@ -20,44 +20,44 @@ from latticode.equations.symbols import ModelError
 
 
 class FunctionText:
-    """Statements of a function, with a name for each value, so that none is computed twice."""
+    """Statements of a function. Each value has a name, so that none is computed twice."""
 
-    def __init__(self, indent: int):
+    def __init__(self, indent: int) -> None:
         self.lines: list[str] = []
         self.indent, self._names = indent, {}
 
     def __call__(self, text: str, deeper: int = 0) -> None:
-        """Write a line."""
+        """Append a line, indented by `deeper` more levels."""
         self.lines.append("    " * (self.indent + deeper) + text)
 
-    def name(self, key, text: Callable[[], str] | str) -> str:
-        """Return the name of a value, whose statement is written where it is first asked for."""
+    def name(self, key: Hashable, text: Callable[[], str] | str) -> str:
+        """Return the name of a value; the first call appends the statement that computes it."""
         if key not in self._names:
             text = text if isinstance(text, str) else text()
             self._names[key] = f"v{len(self._names)}"
             self(f"{self._names[key]} = {text}")
         return self._names[key]
 
-    def alias(self, key, name: str) -> None:
-        """Let a value have a name, or an expression, that exists."""
+    def alias(self, key: Hashable, name: str) -> None:
+        """Set the name of a value to an existing name or an expression."""
         self._names[key] = name
 
-    def known(self, key) -> str:
-        """Return the name of a value that has one."""
+    def known(self, key: Hashable) -> str:
+        """Return the name of a value; KeyError if it has none."""
         return self._names[key]
 
 
 class ModelInputs(NamedTuple):
-    """What the kernels of a model take from outside: constants and functions of the time."""
+    """The numbers of a model's kernels that do not depend on fields, and products with matrices."""
 
     constants: tuple[Node, ...]  # one number each
-    at_sites: tuple[Node, ...]  # one number a site each
-    clocks: tuple[Node, ...]  # sines and cosines of the time, and the time itself
-    couples: tuple[Node, ...] = ()  # products of a matrix, each after those that it is made of
+    at_sites: tuple[Node, ...]  # a number for each site
+    clocks: tuple[Node, ...]  # time, and sines and cosines of time
+    couples: tuple[Node, ...] = ()  # products with a matrix, in order of evaluation
 
 
 def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInputs:
-    """Return the largest expressions of parameters alone, and the functions of time."""
+    """Return the inputs of expressions; a constant is the largest one without time or fields."""
     constants, at_sites, clocks = {}, {}, {}
 
     def visit(expression: Node) -> None:
@@ -84,9 +84,9 @@ def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInp
 
 
 def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
-    """Return the products of a matrix in expressions, by how many stand inside one another.
+    """Return the products with a matrix, grouped into stages by how deeply they are nested.
 
-    Those of a stage are made of earlier ones alone.
+    Products of a stage depend only on those of earlier stages.
     """
     depth: dict[Node, int] = {}
     for expression in in_order(nodes):
@@ -102,13 +102,12 @@ def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
 
 
 def depends_on_site(expression: Node, site_dependent: frozenset[str]) -> bool:
-    """Return whether an expression has a parameter with a value for each site."""
+    """Return whether an expression contains a parameter with a value for each site."""
     return any(leaf.operands[0] in site_dependent for leaf in leaves_in([expression], "parameter"))
 
 
 def is_clock(expression: Node, site_dependent: frozenset[str]) -> bool:
-    """Return whether a node is a sine or cosine of the time that is the same at all sites, and
-    whose angle grows steadily."""
+    """Return whether a node is a sine or cosine, equal at all sites, of an angle linear in time."""
     if expression.level != CLOCK or expression.operation not in ("sin", "cos"):
         return False
     angle = expression.operands[0]
@@ -116,7 +115,7 @@ def is_clock(expression: Node, site_dependent: frozenset[str]) -> bool:
 
 
 def affine(angle: Node) -> tuple[Node, Node]:
-    """Return frequency and phase of an angle that grows steadily with the time."""
+    """Return the frequency and phase of an angle that is linear in time."""
     time = node("time")
     frequency = derivative([angle], lambda expression: number(expression is time))[0]
     phase = rebuilt([angle], lambda expression, _: ZERO if expression is time else None)[0]
@@ -124,12 +123,12 @@ def affine(angle: Node) -> tuple[Node, Node]:
 
 
 class Names:
-    """How numbers that do not depend on the fields are called in the text of a module.
+    """The names of a model's inputs in the text of a module.
 
-    Where `by_name`, all are parameters or clocks that the system has by their names.
+    With `by_name`, all inputs are attributes of the system: parameters or clocks.
     """
 
-    def __init__(self, inputs: ModelInputs, by_name: bool = False):
+    def __init__(self, inputs: ModelInputs, by_name: bool = False) -> None:
         def named(group: str, nodes: tuple[Node, ...]) -> dict[Node, str]:
             return {
                 expression: f"system.{expression.operands[0] if by_name else f'{group}[{i}]'}"
@@ -144,18 +143,18 @@ class Names:
         self.matrices = {name: i for i, name in enumerate(matrices)}
 
     def constant(self, expression: Node) -> str:
-        """Return the text of a number, or of an expression of parameters alone."""
+        """Return the text of a number, or of an expression that depends only on parameters."""
         return self.constants.get(expression) or repr(expression.operands[0])
 
 
 def require_exchangeable(rates: Iterable[Node], stored: Iterable[Node] = ()) -> None:
-    """Raise ModelError unless two fields move alike, and each of what is kept is of one field.
+    """Raise ModelError unless two fields are exchangeable: one rule then gives the rates of both.
 
-    One rule then serves both fields, and one of them alone where the two are the same. There may
-    be several states of the two.
+    They are if exchanging their names exchanges their rates. Each `stored` node may depend only on
+    the first field. If there are several states, names are exchanged in each.
     """
 
-    def exchanged(leaf: Node, _) -> Node | None:
+    def exchanged(leaf: Node, _: list[Node]) -> Node | None:
         if leaf.operation != "field":
             return None
         component, *place = leaf.operands
@@ -164,4 +163,7 @@ def require_exchangeable(rates: Iterable[Node], stored: Iterable[Node] = ()) -> 
     first, second = list(rates)[:2], list(rates)[2:]
     mixed = any(leaf.operands[0] for leaf in leaves_in(stored, "field"))
     if mixed or rebuilt(first, exchanged) != second:
-        raise ModelError("the two fields do not obey the same equation with their names exchanged")
+        raise ModelError(
+            "the two fields are not exchangeable: the equation of the second must be that of the"
+            " first with their names exchanged"
+        )

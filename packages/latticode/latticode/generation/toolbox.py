@@ -1,11 +1,11 @@
-"""What generated kernels take from the library: their system, elementary functions, and imports.
+"""All names that generated modules use: their system, elementary functions, and imports.
 
-A generated module imports all of this. It stands in a file, so that a change of any of it compiles
-the kernels again and reruns the jobs that call them.
+A generated module imports everything from this file. A change here, or in what is imported here,
+thus recompiles the kernels and reruns the jobs that call them.
 """
 # ruff: noqa: F401
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,38 +35,40 @@ from .series import in_waves, sides_of
 
 
 class DensityWorkspace(NamedTuple):
-    """What the densities of a model are given, whose sums over the whole chain a run keeps.
+    """Inputs and work arrays of conserved densities, which are summed over the whole chain.
 
-    They go on beyond ends at rest as far as they look, so that the bonds to them count.
+    Sites beyond ends at rest are included as far as the densities reach: bonds to them count.
     """
 
     constants: tuple[float, ...]
-    at: np.ndarray  # (row, 1 + site), as that of a system
-    wide: np.ndarray  # (row, reach + site), room for the state
-    terms: np.ndarray  # (density, 1 + site), room for the densities
+    at: np.ndarray  # (row, 1 + site), see System
+    wide: np.ndarray  # (row, reach + site), for the state
+    terms: np.ndarray  # (density, 1 + site), for the densities
 
 
 class Couplings(NamedTuple):
-    """The matrices that couple sites, for sums over all sites in a fixed order.
+    """Matrices that couple sites, with work arrays.
 
-    Rows of a matrix are summed from the first column to the last, whatever the processor. All are
-    in `dense` (matrix, column, site) if that has the sites; else their entries that are not zero
-    are in `weights` and `columns`, those of a site between `starts` of it and of the next.
+    Rows are summed from the first column to the last, on every processor. If `dense` has as many
+    columns as the chain has sites, it contains all matrices. Otherwise `weights` and `columns`
+    contain the nonzero entries; those of site i begin at index starts[matrix, i].
     """
 
-    dense: np.ndarray
+    dense: np.ndarray  # (matrix, column, site)
     weights: np.ndarray
     columns: np.ndarray
     starts: np.ndarray  # (matrix, site)
-    factors: np.ndarray  # (product, 1 + site), what the matrices multiply
+    factors: np.ndarray  # (product, 1 + site)
     products: np.ndarray  # (product, 1 + site)
     factors_by_block: np.ndarray  # (product, site), in whole blocks
     products_by_block: np.ndarray
 
 
 @kernel
-def multiply_by_matrix(couplings, matrix, factors, products, first) -> None:
-    """Write a matrix times the flat `factors` into `products`, whose sites begin at `first`."""
+def multiply_by_matrix(
+    couplings: Couplings, matrix: int, factors: np.ndarray, products: np.ndarray, first: int
+) -> None:
+    """Write a matrix times `factors` into `products`; in both, sites begin at index `first`."""
     sites = couplings.starts.shape[1] - 1
     if couplings.dense.shape[1] == sites and couplings.dense.shape[0] > matrix:
         for site in range(sites):
@@ -84,19 +86,21 @@ def multiply_by_matrix(couplings, matrix, factors, products, first) -> None:
 
 
 class System(NamedTuple):
-    """What the kernels of any traced model are given."""
+    """The inputs and work arrays of a traced model's kernels."""
 
     constants: tuple[float, ...]
-    clocks: tuple[float, ...]  # the functions of the time, and behind them their derivatives
-    at: np.ndarray  # (row, 1 + site), parameters that depend on the site, with room for a vector
-    wide: np.ndarray  # (row, reach + site), room for a state with more ghost columns
+    clocks: tuple[float, ...]  # functions of time, then their derivatives
+    at: np.ndarray  # (row, 1 + site), constants that depend on the site, padded by a vector
+    wide: np.ndarray  # (row, reach + site), for a state with more ghost columns
     sums: DensityWorkspace
     couplings: Couplings
-    left: int
+    left: int  # kind of the left end
     right: int
 
 
 # --- Sine and cosine of numbers or vectors of sites, with the same bits on every machine ----------
+
+Real = Any  # a number or a Vector
 
 sine_less_angle, cosine_near_zero = map(
     inlined_by_llvm, (elementary.sine_less_angle, elementary.cosine_near_zero)
@@ -106,17 +110,17 @@ STRAIGHT = 1e-65
 
 
 @inlined_by_llvm
-def _nearest_integer(x):
-    """Return the whole number nearest to x, for abs(x) < 2^51; x is a number or a Vector."""
-    return -(6755399441055744.0 - (6755399441055744.0 + x))  # 1.5 * 2^52, where doubles are whole
+def _nearest_integer(x: Real) -> Real:
+    """Return the integer nearest to x, for abs(x) < 2^51."""
+    return -(6755399441055744.0 - (6755399441055744.0 + x))  # near 1.5 * 2^52 doubles are integers
 
 
 @inlined_by_llvm
-def _reduced(x):
+def _reduced(x: Real) -> tuple[Real, Real, Real, Real]:
     """Return sin r, cos r, o and s of x = r + (o + 2 j) pi / 2, abs(r) <= pi / 4.
 
-    o is -1, 0 or 1, and s = (-1)^j. So sin x = s (sin r + o cos r) with one of the two terms, and
-    no lane of a vector needs another code than the next.
+    o is -1, 0 or 1, and s = (-1)^j. If o = 0, sin x = s sin r, else sin x = s o cos r. Both cases
+    are one formula, (1 - o^2) s sin r + s o cos r, because all lanes execute the same operations.
     """
     quarters = _nearest_integer((1.0 / HALF_PI[0]) * x)
     near = (x - HALF_PI[0] * quarters) - HALF_PI[1] * quarters
@@ -130,8 +134,8 @@ def _reduced(x):
 
 
 @inlined_by_llvm
-def sine_and_cosine(x) -> tuple:
-    """Return sin x and cos x with errors of some 1e-16, for angles of up to thousands of turns."""
+def sine_and_cosine(x: Real) -> tuple[Real, Real]:
+    """Return sin x and cos x with errors of about 1e-16, for angles up to thousands of turns."""
     s, c, odd, sign = _reduced(x)
     even = 1.0 - odd * odd
     return sign * (even * s + odd * c), sign * (even * c - odd * s)
@@ -144,8 +148,8 @@ A1, A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12 = elementary.ATANH
 
 
 @inlined_by_llvm
-def exponential(x):
-    """Return e^x with an error of some 1e-16 of it, 0 or infinity beyond the range of doubles."""
+def exponential(x: Real) -> Real:
+    """Return e^x with a relative error of about 1e-16; 0 or infinity out of range."""
     k = _nearest_integer((1.0 / LN2[0]) * x)
     start, low = x - LN2[0] * k, LN2[1] * k
     r = start - low
@@ -158,8 +162,8 @@ def exponential(x):
 
 
 @inlined_by_llvm
-def logarithm_and_inverse(x) -> tuple:
-    """Return log(x), with an error of some 1e-16, and 1 / x, for normal x > 0; else NaN."""
+def logarithm_and_inverse(x: Real) -> tuple[Real, Real]:
+    """Return log(x), with an error of about 1e-16 for normal x > 0, NaN for x <= 0; and 1 / x."""
     k = whole_exponent(x)
     half = _nearest_integer(0.5 * k)
     f = -(1.0 - (x * power_of_two(-half)) * power_of_two(-(k - half)))
@@ -174,7 +178,7 @@ def logarithm_and_inverse(x) -> tuple:
 
 
 @inlined_by_llvm
-def root_and_inverse(x) -> tuple:
+def root_and_inverse(x: Real) -> tuple[Real, Real]:
     """Return the square root of x and its inverse."""
     root = square_root(x)
     return root, 1.0 / root

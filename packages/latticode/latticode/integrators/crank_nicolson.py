@@ -14,6 +14,7 @@ Both are of second order and symmetric in time.
 # take the trapezoidal rule, the scheme of the paper by Crank and Nicolson.
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -22,9 +23,11 @@ from latticode.kernels.compiled import uncached
 from . import fixed_point
 from .fixed_point import WORK as WORK
 
+Array = np.ndarray
+
 
 @uncached
-def advance(old: np.ndarray, h: float, slope: np.ndarray, new: np.ndarray) -> None:
+def advance(old: Array, h: float, slope: Array, new: Array) -> None:
     """Set new = old + h slope, except in the ghost columns."""
     for row in range(old.shape[0]):
         for j in range(1, old.shape[1] - 1):
@@ -32,7 +35,7 @@ def advance(old: np.ndarray, h: float, slope: np.ndarray, new: np.ndarray) -> No
 
 
 @uncached
-def reflect(old: np.ndarray, base: np.ndarray) -> None:
+def reflect(old: Array, base: Array) -> None:
     """Set base = 2 old - base, except in the ghost columns."""
     for row in range(old.shape[0]):
         for j in range(1, old.shape[1] - 1):
@@ -40,10 +43,12 @@ def reflect(old: np.ndarray, base: np.ndarray) -> None:
 
 
 def build(rates: Callable, observe: Callable) -> Callable:
-    """Return the solver of y' = rates by the trapezoidal rule; the package gives its arguments."""
+    """Return the trapezoidal solver of y' = rates; the package describes its arguments."""
 
     @uncached
-    def begin(system, old, h, follows, base):
+    def begin(
+        system: Any, old: Array, h: float, follows: bool, base: Array
+    ) -> tuple[Array, float, int]:
         """Return base = old + h/2 F(old), the factor h/2, and the number of evaluations.
 
         After a step of the same length old = base + h/2 F(old) with the previous base. The new
@@ -57,7 +62,7 @@ def build(rates: Callable, observe: Callable) -> Callable:
         return base, 0.5 * h, 1
 
     @uncached
-    def slope(system, old, new, scratch, dy):
+    def slope(system: Any, old: Array, new: Array, scratch: Array, dy: Array) -> None:
         rates(system, new, dy)
 
     return fixed_point.build(begin, slope, observe)
@@ -71,7 +76,9 @@ def build_conserving(mean_rates: Callable, observe: Callable) -> Callable:
     """
 
     @uncached
-    def begin(system, old, h, follows, scratch):
+    def begin(
+        system: Any, old: Array, h: float, follows: bool, scratch: Array
+    ) -> tuple[Array, float, int]:
         return old, h, 0
 
     return fixed_point.build(begin, mean_rates, observe)

@@ -1,20 +1,21 @@
 """DOP853, the explicit Runge-Kutta method of order eight of Dormand and Prince.
 
-After E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd edition
-(Springer, 1993), and their program dop853.f: section II.5 for the method, II.10 for its error
-estimate from the orders five and three, II.4 for the control and the first choice of the step, II.6
-for the interpolant of order seven, whose three more stages are evaluated only in steps that hold an
-output. One thing differs from dop853.f: errors are measured by the largest component (the modulus
-of a complex number) instead of the root mean square, so that half a chain takes the same steps as
-the whole.
+Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd
+edition (Springer, 1993), and their program dop853.f. The method is in section II.5, the step
+control with the initial step in II.4, the interpolant of order seven in II.6, and the error
+estimate from orders five and three in II.10. The interpolant needs three more stages, which are
+evaluated only in steps with an output. Unlike dop853.f, errors are measured by the largest
+component (the modulus of a complex number) instead of the root mean square, so that half of an even
+chain takes the same steps as the whole chain.
 
-From top to bottom: the stages, the error, the interpolant, the first step; then `build` with one
-step, which may go tile by tile (see `tiles`), and the loop over the steps. In all kernels `y` is
-the state before a step, `w` the state after it or the argument of a stage, `k[s - 1]` the slope of
-stage s. Stages, error estimates and the interpolant are sums of slopes with the weights of a table.
+In all kernels `y` is the state before a step, `w` the state after it or the argument of a stage,
+and `k[s - 1]` the slope of stage s. Arguments of stages, error estimates and the interpolant are
+weighted sums of slopes. A step may be computed tile by tile (see `tiles`).
 """
 
+from collections.abc import Callable
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -28,50 +29,56 @@ from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
 from .tiles import count_tiles, give, take, tile_length, tile_place
 from .weighted_sums import table, write_sum
 
+Array = np.ndarray
+Pair, Columns = tuple[float, float], tuple[int, int]
+
 TILE_WORK = 27
-"""Work arrays of the size of a tile."""
+"""Number of work arrays of the size of a tile."""
 WHOLE_WORK = 11
-"""Work arrays of the size of a state beside them."""
+"""Number of work arrays of the size of a state."""
 WORK = WHOLE_WORK + TILE_WORK
-"""Work arrays in all, where a state is its own only tile."""
+"""Number of all work arrays if the whole state is one tile."""
 
 
 def work_arrays(sites: int) -> int:
-    """Return how many work arrays a state of so many sites needs if it may go in tiles."""
+    """Return how many work arrays of the size of a state a run in tiles needs."""
     columns = tile_length.py_func(sites, count_tiles.py_func(sites)) + 2
     return WHOLE_WORK + -(-TILE_WORK * columns // (sites + 2))
 
 
 # --- The stages ---------------------------------------------------------------------------------
 
-# plain numbers would be types of their own and compile `write_sum` anew
+# numba types literals separately and would compile `write_sum` again
 FIFTH, THIRD, CURVE = np.int64(17), np.int64(18), 19
-"""Rows of the weights of both error estimates, and the first of those of the interpolant."""
+"""Rows of the table with the weights of the two error estimates, and the interpolant's first row.
+"""
 ROWS = table(
     {**STAGES, FIFTH: E5, THIRD: E3, **dict(enumerate((D4, D5, D6, D7), CURVE))}, CURVE + 4
 )
 
 
 @kernel
-def combine(stage, y, h, k, w):
-    """Write the argument of stage 2 to 16 into `w`; stage 13 is the solution itself.
+def combine(stage: int, y: Array, h: float, k: Array, w: Array) -> None:
+    """Write the argument of a stage from 2 to 16 into `w`; that of stage 13 is the solution.
 
-    `y` and `w` are flat, `k[stage - 1]` holds the slopes found so far.
+    `y` and `w` are flat; `k` (stage, number) holds the slopes of the earlier stages.
     """
     write_sum(ROWS, stage, y, h, k, w)
 
 
-# --- The error of a step: by its largest component, in units of the tolerance ---------------------
+# --- The error of a step: its largest component in units of the tolerance -------------------------
 
 
 @kernel
-def weighted_norm(v, y, w, spare, tolerances, columns):
-    """Return the largest modulus in `v`, each relative to atol + rtol max(|y|, |w|).
+def weighted_norm(
+    v: Array, y: Array, w: Array, spare: Array, tolerances: Pair, columns: Columns
+) -> float:
+    """Return the largest |v| / (atol + rtol max(|y|, |w|)) in the `columns` (first, stop).
 
-    Only the `columns` (first, stop) count; `spare` has room for a number for each of them.
+    `spare` is scratch memory of the size of these columns.
     """
     (rtol, atol), squares, size = tolerances, spare.reshape(-1), np.uint64(0)
-    # unsigned, so that no code asks whether an index counts from the end of a row
+    # unsigned indices spare the test for negative ones, which count from the end
     first, count = np.uint64(columns[0]), np.uint64(columns[1] - columns[0])
     for re in range(0, v.shape[0], 2):
         for i in range(count):
@@ -84,14 +91,16 @@ def weighted_norm(v, y, w, spare, tolerances, columns):
 
 
 @kernel
-def weigh_slopes(k, row, out):
-    """Write the combination of stages that an error estimate is made of (flat)."""
+def weigh_slopes(k: Array, row: int, out: Array) -> None:
+    """Write the sum of slopes with the weights of a row of the table into the flat `out`."""
     write_sum(ROWS, row, out[:0], 1.0, k, out)
 
 
 @kernel
-def error_estimates(y, w, k, scratch, spare, tolerances, columns):
-    """Return the estimates of orders five and three of the error on `columns` (first, stop)."""
+def error_estimates(
+    y: Array, w: Array, k: Array, scratch: Array, spare: Array, tolerances: Pair, columns: Columns
+) -> Pair:
+    """Return the error estimates of orders five and three in the `columns` (first, stop)."""
     k_flat, flat = k.reshape(16, -1), scratch.reshape(-1)
     weigh_slopes(k_flat, FIFTH, flat)
     fifth = weighted_norm(scratch, y, w, spare, tolerances, columns)
@@ -100,11 +109,11 @@ def error_estimates(y, w, k, scratch, spare, tolerances, columns):
 
 
 @kernel
-def step_error(h, fifth, third):
-    """Return the error of a step in units of the tolerance, infinite where it is not finite.
+def step_error(h: float, fifth: float, third: float) -> float:
+    """Return the error of a step in units of the tolerance, infinity if it is not finite.
 
-    The two estimates are joined as in section II.10, h e5^2 / sqrt(e5^2 + 0.01 e3^2), which falls
-    with the eighth power of the step.
+    It is h e5^2 / sqrt(e5^2 + 0.01 e3^2), as in section II.10, proportional to the eighth power of
+    the step.
     """
     if not fifth + third < np.inf:
         return np.inf
@@ -114,21 +123,21 @@ def step_error(h, fifth, third):
 
 
 @kernel
-def worse(first_error, second_error):
-    """Return the larger of two errors, or the one that is NaN: max() would drop it."""
+def worse(first_error: float, second_error: float) -> float:
+    """Return the larger of two errors, NaN if the second is NaN, which max() would ignore."""
     return (
         second_error if second_error > first_error or second_error != second_error else first_error
     )
 
 
-# --- The interpolant of order seven between the steps -------------------------------------------
+# --- The interpolant of order seven within a step -----------------------------------------------
 
 
 @kernel
-def prepare_interpolant(y, w, h, k, c):
+def prepare_interpolant(y: Array, w: Array, h: float, k: Array, c: Array) -> None:
     """Write the coefficients c[0..6] of the interpolant over the step from `y` to `w`.
 
-    The first three match values and slopes at both ends, the others come from the stages.
+    The first three follow from values and slopes at both ends, the others from all stages.
     """
     for row in range(y.shape[0]):
         for j in range(1, y.shape[1] - 1):
@@ -143,10 +152,10 @@ def prepare_interpolant(y, w, h, k, c):
 
 
 @kernel
-def interpolate(x, y, c, out):
+def interpolate(x: float, y: Array, c: Array, out: Array) -> None:
     """Write the interpolant at the fraction `x` of the step into `out`.
 
-    It is a nested product in x and z = 1 - x by turns: y + x (c0 + z (c1 + x (c2 + z (c3 + ...)))).
+    It is y + x (c0 + z (c1 + x (c2 + z (c3 + ...)))) with z = 1 - x.
     """
     z = 1.0 - x
     for row in range(y.shape[0]):
@@ -160,47 +169,53 @@ def interpolate(x, y, c, out):
 
 
 @kernel
-def eighth_root(x):
-    """Return x^(1/8) by square roots, whose bits are the same on every processor."""
+def eighth_root(x: float) -> float:
+    """Return x^(1/8) by square roots, which have the same bits on every processor."""
     return sqrt(sqrt(sqrt(x)))
 
 
 @kernel
-def step_factor(error):
-    """Return by what the step may change: equation (4.13) of section II.4, safety factor 0.9."""
+def step_factor(error: float) -> float:
+    """Return the factor for the next step: equation (4.13) of section II.4, safety factor 0.9."""
     return 0.9 / eighth_root(error) if error > 0.0 else 6.0
 
 
 @kernel
-def euler_step(size, speed):
-    """Return a first guess of the step from the sizes of the state and of its rate."""
+def euler_step(size: float, speed: float) -> float:
+    """Return a first guess of the step from the norms of the state and of its rate."""
     return 0.01 * size / speed if min(size, speed) > 1e-5 else 1e-6
 
 
 @kernel
-def never(system):
+def never(system: Any) -> bool:
     return False
 
 
 @kernel
-def unchanged(system, at_left_end, at_right_end):
+def unchanged(system: Any, at_left_end: bool, at_right_end: bool) -> Any:
     return system
 
 
-def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=at_any_time):
-    """Return the solver of y' = rates; see the package for its arguments.
+def build(
+    rates: Callable,
+    observe: Callable,
+    can_be_tiled: Callable = never,
+    system_of_tile: Callable = unchanged,
+    at_time: Callable = at_any_time,
+) -> Callable:
+    """Return the solver of y' = rates; the package describes its arguments.
 
-    Where `can_be_tiled(system)`, rates at a site depend on that site and its two neighbours alone,
-    and `system_of_tile(system, at_left_end, at_right_end)` is the system of a tile, which may or
-    may not hold the ends of the whole.
+    `can_be_tiled(system)` returns whether the rates at a site depend only on this site and its two
+    neighbours. `system_of_tile(system, at_left_end, at_right_end)` then returns the system of a
+    tile, which may contain one or both ends of the chain.
     """
     driven = at_time is not at_any_time
 
     @uncached
     def initial_step(system, t, y, slope, spare, tolerances, longest):
-        """Return the starting step of Hairer, Norsett and Wanner (section II.4).
+        """Return the initial step of Hairer, Norsett and Wanner (section II.4).
 
-        It compares the sizes of y, y' and, by a step of Euler's method, of y''.
+        It follows from the norms of y, y' and y'', where y'' is estimated by an Euler step.
         """
         w, new_slope, scratch, columns = spare[0], spare[1], spare[2], (1, y.shape[1] - 1)
         size = weighted_norm(y, y, y, scratch, tolerances, columns)
@@ -222,7 +237,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
     def take_stages(system, first, last, t, y, h, threshold, k, w):
         """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`.
 
-        In the solution, numbers below `threshold` become zero before its slope is taken.
+        In the solution, numbers below `threshold` become zero before its slope is computed.
         """
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(16, -1), w.reshape(-1)
         for stage in range(first, last + 1):
@@ -233,13 +248,13 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
 
     @uncached
     def step(system, count, work, t, y, slope, h, threshold, tolerances, due, w, new_slope, c):
-        """Write state and slope after a step, in `count` tiles, into `w` and `new_slope`.
+        """Compute a step in `count` tiles, and return its error.
 
-        Return the error of the step; `work` holds TILE_WORK arrays of the size of a tile. Where an
-        output is `due`, the interpolant `c` is prepared too. A single tile works on `y`, `w` and
-        `c` themselves, and leaves the interpolant if the step fails. Of several tiles each prepares
-        it at once, before it is known whether the whole step passes: the next tile overwrites its
-        stages, and may make the error larger, or smaller by a larger estimate of order three.
+        State and slope after the step are written into `w` and `new_slope`, and, if an output is
+        `due`, the coefficients of the interpolant into `c`. `work` holds TILE_WORK arrays of the
+        size of a tile. A single tile uses `y`, `w` and `c` directly, and prepares the interpolant
+        only if the step is accepted. Several tiles prepare it before this is known, because the
+        next tile overwrites the stages.
         """
         k, scratch, spare, alone = work[:16], work[16], work[17], count == 1
         start, end, curve = (y, w, c) if alone else (work[18], work[19], work[20:])
@@ -267,7 +282,9 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         return error
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record, stop):
+    def solve(
+        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
+    ) -> Outcome:
         t, end = times[0], times[-1]
         state, w, slope, new_slope, out = y, work[0], work[1], work[2], work[3]
         c = work[4:WHOLE_WORK]
@@ -278,19 +295,19 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
         threshold = rest_level(y, OF_STAGES)
         rates(at_time(system, t), y, slope)
         h = initial_step(system, t, y, slope, c, controls, end - t)
-        i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
+        i = np.int64(0)  # numba types a literal 0 separately and would compile `observe` twice
         observe(system, y, i, record)
         i += 1
         steps, rejected, evaluations = 0, 0, 2
         most_growth = 6.0
         overflowed = not h < np.inf
         shortest = SMALLEST_PART * (end - t)
-        if h <= shortest:  # a first guess only: data at rest would otherwise be refused
+        if h <= shortest:  # the first guess may be too short, and is no reason to stop
             h = 2.0 * shortest
         while i < times.size:
             if stop[0]:
                 return Outcome(INTERRUPTED, t, steps, rejected, evaluations)
-            if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
+            if h * (1.0 + 1e-9) >= end - t:  # avoid a last step of the size of a rounding error
                 h = end - t
             if not h > shortest:  # also where h is NaN
                 status = NOT_FINITE if overflowed else STEP_TOO_SMALL
@@ -333,7 +350,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=
             steps += 1
             h *= min(most_growth, max(1 / 3, factor))
             most_growth = 6.0
-        if steps % 2:  # the two states have changed places
+        if steps % 2:  # `state` is a work array
             copy(state, y)
         return Outcome(DONE, t, steps, rejected, evaluations)
 

@@ -1,14 +1,17 @@
-"""Implicit steps by fixed-point iteration: what the schemes of `crank_nicolson` share.
+"""Implicit steps by fixed-point iteration, as the schemes of `crank_nicolson` need them.
 
-All solve new = base + part G(new) for the new state, see `crank_nicolson`. They share no step
-control and no error estimate with the explicit methods.
+A step solves new = base + factor G(new) for the new state. It has no step control or error
+estimate in common with the explicit methods.
 
-The iteration starts from the extrapolation of the last six steps by a polynomial, and stops when
-the largest change of a part (real or imaginary) falls below tolerance * |y|, where |y| is the
-largest part at the last output. Where the changes do not shrink, or not far enough within the
-allowed count, the step is halved until they do: each halving is counted as a rejected step, and the
-run ends with a fault where halving does not help.
+The iteration starts from a polynomial extrapolation of the last six steps. It stops when no number
+changes by more than tolerance * |y|, where |y| is the largest number in the state at the previous
+output. If the changes do not shrink, or are too large after the allowed number of iterations, the
+step is halved until the iteration converges. Each halving is counted as a rejected step. If halving
+does not help, the run ends with an error status.
 """
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -18,33 +21,35 @@ from latticode.kernels.simd import largest_in_rows, zero_below
 from . import DONE, INTERRUPTED, NO_CONTRACTION, NOT_FINITE, Outcome
 from .rest import OF_STAGES, rest_level
 
+Array = np.ndarray
+
 PAST = 6
-"""Increments that the first guess is extrapolated from."""
+"""Number of increments from which the first guess is extrapolated."""
 WORK = 4 + PAST
-"""Work arrays of the size of a state."""
+"""Number of work arrays of the size of a state."""
 SAME = 1e-12
-"""Steps whose lengths differ by this part are one length, since times of outputs are rounded."""
+"""Steps count as equal up to this relative difference, because output times are rounded."""
 SMALLEST_FRACTION = 2.0**-20
-"""The part of a step below which halving it is given up."""
+"""A step is not divided into fractions smaller than this."""
 
 
 @kernel
-def update(base, fraction, slope, threshold, new):
-    """Set new = base + part slope; return the largest change of a part, NaN where there is one.
+def update(base: Array, factor: float, slope: Array, threshold: float, new: Array) -> float:
+    """Set new = base + factor slope; return the largest change of a number, or NaN if one is NaN.
 
     `slope` is overwritten by the changes.
     """
     for row in range(base.shape[0]):
         for j in range(1, base.shape[1] - 1):
-            value = zero_below(threshold, base[row, j] + fraction * slope[row, j])
+            value = zero_below(threshold, base[row, j] + factor * slope[row, j])
             slope[row, j] = abs(value - new[row, j])
             new[row, j] = value
     return largest_in_rows(slope, base.shape[0])
 
 
 @kernel
-def size(y):
-    """Return the largest absolute value of a part."""
+def size(y: Array) -> float:
+    """Return the largest absolute value in a state, without ghost columns."""
     largest = 0.0
     for row in range(y.shape[0]):
         for j in range(1, y.shape[1] - 1):
@@ -53,12 +58,12 @@ def size(y):
 
 
 @kernel
-def extrapolate(old, past, latest, new):
-    """Guess `new` from the last six increments; `latest` is the place of the newest in the ring.
+def extrapolate(old: Array, past: Array, latest: int, new: Array) -> None:
+    """Write a guess into `new`: `old` plus an extrapolation of the last six increments.
 
-    A polynomial of degree five through six increments gives the next one the binomial weights
-    6, -15, 20, -15, 6, -1. Before six steps are taken the missing increments are zero: the guess is
-    worse, which costs a few iterations. Terms of one sign are summed first, in pairs.
+    `latest` is the index of the newest increment in the ring buffer `past`. A polynomial of degree
+    five has the binomial weights 6, -15, 20, -15, 6, -1. In the first six steps the missing
+    increments are zero, which costs a few more iterations. Terms of equal sign are summed first.
     """
     a, b, c = past[latest], past[latest - 1], past[latest - 2]
     d, e, f = past[latest - 3], past[latest - 4], past[latest - 5]
@@ -70,8 +75,8 @@ def extrapolate(old, past, latest, new):
 
 
 @kernel
-def accept(old, new, increment):
-    """Keep the increment of this step for later guesses, and move `old` on to `new`."""
+def accept(old: Array, new: Array, increment: Array) -> None:
+    """Store the increment of this step for later guesses, and copy `new` to `old`."""
     for row in range(old.shape[0]):
         for j in range(old.shape[1]):
             increment[row, j] = new[row, j] - old[row, j]
@@ -79,8 +84,8 @@ def accept(old, new, increment):
 
 
 @kernel
-def is_finite(y):
-    """Return whether no part of `y` is infinite or NaN."""
+def is_finite(y: Array) -> bool:
+    """Return whether all numbers of a state are finite."""
     for row in range(y.shape[0]):
         for j in range(y.shape[1]):
             if not abs(y[row, j]) < np.inf:
@@ -88,20 +93,20 @@ def is_finite(y):
     return True
 
 
-def build(begin, slope, observe):
-    """Return the solver whose step, new = base + part G(new), two functions describe.
+def build(begin: Callable, slope: Callable, observe: Callable) -> Callable:
+    """Return the solver with the step new = base + factor G(new), defined by two functions.
 
-    begin(system, old, h, follows, scratch) returns `base` and `part`, which are then kept for all
-    iterations of the step, and how many right-hand sides that took. `base` may be `scratch`, which
-    holds what it held after the step before if this step `follows` one of the same length.
+    begin(system, old, h, follows, scratch) returns `base`, `factor` and the number of evaluations
+    of the right-hand side that it made. `base` may be in `scratch`, which still has its content
+    from the previous step if this step `follows` one of the same length.
     slope(system, old, new, scratch, dy) writes G(new) into dy; its `scratch` is another array.
 
-    The distance between two outputs is covered in equal steps, none longer than `step`.
+    The time between two outputs is divided into equal steps, none longer than `step`.
     """
 
     @uncached
     def iterate(system, old, new, h, threshold, follows, scratch, enough, most):
-        """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
+        """Iterate `new`; return whether it converged, and the number of evaluations."""
         base, factor, evaluations = begin(system, old, h, follows, scratch[0])
         last = np.inf
         for count in range(1, most + 1):
@@ -109,7 +114,7 @@ def build(begin, slope, observe):
             change = update(base, factor, scratch[2], threshold, new)
             if change <= enough:
                 return True, evaluations + count
-            # the first change is that of the guess, which may be anything
+            # the first change depends on the guess and says nothing about convergence
             if not change < np.inf or (count > 2 and change >= last):
                 return False, evaluations + count
             last = change
@@ -117,10 +122,10 @@ def build(begin, slope, observe):
 
     @uncached
     def halve(system, old, new, h, threshold, scratch, enough, most, stop):
-        """Cover `h` in equal parts, halved until the iteration contracts.
+        """Divide `h` into shorter steps, halved until the iteration converges.
 
-        Return whether that worked, the number of halvings, and the evaluations. A step may be cut
-        into a million parts, so the flag is read at each of them.
+        Return whether it did, the number of halvings, and of evaluations. There may be a million
+        short steps, so the flag `stop` is read at each.
         """
         fraction, covered = 0.5, 0.0
         halvings, evaluations = 1, 0
@@ -142,11 +147,13 @@ def build(begin, slope, observe):
         return True, halvings, evaluations
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record, stop):
+    def solve(
+        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
+    ) -> Outcome:
         step, tolerance, most = controls
         new, scratch, past, threshold = work[0], work[1:4], work[4:], rest_level(y, OF_STAGES)
         next_past = steps = rejected = evaluations = 0
-        last = 0.0  # length of the step before; 0 if there was none, or if it was halved
+        last = 0.0  # length of the previous step; 0 if there was none, or if it was halved
         for i in range(times.size):
             span = times[i] - times[max(i - 1, 0)]
             step_count = int(np.ceil(span / step * (1.0 - 1e-12)))

@@ -1,12 +1,15 @@
-"""Kahan and Li's symmetric composition of order eight: 17 Stoermer-Verlet steps make one.
+"""Kahan and Li's symmetric composition of order eight: each step consists of 17 Verlet substeps.
 
-W. Kahan and R.-C. Li, Mathematics of Computation 66 (1997) 1089; the coefficients stand in E.
+Source: W. Kahan and R.-C. Li, Mathematics of Computation 66 (1997) 1089. The coefficients are in E.
 Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2nd edition (Springer, 2006),
-section V.3.2. It is for systems x' = v, v' = f(x, t): the rows of a state are pairs of x and v.
-Each small step drifts by half its length, kicks by the whole, and drifts by the other half, and f
-is taken at the time that the drifts have reached. Drifts and kicks are symplectic, so that the
-energy of a system that has one errs but does not drift.
+section V.3.2. The equations are x' = v, v' = f(x, t), and rows of a state are pairs of x and v.
+Each Stoermer-Verlet substep is a drift by half its length, a kick by its whole length, and a drift
+by half its length. The kick evaluates f at the time reached by the drifts. Drifts and kicks are
+symplectic, so the error of a conserved energy does not grow.
 """
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -17,8 +20,10 @@ from . import DONE, INTERRUPTED, Outcome
 from .autonomous import at_any_time
 from .rest import OF_STAGES, rest_level
 
+Array = np.ndarray
+
 WORK = 1
-"""Work arrays of the size of a state."""
+"""Number of work arrays of the size of a state."""
 
 _OUTER = (
     0.13020248308889008087881763,
@@ -32,18 +37,21 @@ _OUTER = (
 )
 _MIDDLE = -0.60550853383003451169892108
 KICKS = np.array([*_OUTER, _MIDDLE, *_OUTER[::-1]])
-"""Parts of a step that the small steps take, and so the kicks."""
+"""Lengths of the substeps and thus of the kicks, as fractions of a step."""
 DRIFTS = 0.5 * (np.append(0.0, KICKS) + np.append(KICKS, 0.0))
-"""Parts of a step between the kicks, before the first and behind the last among them."""
+"""Lengths of the drifts before, between and after the kicks, as fractions of a step."""
 NODES = np.cumsum(KICKS) - 0.5 * KICKS
-"""The part of the step at which each kick stands."""
+"""Times of the kicks, as fractions of a step."""
 
 
 @kernel
-def add_rows(y, first, slope, first_slope, h, threshold):
-    """Add h times every second row of `slope`, from `first_slope` on, to those of `y`.
+def add_rows(
+    y: Array, first: int, slope: Array, first_slope: int, h: float, threshold: float
+) -> None:
+    """Add h times every second row of `slope` to every second row of `y`.
 
-    These begin at `first`.
+    The rows begin at `first_slope` in `slope` and at `first` in `y`. Sums below `threshold` become
+    zero.
     """
     for row in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
@@ -51,14 +59,16 @@ def add_rows(y, first, slope, first_slope, h, threshold):
             y[row + first, j] = zero_below(threshold, value)
 
 
-def build(rates, observe, at_time=at_any_time):
-    """Return the solver of y' = rates, of the kind that is said above; see the package.
+def build(rates: Callable, observe: Callable, at_time: Callable = at_any_time) -> Callable:
+    """Return the solver of y' = rates with rows x, v; the package describes its arguments.
 
-    The distance between two outputs is covered in equal steps, none longer than `step`.
+    The time between two outputs is divided into equal steps, none longer than `step`.
     """
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record, stop):
+    def solve(
+        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
+    ) -> Outcome:
         (step,) = controls
         slope, steps, threshold = work[0], 0, rest_level(y, OF_STAGES)
         for i in range(times.size):
@@ -71,7 +81,7 @@ def build(rates, observe, at_time=at_any_time):
                 if stop[0]:
                     return Outcome(INTERRUPTED, t, steps, 0, KICKS.size * steps)
                 for stage in range(KICKS.size):
-                    # the last drift of a step and the first of the next are one
+                    # the last drift of a step is joined to the first of the next
                     joined = 2.0 if stage == 0 and step_number > 0 else 1.0
                     add_rows(y, 0, y, 1, joined * DRIFTS[stage] * h, threshold)
                     rates(at_time(system, t + NODES[stage] * h), y, slope)

@@ -20,6 +20,7 @@ changes the course of a chaotic run. Here fifth roots use only + - * / and are t
 
 from collections.abc import Callable
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -165,11 +166,13 @@ def build(
     rate_of = relative_rate_of_reals if of_reals else relative_rate
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record, stop):
+    def solve(
+        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
+    ) -> Outcome:
         rtol, atol = controls
         threshold = atol / rtol
         t, end = times[0], times[-1]
-        longest, refused = 0.1 * (end - t), SMALLEST_PART * (end - t)
+        longest, too_short = 0.1 * (end - t), SMALLEST_PART * (end - t)
         k, w, out = work[:7], work[7], work[8]
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
         rest = rest_level(y, OF_STAGES)
@@ -185,7 +188,7 @@ def build(
             h = min(longest, max(shortest, h))
             if 1.1 * h >= end - t:  # lengthen the last step instead of adding a very short one
                 h = end - t
-            elif not h > refused:  # also where h is NaN
+            elif not h > too_short:  # also where h is NaN
                 return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
             failed = False
             while True:  # shrink h until the step passes; as a function it would take 7 % longer

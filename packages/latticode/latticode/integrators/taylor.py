@@ -250,7 +250,9 @@ def build(
     driven = at_time is not at_any_time
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record, stop):
+    def solve(
+        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
+    ) -> Outcome:
         rtol, atol = controls
         t, end = times[0], times[-1]
         series = lay_out(work, y)
