@@ -27,7 +27,7 @@ def entries_of(matrix: Any, sites: range) -> Entries:
         matrix = call_on_sites(matrix, np.array(sites))
     if isinstance(matrix, Mapping):
         if matrix.keys() != {"sites", "rows", "columns", "weights"}:
-            raise ValueError("is a mapping; give a matrix as nested lists, or as an array")
+            raise ValueError("is a mapping; give a matrix as nested lists or an array")
         _require_sites((matrix["sites"], matrix["sites"]), len(sites))
         return matrix
     rows, columns, weights = _nonzero(matrix, len(sites))
@@ -54,21 +54,20 @@ def _nonzero(matrix: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarra
         try:
             matrix = np.asarray(matrix)
         except ValueError:
-            raise ValueError("is a matrix whose rows are not of one length") from None
+            raise ValueError("is a matrix with rows of different lengths") from None
         _require_sites(matrix.shape, count)
         rows, columns = np.nonzero(matrix)
         weights = matrix[rows, columns]
     if weights.dtype.kind not in "iufb":
-        kind = "complex" if weights.dtype.kind == "c" else "no numbers"
-        hint = "; give its real and imaginary parts as two matrices" * (kind == "complex")
-        raise ValueError(f"is a matrix of {kind}, but couple takes real numbers{hint}")
+        hint = "; give real and imaginary parts as two matrices" * (weights.dtype.kind == "c")
+        raise ValueError(f"is a matrix of type {weights.dtype}; couple needs real numbers{hint}")
     return rows, columns, weights
 
 
 def _require_sites(shape: tuple[int, ...], count: int) -> None:
     if shape != (count, count):
         size = " x ".join(map(str, shape)) or "one number"
-        raise ValueError(f"is {size}; couple takes a matrix of {count} x {count} for {count} sites")
+        raise ValueError(f"is {size}; couple needs a {count} x {count} matrix for {count} sites")
 
 
 def at_middle(values: Any, half_width: int) -> Any:
@@ -82,7 +81,7 @@ def at_middle(values: Any, half_width: int) -> Any:
 
 
 def _middle_of(entries: Entries, half_width: int) -> Entries:
-    """Return the entries whose row and column lie on the middle sites -M..M of a longer chain."""
+    """Return the entries of a longer chain's matrix with row and column on the sites -M..M."""
     margin, count = entries["sites"] // 2 - half_width, len(chain_sites(half_width))
     rows, columns = (np.array(entries[name], int) - margin for name in ("rows", "columns"))
     inside = (rows >= 0) & (rows < count) & (columns >= 0) & (columns < count)
@@ -95,7 +94,7 @@ def _middle_of(entries: Entries, half_width: int) -> Entries:
 
 
 def largest_row_sum(entries: Entries) -> float:
-    """Return the largest row sum of magnitudes, the norm of the matrix induced by the max norm."""
+    """Return the largest sum of magnitudes in a row, the norm induced by the maximum norm."""
     weights = np.abs(np.array(entries["weights"], float))
     sums = np.bincount(np.array(entries["rows"], int), weights, minlength=1)
     return float(sums.max())

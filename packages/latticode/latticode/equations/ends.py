@@ -1,11 +1,10 @@
 """Boundary conditions of a chain in one table: neighbours beyond the ends, modes and names.
 
-All code that depends on the ends of a chain reads this table and raises ValueError for ends that
-it does not know.
+All code that depends on the boundary reads this table, and raises ValueError for an unknown name.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,13 +14,14 @@ from latticode.numerics import elementary
 class Ends(NamedTuple):
     """One boundary condition at both ends of a chain.
 
-    `sees` holds the indices (first, last) of the sites whose values, times `factor`, replace the
-    missing neighbours of the first and of the last site; None means neighbours at rest. Beyond a
-    free end the chain continues as its mirror image, with the mirror half a site beyond the end.
+    The missing neighbour of the first site has `factor` times the value of the site with index
+    sees[0], that of the last site has `factor` times the value of sees[1]. If `sees` is None, the
+    missing neighbours are at rest. Beyond a free end the chain continues as its mirror image, with
+    the mirror half a site beyond the end.
 
-    Mode k of N sites has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian;
-    mode(k, j, N) returns its values on the sites j, and the modes are orthonormal. `label` is
-    printed in the titles of figures.
+    Mode k of N sites has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian.
+    mode(k, j, N) returns its values on the sites j; the modes are orthonormal. `label` is printed
+    in the titles of figures.
     """
 
     sees: tuple[int, int] | None
@@ -31,27 +31,27 @@ class Ends(NamedTuple):
     factor: float = 1.0
 
 
-def _sine(k, j, sites: int):
-    # Angles are reduced to one turn in integers: on long chains this loses no digits.
+def _sine(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
+    # integers reduce angles to one turn, without loss of digits on long chains
     turns = (k + 1) * (j + 1) % (2 * (sites + 1)) / (2 * (sites + 1))
     return np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns)
 
 
-def _cosine(k, j, sites: int):
+def _cosine(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
     turns = k * (2 * j + 1) % (4 * sites) / (4 * sites)
     weights = np.where(k == 0, np.sqrt(1 / sites), np.sqrt(2 / sites))
     return weights * elementary.cos(2 * np.pi * turns)
 
 
-def _wave(k, j, sites: int):
-    # cos + sin gives real modes: k and N - k are the two waves of one wavelength
+def _wave(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
+    # cos + sin gives real modes; k and N - k are the two modes of one wavelength
     turns = k * j % sites / sites
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
     return np.sqrt(1 / sites) * (cosine + sine)
 
 
-def _half_wave(k, j, sites: int):
-    # half a turn more along the ring changes the sign once around it
+def _half_wave(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
+    # half a turn more around the ring changes the sign
     turns = (2 * k + 1) * j % (2 * sites) / (2 * sites)
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
     return np.sqrt(1 / sites) * (cosine + sine)
@@ -90,17 +90,18 @@ ENDS = {
 def ends_of(boundary: str) -> Ends:
     """Return the boundary condition named `boundary`; raises ValueError for an unknown name."""
     if boundary not in ENDS:
-        raise ValueError(f"there are no ends {boundary!r}; there are {', '.join(ENDS)}")
+        raise ValueError(f"unknown boundary {boundary!r}; use one of {', '.join(ENDS)}")
     return ENDS[boundary]
 
 
 DIRICHLET, FREE, PERIODIC, MIRROR, ANTIPERIODIC = range(5)
-"""The boundary conditions that kernels implement. The neighbour beyond an end is at rest, absent,
-or the opposite end (of opposite sign if antiperiodic); MIRROR is site 0 of half an even chain."""
+"""The ends that kernels implement. The neighbour beyond an end is at rest (DIRICHLET), absent
+(FREE), or the opposite end, with a change of sign if antiperiodic. MIRROR is site 0 of half an even
+chain."""
 
 
 def kind_of(boundary: str) -> int:
-    """Return the number of these ends in kernels; raises ValueError if no kernel has them."""
+    """Return the number of a boundary in kernels; raises ValueError if they do not implement it."""
     kinds = {
         (None, 1.0): DIRICHLET,
         ((0, -1), 1.0): FREE,
@@ -110,7 +111,7 @@ def kind_of(boundary: str) -> int:
     ends = ends_of(boundary)
     if (ends.sees, ends.factor) not in kinds:
         seen = f"the sites {ends.sees}" + ("" if ends.factor == 1.0 else f", times {ends.factor:g}")
-        raise ValueError(f"the ends {boundary!r} see {seen}, which no kernel implements")
+        raise ValueError(f"no kernel implements the ends {boundary!r}, which see {seen}")
     return kinds[ends.sees, ends.factor]
 
 
@@ -121,6 +122,6 @@ def neighbours(values: np.ndarray, boundary: str) -> tuple[np.ndarray, np.ndarra
     ends = ends_of(boundary)
     if ends.sees:
         left[..., 0], right[..., -1] = (values[..., place] for place in ends.sees)
-    if ends.factor < 0.0:  # a change of sign, unlike a product with -1.0, keeps exact numbers exact
+    if ends.factor < 0.0:  # unlike a product with -1.0, this keeps integers and other exact types
         left[..., 0], right[..., -1] = -left[..., 0], -right[..., -1]
     return right, left

@@ -36,7 +36,7 @@ class Node:
     latticode.generation.series_graph.
     """
 
-    def __init__(self, operation: str, *operands):
+    def __init__(self, operation: str, *operands: Any) -> None:
         self.operation, self.operands = operation, operands
 
     @property
@@ -126,7 +126,7 @@ def sub(a: Node, b: Node) -> Node:
 
 
 def mul(a: Node, b: Node) -> Node:
-    """Return a b, the factor of the lower level first."""
+    """Return a b; the factor with the lower level comes first."""
     if a.level > b.level or (is_number(b) and not is_number(a)):
         a, b = b, a
     if a.operation == "neg":
@@ -222,7 +222,7 @@ def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | N
 def shifted(a: Node, by: int) -> Node:
     """Return the expression at the site n + `by`."""
 
-    def moved(entry: Node, _) -> Node | None:
+    def moved(entry: Node, _: list[Node]) -> Node | None:
         if entry.operation not in ("field", "parameter"):
             return None
         return node(entry.operation, *entry.operands[:-1], entry.operands[-1] + by)
@@ -242,11 +242,11 @@ ARITHMETIC = {
 
 
 def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) -> list:
-    """Return the values of the nodes for leaves that have the values value(leaf).
+    """Return the values of the nodes, computed from the values value(leaf) of their leaves.
 
     Values may be of any type with arithmetic: arrays, multiprecision numbers, or integers if no
-    constant is a fraction. `functions` provides sin, cos, exp, log and sqrt of this type; `where`
-    is NumPy's.
+    constant is a fraction. `functions` has sin, cos, exp, log and sqrt for this type; `where` is
+    NumPy's.
     """
     leaves, compute = _as_function(tuple(nodes))
     return compute([*map(value, leaves)], functions)
@@ -254,9 +254,9 @@ def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) 
 
 @lru_cache(64)
 def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
-    """Return the leaves of the nodes and the function from leaf values to node values.
+    """Return the leaves of the nodes and the function that computes node values from leaf values.
 
-    It is compiled from source: walking the graph would dominate repeated evaluations.
+    It is compiled from source, because walking the graph would dominate repeated evaluations.
     """
     order = in_order(nodes)
     names = {entry: f"v{i}" for i, entry in enumerate(order)}
@@ -275,7 +275,7 @@ def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
 
 
 def _times(matrix: Any, values: Any) -> Any:
-    """Return a matrix times the values at all sites; a scalar `matrix` just multiplies them."""
+    """Return a matrix times the values at all sites; `matrix` may also be a scalar factor."""
     if np.ndim(matrix) == 0:
         return matrix * values
     return matrix @ np.broadcast_to(values, matrix.shape[:1])
@@ -286,7 +286,7 @@ def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[No
     derivatives: dict[Node, Node] = {}
 
     def of_sum(build: Callable, a: Node, b: Node) -> Node:
-        """Return the derivative of a + b or a - b; if b = c d, add c d' and then c' d to a'."""
+        """Return the derivative of a + b or a - b; for b = c d in the order (a' + c d') + c' d."""
         if b.operation != "mul" or b.operands[0] is b.operands[1]:
             return build(derivatives[a], derivatives[b])
         c, d = b.operands

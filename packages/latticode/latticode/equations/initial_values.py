@@ -26,13 +26,13 @@ the full state in double precision."""
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class InitialValueProblem:
-    """One initial-value problem.
+    """An initial-value problem with its solver.
 
     parameters: values that replace the defaults of the model.
-    initial: complex (component, 2r + 1), the fields on the sites -r..r at the start; sites beyond
-        are at rest. With `site_count`, (component, N).
+    initial: the fields at the start, complex (component, 2r + 1) on the sites -r..r; all other
+        sites are at rest. With `site_count`, (component, N).
     half_width: M of a chain with the sites -M..M; None for an infinite chain.
-    site_count: N of a chain with the sites 0..N-1, in place of `half_width`.
+    site_count: N of a chain with the sites 0..N-1, instead of `half_width`.
     start_time, end_time, output_step: times in the unit of the equations.
     snapshot_every: number of outputs between two snapshots of all fields; 0 for none.
     snapshots_at: indices of outputs; if not empty, only these are snapshots.
@@ -55,14 +55,15 @@ class InitialValueProblem:
     keep: str = "moduli"
     site_count: int | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         ends_of(self.boundary)
         initial, fields = np.array(self.initial, complex), self.model.fields
         expected = (
             "an odd number of sites" if self.site_count is None else f"{self.site_count} sites"
         )
         if initial.ndim != 2 or len(initial) != len(fields) or not self._fits(initial.shape[1]):
-            raise ValueError(f"data of {' and '.join(fields)} on {expected}, not {initial.shape}")
+            text = f"initial has the shape {initial.shape}; give a row for each field"
+            raise ValueError(f"{text} ({', '.join(fields)}) with {expected}")
         if self.half_width is not None and self.site_count is None:
             require_inside(initial.shape[1] // 2, self.half_width)
         if self.model.form == "dt":
@@ -81,14 +82,14 @@ class InitialValueProblem:
 
     @classmethod
     def of(cls, values: Mapping) -> Self:
-        """Return the problem that a mapping of plain values describes (see `plain`)."""
+        """Return the problem with the values that `plain` returned."""
         model = values["model"]
         model = model if isinstance(model, Model) else Model.of_plain(model)
         initial = on_sites(values["initial"], len(model.fields), values.get("site_count"))
         return cls(**{**values, "initial": initial, "model": model})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values, with its data by site and its model as a graph."""
+        """Return the problem as plain values: its data as {site: fields}, its model as a graph."""
         counted = {} if self.site_count is None else {"site_count": self.site_count}
         return {
             "half_width": self.half_width,
@@ -106,8 +107,8 @@ class InitialValueProblem:
             "parameters": dict(self.parameters),
         }
 
-    def changed(self, **changes) -> Self:
-        """Return the problem with some values changed, model parameters by their names.
+    def changed(self, **changes: Any) -> Self:
+        """Return the problem with some values changed; parameters may be given by name.
 
         On a shorter chain, parameters keep their values on the middle sites.
         """
@@ -158,12 +159,12 @@ class InitialValueProblem:
 
     @property
     def data_by_site(self) -> dict[int, tuple[complex, ...]]:
-        """The fields {site: (A, B)} at the start, without the sites at rest."""
+        """The fields at the start as {site: (A, B)}, without the sites at rest."""
         return by_site(self.initial, self.first_site_of_data)
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """The fields at the start on the full chain, complex (component, N)."""
+        """The fields at the start on the whole chain, complex (component, N)."""
         if self.site_count is not None:
             return self.initial
         return place(self.initial, self.half_width)
@@ -220,7 +221,7 @@ def on_sites(
 ) -> np.ndarray:
     """Return data {site: (A, B)} as amplitudes (field, 2r + 1) on the sites -r..r.
 
-    With a `site_count` N, the shape is (field, N) and the sites are 0..N-1.
+    With a `site_count` N they are (field, N) on the sites 0..N-1.
     """
     sites = chain_sites(max(map(abs, initial), default=0), site_count)
     amplitudes = np.zeros((fields, len(sites)), complex)
@@ -234,8 +235,8 @@ def by_site(
 ) -> dict[int, tuple[complex, ...]]:
     """Return amplitudes (field, 2r + 1) as {site: (A, B)}, without the sites at rest.
 
-    If all sites are at rest, the result holds the central one only. The first column belongs to
-    `first_site`, by default -r.
+    If all sites are at rest, the result contains only the central one. `first_site` is the site of
+    the first column, by default -r.
     """
     reach = amplitudes.shape[1] // 2
     first = -reach if first_site is None else first_site

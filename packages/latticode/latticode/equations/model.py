@@ -9,17 +9,15 @@ A model is a Python file such as this one (see docs/own_models.md):
 
 `i_dt` returns i du_n/dt of each complex field. For real fields, write `dt`, which returns dx_n/dt,
 or `d2_dt2`, which returns d^2 x_n/dt^2 and may take the velocities after the fields:
-d2_dt2(p, x, v) or d2_dt2(p, x, y, vx, vy). `p` holds the parameters and the time `p.t`. The
-function is called with symbols in place of numbers; these record each operation in a graph
-(`symbols`, `graph`).
+d2_dt2(p, x, v) or d2_dt2(p, x, y, vx, vy). `p` has the parameters and the time `p.t`. The function
+is called with symbols instead of numbers; they record each operation in a graph (`symbols`,
+`graph`).
 """
 
 import inspect
 import json
 from collections.abc import Callable, Iterable, Mapping
-from difflib import get_close_matches
 from functools import cache, cached_property
-from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
@@ -31,21 +29,18 @@ from .graph import (
     MOTION,
     ZERO,
     Node,
-    add,
     derivative,
-    evaluate,
     in_order,
     leaf,
     leaves_in,
     neg,
     node,
     number,
-    rebuilt,
-    sub,
-    switches,
 )
 from .model_file import BEFORE, SEED, placed, run_file, same, values_at
+from .names import Parameters, require_names
 from .rate_bounds import Slopes, bound_rate, slopes_of
+from .rate_properties import are_even, continue_real_equations, vanishes, why_no_series
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
 
 __all__ = [
@@ -64,26 +59,6 @@ __all__ = [
 ]
 
 
-RESERVED = {
-    "model",
-    "parameters",
-    "half_width",
-    "boundary",
-    "initial",
-    "end_time",
-    "output_step",
-    "snapshot_step",
-    "snapshot_every",
-    "snapshots_at",
-    "start_time",
-    "times",
-    "keep",
-    "solver",
-    "component",
-    "member",
-}
-"""Names forbidden for parameters: keys of a case, and dimensions of its datasets."""
-ALL_FIELDS = "pair"
 FORMS = ("i_dt", "dt", "d2_dt2")
 """The names of the functions that define the equations; a model has exactly one of them."""
 
@@ -116,15 +91,17 @@ class Model:
         conserved: Callable | None = None,
         name: str = "model",
         text: str = "",
-    ):
+    ) -> None:
         equations = dict(zip(FORMS, (i_dt, dt, d2_dt2), strict=True))
         forms = [form for form, function in equations.items() if function is not None]
         if len(forms) != 1:
-            raise ModelError(f"{name} needs one function, i_dt, dt or d2_dt2")
-        self.fields = _names("fields", (fields,) if isinstance(fields, str) else fields, name)
+            raise ModelError(f"{name} needs exactly one of the functions i_dt, dt and d2_dt2")
+        self.fields = require_names(
+            "fields", (fields,) if isinstance(fields, str) else fields, name
+        )
         if not isinstance(parameters, Mapping):
-            raise ModelError(f"{name}: parameters is not a dictionary of names with their values")
-        _names("parameters", parameters, name)
+            raise ModelError(f"{name}: parameters must be a dictionary of names and values")
+        require_names("parameters", parameters, name)
         self.parameters, self.name = dict(parameters), name
         self.form = forms[0]
         functions = [equations[self.form], *([conserved] if conserved else [])]
@@ -146,14 +123,14 @@ class Model:
         try:
             text = path.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
-            why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
+            why = getattr(error, "strerror", None) or "it is not UTF-8 text"
             raise ModelError(f"{path} cannot be read: {why}") from None
         model, reread = (cls._of_run(run_file(path, text), path.name, text) for _ in range(2))
         if reread.plain["nodes"] != model.plain["nodes"]:
-            raise ModelError(f"{path.name} gives other equations each time. {SEED}")
+            raise ModelError(f"{path.name} gives different equations each time. {SEED}")
         for name, value in model.parameters.items():
             if not (callable(value) or same(value, reread.parameters.get(name))):
-                raise ModelError(f"{path.name} gives {name} another value each time. {SEED}")
+                raise ModelError(f"{path.name} gives {name} a different value each time. {SEED}")
         return model
 
     @classmethod
@@ -169,7 +146,7 @@ class Model:
 
     @cached_property
     def plain(self) -> dict[str, Any]:
-        """The model as plain values; `of_plain` restores it without running its code."""
+        """The model as plain values, from which `of_plain` restores it without running its code."""
         roots = (*self.rates, *self.conserved.values())
         order = in_order(roots)
         place = {entry: i for i, entry in enumerate(order)}
@@ -192,13 +169,13 @@ class Model:
 
     @classmethod
     def of_plain(cls, values: Mapping[str, Any]) -> "Model":
-        """Return the model of `plain` values; a problem supplies its parameters."""
+        """Return the model of `plain` values, without parameters; a problem supplies these."""
         return _of_json(json.dumps(values))
 
     # --- The trace
 
     def _called(self, function: Callable) -> Any:
-        """Return the result of a model function for symbols (and velocities, if it takes them)."""
+        """Return the result of a model function called with symbols for fields and velocities."""
         values = [
             Value(leaf(c, 0), ZERO if self.real else leaf(c, 1)) for c in range(len(self.fields))
         ]
@@ -210,7 +187,7 @@ class Model:
             more = f", or ({named}, and a velocity of each)" * self.second_order
             raise ModelError(f"{self.name}: {function.__name__} must take ({named}){more}")
         try:
-            return function(_Parameters(self.parameters), *symbols)
+            return function(Parameters(self.parameters), *symbols)
         except Exception as error:
             place = function.__code__.co_filename
             raise ModelError(placed(error, place, self.text, self.name)) from None
@@ -233,12 +210,12 @@ class Model:
 
         def real_node(returned: Any) -> Node:
             value = Value.of(returned)
-            if not _vanishes(value.im):
+            if not vanishes(value.im):
                 raise ModelError(f"{function.__name__} returns a complex number; give a real one")
             if value.re.level != MOTION:
                 raise ModelError(f"{function.__name__} depends on no field")
             if leaves_in([value.re], "matrix"):
-                raise ModelError(f"{function.__name__} has a couple(p.W, u), which only rates have")
+                raise ModelError(f"{function.__name__} uses couple(p.W, u): only rates may do so")
             return value.re
 
         return self._twice(function, real_node)
@@ -246,19 +223,19 @@ class Model:
     def _twice(self, function: Callable, nodes_of: Callable) -> Any:
         """Return nodes_of(result) for a function of the model, traced twice.
 
-        Equal expressions are the same node, so the traces differ if the function draws random
-        numbers or counts its calls. Such values would be frozen at the first call and not recorded.
+        Raises ModelError if the traces differ, because the function draws random numbers or counts
+        its calls. Such values would be fixed at the first call, and not recorded in datasets.
         """
         nodes, retraced = (nodes_of(self._called(function)) for _ in range(2))
         if retraced != nodes:
             name = function.__name__
-            raise ModelError(f"{self.name}: {name} gives other equations each time. {BEFORE}")
+            raise ModelError(f"{self.name}: {name} gives different equations each time. {BEFORE}")
         return nodes
 
     def _rates_of(self, returned: Any) -> tuple[Node, ...]:
         """Return the rates of all rows from the result of `i_dt`, `dt` or `d2_dt2`."""
         if returned is None:
-            raise ModelError(f"{self.name} returns nothing: its function needs a return")
+            raise ModelError(f"{self.name}: {self.form} returns nothing; add a return statement")
         values = returned if isinstance(returned, tuple | list) else (returned,)
         values = [Value.of(value) for value in values]
         if len(values) != len(self.fields):
@@ -276,52 +253,48 @@ class Model:
     def _require_real_fields_to_move(self) -> None:
         """Raise ModelError if `i_dt` of a real field lacks the factor 1j.
 
-        Without it the real part, the only one that the equations read, never changes.
+        Without it the real part never changes, and the equations read only the real part.
         """
         read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         for c, field in enumerate(self.fields if self.form == "i_dt" else ()):
             real, imaginary = self.rates[2 * c : 2 * c + 2]
             read_alone = (c, 0) in read and (c, 1) not in read
-            if read_alone and _vanishes(real) and not _vanishes(imaginary):
+            if read_alone and vanishes(real) and not vanishes(imaginary):
                 raise ModelError(
-                    f"{self.name}: i_dt moves only the imaginary part of {field}, which no equation"
-                    f" reads; for real fields give dt, which returns d{field}/dt, or multiply this"
-                    " rate by 1j in i_dt"
+                    f"{self.name}: i_dt changes only the imaginary part of {field}, which no"
+                    f" equation reads; if {field} is real, define dt instead, which returns"
+                    f" d{field}/dt, or multiply this rate by 1j"
                 )
 
     def _require_matrices_apart(self) -> None:
         """Raise ModelError if a parameter is used both as a matrix and as a number."""
         nodes = (*self.rates, *self.conserved.values())
         if leaves_in(self.conserved.values(), "matrix"):
-            raise ModelError(f"{self.name}: a density in conserved has no couple(p.W, u)")
+            raise ModelError(f"{self.name}: conserved uses couple(p.W, u): only rates may do so")
         numbers = {parameter.operands[0] for parameter in leaves_in(nodes, "parameter")}
         for name in sorted(self.matrices & numbers):
-            text = f"p.{name} is a matrix in couple(p.{name}, u), and a number elsewhere"
-            raise ModelError(f"{self.name}: {text}; give two parameters")
+            text = f"p.{name} is a matrix in couple(p.{name}, u) and a number elsewhere"
+            raise ModelError(f"{self.name}: {text}; use two parameters")
 
     def _densities(self, returned: Any) -> dict[str, Node]:
         """Return the real densities by name from the result of `conserved`."""
         if not isinstance(returned, Mapping):
-            text = 'conserved returns no dictionary of densities, such as {"P": abs2(u)}'
+            text = 'conserved must return a dictionary of densities, such as {"P": abs2(u)}'
             raise ModelError(f"{self.name}: {text}")
         densities = {}
         for name, returned_value in returned.items():
-            density, description = (
-                Value.of(returned_value),
-                f"{self.name}: the density {name!r} in conserved",
-            )
-            if not _vanishes(density.im):
+            density = Value.of(returned_value)
+            description = f"{self.name}: the density {name!r} in conserved"
+            if not vanishes(density.im):
                 raise ModelError(f"{description} is complex; give its real part, (...).real")
             if leaves_in([density.re], "time"):
-                raise ModelError(
-                    f"{description} depends on the time p.t, so that it is not conserved"
-                )
+                raise ModelError(f"{description} depends on the time p.t, so it is not conserved")
             if density.re.level != MOTION:
                 raise ModelError(f"{description} depends on no field")
             densities[str(name)] = density.re
         return densities
 
-    # --- What follows from it
+    # --- Properties of the equations
 
     @property
     def real(self) -> bool:
@@ -363,19 +336,8 @@ class Model:
     @cached_property
     def even(self) -> bool:
         """Whether the equations are identical, to the last bit, with left and right exchanged."""
-
-        if self.matrices:  # their symmetry depends on their values
-            return False
-
-        def ordered(entry: Node, operands: list[Node]) -> Node | None:
-            return node("add", *sorted(operands, key=id)) if entry.operation == "add" else None
-
-        def reflected(entry: Node, operands: list[Node]) -> Node | None:
-            if entry.operation == "field":
-                return leaf(*entry.operands[:-1], -entry.operands[-1])
-            return ordered(entry, operands)
-
-        return rebuilt(self.rates, reflected) == rebuilt(self.rates, ordered)
+        # the symmetry of a matrix depends on its values
+        return not self.matrices and are_even(self.rates)
 
     @cached_property
     def separable(self) -> bool:
@@ -385,50 +347,20 @@ class Model:
 
     @cached_property
     def without_imaginary_parts(self) -> tuple[str, ...]:
-        """The complex fields whose imaginary parts never change and are never read."""
+        """The complex fields with imaginary parts that never change and are never read."""
         read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         if self.form == "d2_dt2":
             return ()
         return tuple(
             field
             for c, field in enumerate(self.fields)
-            if (c, 1) not in read and _vanishes(self.rates[2 * c + 1])
+            if (c, 1) not in read and vanishes(self.rates[2 * c + 1])
         )
 
     @cached_property
     def continues_real_equations(self) -> bool:
-        """Whether `i_dt` contains equations of real fields, such as x' = x y.
-
-        Criterion: real data stay real, the equations are nonlinear, and the rates are analytic in
-        the fields (Cauchy-Riemann equations), so that no rate reads a conjugate.
-        """
-        if self.real:
-            return False
-        draw = np.random.default_rng(1).uniform(0.5, 1.5, 1000)
-        leaves = leaves_in(self.rates, "field")
-        weights = {
-            (c, by): number(draw[i])
-            for i, (c, _, by) in enumerate(entry.operands for entry in leaves)
-        }
-
-        def along(re_im: int) -> list[Node]:
-            return derivative(
-                self.rates,
-                lambda entry: (
-                    weights[entry.operands[::2]]
-                    if entry.operation == "field" and entry.operands[1] == re_im
-                    else ZERO
-                ),
-            )
-
-        real, imaginary = along(0), along(1)
-        real_rates = rebuilt(
-            self.rates[1::2],
-            lambda entry, _: ZERO if entry.operation == "field" and entry.operands[1] else None,
-        )
-        odd = [sub(a, b) for a, b in zip(real[::2], imaginary[1::2], strict=True)]
-        odd += [add(a, b) for a, b in zip(real[1::2], imaginary[::2], strict=True)]
-        return bool(leaves_in(real, "field")) and all(map(_vanishes, [*real_rates, *odd]))
+        """Whether `i_dt` contains equations of real fields, such as x' = x y."""
+        return not self.real and continue_real_equations(self.rates)
 
     @cached_property
     def driven(self) -> bool:
@@ -437,23 +369,14 @@ class Model:
 
     @cached_property
     def why_no_series(self) -> str:
-        """The reason why solutions have no power series, "" if they have one.
-
-        At x = 0, |x| = sqrt(x * x) of a real field has a kink, but its power series would continue
-        as x or as -x.
-        """
-        if switches(self.rates):
-            return "has max, abs, sign or where, which have no power series where they switch"
-        roots = (entry for entry in in_order(self.rates) if entry.operation == "sqrt")
-        if any(root.level == MOTION and _is_sum_of_squares(*root.operands) for root in roots):
-            return "has a root of squares, such as |x|, which has no power series at 0"
-        return ""
+        """The reason why solutions have no power series, "" if they have one."""
+        return why_no_series(self.rates)
 
     def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
         """Return an upper bound of the rate, per unit time, at which fields rotate or grow.
 
-        `peak` is the largest amplitude. A function without a derivative at zero does not count for
-        fields at rest.
+        `peak` is the largest amplitude. At `peak` 0, infinite derivatives such as that of sqrt are
+        ignored.
         """
         defaults = {name: value for name, value in self.parameters.items() if not callable(value)}
         return bound_rate(len(self.rates), self._slopes, defaults | parameters, peak)
@@ -463,7 +386,7 @@ class Model:
         return slopes_of(self.rates)
 
     def tangent(self) -> "Model":
-        """Return the model of a solution and a tangent vector: the fields, then their changes."""
+        """Return the model with the fields of a solution, then those of a tangent vector."""
         count = len(self.fields)
 
         def change(entry: Node) -> Node:
@@ -494,31 +417,6 @@ def values_shown(value: Any) -> str:
     return f"{value}" if np.ndim(value) == 0 else f"{len(value)} values"
 
 
-class _Parameters:
-    """The first argument `p` of a model's functions: parameters and the time as symbols."""
-
-    no_number = (
-        "the first argument of the function holds the parameters: write (p, ...) with the fields"
-        " after p, p.name for a parameter, and p.t for the time"
-    )
-    """The message of the error raised by arithmetic with `p` itself."""
-
-    def __init__(self, names: Iterable[str]):
-        self._names = list(names)
-
-    def __getattr__(self, name: str) -> Value:
-        if name == "t":
-            return Value(node("time"))
-        if name not in self._names:
-            near = get_close_matches(name, self._names, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise ModelError(f"there is no parameter {name!r}{hint}")
-        return Value(node("parameter", name, 0))
-
-    def __getitem__(self, name: Any):
-        raise ModelError(f"write p.{name} for the parameter {name!r}")
-
-
 @cache
 def _of_json(text: str) -> Model:
     values, nodes = json.loads(text), []
@@ -537,64 +435,6 @@ def _of_json(text: str) -> Model:
         conserved={name: nodes[i] for name, i in values["conserved"].items()},
     )
     return model
-
-
-def _names(kind: str, names: Iterable[str], model: str) -> tuple[str, ...]:
-    """Return the names of fields or parameters; raises ModelError for the first invalid one."""
-    if not isinstance(names, Iterable):
-        raise ModelError(f"{model}: {kind} is {names!r}; give names, such as ('u',)")
-    checked = tuple(names)
-    for place, name in enumerate(checked):
-        why = None
-        if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
-            why = "is no name in Python; write fields = ('u', 'v') for two fields"
-            if kind == "parameters":
-                why = "is no name in Python; use letters, digits and _"
-        elif name.startswith("_"):
-            why = "begins with _; leave that out"
-        elif kind == "parameters" and name == "t":
-            why = "is the time, p.t; give the parameter another name, such as J for a hopping rate"
-        elif kind == "parameters" and name in RESERVED:
-            why = "is a key of a case or a dimension of its datasets; give it another name"
-        elif kind == "fields" and name == ALL_FIELDS:
-            why = "denotes all fields together in sweeps; give the field another name"
-        elif name in checked[:place]:
-            why = "is given twice"
-        if why:
-            raise ModelError(f"{model}: the name {name!r} in {kind} {why}")
-    if kind == "fields" and not checked:
-        raise ModelError(f"{model}: fields is empty; give the name of a field, such as ('u',)")
-    return checked
-
-
-def _is_sum_of_squares(term: Node) -> bool:
-    match term.operation, *term.operands:
-        case "mul", a, b:
-            return a is b or any(
-                factor.level < MOTION and _is_sum_of_squares(square)
-                for factor, square in ((a, b), (b, a))
-            )
-        case "div", a, b:
-            return b.level < MOTION and _is_sum_of_squares(a)
-        case "add", a, b:
-            return _is_sum_of_squares(a) and _is_sum_of_squares(b)
-    return False
-
-
-def _vanishes(entry: Node) -> bool:
-    """Return whether an expression is zero up to rounding, tested with random leaf values."""
-    if entry is ZERO:
-        return True
-    rng = np.random.default_rng(2017)
-    drawn: dict[Node, Any] = {}
-
-    def value(leaf: Node) -> Any:
-        if leaf.operation == "number":
-            return leaf.operands[0]
-        shape = (8, 8) if leaf.operation == "matrix" else 8
-        return drawn.setdefault(leaf, rng.uniform(0.5, 1.5, shape))
-
-    return bool(np.abs(evaluate([entry], value)[0]).max() < 1e-12)
 
 
 def _accepts(function: Callable, count: int) -> bool:

@@ -15,15 +15,15 @@ from .symbols import ModelError
 SEED = "If it draws random numbers, seed them: numpy.random.default_rng(1)"
 
 BEFORE = (
-    "If it draws random numbers, draw them before and give them as a parameter: "
+    "If it draws random numbers, draw them outside and pass them as a parameter: "
     'parameters = {"noise": numpy.random.default_rng(1).normal()}'
 )
 
 
 def run_file(path: Path, text: str) -> dict[str, Any]:
-    """Return the namespace of an executed file; modules in its folder are imported again.
+    """Return the namespace of an executed file, which imports the modules in its folder again.
 
-    Raises ModelError with the line of the file that fails.
+    Raises ModelError with the line that failed.
     """
     folder, namespace = path.resolve().parent, {"__file__": str(path), "__name__": path.stem}
     known, bytecode = _modules_in(folder), sys.dont_write_bytecode
@@ -46,7 +46,7 @@ def run_file(path: Path, text: str) -> dict[str, Any]:
 
 
 def _modules_in(folder: Path) -> dict[str, Any]:
-    """Return the loaded modules whose files lie in a folder."""
+    """Return the loaded modules with files in a folder, without __main__."""
     files = {name: getattr(module, "__file__", None) for name, module in sys.modules.items()}
     inside = [name for name, file in files.items() if file and Path(file).parent == folder]
     return {name: sys.modules[name] for name in inside if name != "__main__"}
@@ -83,7 +83,7 @@ def values_at(value: Any, sites: range) -> float | list[float]:
     values = _as_array(value)
     if values.shape not in ((), (len(sites),)):
         size = " x ".join(map(str, values.shape))
-        hint = "; a matrix is taken by couple(p.W, u)" if values.ndim == 2 else ""
+        hint = "; use a matrix only in couple(p.W, u)" if values.ndim == 2 else ""
         raise ValueError(f"has {size} values for {len(sites)} sites{hint}")
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
@@ -92,16 +92,16 @@ def values_at(value: Any, sites: range) -> float | list[float]:
     return values.tolist()
 
 
-def _as_array(given: Any) -> np.ndarray:
+def _as_array(value: Any) -> np.ndarray:
     """Return real numbers as an array; also converts text, because YAML reads 1e-5 as text."""
     kind = ""
     with suppress(TypeError, ValueError, OverflowError):
-        values = np.asarray(given)
+        values = np.asarray(value)
         kind = values.dtype.kind
         if kind in "iufU":
             return values.astype(float)
-    real = ", and complex; give its real and its imaginary part" if kind == "c" else ""
-    raise ValueError(f"is {_as_text(given)}, not a number or a list of one for each site{real}")
+    hint = "; give real and imaginary parts as two parameters" if kind == "c" else ""
+    raise ValueError(f"is {_as_text(value)}; give a real number, or one for each site{hint}")
 
 
 def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
@@ -113,7 +113,7 @@ def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
             text = f"is a function of the sites that fails: {type(error).__name__}: {error}"
             raise ValueError(text) from None
     if not same(first, second):
-        raise ValueError(f"is a function of the sites with other values each time. {SEED}")
+        raise ValueError(f"is a function of the sites with different values each time. {SEED}")
     return first
 
 
@@ -123,7 +123,7 @@ def same(a: Any, b: Any) -> bool:
         return a.shape == b.shape and (a != b).nnz == 0
     try:
         return bool(np.array_equal(a, b, equal_nan=True))
-    except TypeError:  # not numbers: rejected later, when the values are read
+    except TypeError:  # not numbers; these are rejected when the values are read
         return True
 
 

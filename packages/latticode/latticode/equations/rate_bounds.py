@@ -1,6 +1,6 @@
 """Upper bounds of how fast the fields of a model rotate or grow, for costs and obstacles.
 
-A bound is no result: its last bit may depend on the processor.
+Bounds are not results: their last bits may depend on the processor.
 """
 
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ from .couplings import largest_row_sum
 from .graph import Node, derivative, evaluate, leaves_in, number
 
 Slopes = tuple[list[int], tuple[Node, ...]]
-"""The rows that the rates read, and the derivatives of all rates with respect to each."""
+"""The rows that the rates read, and for each of them the derivatives of all rates."""
 
 
 def slopes_of(rates: tuple[Node, ...]) -> Slopes:

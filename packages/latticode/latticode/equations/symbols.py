@@ -3,7 +3,7 @@
 import builtins
 from functools import reduce
 from operator import index
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -29,13 +29,13 @@ from .graph import where as select
 HIGHEST_POWER = 16
 """Integer powers up to this one are products; all others are exp(exponent * log(base))."""
 KNOWN = "exp", "log", "sqrt", "sin", "cos", "abs2", "conj", "abs", "max", "sign", "where"
-"""The functions that accept fields and parameters."""
+"""The functions of fields and parameters that equations may use."""
 ARRAYS = (
     "a field is its value at one site, not an array of all sites; neighbours are u.left, u.right "
     "and shift(u, m), and a value for each site is a parameter"
 )
 LONGEST_SHIFT = 7
-"""The largest distance in sites to a neighbour: it must lie in the next vector of eight sites."""
+"""The largest distance in sites to a neighbour, which must be in the next vector of eight sites."""
 BRANCH = (
     "a comparison or a branch uses a symbol, which has no value yet; write max(a, b), "
     "where(x > 0, a, b), abs(x) or sign(x) of latticode"
@@ -51,7 +51,7 @@ class Value:
 
     __hash__ = None
 
-    def __init__(self, re: Node, im: Node = ZERO):
+    def __init__(self, re: Node, im: Node = ZERO) -> None:
         self.re, self.im = re, im
 
     @staticmethod
@@ -63,7 +63,7 @@ class Value:
             return Value(number(complex(x).real), number(complex(x).imag))
         if isinstance(x, np.ndarray):
             raise ModelError(ARRAYS)
-        text = f"{type(x).__name__} cannot be computed with; give numbers and parameters"
+        text = f"a {type(x).__name__} in an equation; use only numbers, parameters and fields"
         raise ModelError(getattr(type(x), "no_number", text))
 
     @property
@@ -86,15 +86,15 @@ class Value:
         """The value at the site n - 1."""
         return shift(self, -1)
 
-    def __add__(self, operand):
+    def __add__(self, operand: Any) -> "Value":
         operand = Value.of(operand)
         return Value(add(self.re, operand.re), add(self.im, operand.im))
 
-    def __sub__(self, operand):
+    def __sub__(self, operand: Any) -> "Value":
         operand = Value.of(operand)
         return Value(sub(self.re, operand.re), sub(self.im, operand.im))
 
-    def __mul__(self, operand):
+    def __mul__(self, operand: Any) -> "Value":
         operand = Value.of(operand)
         if self is operand or (self.re is operand.re and self.im is operand.im):
             return self._square()
@@ -103,12 +103,12 @@ class Value:
             add(mul(self.re, operand.im), mul(self.im, operand.re)),
         )
 
-    def _square(self):
+    def _square(self) -> "Value":
         product = mul(self.re, self.im)
         squares = sub(mul(self.re, self.re), mul(self.im, self.im))
         return Value(squares, mul(TWO, product))
 
-    def __truediv__(self, operand):
+    def __truediv__(self, operand: Any) -> "Value":
         operand = Value.of(operand)
         if operand.im is not ZERO:
             return self * operand.conjugate() / abs2(operand)
@@ -117,37 +117,37 @@ class Value:
         inverse = reciprocal(operand.re)
         return Value(mul(inverse, self.re), mul(inverse, self.im))
 
-    def __pow__(self, exponent):
+    def __pow__(self, exponent: Any) -> "Value":
         if isinstance(exponent, float) and exponent.is_integer():
             exponent = int(exponent)
         if not isinstance(exponent, int) or builtins.abs(exponent) > HIGHEST_POWER:
             if isinstance(exponent, int | float | Value) and not isinstance(exponent, bool):
                 return exp(Value.of(exponent) * log(self))
-            raise ModelError(f"the power {exponent!r}: give a number or a parameter")
+            raise ModelError(f"the exponent is {exponent!r}; give a number or a parameter")
         power = Value(number(1.0)) if exponent == 0 else self
         for _ in range(builtins.abs(exponent) - 1):
             power = power * self
         return power if exponent >= 0 else 1 / power
 
-    def __rpow__(self, base):
+    def __rpow__(self, base: Any) -> "Value":
         return Value.of(base) ** self
 
-    def __neg__(self):
+    def __neg__(self) -> "Value":
         return Value(neg(self.re), neg(self.im))
 
-    def __pos__(self):
+    def __pos__(self) -> "Value":
         return self
 
-    def __radd__(self, operand):
+    def __radd__(self, operand: Any) -> "Value":
         return Value.of(operand) + self
 
-    def __rsub__(self, operand):
+    def __rsub__(self, operand: Any) -> "Value":
         return Value.of(operand) - self
 
-    def __rmul__(self, operand):
+    def __rmul__(self, operand: Any) -> "Value":
         return Value.of(operand) * self
 
-    def __rtruediv__(self, operand):
+    def __rtruediv__(self, operand: Any) -> "Value":
         return Value.of(operand) / self
 
     def conjugate(self) -> "Value":
@@ -156,8 +156,8 @@ class Value:
 
     conj = conjugate
 
-    def __array_ufunc__(self, ufunc, method, *operands, **_):
-        """Apply a ufunc of NumPy, as its functions and scalars do, if it is one of UFUNCS."""
+    def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **_: Any) -> "Value":
+        """Apply one of UFUNCS; NumPy's functions and scalars call this method."""
         rule = UFUNCS.get(ufunc.__name__)
         if rule is None or method != "__call__":
             text = f"{ufunc.__name__} of a field or a parameter is not supported"
@@ -166,39 +166,39 @@ class Value:
             return Value.__pow__(*operands)
         return rule(*map(Value.of, operands))
 
-    def __gt__(self, operand) -> "Condition":
+    def __gt__(self, operand: Any) -> "Condition":
         return Condition(sub(_real_part(self, ">"), _real_part(operand, ">")))
 
-    def __lt__(self, operand) -> "Condition":
+    def __lt__(self, operand: Any) -> "Condition":
         return Value.of(operand) > self
 
-    def __ge__(self, operand) -> "Condition":
+    def __ge__(self, operand: Any) -> "Condition":
         return Condition((self < operand).difference, negated=True)
 
-    def __le__(self, operand) -> "Condition":
+    def __le__(self, operand: Any) -> "Condition":
         return Value.of(operand) >= self
 
-    def _refuse(self, *_):
+    def _reject_branch(self, *_: Any) -> NoReturn:
         raise ModelError(BRANCH)
 
-    def _refuse_number(self, *_):
-        text = "a symbol cannot be converted to a number; the functions of latticode take symbols"
+    def _reject_number(self, *_: Any) -> NoReturn:
+        text = "a symbol cannot be converted to a number; use functions of latticode"
         raise ModelError(f"{text}: {', '.join(KNOWN)}")
 
-    def _refuse_sites(self, *_, **__):
+    def _reject_array(self, *_: Any, **__: Any) -> NoReturn:
         raise ModelError(ARRAYS)
 
-    __bool__ = __eq__ = __ne__ = _refuse
-    __float__ = __complex__ = __int__ = __index__ = _refuse_number
-    __iter__ = __len__ = __getitem__ = __array__ = _refuse_sites
+    __bool__ = __eq__ = __ne__ = _reject_branch
+    __float__ = __complex__ = __int__ = __index__ = _reject_number
+    __iter__ = __len__ = __getitem__ = __array__ = _reject_array
 
-    def __getattr__(self, name: str):
+    def __getattr__(self, name: str) -> NoReturn:
         if name.startswith("__"):  # Python and NumPy probe for special methods
             raise AttributeError(name)
         text = "a field has .real, .imag, .left and .right; d2_dt2(p, x, v) receives velocities"
         raise ModelError(f"there is no .{name}: {text}")
 
-    def __abs__(self):
+    def __abs__(self) -> "Value":
         if self.im is not ZERO:
             return sqrt(abs2(self))
         return Value(select(self.re, self.re, neg(self.re)))
@@ -209,13 +209,13 @@ class Condition:
 
     __hash__ = None
 
-    def __init__(self, difference: Node, negated: bool = False):
+    def __init__(self, difference: Node, negated: bool = False) -> None:
         self.difference, self.negated = difference, negated
 
-    def _refuse(self, *_):
+    def _reject_branch(self, *_: Any) -> NoReturn:
         raise ModelError(BRANCH)
 
-    __bool__ = __eq__ = __ne__ = __and__ = __or__ = __invert__ = _refuse
+    __bool__ = __eq__ = __ne__ = __and__ = __or__ = __invert__ = _reject_branch
 
 
 def shift(w: Value, sites: int) -> Value:
@@ -228,19 +228,19 @@ def shift(w: Value, sites: int) -> Value:
     except (TypeError, ModelError):
         shown_number = "a symbol" if isinstance(sites, Value) else repr(sites)
         raise ModelError(
-            f"shift(u, m) takes a whole number m, such as 2, not {shown_number}"
+            f"shift(u, m) requires an integer m, such as 2, not {shown_number}"
         ) from None
     w = Value.of(w)
     if sites and leaves_in([w.re, w.im], "matrix"):
-        text = "what couple(p.W, u) returns has no neighbours; move the rows of the matrix instead"
+        text = "couple(p.W, u) has no neighbours to shift to; shift the rows of the matrix instead"
         raise ModelError(text)
     moved = Value(shifted(w.re, sites), shifted(w.im, sites))
     reach = builtins.max(moved.re.reach, moved.im.reach)
     if reach > LONGEST_SHIFT:
         raise ModelError(
-            f"this reads a neighbour {reach} sites away, and an equation may read at most "
-            f"{LONGEST_SHIFT}; with one field for even and one for odd sites it may read "
-            f"{2 * LONGEST_SHIFT} sites away; for longer couplings, take a matrix: couple(p.W, u)"
+            f"the equation reads a neighbour {reach} sites away; the limit is {LONGEST_SHIFT}, or"
+            f" {2 * LONGEST_SHIFT} with separate fields for even and odd sites; for couplings over"
+            " longer distances use a matrix, couple(p.W, u)"
         )
     return moved
 
@@ -253,7 +253,7 @@ def couple(matrix: Value, w: Value) -> Value:
     """
     matrix = Value.of(matrix)
     if matrix.re.operation != "parameter" or matrix.im is not ZERO:
-        raise ModelError("couple(p.W, u) takes a parameter, which is the matrix, and then a field")
+        raise ModelError("the first argument of couple(p.W, u) must be a parameter, the matrix")
     leaf, w = node("matrix", matrix.re.operands[0]), Value.of(w)
     return Value(coupled(leaf, w.re), coupled(leaf, w.im))
 
@@ -304,7 +304,7 @@ def sqrt(w: Value) -> Value:
 def where(condition: Condition, if_true: Value, if_false: Value) -> Value:
     """Return `if_true` at sites where a condition such as x > 0 holds, `if_false` elsewhere."""
     if not isinstance(condition, Condition):
-        raise ModelError("where(condition, a, b) takes a comparison of real values, such as x > 0")
+        raise ModelError("the condition of where(condition, a, b) must compare real values")
     if_true, if_false = Value.of(if_true), Value.of(if_false)
     if condition.negated:
         if_true, if_false = if_false, if_true
@@ -335,9 +335,7 @@ def sign(w: Value) -> Value:
 def _real_part(w: Value, function: str) -> Node:
     w = Value.of(w)
     if w.im is not ZERO:
-        raise ModelError(
-            f"{function} compares real values, and one is complex; give its part .real"
-        )
+        raise ModelError(f"{function} compares a complex value; give a real one, such as .real")
     return w.re
 
 
@@ -369,4 +367,4 @@ UFUNCS = {
     "greater_equal": Value.__ge__,
     "less_equal": Value.__le__,
 }
-"""The operations that replace NumPy's functions, by their names."""
+"""The rules that replace NumPy's functions, by the names of these."""

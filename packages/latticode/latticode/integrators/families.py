@@ -79,11 +79,11 @@ def instead_of_taylor(solver: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def remark_on(solver: Mapping[str, Any]) -> str:
-    """Return a remark if a run was made by another method than expected, else ""."""
+    """Return a remark if a run used another method than expected, else ""."""
     if why := solver.get("instead_of_taylor"):
-        return f"the run is by {solver['name']} in place of taylor, the default: {why}"
+        return f"the run uses {solver['name']} instead of taylor, the default: {why}"
     if why := solver.get("disagreement"):
-        return f"the run is by {solver['name']}: {why}"
+        return f"the run uses {solver['name']}: {why}"
     return ""
 
 

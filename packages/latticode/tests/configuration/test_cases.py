@@ -56,7 +56,7 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
         ("initial: {0: [1]}, parameters: {gama: 1}", "did you mean 'gamma'?"),
         (
             "initial: {0: [1]}, parameters: {gamma: {a: 1}}",
-            "not a number or a list of one for each",
+            "give a real number, or one for each site",
         ),
         ("initial: {0: [1]}, parameters: {gamma: .inf}", "gamma: is inf, which is not finite"),
         ("initial: [0, 0, 1, 0, 0]", "initial: has 5 values for 61 sites"),
@@ -96,8 +96,8 @@ def test_faults_of_a_case_are_told_by_key(configured, keys, message):
         ("return u if p.gamma > 0 else 2 * u", "a comparison or a branch uses a symbol"),
         ("return sqrt(u)", "sqrt of a complex number is not supported"),
         ("return p.gama * u", "there is no parameter 'gama'; did you mean 'gamma'?"),
-        ("return u ** None", "the power None: give a number or a parameter"),
-        ("return shift(u, 9)", "a neighbour 9 sites away, and an equation may read at most 7"),
+        ("return u ** None", "the exponent is None; give a number or a parameter"),
+        ("return shift(u, 9)", "a neighbour 9 sites away; the limit is 7"),
         ("return sin(u)", "sin of a complex number is not supported"),
         ("return u, u", "returns 2 values for 1 fields"),
     ],
@@ -122,11 +122,11 @@ def case(**keys):
         ("pair", {}, "'pair' in fields denotes all fields together in sweeps"),
         ("u", {"_names": 1}, "'_names' in parameters begins with _"),
         ("u", {"__class__": 1}, "begins with _"),
-        ("u", {"a b": 1}, "'a b' in parameters is no name in Python"),
-        ("u", {"lambda": 1}, "is no name in Python"),
-        ("u", [("a", 1)], "parameters is not a dictionary"),
+        ("u", {"a b": 1}, "'a b' in parameters is not a valid name in Python"),
+        ("u", {"lambda": 1}, "is not a valid name in Python"),
+        ("u", [("a", 1)], "parameters must be a dictionary"),
         (("u", "u"), {}, "'u' in fields is given twice"),
-        ("", {}, "'' in fields is no name in Python"),
+        ("", {}, "'' in fields is not a valid name in Python"),
         ("u, v", {}, "write fields = ('u', 'v')"),
         ((), {}, "fields is empty"),
         (2, {}, "fields is 2; give names"),
@@ -177,7 +177,7 @@ WRONG = [
     (lambda n: 1 / n, "inf at site 0, which is not finite"),
     (lambda n: n[:2], "has 2 values for 5 sites"),
     (lambda n: None, "None, not a number"),
-    (lambda n: np.random.default_rng().normal(size=n.size), "other values each time"),
+    (lambda n: np.random.default_rng().normal(size=n.size), "different values each time"),
     (lambda n: n.missing, "a function of the sites that fails: AttributeError"),
     (np.ones((2, 5)), "has 2 x 5 values for 5 sites"),
     ([1, [2]], "not a number"),
@@ -227,9 +227,9 @@ def test_files_and_modules_beside_a_model_are_read_and_decide_its_jobs(configure
 
 def test_a_model_without_a_seed_is_refused(write):
     draws = "import numpy as np\nfields = 'u'\nx = np.random.default_rng().normal()\n"
-    with pytest.raises(ModelError, match="gives a another value each time"):
+    with pytest.raises(ModelError, match="gives a a different value each time"):
         write(f"{draws}parameters = {{'a': x}}\ndef i_dt(p, u):\n    return u\n")
-    with pytest.raises(ModelError, match="gives other equations each time"):
+    with pytest.raises(ModelError, match="gives different equations each time"):
         write(f"{draws}parameters = {{}}\ndef i_dt(p, u):\n    return x * u\n")
 
 
@@ -244,11 +244,11 @@ IMPURE = {
 
 @pytest.mark.parametrize("kind", IMPURE)
 def test_equations_that_are_other_ones_each_time_are_refused_in_a_notebook(kind):
-    with pytest.raises(ModelError, match="gives other equations each time") as error:
+    with pytest.raises(ModelError, match="gives different equations each time") as error:
         Model(fields="u", parameters={}, i_dt=IMPURE[kind])
     assert "draw them before and give them as a parameter" in str(error.value)
     densities = {"P": IMPURE[kind]}
-    with pytest.raises(ModelError, match="gives other equations each time"):
+    with pytest.raises(ModelError, match="gives different equations each time"):
         Model(
             fields="u",
             parameters={},
@@ -259,7 +259,7 @@ def test_equations_that_are_other_ones_each_time_are_refused_in_a_notebook(kind)
 
 def test_a_file_and_a_notebook_refuse_a_draw_in_the_equations_alike(write):
     text = "import numpy as np\nfields = 'u'\nparameters = {}\nrng = np.random.default_rng(1)\n"
-    with pytest.raises(ModelError, match=r"other equations each time\. .*as a parameter"):
+    with pytest.raises(ModelError, match=r"different equations each time\. .*as a parameter"):
         write(f"{text}def i_dt(p, u):\n    return rng.normal() * u\n")
 
 
@@ -282,7 +282,7 @@ def test_a_configuration_carries_no_code():
         (lambda p, u: {"P": p.t * abs2(u)}, "'P' in conserved depends on the time"),
         (lambda p, u: {"P": u * u}, "'P' in conserved is complex"),
         (lambda p, u: {"P": 2.0}, "'P' in conserved depends on no field"),
-        (lambda p, u: abs2(u), "conserved returns no dictionary"),
+        (lambda p, u: abs2(u), "conserved must return a dictionary"),
     ],
 )
 def test_densities_that_no_run_can_keep_are_refused(conserved, message):

@@ -164,7 +164,7 @@ def test_a_list_in_a_configuration_is_a_number_for_each_site(tmp_path):
         (lambda n: n[:3], "initial: has 3 values for 17 sites"),
         (lambda n: 1 / n, "initial: is inf at site 0, which is not finite"),
         (lambda n: 1 // 0, "initial: is a function of the sites that fails: ZeroDivisionError"),
-        (lambda n: np.random.default_rng().random(n.size), "with other values each time"),
+        (lambda n: np.random.default_rng().random(n.size), "with different values each time"),
         (lambda n: "a", "initial: is 'a', not numbers"),
         ([1, 2, 3], "initial: has 3 values for 17 sites"),
         ([[1], [2, 3]], "with rows of different lengths"),

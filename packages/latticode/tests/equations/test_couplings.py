@@ -165,12 +165,12 @@ def test_a_configuration_sweeps_surveys_and_files_take_matrices(tmp_path):
 @pytest.mark.parametrize(
     ("matrix", "message"),
     [
-        (np.ones((3, 3)), "is 3 x 3; couple takes a matrix of 4 x 4 for 4 sites"),
-        (1.0, "is one number; couple takes a matrix of 4 x 4"),
-        (np.eye(4) * 1j, "is a matrix of complex, but couple takes real numbers"),
-        ([[1, 2], [3]], "whose rows are not of one length"),
+        (np.ones((3, 3)), "is 3 x 3; couple needs a 4 x 4 matrix for 4 sites"),
+        (1.0, "is one number; couple needs a 4 x 4 matrix"),
+        (np.eye(4) * 1j, "is a matrix of type complex128; couple needs real numbers"),
+        ([[1, 2], [3]], "with rows of different lengths"),
         (np.diag([1, 2, np.nan, 3]), r"is nan at the sites \(2, 2\), which is not finite"),
-        (scipy.sparse.eye_array(5), "is 5 x 5; couple takes"),
+        (scipy.sparse.eye_array(5), "is 5 x 5; couple needs"),
     ],
 )
 def test_what_is_no_matrix_of_the_sites_is_refused(matrix, message):
@@ -182,11 +182,11 @@ def test_what_is_no_matrix_of_the_sites_is_refused(matrix, message):
 @pytest.mark.parametrize(
     ("rate", "message"),
     [
-        (lambda p, x: couple(p.W, x).left, "has no neighbours; move the rows of the matrix"),
-        (lambda p, x: couple(2.0, x), r"couple\(p.W, u\) takes a parameter"),
-        (lambda p, x: couple(x, p.W), r"couple\(p.W, u\) takes a parameter"),
-        (lambda p, x: p.W * x + couple(p.W, x), "and a number elsewhere; give two parameters"),
-        (lambda p, x: shift(x, 9), r"take a matrix: couple\(p.W, u\)"),
+        (lambda p, x: couple(p.W, x).left, "has no neighbours to shift to; shift the rows"),
+        (lambda p, x: couple(2.0, x), r"couple\(p.W, u\) must be a parameter"),
+        (lambda p, x: couple(x, p.W), r"couple\(p.W, u\) must be a parameter"),
+        (lambda p, x: p.W * x + couple(p.W, x), "and a number elsewhere; use two parameters"),
+        (lambda p, x: shift(x, 9), r"use a matrix, couple\(p.W, u\)"),
     ],
 )
 def test_what_no_matrix_can_do_is_refused(rate, message):
@@ -196,5 +196,5 @@ def test_what_no_matrix_can_do_is_refused(rate, message):
 
 def test_a_matrix_without_couple_is_refused_with_the_way_to_take_it():
     model = Model(fields="x", parameters={"W": np.eye(4)}, dt=lambda p, x: p.W * x)
-    with pytest.raises(ConfigurationError, match=r"a matrix is taken by couple\(p.W, u\)"):
+    with pytest.raises(ConfigurationError, match=r"use a matrix only in couple\(p.W, u\)"):
         Case(model=model, sites=4, initial={0: [1]})

@@ -97,5 +97,5 @@ def test_complex_numbers_are_refused_in_rates_and_in_data():
 
 
 def test_a_model_has_one_of_three_functions():
-    with pytest.raises(ModelError, match="needs one function, i_dt, dt or d2_dt2"):
+    with pytest.raises(ModelError, match="needs exactly one of the functions i_dt, dt and d2_dt2"):
         Model(fields="x", parameters={}, dt=lambda p, x: -x, i_dt=lambda p, x: -x)

@@ -56,12 +56,12 @@ def test_the_farthest_look_is_that_of_every_solver(solver):
 
 @pytest.mark.parametrize("by", [LONGEST_SHIFT + 1, -LONGEST_SHIFT - 1])
 def test_a_look_that_is_too_far_is_refused_with_a_way_out(by):
-    expected = "a neighbour 8 sites away, .* at most 7; with one field for even"
+    expected = "a neighbour 8 sites away; the limit is 7, .* with separate fields for even"
     with pytest.raises(ModelError, match=expected):
         Model(fields="u", parameters={}, i_dt=lambda p, u: shift(u.right, by - 1) + u)
 
 
 @pytest.mark.parametrize("by", [1.5, "a", None])
 def test_a_shift_by_no_whole_number_is_refused(by):
-    with pytest.raises(ModelError, match="takes a whole number m, such as 2, not"):
+    with pytest.raises(ModelError, match="requires an integer m, such as 2, not"):
         Model(fields="u", parameters={}, i_dt=lambda p, u: shift(u, by))

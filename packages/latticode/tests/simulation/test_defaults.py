@@ -32,7 +32,7 @@ def case_of(model, **keys):
 def test_a_run_by_default_is_by_dop853_and_says_so_once(model, why, capsys):
     run = simulate(case_of(model))
     (line,) = capsys.readouterr().out.splitlines()
-    assert line.startswith("the run is by dop853 in place of taylor, the default: ") and why in line
+    assert line.startswith("the run uses dop853 instead of taylor, the default: ") and why in line
     assert (run.attrs["solver"], run.attrs["solver_rtol"]) == ("dop853", 1e-13)
     assert why in run.attrs["solver_instead_of_taylor"]
     named = simulate(case_of(model, solver="dop853"))
@@ -82,19 +82,19 @@ def test_a_force_with_a_kink_is_not_left_to_a_series_that_passes_over_it():
 def test_a_survey_and_a_sweep_say_it_once_and_the_survey_of_each_run(model, capsys):
     found = survey(case_of(model), {"k": [0.5, 1.0, 2.0]}, keep=["final_l2"], cores=2)
     (line,) = capsys.readouterr().out.splitlines()
-    assert line.startswith("3 of 3 runs used another solver; the first, k = 0.5: the run is by d")
+    assert line.startswith("3 of 3 runs used another solver; the first, k = 0.5: the run uses d")
     assert found.attrs["runs_by_another_solver"] == 3 and found.attrs["solver"] == "dop853"
     assert (found["remark"].values != "").all() and found.attrs["failed_runs"] == 0
     sweep(case_of(model), [3, 4], windows=[(1, 2)])
     (line,) = capsys.readouterr().out.splitlines()
-    assert line.startswith("half-width 3: the run is by dop853 in place of taylor")
+    assert line.startswith("half-width 3: the run uses dop853 instead of taylor")
 
 
 def test_a_configuration_says_it_before_any_run():
     plain = {"model": ROOTS, "initial": {0: [1]}}
     (line,) = load({"cases": {"mine": plain}}).long_runs()
     assert (
-        line.startswith("cases.mine: the run is by dop853 in place of taylor") and NO_SERIES in line
+        line.startswith("cases.mine: the run uses dop853 instead of taylor") and NO_SERIES in line
     )
     assert load({"cases": {"mine": plain | {"solver": "ode45"}}}).long_runs() == []
 
