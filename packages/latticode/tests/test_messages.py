@@ -40,7 +40,7 @@ def set_end_time():
         (
             lambda: Model(fields="u", parameters={}, i_dt=lambda t, u: sin(t) * u),
             ModelError,
-            "the first argument of the function holds the parameters: write (p, ...)",
+            "the first argument of the function is the parameters: write (p, ...)",
         ),
         (
             lambda: survey(CASE, {"a": [np.ones(9), np.zeros(9)]}),

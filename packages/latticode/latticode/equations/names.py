@@ -35,7 +35,7 @@ class Parameters:
     """The first argument `p` of a model's functions: its parameters and the time as symbols."""
 
     no_number = (
-        "the first argument of the function holds the parameters: write (p, ...) with the fields"
+        "the first argument of the function is the parameters: write (p, ...) with the fields"
         " after p, p.name for a parameter, and p.t for the time"
     )
     """The error message for arithmetic with `p` itself."""

@@ -1,4 +1,4 @@
-"""Symbols that stand for complex numbers while a model is traced: pairs of nodes, and functions."""
+"""Symbols for complex numbers, and functions of them, with which a model is traced."""
 
 import builtins
 from functools import reduce

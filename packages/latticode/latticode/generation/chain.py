@@ -1,4 +1,4 @@
-"""What all models share: the layout of a state, values beyond the ends, and the loop over sites.
+"""The layout of a state, values beyond its ends, and the loop over sites, common to all models.
 
 State. A real array `y[row, 1 + site]` with two rows for each component (A and B, or x and y). If
 both components are the same, only the first has rows. Sites are -M..M, or 0..M if the data are even
@@ -7,8 +7,8 @@ formula applies to all sites.
 
 Bits. The equations preserve both symmetries, and so do the kernels, to the last bit. Neighbours are
 summed as (right + left) - 2 centre, which rounds alike under reflection, and both components
-undergo the same operations in the same order. Half of an even chain thus has the bits of the whole
-chain, and so has one of two equal components.
+undergo the same operations in the same order. Half of an even chain thus gives the bits of the
+whole chain, and one of two equal components gives the bits of both.
 
 A `chain` is a named tuple of the model's parameters and of the kinds of its ends, `left` and
 `right`.

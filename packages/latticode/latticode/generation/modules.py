@@ -1,7 +1,7 @@
 """Kernels of a traced model, generated as the text of a module: rates and power series.
 
 The text depends only on the model and on which of its parameters have a value for each site. It is
-saved next to the cached kernels, whose folder is named by a hash of it (latticode.kernels.cache).
+saved in the kernel cache, and its kernels are in a folder named by a hash of it.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""What the power series of all models share: values beyond the ends, and the loop over blocks.
+"""Power series of a state: values beyond its ends, and the loop over blocks, common to all models.
 
 A series is stored in blocks of sites, in the memory `m`: see latticode.integrators.taylor.
 

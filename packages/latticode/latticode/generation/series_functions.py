@@ -1,7 +1,8 @@
 """The text of functions of power series: the coefficients of f(s) from those of s.
 
     exp       k e_k = sum_{j=1}^k j s_j e_{k-j}
-    sine      k a_k = sum_{j=1}^k j s_j b_{k-j}, and with a minus those of the cosine b from a
+    sine      k a_k = sum_{j=1}^k j s_j b_{k-j}
+    cosine    k b_k = -sum_{j=1}^k j s_j a_{k-j}
     inverse   q_k = -q_0 sum_{j=1}^k s_j q_{k-j}
     log       k s_0 l_k = k s_k - sum_{j=1}^{k-1} j l_j s_{k-j}
     root      2 r_0 r_k = s_k - sum_{j=1}^{k-1} r_j r_{k-j}
@@ -47,7 +48,7 @@ WITHOUT_LAST = ("log", "sqrt")
 
 
 def members(function: Node) -> list[Node]:
-    """Return the functions whose coefficients are computed with those of `function`, itself too."""
+    """Return the functions that are computed together: sine and cosine, or `function` alone."""
     pair = PAIR.get(function.operation)
     return [node(name, *function.operands) for name in pair] if pair else [function]
 

@@ -80,12 +80,12 @@ class SeriesWriter:
         nodes = in_order([*self.rates, *self.flows])
         self.products = [expression for expression in nodes if is_product(expression)]
         self.functions = [expression for expression in nodes if is_function(expression)]
-        # numbers of the nodes that are stored in addition to the fields
+        # indices of the nodes that are stored in addition to the fields
         self.stored = self._number_stored()
         self.sums = CauchySumWriter(self.products, self.load, self.clocks)
         if exchangeable:
             require_exchangeable(model_rates, self.stored)
-        # numbers of the sums of products whose known terms alone are stored
+        # indices of sums of products that are not stored, except known terms of the next order
         self.partial: dict[tuple[int, Node], int] = {}
         # products with matrices, computed after each pass over the blocks except the last
         self.stages = stages_of([*self.rates, *self.flows])
@@ -337,7 +337,7 @@ class SeriesWriter:
             return f"share * {self._value(code, rate, even)}"
 
         def write(term: Node, sign: str) -> tuple[str, str]:
-            """Return the sign and text of a term; its constant, if any, takes `sign` instead."""
+            """Return the sign and the text of a term; a constant factor absorbs `sign`."""
             if self._has_factor(term):
                 factor = f"{sign.replace('+', '')}(share * {self._constant(term.operands[0])})"
                 name = factors.setdefault(factor, f"f{len(factors)}")

@@ -57,7 +57,7 @@ class ModelInputs(NamedTuple):
 
 
 def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInputs:
-    """Return the inputs of expressions; a constant is the largest one without time or fields."""
+    """Return the inputs of expressions. Constants are the largest parts without time and fields."""
     constants, at_sites, clocks = {}, {}, {}
 
     def visit(expression: Node) -> None:
@@ -148,10 +148,9 @@ class Names:
 
 
 def require_exchangeable(rates: Iterable[Node], stored: Iterable[Node] = ()) -> None:
-    """Raise ModelError unless two fields are exchangeable: one rule then gives the rates of both.
+    """Raise ModelError unless exchanging two fields, in all states, exchanges their rates.
 
-    They are if exchanging their names exchanges their rates. Each `stored` node may depend only on
-    the first field. If there are several states, names are exchanged in each.
+    One rule then gives the rates of both. Each `stored` node may depend only on the first field.
     """
 
     def exchanged(leaf: Node, _: list[Node]) -> Node | None:

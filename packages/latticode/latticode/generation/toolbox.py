@@ -1,7 +1,7 @@
 """All names that generated modules use: their system, elementary functions, and imports.
 
-A generated module imports everything from this file. A change here, or in what is imported here,
-thus recompiles the kernels and reruns the jobs that call them.
+A generated module imports everything from this file. A change in it or in its imports thus
+recompiles the kernels and reruns the jobs that call them.
 """
 # ruff: noqa: F401
 

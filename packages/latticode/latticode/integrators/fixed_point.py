@@ -35,7 +35,7 @@ SMALLEST_FRACTION = 2.0**-20
 
 @kernel
 def update(base: Array, factor: float, slope: Array, threshold: float, new: Array) -> float:
-    """Set new = base + factor slope; return the largest change of a number, or NaN if one is NaN.
+    """Set new = base + factor slope; return the largest change, or NaN if any change is NaN.
 
     `slope` is overwritten by the changes.
     """

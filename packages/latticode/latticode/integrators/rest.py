@@ -19,10 +19,10 @@ from latticode.kernels.compiled import inlined_by_llvm, kernel
 from latticode.kernels.simd import TINY, zero_below
 
 OF_SERIES, OF_STAGES = 1e-130, 1e-250
-"""Smallest numbers in states of power series and of stages. Series multiply their coefficients
-without a check; the rates in stages compare factors with TINY, so that smaller numbers are safe."""
+"""Thresholds for states of power series and of Runge-Kutta stages. Series multiply coefficients
+without a check. The rates in stages compare factors with TINY, so smaller numbers are harmless."""
 RESOLVED = 1e-60
-"""Threshold relative to the largest number, for data so small that it is below the other."""
+"""Threshold relative to the largest number of a state, used if it is below these thresholds."""
 
 
 @kernel

@@ -53,13 +53,14 @@ BLOCK_SIZE = (ORDER + 1) * ORDER_STRIDE
 LEFT, RIGHT = 0, ORDER_STRIDE
 """Offsets of the left and right ghosts of a component, each with the layout of one order."""
 GHOSTS_SIZE = 2 * ORDER_STRIDE
-_SMALLEST_COMPONENT = 2 * 3  # numbers of a component of one site: two rows of a site and two ghosts
+_SMALLEST_COMPONENT = 2 * 3  # numbers of a component: two rows of one site and two ghosts
 
 
 def work_arrays(more: int) -> int:
-    """Return how many work arrays hold a series with `more` additional numbers per block.
+    """Return how many work arrays of the size of a state hold a series.
 
-    They have the size of a state, and suffice for a single site, whose block is mostly padding.
+    `more` is the number of additional numbers per block. The arrays suffice even for a single site,
+    whose block is mostly padding.
     """
     return -(-(BLOCK_SIZE + GHOSTS_SIZE + more) // _SMALLEST_COMPONENT)
 
@@ -214,9 +215,9 @@ def fifteenth_root(x: float) -> float:
 def step_of_earlier_orders(series: PowerSeries, tolerance: float) -> float:
     """Return the step if the last two coefficients vanish, as in a series in t^4.
 
-    It follows from the highest order above ORDER / 2 with a coefficient that is not zero, and is
-    infinite if there is none. The eighth root is used for every such order: it gives the shorter
-    step if the tolerance is below the coefficient.
+    It follows from the highest order above ORDER / 2 with a nonzero coefficient, and is infinite if
+    there is none. All these orders use the eighth root: if the tolerance is below the coefficient,
+    it gives a shorter step than the root of that order.
     """
     for k in range(ORDER - 2, ORDER // 2, -1):
         coefficient = largest_modulus(series, k)

@@ -191,7 +191,7 @@ class Subroutine(CachedFunction):
         super().__init__(function, locals, {**options, **UNCALLED}, SubroutineCompiler)
 
     def add_overload(self, cres: CompileResult) -> None:
-        """Register the code under a new object instead of its address, since it has none."""
+        """Register the code under a new object, because it has no address."""
         cres = cres._replace(entry_point=object())
         self.targetctx.insert_user_function(cres.entry_point, cres.fndesc, [cres.library])
         self.overloads[tuple(cres.signature.args)] = cres

@@ -6,7 +6,7 @@ const STACK = 1 << 20; // address of the stack's start; constants and the stack 
 const PAGES = 1024; // size of the memory in units of 64 KB
 
 // Return three functions for a module: `array` creates an array of zeros in its memory, `clear`
-// frees all arrays, and `call` runs the kernel. `outcome` is an array for the result; `passed` are
+// frees all arrays, and `call` runs the kernel. `outcome` is an array for the result; `inputs` are
 // arrays and numbers, integers as BigInt. `call` returns 0, or the number of an error.
 const loadKernel = async (code) => {
   const memory = new WebAssembly.Memory({ initial: PAGES });
@@ -25,7 +25,7 @@ const loadKernel = async (code) => {
   const { instance } = await WebAssembly.instantiate(code, { env });
   let free = STACK;
   const clear = () => { free = STACK; };
-  // `values` of an array, and `passed`: what numba passes to a kernel for it
+  // an array: its `values`, and the arguments `passed` for it to a kernel
   const array = (...shape) => {
     const count = shape.reduce((a, b) => a * b, 1);
     const strides = shape.map((_, axis) => shape.slice(axis + 1).reduce((a, b) => a * b, 8));
@@ -34,9 +34,9 @@ const loadKernel = async (code) => {
     const values = new Float64Array(memory.buffer, place, count).fill(0);
     return { values, place, passed: [0, 0, BigInt(count), 8n, place, ...numbers] };
   };
-  const call = (outcome, ...passed) => {
-    const numbers = passed.flatMap((argument) => argument.passed ?? argument);
-    return instance.exports.run(outcome.place, array(1).place, ...numbers);
+  const call = (outcome, ...inputs) => {
+    const passed = inputs.flatMap((input) => input.passed ?? input);
+    return instance.exports.run(outcome.place, array(1).place, ...passed);
   };
   return { clear, array, call };
 };

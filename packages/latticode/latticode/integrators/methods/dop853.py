@@ -19,7 +19,7 @@ def find_vanishing_square(controls: Mapping[str, Any]) -> Obstacle | None:
     atol = float(controls["atol"])
     if atol >= SMALLEST_ERROR:
         return None
-    text = f"the square of the absolute tolerance {atol:g} vanishes: give {SMALLEST_ERROR:g}"
+    text = f"the square of the absolute tolerance {atol:g} underflows: use {SMALLEST_ERROR:g}"
     return "solver.atol", text
 
 
