@@ -15,7 +15,7 @@ from .statements import FunctionText, Names, inputs_of, require_exchangeable, st
 RULE = """
 @inlined_by_llvm
 def {name}_at_site(system, states, re, j, dy):
-    {given}
+    {unpacked}
 {statements}
 """
 RATES = """
@@ -242,7 +242,7 @@ def _rule_of_rows(
     statements = Rule(names, place).write([str(row) for row in rows], rates)
     arrays = [*states, *["at"] * bool(names.at_sites), *["coupled"] * bool(names.couples)]
     unpacked = ", ".join(arrays)
-    return RULE.format(name=name, given=f"{unpacked}, = states", statements=statements)
+    return RULE.format(name=name, unpacked=f"{unpacked}, = states", statements=statements)
 
 
 def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
@@ -262,4 +262,4 @@ def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
     statements = Rule(names, place).write(rows[0], rates[:2])
     partner = f"other = {states[0]}.shape[0] - 2 - re"
     unpacked = f"{', '.join(states)}, = states\n    {partner}"
-    return RULE.format(name="rates", given=unpacked, statements=statements)
+    return RULE.format(name="rates", unpacked=unpacked, statements=statements)

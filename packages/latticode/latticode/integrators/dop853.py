@@ -26,7 +26,7 @@ from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outc
 from .autonomous import at_any_time
 from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
 from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
-from .tiles import count_tiles, give, take, tile_length, tile_place
+from .tiles import count_tiles, read_tile, tile_length, tile_place, write_tile
 from .weighted_sums import table, write_sum
 
 Array = np.ndarray
@@ -258,27 +258,27 @@ def build(
         """
         k, scratch, spare, alone = work[:16], work[16], work[17], count == 1
         start, end, curve = (y, w, c) if alone else (work[18], work[19], work[20:])
-        sites, held = y.shape[1] - 2, work.shape[2] - 2
+        sites, in_tile = y.shape[1] - 2, work.shape[2] - 2
         fifth = third = error = 0.0
         for tile in range(count):
             left, first, stop = tile_place(tile, count, sites)
-            tile_system = system_of_tile(system, left == 0, left + held == sites)
-            take(slope, left, k[0])
+            tile_system = system_of_tile(system, left == 0, left + in_tile == sites)
+            read_tile(slope, left, k[0])
             if not alone:
-                take(y, left, start)
+                read_tile(y, left, start)
             take_stages(tile_system, 2, 13, t, start, h, threshold, k, end)
             own_columns = (1 + first - left, 1 + stop - left)
             near = error_estimates(start, end, k, scratch, spare, tolerances, own_columns)
             fifth, third = worse(fifth, near[0]), worse(third, near[1])
             error = step_error(h, fifth, third)
-            give(k[12], left, first, stop, new_slope)
+            write_tile(k[12], left, first, stop, new_slope)
             if not alone:
-                give(end, left, first, stop, w)
+                write_tile(end, left, first, stop, w)
             if due and (error <= 1.0 or not alone):
                 take_stages(tile_system, 14, 16, t, start, h, threshold, k, scratch)
                 prepare_interpolant(start, end, h, k, curve)
                 for m in range(0 if alone else c.shape[0]):
-                    give(curve[m], left, first, stop, c[m])
+                    write_tile(curve[m], left, first, stop, c[m])
         return error
 
     @inlined_by_numba

@@ -46,12 +46,12 @@ def copy_columns(source: np.ndarray, at: int, target: np.ndarray, to: int, count
 
 
 @kernel
-def take(state: np.ndarray, left: int, tile: np.ndarray) -> None:
+def read_tile(state: np.ndarray, left: int, tile: np.ndarray) -> None:
     """Copy the sites from `left` on, margins included, from the whole state into a tile."""
     copy_columns(state, 1 + left, tile, 1, tile.shape[1] - 2)
 
 
 @kernel
-def give(tile: np.ndarray, left: int, first: int, stop: int, state: np.ndarray) -> None:
+def write_tile(tile: np.ndarray, left: int, first: int, stop: int, state: np.ndarray) -> None:
     """Copy the sites first..stop - 1 of a tile, without its margins, into the whole state."""
     copy_columns(tile, 1 + first - left, state, 1 + first, stop - first)
