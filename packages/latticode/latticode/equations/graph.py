@@ -241,7 +241,7 @@ ARITHMETIC = {
 }
 
 
-def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions=np) -> list:
+def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions: Any = np) -> list:
     """Return the values of the nodes, computed from the values value(leaf) of their leaves.
 
     Values may be of any type with arithmetic: arrays, multiprecision numbers, or integers if no

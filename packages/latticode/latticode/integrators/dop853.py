@@ -290,8 +290,8 @@ def build(
         c = work[4:WHOLE_WORK]
         count = count_tiles(y.shape[1] - 2) if can_be_tiled(system) else 1
         columns = tile_length(y.shape[1] - 2, count) + 2
-        tiles = work[WHOLE_WORK:].reshape(-1)[: TILE_WORK * y.shape[0] * columns]
-        tile_work = tiles.reshape((TILE_WORK, y.shape[0], columns))
+        size = TILE_WORK * y.shape[0] * columns
+        tiles = work[WHOLE_WORK:].reshape(-1)[:size].reshape((TILE_WORK, y.shape[0], columns))
         threshold = rest_level(y, OF_STAGES)
         rates(at_time(system, t), y, slope)
         h = initial_step(system, t, y, slope, c, controls, end - t)
@@ -317,19 +317,7 @@ def build(
                 h = t_new - t
             due = times[i] <= t_new
             error = step(
-                system,
-                count,
-                tile_work,
-                t,
-                state,
-                slope,
-                h,
-                threshold,
-                controls,
-                due,
-                w,
-                new_slope,
-                c,
+                system, count, tiles, t, state, slope, h, threshold, controls, due, w, new_slope, c
             )
             evaluations += 12
             overflowed = error == np.inf

@@ -109,6 +109,12 @@ def repeat(builder: Builder, number: Value) -> Value:
     return builder.shuffle_vector(first_lane, nothing, constant(LANE, [0] * LANES))
 
 
+def as_vectors(builder: Builder, signature: Signature, arguments: Values) -> list[Value]:
+    """Return vectors unchanged, and numbers in all lanes of vectors."""
+    typed = zip(signature.args, arguments, strict=True)
+    return [value if kind == vector else repeat(builder, value) for kind, value in typed]
+
+
 @intrinsic
 def fill(typing_context: Any, number: Type) -> Generated:
     """Return a vector with the number in all lanes."""
@@ -158,22 +164,10 @@ def define_operator(symbol: Callable, instruction: str) -> None:
         return typed
 
     @lower_builtin(symbol, vector, vector)
-    def of_vectors(
-        context: Any, builder: Builder, signature: Signature, arguments: Values
-    ) -> Value:
-        return getattr(builder, instruction)(*arguments)
-
     @lower_builtin(symbol, types.float64, vector)
-    def of_number_and_vector(
-        context: Any, builder: Builder, signature: Signature, arguments: Values
-    ) -> Value:
-        return getattr(builder, instruction)(repeat(builder, arguments[0]), arguments[1])
-
     @lower_builtin(symbol, vector, types.float64)
-    def of_vector_and_number(
-        context: Any, builder: Builder, signature: Signature, arguments: Values
-    ) -> Value:
-        return getattr(builder, instruction)(arguments[0], repeat(builder, arguments[1]))
+    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+        return getattr(builder, instruction)(*as_vectors(builder, signature, arguments))
 
 
 define_operator(operator.add, "fadd")
@@ -270,9 +264,8 @@ def select_positive(
     kind = vector if vector in arguments else types.float64
 
     def generate(context: Any, builder: Builder, signature: Signature, values: Values) -> Value:
-        typed = zip(signature.args, values, strict=True)
         if kind == vector:
-            values = [value if of == vector else repeat(builder, value) for of, value in typed]
+            values = as_vectors(builder, signature, values)
         zero = ir.Constant(values[0].type, [0.0] * LANES if kind == vector else 0.0)
         above = builder.fcmp_ordered(">", values[0], zero)
         return builder.select(above, values[1], values[2])
