@@ -89,7 +89,7 @@ def test_faults_of_a_case_are_told_by_key(configured, keys, message):
         ("import numpy; return numpy.roll(u, 1)", "neighbours are u.left, u.right"),
         ("import numpy; return numpy.arange(5) * u", "a value for each site is a parameter"),
         ("return u[1] - u", "a field is its value at one site"),
-        ("import math; return math.exp(abs2(u)) * u", "the functions of latticode take symbols"),
+        ("import math; return math.exp(abs2(u)) * u", "use functions of latticode"),
         ("return p['gamma'] * u", "write p.gamma"),
         ("return u - u.dt", "there is no .dt: a field has .real"),
         ("u * 2", "returns nothing"),
