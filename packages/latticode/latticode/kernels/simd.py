@@ -15,9 +15,9 @@ rows of few vectors.
 
 Why not LLVM's auto-vectoriser. It vectorises a loop over sites only if it can prove that arrays do
 not overlap. It keeps the partial sums of a nested loop, such as a Cauchy product over orders of a
-power series, in memory instead of registers. It computes up to fifteen sites at the end of a row
-one by one, half of the paper's half chain. The speed of a kernel written with vectors does not
-depend on what the compiler can prove.
+power series, in memory instead of registers. It computes the last sites of a row, up to fifteen,
+one by one; in the paper's half chain these are half of all sites. The speed of a kernel written
+with vectors does not depend on what the compiler can prove.
 
 Bits. Each lane executes the IEEE operations of one site in the order written. No operation has a
 fast-math flag, so LLVM neither reorders them nor contracts them to fused multiply-adds. Results
@@ -71,7 +71,7 @@ MAGNITUDE = 0x7FFF_FFFF_FFFF_FFFF
 """All bits of a double except its sign."""
 
 
-# --- The type; moves between registers and arrays -----------------------------------------------
+# --- The type; loads and stores -----------------------------------------------------------------
 
 
 class Vector(types.Type):
