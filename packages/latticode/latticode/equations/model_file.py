@@ -100,8 +100,10 @@ def _as_array(value: Any) -> np.ndarray:
         kind = values.dtype.kind
         if kind in "iufU":
             return values.astype(float)
-    hint = "; give real and imaginary parts as two parameters" if kind == "c" else ""
-    raise ValueError(f"is {_as_text(value)}; give a real number, or one for each site{hint}")
+    text = "not a number or a list with one for each site"
+    if kind == "c":
+        text = "which is complex; give real and imaginary parts as two parameters"
+    raise ValueError(f"is {_as_text(value)}, {text}")
 
 
 def call_on_sites(function: Callable, sites: np.ndarray) -> Any:

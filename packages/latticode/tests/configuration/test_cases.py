@@ -56,7 +56,7 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
         ("initial: {0: [1]}, parameters: {gama: 1}", "did you mean 'gamma'?"),
         (
             "initial: {0: [1]}, parameters: {gamma: {a: 1}}",
-            "give a real number, or one for each site",
+            "not a number or a list with one for each site",
         ),
         ("initial: {0: [1]}, parameters: {gamma: .inf}", "gamma: is inf, which is not finite"),
         ("initial: [0, 0, 1, 0, 0]", "initial: has 5 values for 61 sites"),
@@ -246,7 +246,7 @@ IMPURE = {
 def test_equations_that_are_other_ones_each_time_are_refused_in_a_notebook(kind):
     with pytest.raises(ModelError, match="gives different equations each time") as error:
         Model(fields="u", parameters={}, i_dt=IMPURE[kind])
-    assert "draw them before and give them as a parameter" in str(error.value)
+    assert "draw them outside and pass them as a parameter" in str(error.value)
     densities = {"P": IMPURE[kind]}
     with pytest.raises(ModelError, match="gives different equations each time"):
         Model(
