@@ -46,9 +46,7 @@ def build(rates: Callable, observe: Callable) -> Callable:
     """Return the trapezoidal solver of y' = rates; the package describes its arguments."""
 
     @uncached
-    def begin(
-        system: Any, old: Array, h: float, follows: bool, base: Array
-    ) -> tuple[Array, float, int]:
+    def begin(system: Any, old: Array, h: float, follows: bool, base: Array) -> tuple:
         """Return base = old + h/2 F(old), the factor h/2, and the number of evaluations.
 
         After a step of the same length old = base + h/2 F(old) with the previous base. The new
@@ -76,9 +74,7 @@ def build_conserving(mean_rates: Callable, observe: Callable) -> Callable:
     """
 
     @uncached
-    def begin(
-        system: Any, old: Array, h: float, follows: bool, scratch: Array
-    ) -> tuple[Array, float, int]:
+    def begin(system: Any, old: Array, h: float, follows: bool, scratch: Array) -> tuple:
         return old, h, 0
 
     return fixed_point.build(begin, mean_rates, observe)

@@ -282,9 +282,7 @@ def build(
         return error
 
     @inlined_by_numba
-    def solve(
-        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
-    ) -> Outcome:
+    def solve(system, y, times, controls, work, record, stop) -> Outcome:
         t, end = times[0], times[-1]
         state, w, slope, new_slope, out = y, work[0], work[1], work[2], work[3]
         c = work[4:WHOLE_WORK]

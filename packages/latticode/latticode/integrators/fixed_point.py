@@ -11,7 +11,6 @@ does not help, the run ends with an error status.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -147,9 +146,7 @@ def build(begin: Callable, slope: Callable, observe: Callable) -> Callable:
         return True, halvings, evaluations
 
     @inlined_by_numba
-    def solve(
-        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
-    ) -> Outcome:
+    def solve(system, y, times, controls, work, record, stop) -> Outcome:
         step, tolerance, most = controls
         new, scratch, past, threshold = work[0], work[1:4], work[4:], rest_level(y, OF_STAGES)
         next_past = steps = rejected = evaluations = 0

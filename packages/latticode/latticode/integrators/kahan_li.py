@@ -9,7 +9,6 @@ symplectic, so the error of a conserved energy does not grow.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -66,9 +65,7 @@ def build(rates: Callable, observe: Callable, at_time: Callable = at_any_time) -
     """
 
     @inlined_by_numba
-    def solve(
-        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
-    ) -> Outcome:
+    def solve(system, y, times, controls, work, record, stop) -> Outcome:
         (step,) = controls
         slope, steps, threshold = work[0], 0, rest_level(y, OF_STAGES)
         for i in range(times.size):

@@ -20,7 +20,6 @@ changes the course of a chaotic run. Here fifth roots use only + - * / and are t
 
 from collections.abc import Callable
 from math import sqrt
-from typing import Any
 
 import numpy as np
 
@@ -166,9 +165,7 @@ def build(
     rate_of = relative_rate_of_reals if of_reals else relative_rate
 
     @inlined_by_numba
-    def solve(
-        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
-    ) -> Outcome:
+    def solve(system, y, times, controls, work, record, stop) -> Outcome:
         rtol, atol = controls
         threshold = atol / rtol
         t, end = times[0], times[-1]

@@ -251,9 +251,7 @@ def build(
     driven = at_time is not at_any_time
 
     @inlined_by_numba
-    def solve(
-        system: Any, y: Array, times: Array, controls: tuple, work: Array, record: Any, stop: Array
-    ) -> Outcome:
+    def solve(system, y, times, controls, work, record, stop) -> Outcome:
         rtol, atol = controls
         t, end = times[0], times[-1]
         series = lay_out(work, y)

@@ -44,7 +44,6 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.typing import Signature
 from numba.extending import (
     intrinsic,
     lower_builtin,
@@ -65,7 +64,7 @@ BITS = ir.VectorType(INT64, LANES)
 LANE = ir.IntType(32)
 Type, Value, Builder = types.Type, ir.Value, ir.IRBuilder
 Values = Sequence[Value]
-Generated = tuple[Signature, Callable]
+Generated = tuple[Any, Callable]
 """A signature, and the function that generates the code."""
 MAGNITUDE = 0x7FFF_FFFF_FFFF_FFFF
 """All bits of a double except its sign."""
@@ -109,7 +108,7 @@ def repeat(builder: Builder, number: Value) -> Value:
     return builder.shuffle_vector(first_lane, nothing, constant(LANE, [0] * LANES))
 
 
-def as_vectors(builder: Builder, signature: Signature, arguments: Values) -> list[Value]:
+def as_vectors(builder: Builder, signature: Any, arguments: Values) -> list[Value]:
     """Return vectors unchanged, and numbers in all lanes of vectors."""
     typed = zip(signature.args, arguments, strict=True)
     return [value if kind == vector else repeat(builder, value) for kind, value in typed]
@@ -119,7 +118,7 @@ def as_vectors(builder: Builder, signature: Signature, arguments: Values) -> lis
 def fill(typing_context: Any, number: Type) -> Generated:
     """Return a vector with the number in all lanes."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         return repeat(builder, arguments[0])
 
     return vector(types.float64), generate
@@ -129,7 +128,7 @@ def fill(typing_context: Any, number: Type) -> Generated:
 def load(typing_context: Any, array: Type, index: Type) -> Generated:
     """Return the vector at the flat `index` of a contiguous array; bounds are not checked."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         place = address_in_array(context, builder, signature.args[0], *arguments)
         return builder.load(place, align=8)
 
@@ -140,7 +139,7 @@ def load(typing_context: Any, array: Type, index: Type) -> Generated:
 def store(typing_context: Any, array: Type, index: Type, value: Type) -> Generated:
     """Write a vector at the flat `index` of a contiguous array; bounds are not checked."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         array, index, value = arguments
         place = address_in_array(context, builder, signature.args[0], array, index)
         builder.store(value, place, align=8)
@@ -166,7 +165,7 @@ def define_operator(symbol: Callable, instruction: str) -> None:
     @lower_builtin(symbol, vector, vector)
     @lower_builtin(symbol, types.float64, vector)
     @lower_builtin(symbol, vector, types.float64)
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         return getattr(builder, instruction)(*as_vectors(builder, signature, arguments))
 
 
@@ -182,7 +181,7 @@ def type_of_negative(context: Any) -> Callable:
 
 
 @lower_builtin(operator.neg, vector)
-def negate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+def negate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
     return builder.fneg(arguments[0])
 
 
@@ -198,9 +197,7 @@ def of_either(generated: Callable) -> Callable:
         if value not in (vector, types.float64):
             return None
 
-        def generate(
-            context: Any, builder: Builder, signature: Signature, arguments: Values
-        ) -> Value:
+        def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
             lanes = signature.args[0] == vector
 
             def wide(value: ir.Constant) -> ir.Constant:
@@ -263,7 +260,7 @@ def select_positive(
         return None
     kind = vector if vector in arguments else types.float64
 
-    def generate(context: Any, builder: Builder, signature: Signature, values: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, values: Values) -> Value:
         if kind == vector:
             values = as_vectors(builder, signature, values)
         zero = ir.Constant(values[0].type, [0.0] * LANES if kind == vector else 0.0)
@@ -288,7 +285,7 @@ def zero_below(typing_context: Any, level: Type, value: Type) -> Generated:
     if value not in (vector, types.float64):
         return None
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         level, value = arguments
         size = call_llvm(builder, "fabs", value)
         if value.type == VECTOR:
@@ -307,9 +304,7 @@ def define_shift(first: int) -> Callable:
 
     @intrinsic
     def shift(typing_context: Any, value: Type, neighbour: Type) -> Generated:
-        def generate(
-            context: Any, builder: Builder, signature: Signature, arguments: Values
-        ) -> Value:
+        def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
             return builder.shuffle_vector(*arguments, constant(LANE, range(first, first + LANES)))
 
         return vector(value, neighbour), generate
@@ -327,7 +322,7 @@ left_neighbours = define_shift(LANES - 1)
 def keep_lanes(typing_context: Any, value: Type, count: Type, replacement: Type) -> Generated:
     """Return a vector with the number `replacement` in all lanes from `count` on."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         value, count, replacement = arguments
         inside = builder.icmp_signed("<", constant(INT64, range(LANES)), repeat(builder, count))
         return builder.select(inside, value, repeat(builder, replacement))
@@ -351,7 +346,7 @@ def larger_bits(builder: Builder, a: Value, b: Value) -> Value:
 def larger_magnitude(typing_context: Any, first: Type, second: Type) -> Generated:
     """Return in each lane the larger of two absolute values; NaN is larger than infinity."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         bits = larger_bits(builder, *(magnitudes(builder, value) for value in arguments))
         return builder.bitcast(bits, VECTOR)
 
@@ -362,7 +357,7 @@ def larger_magnitude(typing_context: Any, first: Type, second: Type) -> Generate
 def largest_lane(typing_context: Any, value: Type) -> Generated:
     """Return the largest absolute value among the lanes; NaN is larger than infinity."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         bits = magnitudes(builder, arguments[0])
         lanes = [builder.extract_element(bits, LANE(lane)) for lane in range(LANES)]
         while len(lanes) > 1:
@@ -432,7 +427,7 @@ def view_of(context: Any, builder: Builder, array_type: Type, state: Value) -> V
 def vector_views(typing_context: Any, states: Type) -> Generated:
     """Return views of a tuple of contiguous (row, column) states; they do not check bounds."""
 
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         values = cgutils.unpack_tuple(builder, arguments[0])
         pairs = zip(signature.args[0], values, strict=True)
         views = [view_of(context, builder, array_type, state) for array_type, state in pairs]
@@ -443,7 +438,7 @@ def vector_views(typing_context: Any, states: Type) -> Generated:
 
 @intrinsic
 def shape_of(typing_context: Any, view: Type) -> Generated:
-    def generate(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         return cgutils.create_struct_proxy(view_type)(context, builder, arguments[0]).shape
 
     return INDEX(view), generate
@@ -475,12 +470,12 @@ def address_in_view(context: Any, builder: Builder, view: Value, index: Value) -
 
 
 @lower_builtin(operator.getitem, VectorView, types.UniTuple)
-def read_vector(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+def read_vector(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
     return builder.load(address_in_view(context, builder, *arguments), align=8)
 
 
 @lower_builtin(operator.setitem, VectorView, types.UniTuple, Vector)
-def write_vector(context: Any, builder: Builder, signature: Signature, arguments: Values) -> Value:
+def write_vector(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
     view, index, value = arguments
     builder.store(value, address_in_view(context, builder, view, index), align=8)
     return context.get_dummy_value()
