@@ -57,11 +57,12 @@ const showTime = () => {
   byId("plots").style.setProperty("--now", shownTime() / settings.end_time);
   if (!run) return;
   outputIndex = Math.min(Math.round(((run.tau.length - 1) * shownTime()) / run.tau.at(-1)), run.tau.length - 1);
-  byId("numbers").textContent = describeTime();
+  const description = describeTime();
+  byId("numbers").textContent = description;
   for (const slider of document.querySelectorAll("#tau, [role=slider]")) {
     slider.ariaValueNow = shownTime();
     slider.ariaValueMax = settings.end_time;
-    slider.ariaValueText = describeTime();
+    slider.ariaValueText = description;
   }
   drawPendula();
 };
