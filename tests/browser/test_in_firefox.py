@@ -7,7 +7,7 @@ from firefox import Firefox
 from latticode.datasets.json_files import load_json
 from waiting import wait_for
 
-ESCAPE, ENTER = "\ue00c", "\ue007"
+ESCAPE, ENTER, RIGHT = "\ue00c", "\ue007", "\ue014"
 IS_OPEN = "document.getElementById('panel').matches(':popover-open')"
 BOUND = "document.querySelector('a.n[href$=\"fig4_large.nc.bound\"]')"
 
@@ -54,3 +54,15 @@ def test_claims_of_the_report_are_filtered(firefox, full_run):
     firefox.run("document.getElementById('kind').value = 'theorem'; filter()")
     shown = firefox.run("document.querySelectorAll('.claim:not([hidden])').length")
     assert shown == sum(row["kind"] == "theorem" for row in rows) > 0
+
+
+def test_keys_choose_on_a_map_of_the_report_and_open_the_case(firefox, full_run):
+    firefox.open((full_run / "results/report.html").resolve().as_uri())
+    firefox.run("document.getElementById('more').querySelector('details').open = true")
+    link = "document.getElementById('figures/stability_chart').querySelector('.map a')"
+    firefox.run(f"{link}.focus()")
+    firefox.press(RIGHT)
+    address = firefox.run(f"{link}.href")
+    assert address.endswith("live.html#case=fig4_small&omega=2.1&gamma=1.5")
+    firefox.press(ENTER)
+    wait_for(lambda: firefox.run("location.href").startswith(address))
