@@ -166,7 +166,7 @@ OF_MANY_RUNS = {  # datasets whose rules have a wildcard for chunks, so that no 
         "The growth of a small A + B where A = -B, and the second front that follows",
         "long/unbounded/transverse",
     ),
-    "follow_noise": ("The second front when noise starts A + B", "long/unbounded/noise"),
+    "follow_noise": ("The second front if noise makes A + B grow", "long/unbounded/noise"),
 }
 for name, (text, dataset) in OF_MANY_RUNS.items():
     NAMED[name] = f"{text}: results/{dataset}.nc", [f"<results>/{dataset}.nc"]

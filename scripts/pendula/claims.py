@@ -1,9 +1,9 @@
 """Cut-offs, names of datasets and helpers that the claims of several studies share.
 
-Runs with relative perturbations of 1e-6 do not show the effect of perturbations of 1e-2. The study
-of breathers measures the share of runs that spread for each size of the perturbation. A claim on
-perturbed runs holds only if most runs with perturbations of its size spread. It gets a caveat if
-most runs with some larger perturbation do not.
+Runs perturbed by 1e-6 do not show the effect of perturbations by 1e-2. The study of breathers
+therefore measures the share of runs that spread, by the size of the perturbation. A claim on runs
+perturbed by up to 1e-6 holds only if most of these runs spread. It gets a caveat if most runs with
+some larger perturbation do not.
 """
 
 from collections.abc import Callable
@@ -88,7 +88,7 @@ MAJORITY = Cutoff(0.5, '"most": more than half')
 
 
 class PerturbedShare(NamedTuple):
-    """The share of perturbed runs that spread, the criterion on it, and a caveat."""
+    """The smallest share of perturbed runs that spread, the criterion on it, and a caveat."""
 
     measured: dict[str, float]
     criterion: Criterion
@@ -109,7 +109,7 @@ def almost_equal(sensitivity: xr.Dataset, within: float) -> PerturbedShare:
     share, high = (sensitivity[name].values for name in ("share", "share_high"))
     near = sizes <= max(within * 1.001, sizes.min())
     least, caveat = float(share[near].min()), ""
-    # preferably where the whole confidence interval lies below one half
+    # larger sizes at which most runs do not spread, preferably by the whole confidence interval
     below = [~near & (high < MAJORITY.value), ~near & (share <= MAJORITY.value)]
     if firsts := [np.flatnonzero(sizes_below)[0] for sizes_below in below if sizes_below.any()]:
         caveat = (
@@ -117,7 +117,7 @@ def almost_equal(sensitivity: xr.Dataset, within: float) -> PerturbedShare:
             f" {least:.0%} for perturbations up to {sizes[near].max():g}, but"
             f" {share[firsts[0]]:.0%} for {sizes[firsts[0]]:g}"
         )
-    label = "least share of equally perturbed runs that spread"
+    label = "smallest share of perturbed runs that spread"
     return PerturbedShare(
         {"share_nearby": least}, Above(MAJORITY, "share_nearby", label=label), caveat
     )

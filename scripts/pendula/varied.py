@@ -42,7 +42,7 @@ class VariedNumber(NamedTuple):
     @property
     def error(self) -> np.ndarray:
         """The larger of the statistical error and the largest change under a variation."""
-        with np.errstate(invalid="ignore"):  # two times may be infinite: never reached
+        with np.errstate(invalid="ignore"):  # times that are never reached give infinity - infinity
             changes = np.abs(np.array(list(self.variations.values())) - self.value)
         return np.fmax(self.statistical_error, np.fmax.reduce(changes, axis=0))
 

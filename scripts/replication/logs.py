@@ -55,5 +55,5 @@ def time_left(seconds: float) -> str:
 
 def log_step(text: str) -> None:
     """Write a line on the progress of a job to its log, and sometimes to the screen."""
-    step = getattr(sys.stdout, "step", sys.stdout.write)  # of a job's output
+    step = getattr(sys.stdout, "step", sys.stdout.write)  # a job's log has `step`
     step(f"{text}\n")

@@ -50,9 +50,9 @@ def missing(meaning: str) -> dict[str, str]:
 
 
 def chaotic_along(dimension: str) -> dict[str, str]:
-    """Return the attribute of a variable that is chaotic where a case with this value is.
+    """Return the attribute of a variable that is chaotic at some values along `dimension`.
 
-    `dimension` has values of a case's parameter.
+    These are values of a parameter, at which cases with this value are chaotic.
     """
     return {CHAOS: f"{ALONG}{dimension}"}
 

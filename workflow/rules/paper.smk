@@ -122,14 +122,14 @@ use rule figure as norms_by_half_width with:
 
 
 use rule dataset as measure_solvers with:
-    "How well each solver conserves the energy, how the paper's two differ, and until when each is right"
+    "How well each solver conserves the energy, how the paper's solvers differ, and how long each is accurate"
     input:
         kernels(*(name for name in COMPILED if name != "dop853")),
     output:
         dataset_outputs(*checks("solvers", "trust")),
     pathvars:
         made="checks/solvers",
-    priority: 1  # like its inputs, because the ledger waits for it
+    priority: 1  # as high as that of its inputs, because the ledger waits for it
     params:
         call=function("pendula.studies.paper.solvers.measure_solvers"),
         cases={case: without_solver(SETTINGS.problem(case)) for case in PAPER_CASES},

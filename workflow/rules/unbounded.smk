@@ -77,7 +77,7 @@ use rule dataset as run_transverse with:
 
 
 use rule dataset as run_noise with:
-    "The second front when noise starts A + B"
+    "The second front if noise makes A + B grow"
     input:
         chunks=chunks_of("long/unbounded/noise"),
     pathvars:

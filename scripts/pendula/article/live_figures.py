@@ -22,7 +22,7 @@ from .values import LONG_STUDIES
 THIS_FOLDER = Path(__file__).parent
 OF_LIVE, OF_ARTICLE = ("runs.js", "panels.js"), ("figures.js", "maps.js")
 FIGURES = {2: "fig2", 3: "fig3", 4: "fig4"}
-"""By figure of the article, the prefix of the names of the paper's cases below it."""
+"""Prefix of the cases that run below a figure of the article, by the number of the figure."""
 FATES = "figure-8"
 BREATHERS = next(name for name in LONG_STUDIES if name.endswith("breathers"))
 STEP = 0.1

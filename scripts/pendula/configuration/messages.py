@@ -21,7 +21,7 @@ Sections = create_model(
     __base__=PaperConfiguration,
     **{name: (of | None, None) for name, of in STUDIES.items()},
 )
-"""The whole configuration: with a section for each study, None where none is given."""
+"""The whole configuration: a section for each study, None if it is omitted."""
 
 
 def load(raw: dict) -> PaperConfiguration:
@@ -98,7 +98,7 @@ def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterato
     """Yield an error for a tolerance of ode45 at which runs of the paper's cases may blow up.
 
     The relative error of a step is up to `rtol`. Once these errors add up to the size of the data,
-    ode45 may gain energy until its step is too small, as a run at 1.75 times the data did.
+    ode45 may gain energy until its step is too small: a run with a sum of 1.75 times the data did.
     """
     runs = {}
     for case in names:

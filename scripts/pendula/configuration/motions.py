@@ -80,7 +80,7 @@ class CrossingsSection(Section):
         return all_faults
 
     def plain_when(self, case: CaseSection) -> dict[str, Any]:
-        """Return the plain values of a model whose only conserved density is the function."""
+        """Return the model, as plain values, with the function as its only conserved density."""
         traced = isinstance(case.model, Model)
         model = case.model if traced else case.kind.of(case.problem()).model
         name, density = self.when.rpartition(":")[2], model.trace(read_function(self.when))

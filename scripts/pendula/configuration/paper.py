@@ -123,7 +123,7 @@ def _sections(folder: str, stem: str) -> list[str]:
     if stem == "second_solver":
         return ["solvers.crank_nicolson", "chaos.ensembles", "chaos.second_solver"]
     if folder == "checks":
-        return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # the theory's depend on none
+        return [f"chaos.{stem}"] if _at(f"chaos.{stem}") else []  # checks of the theory have none
     if folder == "breathers":
         return [f"breathers.{key}" for key in ("epsilon", "gamma", stem)]
     if folder == "pendula":
@@ -140,7 +140,7 @@ def _at(path: str) -> Any:
 
 
 def from_paper(words: Mapping[str, str]) -> Differences:
-    """Return the differences from the paper, with the keys that each dataset depends on."""
+    """Return `Differences` from the paper with these descriptions and with `rests_on`."""
     return Differences(words, rests_on)
 
 

@@ -41,7 +41,7 @@ class Runs(NamedTuple):
                 return
 
     def costs(self) -> list[RunCost]:
-        """Return the cost of each problem, with the mean size of perturbed initial data."""
+        """Return the cost of each problem at the root mean square of its perturbed initial data."""
         mean = sqrt(1.0 + 2.0 * self.size * self.size)
         return [estimate(enlarged(problem, mean)) for problem in self.problems]
 

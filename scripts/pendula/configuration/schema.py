@@ -73,12 +73,12 @@ class PaperConfiguration(schema.Configuration):
         return entry.cost(self.cases[entry.case])
 
     def plain_when(self, section: str) -> dict[str, Any]:
-        """Return as plain values the function whose zeros define an entry of `sections`."""
+        """Return `CrossingsSection.plain_when` of an entry of `sections`."""
         entry = self.sections[section]
         return entry.plain_when(self.cases[entry.case])
 
     def absent(self, section: str, key: str, names: list[str]) -> Faults:
-        """Yield an error for each of `names`, values of `key`, that is no case or sweep of (4)."""
+        """Yield an error for each of `names` under `key` that is no case or sweep of (4)."""
         yield from super().absent(section, key, names)
         for name in names:
             if name in getattr(self, section):

@@ -129,6 +129,6 @@ def message_of(error: Exception) -> str:
 
 
 def _peak_memory() -> float:
-    """Return the largest memory that this process has held so far, in MB."""
+    """Return the peak memory of this process, in MB."""
     unit = 1 if sys.platform == "darwin" else 1024  # bytes in a unit of getrusage
     return 1e-6 * unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

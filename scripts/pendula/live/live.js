@@ -94,7 +94,7 @@ const apply = (chosen) => {
 };
 const readControl = (key) => (key === "boundary" ? byId(key).value : Number(byId(key).value));
 
-// Whether a text is a number that the page can integrate with, even if its slider has no such step.
+// Return whether a text is a number in the range of its slider; it need not be one of the steps.
 const isInRange = (key, text) => {
   const { min, max, step } = byId(key);
   const number = Number(text);

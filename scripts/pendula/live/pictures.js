@@ -63,7 +63,7 @@ const clearPendula = () => {
   pen.font = "26px sans-serif";
   return pen;
 };
-// Add a pendulum at `from` whose string hangs from `hook` to paths of strings and of bobs.
+// Add a pendulum to the paths of strings and of bobs; (`from`, `hook`) is the point it hangs from.
 const addPendulum = (strings, bobs, from, hook, angle, isOver) => {
   const [x, y] = [from + ROD * Math.sin(angle), hook + ROD * Math.cos(angle)];
   strings.moveTo(from, hook);

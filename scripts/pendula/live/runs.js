@@ -44,8 +44,8 @@ const withViews = (run) => {
 let solve = (settings, outputStep) => callWorker({ settings, outputStep });
 const loadSolver = () => callWorker({ setup: { solver: data.solver, faults: data.faults } });
 
-// A hash for each output time, over the words of its norms, its energy and, at each `every`-th of
-// them, its moduli in single precision, as the datasets have them.
+// Return a hash for each output time: of the words of norms and energy, and at each `every`-th time
+// also of the moduli in single precision, as stored in the datasets. If `every` is 0, of no moduli.
 const marksOf = ({ tau, linf, l2, energy, sites, modulus }, every) => {
   const marks = new Uint32Array(tau.length).fill(data.hash.offset);
   const add = (values, step) => new Uint32Array(values.buffer).forEach((word, k) => {
@@ -64,7 +64,7 @@ const marksOf = ({ tau, linf, l2, energy, sites, modulus }, every) => {
 };
 
 // Return the first time at which the central pair and its neighbours hold at most half of the power,
-// at the times at which the datasets hold moduli.
+// among the times at which the datasets have moduli.
 const endOfLocalised = ({ sites, tau, modulus }, every) => {
   const isLeft = (i) => {
     const power = (n) => modulus(0, n, i) ** 2 + modulus(1, n, i) ** 2;

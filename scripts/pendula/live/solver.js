@@ -9,7 +9,7 @@ const MIRROR = 3n; // the end at the centre of an even chain
 const loadSolver = async ({ code, controls, work }, faults) => {
   const { clear, array, call } = await loadKernel(Uint8Array.from(atob(code), (letter) => letter.charCodeAt(0)));
   return (settings, outputStep) => {
-    // half of the chain, since the initial data are even, and A alone where A = B
+    // the initial data are even: integrate half of the chain, and only A if A = B
     const start = [settings.a_re, settings.a_im, settings.b_re, settings.b_im];
     const components = start[0] === start[2] && start[1] === start[3] ? 1 : 2;
     const outputs = Math.round(settings.end_time / outputStep);

@@ -94,7 +94,7 @@ def widened_bound(energy: float, start: float, constants: Constants) -> float:
         return np.inf
     depth, low, high = -float(energy) / (1.5 * barrier), 0.0, 1.0
     for _ in range(60):
-        middle = 0.5 * (low + high)  # of P / top
+        middle = 0.5 * (low + high)  # P / top
         if middle - middle * middle * middle / 3.0 < depth:
             low = middle
         else:

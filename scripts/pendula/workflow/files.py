@@ -138,7 +138,7 @@ def own_files(settings: PaperConfiguration) -> list[str]:
 def differs_of(differs: Differences, wildcards: Any, input: Iterable[str]) -> list[str]:
     """Return the differences from the paper's configuration that affect a figure, as sentences.
 
-    If the inputs include trajectories or sweeps, only those count in a dataset of many cases.
+    If trajectories or sweeps are among the inputs, a dataset of many cases counts only with these.
     """
     names = [name_of(path) for path in input if path.endswith(".nc")]
     names = [name for name in names if not name.startswith(("long/", "own/"))]

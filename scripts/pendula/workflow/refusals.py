@@ -35,7 +35,7 @@ class Refusals:
         raise SystemExit(1)
 
     def stopping(self, function: Callable) -> Callable:
-        """Return `function`, with the workflow stopped by any ConfigurationError that it raises."""
+        """Return `function` wrapped: if it raises ConfigurationError, the workflow stops."""
 
         @wraps(function)
         def checked(*arguments: Any, **settings: Any) -> Any:

@@ -1,7 +1,7 @@
 """Labels of figures and datasets on the page of `snakemake --report`, read from the files.
 
-Each result has only one label: if there are two results, the page shows a second label as a switch
-and goes blank.
+Each result has only one label. The page would offer a second label as a switch, and go blank if
+there are only two results.
 """
 
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ from textwrap import shorten
 from typing import Any
 
 MOST_LETTERS = 64
-"""Of a caption in a label."""
+"""Maximum length of a caption in a label."""
 
 
 def folder_of(wildcards: Any, output: Sequence[str]) -> str:

@@ -11,7 +11,7 @@ START_MB, START_MINUTES = 1000, 15
 SAFETY = 5
 """Factor on estimated times: they are right within a factor of three, and a node may be slower."""
 SHORT, HOUR = RunCost(0.0, 0.0), RunCost(3600 / SAFETY, 0.0)
-"""Costs of jobs that request only the time of the start, and an hour more."""
+"""Costs of a job that requests only the start time above, and of one that adds an hour."""
 
 
 def cost_of_study(wildcards: Any) -> RunCost:

@@ -18,7 +18,7 @@ def values_of(section: Section, *names: str) -> dict[str, Any]:
 
 
 def section_of_size(section: Section, wildcards: Any) -> Section:
-    """Return the settings of the longer study if the wildcard `size` is set, else of the usual."""
+    """Return the settings of the longer study if the wildcard `size` is set, else of the other."""
     return section.long if wildcards.size else getattr(section, "short", section)
 
 

@@ -21,7 +21,7 @@ from .quoted import LongStudies, LongStudy, copy_of, is_quoted
 from .sources import Code, Printed, Source, code_of
 
 MOST_ROWS = 12
-"""Of a longer table, a card shows only the rows that the article prints."""
+"""If a table has more rows, its card shows only those that the article prints."""
 DIGITS = 5
 """Significant digits of a number in a card."""
 ERRORS = {
@@ -192,7 +192,7 @@ class Cards:
         }
         return Card(
             COUNTS.card,
-            "Claims by their verdict and by whose sentence they are",
+            "Claims by verdict and by origin",
             f"snakemake {RESULTS}/claims.json",
             table=Table(
                 ("verdict", *columns),

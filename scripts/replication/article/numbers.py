@@ -153,7 +153,7 @@ class Numbers:
         interval = f" ({' to '.join(ends)})" if set(ends) - {middle} else ""
         if variable in data.data_vars:
             return self._mark(middle + interval, name, variable, labels)
-        return Printed(middle + interval, Source(name, attribute=variable))  # chosen, not computed
+        return Printed(middle + interval, Source(name, attribute=variable))  # chosen
 
     def _mark(self, text: str, name: str, variable: str, labels: dict) -> Printed:
         """Return a printed result, followed by MARK if it is of a long study."""

@@ -33,7 +33,7 @@ ESCAPED = re.compile(rb"\\(?:\d{3}|.)", re.DOTALL)
 """The streams of a PDF, the parts of a stream that show text, their texts, and escaped letters."""
 
 WORDS, TEX = ("text", "title", "label", "ticks"), re.compile(r"\\[a-zA-Z]+|[${}\\^_ ]")
-"""Entries of a description that are printed in the figure, and what is not a letter in them."""
+"""Entries of a description that are printed in the figure; commands and signs of TeX in them."""
 
 NAMED_IN_A_LEGEND = ("curves", "areas", "images", "shapes")
 
@@ -116,7 +116,7 @@ def letters_of(description: Any, key: str = "") -> int:
 
 
 def damage(path: Path, content: bytes) -> str:
-    """Return that a PNG or PDF is incomplete, or an empty text."""
+    """Return a message if a PNG or PDF is incomplete, else an empty text."""
     if path.suffix == ".pdf":
         is_complete = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
         return "" if is_complete else "is not a complete PDF"
@@ -129,5 +129,5 @@ def damage(path: Path, content: bytes) -> str:
 
 
 def edited(path: Path, content: bytes) -> str:
-    """Return that a complete picture was edited, or an empty text."""
+    """Return a message if a complete picture was edited, else an empty text."""
     return "" if is_sealed(path.suffix, content) else "was edited since it was drawn"

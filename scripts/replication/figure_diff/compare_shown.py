@@ -82,7 +82,7 @@ def comparable(name: str, content: bytes) -> bytes:
 
 
 def hash_of(name: str, content: bytes) -> str:
-    """Return the hash of a file, or three of a page: of OF_VERSIONS, of the rest, of its words.
+    """Return the hash of a file; of a page three: matches of OF_VERSIONS, the remainder, the words.
 
     The words are texts without digits, except in the live page.
     """

@@ -19,8 +19,8 @@ NO_RESULT = ("version", "history")
 """Attributes that name the version of this project; they are not hashed."""
 
 LEAST = 1e-30
-"""Smallest number stored in single precision, 1 / LEAST the largest; its own limits are 1e-38
-and 3e38."""
+"""Values are stored in single precision if the largest is between LEAST and 1 / LEAST. The limits
+of the format are 1e-38 and 3e38."""
 
 SINGLE = np.finfo(np.float32).precision
 """Decimal digits of single precision. The attribute `significant_digits` of a variable declares

@@ -32,15 +32,15 @@ TIMES_SCATTER, LEAST, UNKNOWN_SCATTER = 2.5, 0.05, 0.6
 scatter, but at least LEAST; UNKNOWN_SCATTER if its scatter is not known."""
 
 SCATTER, LONG, SMALL = 4.0, 100, 0.01
-"""Factor by which a statistic may be larger or smaller; length from which a chaotic row must keep
-its range; size, relative to the largest of the variable, below which a number may be anything."""
+"""Factor by which a statistic may be larger or smaller. Length from which a chaotic row must keep
+its range. Numbers below SMALL times the largest of the variable may have any value."""
 
 ROUNDED = 1e-5
 """Allowed difference of equal numbers relative to the largest: accepted ones have seven digits."""
 
 STEP, FEWEST = 3.0, 20
-"""Factor by which the largest step in time may grow, from FEWEST times on. For a statistic it is
-twice this, because one excursion of a chaotic run makes the largest step of its drift."""
+"""Factor by which the largest step in time may grow, if there are FEWEST times or more. It is
+doubled for a statistic, because a single excursion of a chaotic run may be its largest step."""
 
 
 def fault(
@@ -150,7 +150,7 @@ def _soon_after_the_horizon(
 ) -> str:
     """Return a message if numbers differ by more than errors can have grown to by their time."""
     known = (free > 0.0) & np.isfinite(free) & np.isfinite(old) & np.isfinite(new)
-    if is_statistic(variable) or not known.any():  # `free` is for solutions
+    if is_statistic(variable) or not known.any():  # `free` limits solutions, not statistics
         return ""
     grown = free[known] * (hashes.largest(old) or 1.0)
     beyond = (abs(new - old)[known] / grown).max()

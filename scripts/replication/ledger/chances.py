@@ -40,7 +40,7 @@ class Chance(NamedTuple):
 def chance_to_cross(rooms: Sequence[float]) -> float:
     """Return the chance that one more sample has the opposite sign of `rooms`, which share a sign.
 
-    Infinite samples are left out; a test on means without scatter has them.
+    Infinite samples, of a test on means without scatter, are left out.
     """
     finite = np.abs([room for room in rooms if np.isfinite(room)])
     if len(finite) < 2:
@@ -74,7 +74,7 @@ def chance_to_turn(findings: Sequence[Finding]) -> Chance:
         nearest = max(chances, key=chances.get)
         return Chance(min(1.0, sum(chances.values())), nearest if chances[nearest] else "")
     if not failing:
-        return Chance(1.0, "numbers that fail in turn")
+        return Chance(1.0, "different numbers in different runs")
     nearest = min(failing, key=chances.get)
     return Chance(chances[nearest], nearest if chances[nearest] else "")
 

@@ -62,7 +62,7 @@ def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> lis
 
 
 def each_move(read: set[Cutoff], decide: Callable[[], Any]) -> Iterator[tuple[Cutoff, float, Any]]:
-    """Yield each moved cut-off in `read` with its value then, and the result of `decide`."""
+    """Yield each cut-off in `read` as moved, its moved value, and the result of `decide`."""
     for cutoff in sorted(read):
         for factor in MOVES:
             _moved[cutoff] = factor
@@ -90,7 +90,7 @@ def once(measure: Callable) -> Callable:
         if read is None or read & _moved.keys():
             result, read = reading(lambda: measure(*arguments))
             if not _moved:
-                stored[key] = result, read, arguments  # keeps their ids from being used again
+                stored[key] = result, read, arguments  # so that their ids are not reused
         _read.update(read)
         return result
 

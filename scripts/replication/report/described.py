@@ -20,7 +20,7 @@ SHARED = {"Conventions", "version", "history"}
 
 
 class MapLink(NamedTuple):
-    """The address for a point of a panel, with fields {x} and {y}; the symbols of both axes."""
+    """The axes' symbols of a panel, and the address of its points, with the fields {x} and {y}."""
 
     x: str
     y: str

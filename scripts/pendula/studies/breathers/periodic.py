@@ -157,7 +157,7 @@ def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = N
 
 
 def _derivative_of_miss(guess: Breather, symmetry: int) -> np.ndarray:
-    """Return the derivative of the miss with respect to the data; only to A if A = B or A = -B."""
+    """Return the derivative of the miss by the data; if A = B or A = -B, only by those of A."""
     sites = guess.data.shape[1]
     unit = np.eye(sites)
     both = np.eye(2 * sites).reshape(-1, 2, sites)

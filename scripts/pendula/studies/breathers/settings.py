@@ -102,7 +102,7 @@ class Settings(Section):
                 yield from settings.faults_of_runs(runs)
 
     def runs_of(self, settings: PaperConfiguration) -> Iterator[Runs]:
-        """Yield the runs of the ensembles, and of the map those with the least and largest data."""
+        """Yield the runs of the ensembles, and those of the map from its least and largest data."""
         sensitivity, fates = self.sensitivity, self.fates
         run = settings.run_of(
             sensitivity.case, sensitivity.tolerance, end_time=sensitivity.end_time

@@ -38,7 +38,7 @@ class Breathers(Section):
     """Steady breathers whose existence is proved."""
 
     gamma: Positive
-    half_width: Annotated[Integer, Field(ge=2, le=200)]  # at the largest a proof takes minutes
+    half_width: Annotated[Integer, Field(ge=2, le=200)]  # a proof with 200 takes minutes
     proofs: Annotated[list[ProofSection], Field(min_length=1)]
     control_omegas: Annotated[
         list[Number], Field(min_length=2, max_length=2)

@@ -326,8 +326,8 @@ def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
     a0, end = lifetimes["start_amplitude"].values, float(lifetimes.attrs["window_end"])
     if end < END or a0.size < 2 or a0.min() >= PAPERS_LARGEST or lifetimes.sizes["member"] < FEWEST:
         raise UndecidableError(
-            f"{FEWEST} members are required, runs to tau = {END:g}, and two amplitudes, one of them"
-            f" below {PAPERS_LARGEST:g}"
+            f"at least {FEWEST} members, runs to tau = {END:g} and two amplitudes A_0 are required,"
+            f" one of them below {PAPERS_LARGEST:g}"
         )
     limits = limits_of(lifetimes, LEVEL.value)
     times, norms = limits["transition"], limits["l2"]
@@ -345,13 +345,14 @@ def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
 
 
 def excited_centre(lifetimes: xr.Dataset, share: ConfidenceInterval) -> str:
-    """Return the caveat on the amplitudes from which the centre keeps more than an average pair."""
+    """Return the caveat that the centre stays excited from some amplitudes, empty if from none."""
     a0, pairs = lifetimes["start_amplitude"].values, 2 * int(lifetimes.attrs["half_width"]) + 1
     excited = a0[share.low > FACTOR.value / pairs]
     if not excited.size:
         return ""
     shares = share.value[np.isin(a0, excited)]
     return (
-        f"from A_0 = {excited.min():g} on the central pair stays excited inside the chaotic chain:"
-        f" it holds {shares.min():.1%} to {shares.max():.1%} of P, the average pair {1 / pairs:.1%}"
+        f"if A_0 is {excited.min():g} or more, the central pair stays excited inside the chaotic"
+        f" chain: it holds {shares.min():.1%} to {shares.max():.1%} of P, the average pair"
+        f" {1 / pairs:.1%}"
     )

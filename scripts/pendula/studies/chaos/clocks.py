@@ -1,4 +1,4 @@
-"""Names of the numbers measured in each run from an initial amplitude, and their medians and means.
+"""Names of the numbers measured in each run, and their medians or means by initial amplitude.
 
 The module imports no solver: figures and claims do not depend on the code of solvers.
 """
@@ -16,7 +16,7 @@ NUMBERS = {
 }
 """Numbers measured in each run."""
 TIMES = ("transition", "life")
-"""Times, which may be later than the run: the ensemble has their medians instead of means."""
+"""Times. They may be later than the end of a run, so ensembles have medians of them, not means."""
 
 
 def limits_of(

@@ -36,7 +36,7 @@ def draw_swept(
     """Return the members of a sweep, ordered by half-width.
 
     Each half-width has its own draws. With equal draws the motion would be the same on all chains
-    that are too long for the front, and their means would not be independent.
+    whose ends the front does not reach, and their means would not be independent.
     """
     chains = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
@@ -45,7 +45,7 @@ def draw_swept(
 def read_norms(
     problem: PaperProblem, windows: Sequence[tuple[float, float]]
 ) -> dict[str, np.ndarray]:
-    """Return by norm both READINGS for the pair in a run, each over its window, (reading,)."""
+    """Return each norm of the pair in a run by name, reduced to both READINGS, (reading,)."""
     norms, pair = windowed(simulate(problem, conserved=False), windows), QUANTITIES.index("pair")
     places = [STATISTICS.index(statistic) for statistic in READINGS.values()]
     return {name: norms[name][pair, places, range(len(places))] for name in NORMS}

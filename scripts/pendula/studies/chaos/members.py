@@ -32,7 +32,7 @@ REDUCED = {
     "norm_correlation": (("window",), "correlation in time of the squared l2 norms of A and B"),
     "rms": (("window", "component", "site"), "root mean square of an amplitude over the window"),
 }
-"""Numbers of each member: dimensions after case and member, and long name."""
+"""Numbers of each member: their dimensions after (case, member), and their long names."""
 ATTRIBUTES = {"norm_correlation": SCATTERED, "rms": missing("the chain has no such site")}
 
 Window = tuple[float, float]

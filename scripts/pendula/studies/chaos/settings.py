@@ -79,7 +79,7 @@ Members = section_of(
 def second_solver_steps(step: float, output_step: float) -> list[float]:
     """Return the step of the second solver and a coarse one, in order, or one if they are equal.
 
-    The coarse step is half of the output step, so it divides any output step.
+    The coarse step is half of the output step, so it divides the output step.
     """
     return sorted({step, output_step / 2})
 
@@ -152,7 +152,7 @@ class Settings(Section):
         return [{**problem, "solver": {**problem["solver"], "step": step}} for step in steps]
 
     def shorter_chains(self, settings: PaperConfiguration, case: str) -> dict[str, int]:
-        """Return by key the least half-width on which each ensemble integrates a case."""
+        """Return the least half-width of each ensemble that integrates a case, by its key."""
         spectrum = self.lyapunov.spectrum
         half_widths = {"lyapunov.spectrum": spectrum.half_width} if case in spectrum.cases else {}
         for name, swept in self.ensembles.sweeps.items():
@@ -223,7 +223,7 @@ class Settings(Section):
         return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
     def _spectra(self, settings: PaperConfiguration) -> list[RunCost]:
-        """Return the costs of spectra: as many tangent vectors as half of a state's numbers."""
+        """Return the costs of spectra: of half as many tangent vectors as a state has numbers."""
         spectrum, costs = self.lyapunov.spectrum, []
         for case in spectrum.cases:
             cost = estimate(settings.problem(case, half_width=spectrum.half_width))

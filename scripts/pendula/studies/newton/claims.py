@@ -36,7 +36,7 @@ SMALL_ANGLES = 0.15
 SMALL_MU_ALONE = keep(mu=slice(None, SMALL_ANGLES))
 
 ORDER = Cutoff(0.25, "an order counts as a whole number if it differs from one by up to a quarter")
-SAME = Cutoff(0.1, "half of what P of the thermal state changes by from Omega = 0 to 1")
+SAME = Cutoff(0.1, "half of the change of thermal P from Omega = 0 to 1")
 
 
 def sort_by_falling_mu(data: xr.Dataset, fewest: int = 2) -> xr.Dataset:
@@ -87,8 +87,8 @@ def expansion_order(remainder: xr.Dataset) -> Finding:
 def remainder_bounded(remainder: xr.Dataset) -> Finding:
     """Compare the remainder at two mu and one slow time.
 
-    At half of the mu, the same slow time is four times as late in t, so the comparison shows terms
-    that grow in proportion to t. Equations (4) are the condition that no such term exists.
+    Halving mu makes t = 2 tau / mu^2 four times as large, so the comparison shows terms that grow
+    in proportion to t. Equations (4) are the condition that no such term exists.
     """
     errors = sort_by_falling_mu(remainder)["error"].sel(slow_time=SLOW).isel(mu=[-2, -1])
     mu = errors["mu"]
@@ -215,6 +215,6 @@ def waiting_grows(over_the_top: xr.Dataset) -> Finding:
     if len(times) < 2:
         raise UndecidableError("passages are known at fewer than two mu")
     share = order_limits(times, 1.0 - RARE.value)
-    label = "lower limit of the share of pairs of runs in which that at the smaller mu takes longer"
+    label = "lower limit of the share of pairs in which the run at the smaller mu takes longer"
     measured = {"share": share.value, "share_low": share.low}
     return judge(measured, Above(0.5, "share_low", label=label))

@@ -10,7 +10,7 @@ MARKS = "osD^vPX*"
 COLOURS, LIGHTEST = colormaps["inferno"], 0.67
 """From dark to light, up to LIGHTEST: lighter curves are too pale on white paper."""
 WIDTH_STEP = 0.6
-"""Each curve is wider than the next one, which may cover it, by this in points."""
+"""Difference in width between a curve and the next one, which may cover it, in points."""
 LIMIT_SPACING = 0.025
 """Distance of neighbouring confidence intervals at the end, as a fraction of the end time."""
 CAPTION = (

@@ -192,7 +192,7 @@ def vary_over_the_top(
 
 
 def printed_numbers(study: xr.Dataset, by_tau: float) -> dict[str, ConfidenceInterval]:
-    """Return the numbers of MEANINGS (mu,) with their limits; the share is up to `by_tau`."""
+    """Return the numbers of MEANINGS (mu,) with limits; the share is at tau = `by_tau`."""
     numbers = {}
     for name in ("passed", "passage_rate"):
         ends = (study[f"{name}{end}"] for end in ("", "_low", "_high"))

@@ -38,7 +38,7 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
     for (unknowns, solver), reading in product(UNKNOWNS.items(), solvers["of"].values):
         read = solvers["largest_drift"].sel(solver=solver, of=reading)
         for case in (name for name in map(str, solvers["case"].values) if name.endswith(size)):
-            # names omit the definitions of the figures: complex unknowns, absolute drift
+            # a name omits what holds in the figures: complex unknowns, absolute drift
             words = (word for word in (unknowns, reading) if word not in ("complex", "absolute"))
             name = "_".join([case, *words])
             measured[name] = float(read.sel(case=case))

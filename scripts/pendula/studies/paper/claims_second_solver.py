@@ -199,10 +199,10 @@ def second_solver_sweeps(
     if regular.holds(measured) and len(same_range.failing(measured)) == 1:
         fine, coarse = right["solver_step"].values[[0, -1]]
         because = (
-            f"the paper gives no step: in Fig 6, right, with a step of {fine:g} at every M at least"
-            f" {measured['share_inside']:.0%} of the second solver's runs lie within the range of"
-            f" {right.sizes['first_member']} runs of the first; with {coarse:g} only"
-            f" {measured['coarse_share_inside']:.0%} do at some M"
+            "the paper gives no step. In Fig 6, right, we compare the second solver's runs with the"
+            f" range of {right.sizes['first_member']} runs of the first: with a step of {fine:g} at"
+            f" least {measured['share_inside']:.0%} are within it at each M, with {coarse:g} only"
+            f" {measured['coarse_share_inside']:.0%} at some M"
         )
         return undecided(measured, because, AllOf(regular, same_range))
     return judge(measured, AllOf(regular, same_range), "Fig 5, right, is not compared")

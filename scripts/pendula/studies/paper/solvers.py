@@ -198,7 +198,7 @@ def _trust_case(
 
 
 def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
-    """Return TRUSTED's numbers on the certified curve, NaN without one for the run's problem."""
+    """Return TRUSTED's numbers on the certified curve, NaN if it is not of the run's problem."""
     if proved is None or not is_of_same_case(run, proved):
         return dict.fromkeys(("l2_bound", "distance", "late_distance"), np.nan)
     right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)

@@ -43,7 +43,7 @@ def dispersion() -> None:
     kind=Kind.THEOREM,
 )
 def stable_below(chart: xr.Dataset) -> Finding:
-    """Require no growth below gamma_0, and above it half of the rate of N sites if resolved."""
+    """Require no growth below gamma_0, and half of each resolved rate of N sites above it."""
     below, above = (chart["gamma"] < chart["gamma_0"]), (chart["gamma"] > chart["gamma_0"])
     is_resolved = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
     measured = {

@@ -121,12 +121,12 @@ def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
 )
 def one_integral(lyapunov: xr.Dataset) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
-    # A second integral makes at least four exponents of each spectrum vanish. One of them outside
-    # its confidence interval would hide it: hence Bonferroni's bound, for four in every spectrum.
+    # A second integral makes at least four exponents of each spectrum vanish. It would be missed if
+    # the interval of one excluded zero by chance: hence Bonferroni's bound, for four in a spectrum.
     level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(INTERVALS - 1, level) / student(INTERVALS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
-    # count exponents with confidence intervals within one mean spacing of zero
+    # exponents whose confidence interval is closer to zero than the mean spacing of exponents
     between = 2.0 * size.max("index") / size.sizes["index"]
     vanishing = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}

@@ -93,7 +93,7 @@ def first_harmonic(ends: str, slow: fmpq, drive: fmpq_mpoly = DOUBLE) -> list[fm
     The amplitudes obey (4) with tau = `slow` mu^2 t.
     """
     change = slow * rates(ends)
-    # x'' + x of (3), by omega^2 = 1 + mu^2 Omega and twice the fast times the slow derivative
+    # x'' + x of (3): terms of mu^2 Omega in omega^2, and of the mixed fast and slow derivative
     inertia = -scaled(OMEGA, turning(STATE[:, 0], STATE[:, 1]))
     inertia = inertia - 2 * turning(change[:, 1], -change[:, 0])
     forces = accelerations(ends, angles(), drive=drive)

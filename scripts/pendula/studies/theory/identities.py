@@ -160,7 +160,7 @@ def sign_of_gamma(ends: str, image: Callable) -> Residual:
 
 
 def of_a_wave(ends: str, kappa: fmpq_mpoly) -> Residual:
-    """Return the linear rates of a site minus (14), with cos(theta) times the site as neighbours.
+    """Return the linear rates of a site minus (14); its neighbours are cos(theta) times the site.
 
     The linear equation (14) is i A' + kappa A = gamma (conj B - conj A). SINE is sin(theta / 2).
     """
@@ -174,7 +174,7 @@ def of_a_wave(ends: str, kappa: fmpq_mpoly) -> Residual:
 
 
 def determinant(ends: str, drive: int) -> Residual:
-    """Return the determinant before (15) minus the product of its factors, with `drive` gamma."""
+    """Return the determinant before (15) minus the product of its factors with `drive` * gamma."""
     k, g, w = KAPPA, GAMMA, OMEGA
     rows = [[k - w, g, ZERO, -g], [g, k + w, -g, ZERO], [ZERO, -g, k - w, g], [-g, ZERO, g, k + w]]
     total = ZERO

@@ -1,8 +1,8 @@
 """Proofs of the inequalities of Section 4: larger minus smaller side is a sum of squares.
 
-For epsilon, gamma > 0 and |Omega| = +-Omega no square has a negative factor. The residual of an
-inequality is its larger side minus its smaller side minus these squares: it must have no terms. A
-wrong twin has 3/4 of the larger side, or half of the drive.
+The factors of the squares are nonnegative for epsilon, gamma > 0 and both signs of Omega. The
+residual of an inequality is its larger side minus its smaller side minus these squares: it must
+have no terms. A wrong twin has 3/4 of the larger side, or half of the drive.
 """
 
 from collections.abc import Callable, Mapping
@@ -51,7 +51,7 @@ def pairs(values: np.ndarray) -> fmpq_mpoly:
 
 
 def driven(change: fmpq_mpoly, state: np.ndarray, factor: int) -> list[fmpq_mpoly]:
-    """Return `factor` gamma |state|^2 -+ `change` minus the squares of the drive, by both signs."""
+    """Return `factor` gamma |state|^2 -+ `change` minus squares of the drive, for each sign."""
     together, (x, y) = state[0] + state[1], state[0] - state[1]
     power = factor * GAMMA * densities(state).sum()
     return [

@@ -33,10 +33,10 @@ def check_sharpness() -> dict:
     For Theorems 1 and 2 the data are tiny: A = -B in the wave at the edge of the band. By the
     linear equations H is constant, and P goes from its least to its largest value while the phase
     advances by a quarter of a turn. For Theorem 3 the data are A = -B = (-1)^n x with the best of
-    SQUARES. Without ends they would attain its bound for any x^2 >= 2 c if Omega <= 0. With ends
-    they attain less, but more for a larger x.
+    SQUARES. Without ends these data would attain its bound for any x^2 >= 2 c if Omega <= 0. With
+    ends they attain a share that grows with x.
 
-    The paper prints no constants for bounds in terms of delta = P(0). The wave needs P <=
+    The paper prints no constants for bounds in terms of delta = P(0). P of the wave reaches
     `least_constant` delta. For small delta the inequalities of the proofs give P <=
     `proof_constant` delta: the largest |H| at this delta over the least |H| at this P. These
     inequalities are H <= (Omega + 2 gamma) delta for Theorem 1; for Theorem 2 |H| <= C delta and C

@@ -63,8 +63,8 @@ def margins(constants: Constants, start: np.ndarray, gamma: float) -> dict[str, 
 def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the growth of the distances of perturbed runs by CLOSE_TIME, (direction, size).
 
-    Also return its logarithm divided by the largest that the drive and the largest amplitude M
-    allow, (2 |gamma| + M^2 / 2) tau.
+    Also return its logarithm divided by the bound (2 |gamma| + M^2 / 2) tau, where M is the largest
+    amplitude.
     """
     first = run(constants, ENDS, start, CLOSE_TIME, OUTPUTS, solver=SOLVER)
     ratios = np.empty((len(DIRECTIONS), len(SIZES)))

@@ -158,7 +158,7 @@ def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
 
 
 def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
-    """Return the largest relative change of the law's slope with one state behind both fronts."""
+    """Return the largest relative change of the law's slope if both fronts had one state behind."""
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     first, second = run["predicted_speed"].values, np.nan_to_num(second_speeds(run)[0])
     law = second * both + (first - second) * alone

@@ -99,7 +99,7 @@ def _slopes(run: xr.Dataset, sites: xr.DataArray, settled: float) -> tuple[np.nd
 
 
 def _known(halves: np.ndarray, otherwise: float = np.nan) -> np.ndarray:
-    """Return halves of confidence intervals, `otherwise` if infinite due to a single member."""
+    """Return halves of confidence intervals; infinite ones, of a single member, are `otherwise`."""
     return np.where(np.isfinite(halves), halves, otherwise)
 
 

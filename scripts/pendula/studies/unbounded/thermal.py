@@ -28,7 +28,7 @@ Grid = tuple[np.ndarray, ...]
 """The nodes of each coordinate."""
 
 HALVINGS, SECANTS = 7, 12
-"""Bisections to a rough beta on the coarsest grid, and the most secant steps on each grid."""
+"""Bisections to a rough beta on the coarsest grid; maximum number of secant steps on each grid."""
 
 
 class NoThermalStateError(ValueError):
@@ -49,9 +49,9 @@ def state_of_energy(
 ) -> ThermalState:
     """Return the thermal state with this energy per site, on `nodes` half-nodes per coordinate.
 
-    It has both fields, or A = -B if `antisymmetric`. A grid with half of the nodes gives a rough
-    beta and the extent of the distribution, one with three quarters the error, and the full grid
-    the state. Raises NoThermalStateError if no state between HOT and COLD has this energy.
+    It has both fields, or A = -B if `antisymmetric`. Half of the nodes give a rough beta and the
+    extent of the distribution, three quarters of them the error of P, and all of them the state.
+    Raises NoThermalStateError if no state between HOT and COLD has this energy.
     """
     few, some = nodes // 2, 3 * nodes // 4
 
