@@ -428,7 +428,11 @@ def _runs_to_resume(resume: xr.Dataset, name: str, problem: Problem, plan: Surve
     names = names_of(plan)
     require(resume, xr.Dataset, "the interrupted survey from `survey`", *names)
     expected = as_xarray(*survey_contents(name, problem, plan, {}))
-    differing = [key for key in expected.variables if not expected[key].equals(resume.get(key))]
+    differing = [
+        key
+        for key in expected.variables
+        if key not in resume.variables or not expected[key].equals(resume[key])
+    ]
     ignored = {"case", "title", *COUNTS.values()}
     differing += [
         key
