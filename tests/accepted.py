@@ -26,15 +26,15 @@ def datasets(names: Iterable[str]) -> dict[str, xr.Dataset]:
     return {name: dataset(name) for name in names}
 
 
-def wrong_changes(part: str) -> list[dict]:
+def wrong_changes(kind: str) -> list[dict]:
     """Return the rows of one part of wrong_changes.yaml, which says how they are written."""
-    return yaml.safe_load((Path(__file__).parent / "wrong_changes.yaml").read_text())[part]
+    return yaml.safe_load((Path(__file__).parent / "wrong_changes.yaml").read_text())[kind]
 
 
 def changed(row: Mapping) -> dict[str, xr.Dataset]:
     """Return the datasets that a row of wrong_changes.yaml changes, after the change."""
-    given = row.get("in", ())
-    names = [given] if isinstance(given, str) else given
+    sources = row.get("in", ())
+    names = [sources] if isinstance(sources, str) else sources
     return {name: _change(dataset(row.get("take", name)), row) for name in names}
 
 
@@ -43,10 +43,10 @@ def _change(data: xr.Dataset, row: Mapping) -> xr.Dataset:
         data = keep(**_labels(row["keep"]))(data)
     if "exchange" in row:
         data = exchange(row["exchange"])(data)
-    for verb, (given, change) in VERBS.items():
+    for verb, (key, change) in VERBS.items():
         names = [row[verb]] if isinstance(row.get(verb), str) else row.get(verb, ())
-        if here := tuple(name for name in names if name in data):
-            data = change(here, row[given], **_labels(row.get("at", {})))(data)
+        if present := tuple(name for name in names if name in data):
+            data = change(present, row[key], **_labels(row.get("at", {})))(data)
     return data
 
 
@@ -56,39 +56,39 @@ VERBS = {"scale": ("by", scale), "shift": ("by", shift), "set": ("to", put)}
 def _labels(at: Mapping) -> dict:
     """Return labels by coordinate, spans {from, to} as slices."""
     return {
-        along: slice(wanted.get("from"), wanted.get("to")) if isinstance(wanted, dict) else wanted
-        for along, wanted in at.items()
+        along: slice(label.get("from"), label.get("to")) if isinstance(label, dict) else label
+        for along, label in at.items()
     }
 
 
-def leaves(found, place: str = "") -> dict:
+def leaves(tree, place: str = "") -> dict:
     """Return what stands in nested lists and dictionaries, by its place."""
-    if not isinstance(found, dict | list):
-        return {place: found}
-    items = found.items() if isinstance(found, dict) else enumerate(found)
-    return {at: leaf for key, one in items for at, leaf in leaves(one, f"{place}.{key}").items()}
+    if not isinstance(tree, dict | list):
+        return {place: tree}
+    items = tree.items() if isinstance(tree, dict) else enumerate(tree)
+    return {at: leaf for key, node in items for at, leaf in leaves(node, f"{place}.{key}").items()}
 
 
-def differing(one, other, share: float, amount: float = 0.0) -> dict[str, tuple]:
+def differing(left, right, share: float, amount: float = 0.0) -> dict[str, tuple]:
     """Return the leaves in which two things differ, numbers by more than a share and an amount."""
-    one, other = leaves(one), leaves(other)
-    pairs = {place: (one.get(place), other.get(place)) for place in one | other}
+    left, right = leaves(left), leaves(right)
+    pairs = {place: (left.get(place), right.get(place)) for place in left | right}
 
-    def alike(a, b) -> bool:
+    def agree(a, b) -> bool:
         if {type(a), type(b)} <= {float, int, np.float64}:
             return math.isclose(a, b, rel_tol=share, abs_tol=amount)
         return a == b
 
-    return {place: pair for place, pair in pairs.items() if not alike(*pair)}
+    return {place: pair for place, pair in pairs.items() if not agree(*pair)}
 
 
 def check_words(row: dict, right: str, wrong: str) -> None:
     """Check that words are told by the wrong text alone, and others by the right one alone."""
     assert row.keys() & {"told", "untold"}
-    for words, here, elsewhere in (
+    for words, text, other_text in (
         (row.get("told"), wrong, right),
         (row.get("untold"), right, wrong),
     ):
         if words:
-            assert words in here
-            assert words not in elsewhere
+            assert words in text
+            assert words not in other_text

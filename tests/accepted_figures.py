@@ -12,12 +12,12 @@ from pendula.studies.unbounded import figures as unbounded
 
 def norms_of(figure: str) -> tuple[list, list]:
     """Return both runs of a figure of norms, and what it shows as their true norms."""
-    shown = dataset(f"figures/{figure}")
+    truth = dataset(f"figures/{figure}")
     runs = [dataset(f"trajectories/{figure}_{size}") for size in paper.SIZES]
-    shown = [shown.sel(initial_size=size).dropna("tau", subset=["true_l2"]) for size in paper.SIZES]
+    truth = [truth.sel(initial_size=size).dropna("tau", subset=["true_l2"]) for size in paper.SIZES]
     true = [
-        run.assign(l2=one["true_l2"], linf=one["true_linf"])
-        for run, one in zip(runs, shown, strict=True)
+        run.assign(l2=true_norms["true_l2"], linf=true_norms["true_linf"])
+        for run, true_norms in zip(runs, truth, strict=True)
     ]
     return runs, true
 
@@ -39,7 +39,7 @@ FIGURES = {
     **{
         f"fig{n}_spacetime": (
             paper.draw_spacetime,
-            lambda shown, n=n: paper.gather_spacetime(norms_of(f"fig{n}")[0], shown),
+            lambda spacetime, n=n: paper.gather_spacetime(norms_of(f"fig{n}")[0], spacetime),
             f"figures/fig{n}",
         )
         for n in (2, 3, 4)

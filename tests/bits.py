@@ -38,8 +38,8 @@ def digest(trajectories: list[Trajectory]) -> str:
     digest = hashlib.sha256()
     for trajectory in trajectories:
         energy = trajectory.conserved.get("energy", np.empty(0))
-        for part in (trajectory.final, trajectory.linf, trajectory.l2, energy):
-            digest.update((part + 0.0).tobytes())  # so that -0 and 0 are the same number
+        for values in (trajectory.final, trajectory.linf, trajectory.l2, energy):
+            digest.update((values + 0.0).tobytes())  # so that -0 and 0 are the same number
     return digest.hexdigest()[:16]
 
 
@@ -57,7 +57,7 @@ def run(name: str, even: bool) -> str:
 
 def problem(name: str, half_width: int) -> PaperProblem:
     model, solver = of_model(name)
-    plain = {
+    entries = {
         "epsilon": 1.0,
         "gamma": 1.0,
         "omega": 0.0,
@@ -69,7 +69,7 @@ def problem(name: str, half_width: int) -> PaperProblem:
         "solver": {"name": solver, **CONTROLS[name]},
         **({"model": model, "mu": 0.1} if model == "pendula" else {}),
     }
-    return PaperProblem.of(plain)
+    return PaperProblem.of(entries)
 
 
 def hits(model: str, solver: str) -> int:

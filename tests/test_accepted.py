@@ -43,19 +43,19 @@ def without_numbers(row: dict) -> dict:
     return {**{key: row[key] for key in row.keys() - {"rules"}}, **reason, **controls}
 
 
-@pytest.mark.parametrize("part", sorted(path.stem for path in (BASELINE / "claims").glob("*.json")))
-def test_claims_and_controls_come_out_as_accepted(part):
+@pytest.mark.parametrize("study", sorted(path.stem for path in BASELINE.glob("claims/*.json")))
+def test_claims_and_controls_come_out_as_accepted(study):
     """Each row of the ledger: verdict, reason, measured numbers, criterion, cut-offs, controls."""
-    ledger = load_json(BASELINE / f"claims/{part}.json")
+    ledger = load_json(BASELINE / f"claims/{study}.json")
     accepted = {row["name"]: without_numbers(row) for row in ledger["rows"]}
     functions = [row["function"].split(".") for row in ledger["rows"]]
     modules = sorted({f"{study}/{module}" for *_, study, module, _ in functions})
     claims = all_claims(*modules)
     rows = evaluate(claims, datasets(needed(claims)))
-    found = {row["name"]: without_numbers(row) for row in rows}
+    decided = {row["name"]: without_numbers(row) for row in rows}
     differences = {
         name: differing(accepted[name], row, 1e-3, ROUNDED.get(name, 0.0))
-        for name, row in found.items()
+        for name, row in decided.items()
         if name in accepted
     }
     remedy = "if this is meant, look at the rows of the ledger and type `snakemake accept_figures`"
@@ -64,9 +64,7 @@ def test_claims_and_controls_come_out_as_accepted(part):
 
 def test_every_claim_is_in_the_accepted_ledger():
     accepted = {
-        row["name"]
-        for path in (BASELINE / "claims").glob("*.json")
-        for row in load_json(path)["rows"]
+        row["name"] for path in BASELINE.glob("claims/*.json") for row in load_json(path)["rows"]
     }
     assert len(CLAIM) == len(all_claims())
     remedy = "look at its row of the ledger, then type `snakemake accept_figures`"

@@ -45,7 +45,7 @@ def test_a_figure_says_where_the_configuration_is_not_the_papers(tmp_path):
     trace in a figure."""
     edits = [f"fig2_large.{key} (other)" for key in ("boundary", "gamma", "omega", "end_time")]
 
-    def told(differs):
+    def notes(differs):
         params = {"call": [f"{__name__}.draw_line", "hash"], "unlike_paper": differs}
         paths = [str(tmp_path / f"figure.{kind}") for kind in ("png", "pdf", "nc", "json")]
         values = SimpleNamespace(**params, items=params.items)
@@ -54,7 +54,7 @@ def test_a_figure_says_where_the_configuration_is_not_the_papers(tmp_path):
         data = xr.load_dataset(tmp_path / "figure.nc").attrs.get("comment", "")
         return json.loads((tmp_path / "figure.json").read_text()).get("texts", []), data
 
-    (note,), comment = told(edits)
+    (note,), comment = notes(edits)
     assert all(edit in note["text"].replace("\n", " ") for edit in edits[:3])
     assert comment.endswith(", ".join(edits))
-    assert told([]) == ([], "")
+    assert notes([]) == ([], "")

@@ -21,7 +21,7 @@ WRITTEN = [
     tomllib.loads((home / "pyproject.toml").read_text())
     for home in (ROOT, *sorted(ROOT.glob("packages/*")))
 ]
-HOMES = {one["project"]["name"]: one for one in WRITTEN}
+HOMES = {settings["project"]["name"]: settings for settings in WRITTEN}
 """The pyproject.toml of each of our packages."""
 DECLARED = HOMES["pendula"]["project"]["dependencies"]
 PINS = [line for line in (ROOT / "environment.txt").read_text().split() if "==" in line]

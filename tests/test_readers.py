@@ -29,11 +29,11 @@ ARTICLE = [
     ROOT / "scripts/pendula/article/values.py",
     ROOT / "scripts/replication/article/numbers.py",
 ]
-PAGES = [path for like in ("*.py", "source/*", "*.md") for path in ROOT.glob(f"docs/{like}")]
+PAGES = [path for pattern in ("*.py", "source/*", "*.md") for path in ROOT.glob(f"docs/{pattern}")]
 PAGES = [*(path for path in PAGES if path.stem != "article"), ROOT / "codecheck.yml"]
 
 
-class Made(NamedTuple):
+class Computed(NamedTuple):
     """A dataset of a run: its variables, the function that made it, and what this has read."""
 
     variables: tuple[str, ...]
@@ -48,7 +48,7 @@ class Made(NamedTuple):
 class Run(NamedTuple):
     """What a run has made, and the claims and texts that may read it."""
 
-    datasets: dict[str, Made]
+    datasets: dict[str, Computed]
     tables: list[str]
     claims: tuple[Claim, ...]
     article: str
@@ -68,7 +68,7 @@ def run_of(results: Path) -> Run:
             attributes = {key: data.getncattr(key) for key in data.ncattrs()}
             variables = tuple(name for name in data.variables if name not in data.dimensions)
         sources = tuple(filter(None, attributes.get(COMPUTED_FROM, "").split(", ")))
-        datasets[name] = Made(variables, attributes.get(COMPUTED_BY, ""), sources)
+        datasets[name] = Computed(variables, attributes.get(COMPUTED_BY, ""), sources)
     tables = sorted(path.name for path in results.glob("tables/*"))
     article, pages = ("\n".join(map(Path.read_text, files)) for files in (ARTICLE, PAGES))
     return Run(datasets, tables, all_claims(), article, pages)
@@ -167,16 +167,16 @@ def test_all_that_a_run_makes_has_a_reader(run):
 
 
 CLAIM = Claim("planted_claim", "Beyond", "It is mine.", (), lambda: None, (), origin=Origin.OWN)
-PLANTED = Made(("planted",), "", ())
+PLANTED = Computed(("planted",), "", ())
 
 
-def planted_in_lyapunov(run: Run) -> dict[str, Made]:
+def planted_in_lyapunov(run: Run) -> dict[str, Computed]:
     dataset = run.datasets["checks/lyapunov"]
     return run.datasets | {"checks/lyapunov": dataset._replace(variables=("planted",))}
 
 
 @pytest.mark.parametrize(
-    ("plant", "found"),
+    ("plant", "entries"),
     [
         (lambda run: {"claims": (*run.claims, CLAIM)}, ["claim planted_claim"]),
         (lambda run: {"tables": [*run.tables, "mine.md"]}, ["table mine.md"]),
@@ -191,9 +191,9 @@ def planted_in_lyapunov(run: Run) -> dict[str, Made]:
         (lambda run: {"datasets": planted_in_lyapunov(run)}, ["variable checks/lyapunov:planted"]),
     ],
 )
-def test_what_nobody_reads_is_found(run, plant, found):
+def test_what_nobody_reads_is_found(run, plant, entries):
     before = unread(run)  # which the test above reports
-    assert [entry for entry in unread(run._replace(**plant(run))) if entry not in before] == found
+    assert [entry for entry in unread(run._replace(**plant(run))) if entry not in before] == entries
 
 
 def test_what_only_an_unread_figure_reads_has_no_reader(run):

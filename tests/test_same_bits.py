@@ -100,13 +100,13 @@ def test_each_library_chooses_the_code_of_the_machine(name):
     """Otherwise a comparison of two machines would compare one."""
     need_machine(name)
     command = [sys.executable, "-c", CHOSEN]
-    here, second = (
+    native, second = (
         json.loads(output_of(command, entry))
         for entry in (dict(os.environ), machines.environment(name))
     )
     machine = machines.PLAYED[name]
     assert second[:3] == [list(machine.numpy), machine.openblas, machine.numba]
-    assert (second[3] == here[3]) == (machine.numpy != ())
+    assert (second[3] == native[3]) == (machine.numpy != ())
 
 
 @pytest.mark.parametrize("machine", machines.PLAYED)

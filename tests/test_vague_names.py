@@ -1,4 +1,4 @@
-"""Names say what they hold: words that fit any value are below 1 % of the names of a room."""
+"""Words that fit any value are less than 1 % of the names that a folder of code binds."""
 
 import ast
 from collections.abc import Iterator
@@ -13,9 +13,9 @@ WORDS = """
     which such whose again still like alike beside apart bare plain
 """
 VAGUE = frozenset(WORDS.split())
-"""Words that say nothing of what they hold."""
+"""Words that fit any value."""
 PERCENT = 1.0
-"""In five codebases of this field these words are 0.0 to 0.3 % of the names."""
+"""The limit. In five codebases of this field the share is 0.0 to 0.3 %."""
 
 ROOMS = (
     "scripts",
@@ -23,11 +23,14 @@ ROOMS = (
     "packages/snakemake-executor-plugin-forked/snakemake_executor_plugin_forked",
     "benchmarks",
     "docs",
+    "tests",
+    "packages/latticode/tests",
+    "packages/snakemake-executor-plugin-forked/tests",
 )
-"""Folders and modules that are held to it."""
+"""The folders and modules that are checked."""
 
 EXCEPTIONS: dict[tuple[str, str], str] = {}
-"""Why a name, as (file, name), is the right one where it is bound."""
+"""By (file, name): why this name is the right one there."""
 
 
 def bound_names(text: str) -> Iterator[tuple[str, int]]:
@@ -47,14 +50,14 @@ def is_vague(name: str) -> bool:
 
 
 def modules_of(room: str) -> list[Path]:
-    """Return the modules of a room, which is a folder or one module, without those of its tests."""
+    """Return the modules of a room, which is a folder or one module, without tests inside it."""
     top = ROOT / room
     paths = [top] if top.is_file() else sorted(top.rglob("*.py"))
     return [path for path in paths if not {"tests", "build"} & set(path.relative_to(top).parts)]
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_names_say_what_they_hold(room):
+def test_few_names_are_vague(room):
     total, vague = 0, []
     for path in modules_of(room):
         module = str(path.relative_to(ROOT))
@@ -74,7 +77,7 @@ def test_exceptions_are_still_there():
         assert name in dict(bound_names((ROOT / module).read_text())), (module, name)
 
 
-def test_a_vague_name_is_seen():
+def test_a_vague_name_is_detected():
     text = "def given(path, other=1):\n    found = [one for one in path]\n    return found_by\n"
     vague = {name for name, _ in bound_names(text) if is_vague(name)}
     assert vague == {"given", "other", "found", "one"}

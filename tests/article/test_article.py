@@ -52,8 +52,8 @@ def minutes_to_read(text: str) -> float:
     """Return how long paragraphs take at 220 words a minute; a formula is a word."""
     formulas = re.compile(r"\$[^$]*\$")
     paragraphs = re.split(r"\n\n+", formulas.sub("x", text))
-    apart = ("|", "![", "**Figure", "**Table", "```", "# ")
-    words = [part.split() for part in paragraphs if not part.startswith(apart)]
+    markup = ("|", "![", "**Figure", "**Table", "```", "# ")
+    words = [paragraph.split() for paragraph in paragraphs if not paragraph.startswith(markup)]
     return sum(map(len, words)) / 220
 
 

@@ -75,8 +75,8 @@ def test_the_report_finds_places_of_the_article_by_its_own_ids(page, tmp_path):
     ],
 )
 def test_a_headline_number_has_a_card(page, text, card):
-    plain = page.replace("\N{NO-BREAK SPACE}", " ")
-    targets = re.findall(rf'<a href="#([^"]*)" class="n"[^>]*>{re.escape(text)}</a>', plain)
+    html = page.replace("\N{NO-BREAK SPACE}", " ")
+    targets = re.findall(rf'<a href="#([^"]*)" class="n"[^>]*>{re.escape(text)}</a>', html)
     assert card in targets
 
 
@@ -110,8 +110,8 @@ def test_the_card_of_a_claim_says_its_sentence_verdict_and_criterion(cards):
 def test_the_counts_of_claims_are_those_of_the_ledger(cards):
     (card,) = (card for card in cards.describe() if card.id == "data_claims.json.verdicts")
     rows = load_json(BASELINE / "claims.json")["rows"]
-    shown = sum(int(cell) for _, *cells in card.table.rows for cell in cells)
-    assert shown == len(rows)
+    total = sum(int(cell) for _, *cells in card.table.rows for cell in cells)
+    assert total == len(rows)
 
 
 def test_every_file_that_a_card_links_to_lies_below_the_results(cards, tmp_path):

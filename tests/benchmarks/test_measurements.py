@@ -17,35 +17,35 @@ def test_a_time_is_that_of_a_site_and_a_unit_of_slow_time(monkeypatch):
     monkeypatch.setattr(cost, "SITES", (5, 101))
     monkeypatch.setattr(cost, "WORK", 101)
     monkeypatch.setattr(cost, "timed", lambda action: (None, 5.0))
-    found = as_xarray(cost.measure(), {})["seconds"].sel(solver="taylor").values
+    seconds = as_xarray(cost.measure(), {})["seconds"].sel(solver="taylor").values
     ends = [cost.noisy_chain(sites, "taylor").end_time for sites in (5, 101)]
-    np.testing.assert_allclose(found, [5.0 / 5 / ends[0], 5.0 / 101 / ends[1]])
+    np.testing.assert_allclose(seconds, [5.0 / 5 / ends[0], 5.0 / 101 / ends[1]])
 
 
 # --- The kept measurements ------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
-def kept():
+def timings():
     return read(FOLDER / "work_precision.nc")
 
 
-def least_times(kept, error):
+def least_times(timings, error):
     """Return the least time (case, solver) within an error, NaN where a solver misses it."""
-    own = kept.sel(contestant=kept["solver"].values)
-    return own["seconds"].where(own["error"] <= error).min("point").values
+    solvers = timings.sel(contestant=timings["solver"].values)
+    return solvers["seconds"].where(solvers["error"] <= error).min("point").values
 
 
-def test_the_page_on_speed_says_in_words_what_was_measured(kept):
+def test_the_page_on_speed_says_in_words_what_was_measured(timings):
     """No method but that of Taylor in C++ is faster. `taylor` is our fastest below the error that
     the configuration names, by the geometric mean over the cases."""
-    faster = {str(peer) for peer in kept["peer"].values[kept["mean_ratio"].values < 1.0]}
+    faster = {str(peer) for peer in timings["peer"].values[timings["mean_ratio"].values < 1.0]}
     assert faster and all(peer.startswith("cpp_taylor") for peer in faster)
     comment = (ROOT / "config/config.yaml").read_text(encoding="utf-8").partition("taylor:")[0]
     assert "at errors of 1e-3 and below" in comment
     for error in (1e-3, 1e-5, 1e-8, 1e-11):
-        means = np.log(least_times(kept, error)).mean(axis=0)  # NaN where a case is missed
-        assert kept["solver"].values[np.nanargmin(means)] == "taylor", error
+        means = np.log(least_times(timings, error)).mean(axis=0)  # NaN where a case is missed
+        assert timings["solver"].values[np.nanargmin(means)] == "taylor", error
 
 
 def test_the_dataset_of_the_pendula_is_whole(monkeypatch):
@@ -53,10 +53,10 @@ def test_the_dataset_of_the_pendula_is_whole(monkeypatch):
     monkeypatch.setattr(pendula, "OURS", {"taylor": pendula.OURS["taylor"]})
     for name, seconds in {"PATIENCE": HANGS, "LIMIT": HANGS}.items():
         monkeypatch.setattr(contestants, name, seconds)  # on a busy machine too
-    given = {"fig3_small": problem_of("fig3_small", half_width=2)}
-    found = as_xarray(pendula.measure(given, {"again": OURS["dop853"]}, print), {})
-    kept = read(FOLDER / "pendula.nc")
-    assert set(kept.variables) <= set(found.variables)
-    assert float(found["error"].min()) < 1e-10 and found["ratio"].item() > 0.1
-    for name in kept.variables:
-        assert found[name].attrs == kept[name].attrs, name
+    problems = {"fig3_small": problem_of("fig3_small", half_width=2)}
+    measured = as_xarray(pendula.measure(problems, {"again": OURS["dop853"]}, print), {})
+    committed = read(FOLDER / "pendula.nc")
+    assert set(committed.variables) <= set(measured.variables)
+    assert float(measured["error"].min()) < 1e-10 and measured["ratio"].item() > 0.1
+    for name in committed.variables:
+        assert measured[name].attrs == committed[name].attrs, name

@@ -22,13 +22,13 @@ def contestant(seconds, accuracies=ALL, faults=(), blanks=()):
     return Contestant("made up", np.array(accuracies), lambda problem: solve)
 
 
-def with_points(made):
-    return made, measure_points(made, PROBLEM, EXACT)
+def with_points(solver):
+    return solver, measure_points(solver, PROBLEM, EXACT)
 
 
 def test_who_gives_up_or_returns_no_numbers_has_no_point_there():
-    made = contestant(lambda: 1e-3, faults=(1e-4,), blanks=(1e-8,))
-    points = measure_points(made, PROBLEM, EXACT)
+    failing = contestant(lambda: 1e-3, faults=(1e-4,), blanks=(1e-8,))
+    points = measure_points(failing, PROBLEM, EXACT)
     assert [point.accuracy for point in points] == [1e-6, 1e-10, 1e-12]
 
 
@@ -41,8 +41,8 @@ def test_the_ratio_is_theirs_over_that_of_our_fastest_below_the_target():
             contestant(lambda: 0.01, accuracies=ALL[:2]),
         ),
     )
-    found = compare(PROBLEM, 1e-10, slow, {"slow": slow, "fast": fast, "coarse": coarse})
-    assert found == pytest.approx([5.0] * PAIRS)
+    ratios = compare(PROBLEM, 1e-10, slow, {"slow": slow, "fast": fast, "coarse": coarse})
+    assert ratios == pytest.approx([5.0] * PAIRS)
     # who never gets that far is not compared
     assert compare(PROBLEM, 1e-10, coarse, {"fast": fast}) is None
     assert compare(PROBLEM, 1e-10, fast, {"coarse": coarse}) is None

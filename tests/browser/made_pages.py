@@ -44,7 +44,7 @@ def make_live_page(folder: Path) -> Path:
 def make_article(live_page: Path) -> Path:
     """Write the article of the accepted results beside the live page, whose solver it runs."""
     references = [str(BASELINE / f"reference/{case}.nc") for case in CASES]
-    parts = gather_live_parts(Accepted(), str(live_page), references)
+    live_parts = gather_live_parts(Accepted(), str(live_page), references)
     page = live_page.with_name("article.html")
-    page.write_text(ARTICLE.page(Accepted(), parts), encoding="utf-8")
+    page.write_text(ARTICLE.page(Accepted(), live_parts), encoding="utf-8")
     return page

@@ -167,9 +167,9 @@ def test_a_live_figure_reports_other_bits_and_their_time(article, article_page):
     marks = re.search(r'"name": "fig2_small".*?"marks": "([^"]*)"', text)[1]
     content = bytearray(base64.b64decode(marks))
     content[4 * 1200] ^= 1
-    other = article_page.with_name("other_bits.html")
-    other.write_text(text.replace(marks, base64.b64encode(content).decode()), encoding="utf-8")
-    article.get(other.as_uri())
+    edited = article_page.with_name("other_bits.html")
+    edited.write_text(text.replace(marks, base64.b64encode(content).decode()), encoding="utf-8")
+    article.get(edited.as_uri())
     words = "the bits of ode45 differ from trajectories/fig2_small.nc from τ = 30 on."
     assert words in answer_of(open_run(article, 2))
 

@@ -52,8 +52,8 @@ def test_claims_of_the_report_are_filtered(firefox, full_run):
     firefox.open((full_run / "results/report.html").resolve().as_uri())
     rows = load_json(full_run / "results/claims.json")["rows"]
     firefox.run("document.getElementById('kind').value = 'theorem'; filter()")
-    shown = firefox.run("document.querySelectorAll('.claim:not([hidden])').length")
-    assert shown == sum(row["kind"] == "theorem" for row in rows) > 0
+    visible = firefox.run("document.querySelectorAll('.claim:not([hidden])').length")
+    assert visible == sum(row["kind"] == "theorem" for row in rows) > 0
 
 
 def test_keys_choose_on_a_map_of_the_report_and_open_the_case(firefox, full_run):

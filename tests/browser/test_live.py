@@ -275,7 +275,7 @@ def test_numbers_of_a_link_are_taken_with_all_their_digits(live):
 
 
 @pytest.mark.parametrize(
-    ("link", "said"),
+    ("link", "message"),
     [
         ("omega=abc", "omega = abc; this page can show -12 to 12 (step 0.1), and shows 8."),
         ("omega=99", "omega = 99; this page can show -12 to 12 (step 0.1), and shows 8."),
@@ -289,9 +289,9 @@ def test_numbers_of_a_link_are_taken_with_all_their_digits(live):
         ("detuning=1", "detuning, which is not a setting."),
     ],
 )
-def test_a_link_that_the_page_cannot_show_is_told(live, link, said):
+def test_a_link_that_the_page_cannot_show_is_told(live, link, message):
     live.execute_script(f"location.hash = '{link}'")
-    wait_for(lambda: said in text(live, "fault"))
+    wait_for(lambda: message in text(live, "fault"))
     live.find_element("id", "reset").click()
     settle(live)
     assert text(live, "fault") == ""

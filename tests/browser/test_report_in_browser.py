@@ -154,8 +154,8 @@ def test_without_scripts_a_map_is_a_picture(report):
     try:
         report.refresh()
         figure = report.find_element("id", "figures/stability_chart")
-        parts = figure.find_elements("css selector", ".map, .chosen")
-        assert len(parts) == 2 and not any(part.is_displayed() for part in parts)
+        hidden = figure.find_elements("css selector", ".map, .chosen")
+        assert len(hidden) == 2 and not any(element.is_displayed() for element in hidden)
         assert figure.find_elements("css selector", "a[href='figures/stability_chart.png'] img")
     finally:
         report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})

@@ -15,7 +15,7 @@ from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = gather([ROOT / "config/config.yaml"], {})
-WHOLE = gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)], {})
+COMPLETE = gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)], {})
 SOLVERS = ["ode45", "crank_nicolson", "delfour_fortin_payre"]
 
 
@@ -25,8 +25,8 @@ def faults(text: str | bytes, folder: Path, below: dict = CONFIG) -> list[str]:
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     try:
         require(load(merge(below, read(path))), PAPER_CASES, PAPER_SWEEPS, SOLVERS)
-    except ConfigurationError as told:
-        output = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(told))
+    except ConfigurationError as error:
+        output = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(error))
         return output.split("\n  ")[1:]
     return ["nothing"]
 
@@ -35,8 +35,8 @@ FORMS = {
     "files": ("HERE", "", CONFIG),
     "case": ("cases: {mine: {omega: 1, HERE}}", "cases.mine.", CONFIG),
     "sweep": ("cases: {mine: {omega: 1}}\nsweeps: {s: {case: mine, HERE}}", "sweeps.s.", CONFIG),
-    "rest": ("HERE", "", WHOLE),
-    "study": ("HERE", "", WHOLE),
+    "rest": ("HERE", "", COMPLETE),
+    "study": ("HERE", "", COMPLETE),
 }
 """Where the texts of each part of the table stand, how their sentences start, and below what."""
 
@@ -48,13 +48,13 @@ def table():
     return blocks
 
 
-@pytest.mark.parametrize("part", FORMS)
-def test_every_fault_is_told_in_the_words_of_the_table(part, table, tmp_path):
-    form, start, below = FORMS[part]
+@pytest.mark.parametrize("block", FORMS)
+def test_every_fault_is_told_in_the_words_of_the_table(block, table, tmp_path):
+    form, start, below = FORMS[block]
     output = {
-        text: faults(form.replace("HERE", text), tmp_path, below)[0] for text, _ in table[part]
+        text: faults(form.replace("HERE", text), tmp_path, below)[0] for text, _ in table[block]
     }
-    assert output == {text: start + words for text, words in table[part]}
+    assert output == {text: start + words for text, words in table[block]}
 
 
 DIGITS = "1" * 400
@@ -91,7 +91,7 @@ def listed(count: int) -> str:
 )
 def test_a_list_that_is_too_long_is_refused_in_two_seconds(text, words, tmp_path):
     begun = time.process_time()
-    (line,) = faults(text, tmp_path, WHOLE)
+    (line,) = faults(text, tmp_path, COMPLETE)
     assert time.process_time() - begun < 2.0
     assert words in line and len(line) < 200
 
@@ -126,7 +126,7 @@ def test_what_is_odd_but_right_is_read(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "messages"),
     [
         ("solvers: {ode45: {rtol: 0}}", ["solvers.ode45.rtol: is 0; it must be greater than 0"]),
         # the sound part of shared controls is kept: 1e-14 would not do for such data
@@ -141,8 +141,8 @@ def test_what_is_odd_but_right_is_read(tmp_path):
         ),
     ],
 )
-def test_a_fault_of_shared_controls_is_told_once_and_not_of_each_case(text, told, tmp_path):
-    assert faults(text, tmp_path) == told
+def test_a_fault_of_shared_controls_is_told_once_and_not_of_each_case(text, messages, tmp_path):
+    assert faults(text, tmp_path) == messages
 
 
 def test_initial_data_and_other_solvers_replace_what_stands_and_other_keys_are_added():
@@ -204,10 +204,10 @@ def places(section, above=()):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_an_odd_value_anywhere_is_read_or_told_in_our_words(seed):
-    chance, everywhere = random.Random(seed), list(places(WHOLE))
+    chance, everywhere = random.Random(seed), list(places(COMPLETE))
     message = 0
     for place in chance.sample(everywhere, 60):
-        changed = copy.deepcopy(WHOLE)
+        changed = copy.deepcopy(COMPLETE)
         section = changed
         for key in place[:-1]:
             section = section[key]

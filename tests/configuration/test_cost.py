@@ -85,8 +85,8 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
     ],
 )
 def test_the_key_that_costs_most_is_named(change, key):
-    found, text = find_excess(problem(**change), LIMITS, estimate, ORDINARY)
-    assert found == key and "the run would take" in text and "limits." in text
+    costly, text = find_excess(problem(**change), LIMITS, estimate, ORDINARY)
+    assert costly == key and "the run would take" in text and "limits." in text
 
 
 def test_a_limit_may_be_raised_and_a_long_run_is_announced():

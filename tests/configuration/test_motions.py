@@ -71,7 +71,7 @@ def test_a_section_turns_where_the_pendulum_does(loaded):
     settings = loaded("sections: {ends: {case: pendulum, when: pendulum.py:turning, site: 0}}")
     problem = PaperProblem.of(settings.problem("pendulum"))
     when, entry = settings.plain_when("ends"), settings.sections["ends"]
-    found = find_section(problem, when, entry.direction, entry.site, "ends")
+    turns = find_section(problem, when, entry.direction, entry.site, "ends")
 
     def turning(t, y):
         return y[1] if t > 0.1 else -1.0
@@ -82,20 +82,20 @@ def test_a_section_turns_where_the_pendulum_does(loaded):
         events=turning, rtol=1e-13, atol=1e-13,
     )  # fmt: skip
     assert len(judge.t_events[0]) == 1
-    np.testing.assert_allclose(found["crossing_tau"].values, judge.t_events[0], rtol=0, atol=1e-9)
-    assert found.attrs["when"] == "turning"
+    np.testing.assert_allclose(turns["crossing_tau"].values, judge.t_events[0], rtol=0, atol=1e-9)
+    assert turns.attrs["when"] == "turning"
 
 
 def test_a_section_is_that_of_a_notebook(loaded, tmp_path):
     settings = loaded("sections: {down: {case: lorenz, when: lorenz.py:plane, direction: down}}")
     problem = PaperProblem.of(settings.problem("lorenz"))
     when, entry = settings.plain_when("down"), settings.sections["down"]
-    found = find_section(problem, when, entry.direction, entry.site, "down")
+    crossings = find_section(problem, when, entry.direction, entry.site, "down")
     model = tmp_path / "lorenz.py"
     case = Case(model=model, sites=1, initial={0: [1, 1, 20]}, end_time=40)
-    again = section(case, lambda p, x, y, z: z - 27, "down")
-    assert found["crossing_tau"].size > 20
-    assert np.array_equal(found["crossing_tau"], again["crossing_tau"])
+    of_notebook = section(case, lambda p, x, y, z: z - 27, "down")
+    assert crossings["crossing_tau"].size > 20
+    assert np.array_equal(crossings["crossing_tau"], of_notebook["crossing_tau"])
 
 
 @pytest.mark.parametrize(

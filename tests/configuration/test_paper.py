@@ -69,7 +69,7 @@ def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
 
 
 @pytest.mark.parametrize(
-    ("place", "value", "apart"),
+    ("place", "value", "differs"),
     [
         (("chaos", "members", "seed"), 77, False),
         (("chaos", "members", "members"), 64, False),
@@ -80,8 +80,8 @@ def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
         (("sweeps", "fig5_left", "windows"), [[10, 60]], True),
     ],
 )
-def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):
-    assert bool(differences(edited(*place, value=value))) is apart
+def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, differs):
+    assert bool(differences(edited(*place, value=value))) is differs
 
 
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():

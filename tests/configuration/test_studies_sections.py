@@ -12,17 +12,17 @@ from pendula.configuration.messages import STUDIES, load
 
 
 @pytest.fixture(scope="module")
-def whole():
+def configuration():
     """Return the project's configuration, as it stands in its files."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     return {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
 
 
-def test_each_study_has_a_section_of_its_own(whole):
+def test_each_study_has_a_section_of_its_own(configuration):
     files = {study: (ROOT / f"config/{study}.yaml").read_text() for study in STUDIES}
     keys = {study: re.findall(r"^\w+", text, re.MULTILINE) for study, text in files.items()}
     assert keys == {study: [study] for study in STUDIES}
-    settings = load(whole)
+    settings = load(configuration)
     assert [study for study in STUDIES if getattr(settings, study) is None] == []
 
 

@@ -13,7 +13,7 @@ from pendula.problem import PaperProblem
 from problems import problem_of
 
 KINDS = {xr.Dataset: xr.load_dataset, PaperProblem: PaperProblem.of}
-PLAIN = problem_of("fig2_small").plain()
+ENTRIES = problem_of("fig2_small").plain()
 
 
 def job(inputs=(), params=(), outputs=()) -> SimpleNamespace:
@@ -59,15 +59,15 @@ def test_paths_become_datasets_by_annotation_alone(paths):
 
 
 def integrate(
-    problem: PaperProblem, others: list[PaperProblem], by_case: dict[str, PaperProblem], seed: int
+    problem: PaperProblem, several: list[PaperProblem], by_case: dict[str, PaperProblem], seed: int
 ):
     """Take problems in all ways."""
 
 
 def test_plain_values_become_problems_by_annotation_alone():
-    params = {"problem": PLAIN, "others": [PLAIN], "by_case": {"a": PLAIN}, "seed": 7}
+    params = {"problem": ENTRIES, "several": [ENTRIES], "by_case": {"a": ENTRIES}, "seed": 7}
     values = loaded(integrate, params=params).values
-    problems = values["problem"], values["others"][0], values["by_case"]["a"]
+    problems = values["problem"], values["several"][0], values["by_case"]["a"]
     assert all(isinstance(problem, PaperProblem) for problem in problems) and values["seed"] == 7
 
 

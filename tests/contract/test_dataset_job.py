@@ -85,8 +85,8 @@ def test_chunks_hold_every_third_run_and_are_joined_to_the_same_dataset(dataset,
     for path in chunks:
         run(dataset, job([path], squares, chunk=f".parts/{path.stem}", **settings))
     np.testing.assert_array_equal(read(chunks[1])["square"], [4.0, 25.0])
-    whole, joined = tmp_path / "whole.nc", tmp_path / "joined.nc"
-    run(dataset, job([whole], squares, **settings))
+    unsplit, joined = tmp_path / "whole.nc", tmp_path / "joined.nc"
+    run(dataset, job([unsplit], squares, **settings))
     run(dataset, job([joined], squares, {"chunks": list(map(str, chunks))}, **settings))
     np.testing.assert_array_equal(read(joined)["square"], np.arange(1.0, 8.0) ** 2)
-    xr.testing.assert_identical(read(joined), read(whole))
+    xr.testing.assert_identical(read(joined), read(unsplit))

@@ -37,8 +37,8 @@ def form_of(path):
     """Return all of a file that the checker reads but for the values of its variables."""
     with netCDF4.Dataset(path) as data:
         variables = [
-            (name, str(one.dtype), one.dimensions, sorted(one.__dict__.items(), key=str))
-            for name, one in data.variables.items()
+            (name, str(array.dtype), array.dimensions, sorted(array.__dict__.items(), key=str))
+            for name, array in data.variables.items()
         ]
         return repr((sorted(data.ncattrs()), variables))
 
@@ -49,7 +49,7 @@ def test_every_dataset_of_a_full_run_keeps_the_conventions(full_run, tmp_path):
     assert len(paths) > 60
     forms = {form_of(path): path for path in paths}
     faults = {path.name: faults_of(path, tmp_path) for path in forms.values()}
-    assert {name: found for name, found in faults.items() if found} == {}
+    assert {name: messages for name, messages in faults.items() if messages} == {}
 
 
 def test_the_checker_finds_units_that_nobody_parses(full_run, tmp_path):

@@ -45,14 +45,14 @@ def test_the_public_faces_are_clean():
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory):
+def messages(tmp_path_factory):
     path = tmp_path_factory.mktemp("types") / "wrong.py"
     path.write_text("\n".join([MODEL, *WRONG]))
     return check_types(path)
 
 
 @pytest.mark.parametrize(("call", "words"), WRONG.items(), ids=WRONG)
-def test_a_wrong_call_is_found_before_it_runs(call, words, told):
+def test_a_wrong_call_is_found_before_it_runs(call, words, messages):
     number = "\n".join([MODEL, *WRONG]).split("\n").index(call) + 1
     line = f"wrong.py:{number}: error: "
-    assert any(line in each and words in each for each in told.splitlines()), told
+    assert any(line in each and words in each for each in messages.splitlines()), messages

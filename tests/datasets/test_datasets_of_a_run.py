@@ -28,15 +28,15 @@ def test_every_dataset_explains_itself_and_a_name_has_one_meaning(full_run):
     assert len(paths) > 60
     for path in paths:
         with netCDF4.Dataset(path) as data:
-            about = {key: data.getncattr(key) for key in data.ncattrs()}
-            assert all(about[key] for key in ("title", "Conventions", "version", "history")), path
-            assert " " in about["title"], f"the title of {path} is a single word"
+            attrs = {key: data.getncattr(key) for key in data.ncattrs()}
+            assert all(attrs[key] for key in ("title", "Conventions", "version", "history")), path
+            assert " " in attrs["title"], f"the title of {path} is a single word"
             for name, variable in data.variables.items():
                 assert variable.units in UNITS, (path, name)
                 assert variable.long_name.startswith(NAMES.get(name, "")), (path, name)
                 meanings[name].add((variable.long_name, variable.units))
-    several = {name: found for name, found in meanings.items() if len(found) > 1}
-    assert {name: found for name, found in several.items() if name not in NAMES} == {}
+    several = {name: texts for name, texts in meanings.items() if len(texts) > 1}
+    assert {name: texts for name, texts in several.items() if name not in NAMES} == {}
 
 
 def test_every_variable_says_whether_it_rests_on_chaos_or_is_of_a_known_case(full_run):
@@ -68,11 +68,11 @@ def test_attributes_on_chaos_and_on_kinds_have_known_values(full_run):
 def test_every_dataset_says_with_what_it_was_computed_or_names_datasets_that_do(full_run):
     results = full_run / "results"
     for path in datasets_of(full_run):
-        about = read(path).attrs
+        attrs = read(path).attrs
         name = path.relative_to(results).with_suffix("").as_posix()
-        sources = about.get(COMPUTED_FROM, "").split(", ")
+        sources = attrs.get(COMPUTED_FROM, "").split(", ")
         for source in filter(None, sources):
             assert (results / f"{source}.nc").exists() or (ROOT / f"{source}.nc").exists(), name
         # without names of others it says itself what was computed, not only how well
-        own = {"epsilon", "gamma", "seed", "case", "problems"} & about.keys()
-        assert own or any(sources) or name in NOT_COMPUTED, name
+        settings = {"epsilon", "gamma", "seed", "case", "problems"} & attrs.keys()
+        assert settings or any(sources) or name in NOT_COMPUTED, name

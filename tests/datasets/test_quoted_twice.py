@@ -14,7 +14,7 @@ KEYS = {"case", "sweep"}
 def test_no_quantity_of_a_run_differs_between_two_of_its_datasets(full_run):
     """A quantity is a name, a long name and dimensions; ensembles by two solvers share none."""
     held = {}
-    for path in [path for one in FOLDERS for path in (full_run / "results" / one).glob("*.nc")]:
+    for path in [path for name in FOLDERS for path in (full_run / "results" / name).glob("*.nc")]:
         data = read(path)
         for name, variable in data.data_vars.items():
             if KEYS & set(variable.dims):
@@ -24,10 +24,10 @@ def test_no_quantity_of_a_run_differs_between_two_of_its_datasets(full_run):
                 held.setdefault(quantity, []).append((path, drawn, variable))
     differing = []
     for (name, *_), holders in held.items():
-        for (one, ensemble, a), (other, another, b) in combinations(holders, 2):
+        for (left, ensemble, a), (right, another, b) in combinations(holders, 2):
             a, b = xr.align(a, b.transpose(*a.dims), join="inner")
             same = np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
             if len({ensemble, another} - {None}) < 2 and not same:
-                differing.append(f"{name}: {one} and {other}")
+                differing.append(f"{name}: {left} and {right}")
     assert {"horizon", "relative_width"} <= {name for name, *_ in held}
     assert differing == []

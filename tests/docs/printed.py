@@ -47,7 +47,7 @@ class Done(NamedTuple):
     """What became of a block that was run."""
 
     code: int
-    said: str
+    screen: str
 
 
 def pages(project: Path) -> list[str]:
@@ -85,7 +85,7 @@ def file_of(block: Block) -> str:
     return name
 
 
-def shown(text: str, output: str) -> bool:
+def is_printed(text: str, output: str) -> bool:
     """Return whether the lines of a text stand in what was said, in order; "..." is anything."""
     lines = [" ".join(line.split()) for line in text.splitlines() if line.strip()]
     ways = [re.escape(line).replace(r"\.\.\.", ".*") for line in lines]
@@ -154,7 +154,7 @@ class Reader:
                 done = self._ready(shlex.split(line), **self._environment())
             else:
                 done = self._shell(line)
-            output += done.said
+            output += done.screen
             if done.code:
                 break
         return Done(done.code, output)

@@ -27,15 +27,15 @@ from printed import (
     blocks,
     dry,
     inline_calls,
+    is_printed,
     only_targets,
     pages,
     prepare,
-    shown,
 )
 
 PAGES = pages(ROOT)
 PRINTED = {page: blocks(ROOT, page) for page in PAGES}
-ALL = [block for found in PRINTED.values() for block in found]
+ALL = [block for page_blocks in PRINTED.values() for block in page_blocks]
 NOT_RUN = yaml.safe_load((Path(__file__).parent / "not_run.yaml").read_text(encoding="utf-8"))
 AS_PRINTED = bool(os.environ.get("PENDULA_AS_PRINTED"))
 
@@ -56,20 +56,20 @@ RUN = [block for block in ALL if block.kind in ("", "pycon") and first(block) no
 JOINED = [block for block in RUN if first(block) in DRY and only_targets(block)]
 BY_TARGETS = {call for call in INLINE if re.fullmatch(r"[a-z]\w*( [a-z]\w*)*", call)}
 TARGETS = [*sorted(BY_TARGETS), *(target for block in JOINED for target in only_targets(block))]
-GIVEN = {line.removeprefix("snakemake ") for block in RUN for line in block.text.splitlines()}
-CALLS = [" ".join(TARGETS), *sorted({*INLINE} - BY_TARGETS - GIVEN)]
+IN_BLOCKS = {line.removeprefix("snakemake ") for block in RUN for line in block.text.splitlines()}
+CALLS = [" ".join(TARGETS), *sorted({*INLINE} - BY_TARGETS - IN_BLOCKS)]
 ASKED = [Block(call, 0, "", "", f"snakemake -n {call}") for call in CALLS]
 """What sentences and tables say to ask Snakemake for. One dry run does for all targets that are
 named alone, those of blocks too."""
 PLAYED = {block: dry(block) if first(block) in DRY else block for block in RUN}
 
 
-OWN = re.compile(r"snakemake own --configfile (\w+\.yaml)\n")
+OWN_CASES = re.compile(r"snakemake own --configfile (\w+\.yaml)\n")
 
 
 def play(reader: Reader, block: Block) -> Done:
     """Play a block; of a user's own cases that another test runs, read the configuration alone."""
-    if first(block) not in DRY or not (options := OWN.fullmatch(block.text)):
+    if first(block) not in DRY or not (options := OWN_CASES.fullmatch(block.text)):
         return reader.play(PLAYED.get(block, block))
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     try:
@@ -130,27 +130,27 @@ def test_what_is_printed_runs(played, block):
 
 @pytest.mark.parametrize("block", ASKED, ids=lambda block: block.page)
 def test_what_a_sentence_or_a_table_names_can_be_asked_for(played, block):
-    assert len(TARGETS) > 10 and played[block.name].code == 0, played[block.name].said
+    assert len(TARGETS) > 10 and played[block.name].code == 0, played[block.name].screen
 
 
 OUTPUTS = [
     (before, block)
-    for found in PRINTED.values()
-    for before, block in pairwise(found)
+    for page_blocks in PRINTED.values()
+    for before, block in pairwise(page_blocks)
     if block.kind == "text"
 ]
 
 
-SHOWN = [pair for pair in OUTPUTS if first(pair[0]) not in DRY]
+PRINTED_OUTPUTS = [pair for pair in OUTPUTS if first(pair[0]) not in DRY]
 """What a dry run does not say is looked at elsewhere."""
 
 
-@pytest.mark.parametrize("pair", SHOWN, ids=lambda pair: pair[1].name)
+@pytest.mark.parametrize("pair", PRINTED_OUTPUTS, ids=lambda pair: pair[1].name)
 def test_what_a_page_shows_is_what_its_command_prints(played, pair):
     command, output = pair
-    said = played[command.name].said
-    assert shown(output.text, said), f"{output.text}\nis not in\n{said}"
-    assert not shown(output.text, "something else")
+    printed = played[command.name].screen
+    assert is_printed(output.text, printed), f"{output.text}\nis not in\n{printed}"
+    assert not is_printed(output.text, "something else")
 
 
 def test_every_block_is_of_a_kind_that_is_tried():
@@ -198,5 +198,5 @@ SYSTEM = [
 
 @pytest.mark.parametrize("page", PAGES)
 def test_a_message_that_a_page_explains_is_one_that_is_said(page, messages):
-    pieces = [piece.strip() for output in quoted_messages(page) for piece in output.split("...")]
-    assert [piece for piece in pieces if piece not in messages] == []
+    pieces = [quote.strip() for output in quoted_messages(page) for quote in output.split("...")]
+    assert [quote for quote in pieces if quote not in messages] == []

@@ -62,8 +62,8 @@ def test_a_page_runs_as_a_notebook(project, name, tmp_path):
     notebook = project / f"build/site/html/packages/latticode/docs/{name}.ipynb"
     cells = nbformat.read(notebook, as_version=4)
     NotebookClient(cells, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    (shown,) = cells.cells[-1].outputs
-    assert "image/png" in shown.data
+    (picture,) = cells.cells[-1].outputs
+    assert "image/png" in picture.data
 
 
 @pytest.mark.parametrize("link", ["(equation.md)", "(equations.md#no-such-heading)"])

@@ -43,16 +43,16 @@ def refused(edits: dict[str, dict]) -> str:
 
 def fault(finished: Path, edits: dict[str, dict]) -> str:
     """Return what is wrong with a run that continues a copy of a finished one, or nothing."""
-    with TemporaryDirectory() as beside:
-        folder = Path(shutil.copytree(finished, Path(beside) / "run"))
+    with TemporaryDirectory() as temporary:
+        folder = Path(shutil.copytree(finished, Path(temporary) / "run"))
         (edited := folder / "edited.yaml").write_text(yaml.safe_dump({"cases": edits}))
         try:
             ended = run(folder, edited)
         except subprocess.TimeoutExpired:
             return f"it did not end in {HANGS} s"
         if ended.returncode:
-            said = ended.stdout + ended.stderr
-            return ", ".join(sorted(set(re.findall(r"Error in rule (.*):", said)))) or said
+            screen = ended.stdout + ended.stderr
+            return ", ".join(sorted(set(re.findall(r"Error in rule (.*):", screen)))) or screen
         return "; ".join(false_sentences(folder))
 
 
@@ -87,13 +87,13 @@ def main(*names: str) -> int:
             else:
                 tried[case].append(edit)
     failed = 0
-    with TemporaryDirectory() as beside:
-        finished = Path(beside) / "finished"
+    with TemporaryDirectory() as temporary:
+        finished = Path(temporary) / "finished"
         run(finished).check_returncode()
         for edits in combined(tried):
-            found = fault(finished, edits)
-            print(f"{'FAILED' if found else 'ends well'}: {edits} {found}", flush=True)
-            for case, edit in edits.items() if found else ():
+            rules = fault(finished, edits)
+            print(f"{'FAILED' if rules else 'ends well'}: {edits} {rules}", flush=True)
+            for case, edit in edits.items() if rules else ():
                 alone = fault(finished, {case: edit})
                 failed += bool(alone)
                 print(f"  alone {'FAILED' if alone else 'ends well'}: {case} {edit} {alone}")

@@ -46,8 +46,8 @@ class Run:
     def edited(self) -> dict[str, set[str]]:
         """By case the keys in which its run is not the paper's."""
         return {
-            case: {key for key in RUN_BY["trajectories"] if not _same(key, about, CASES[case])}
-            for case, about in self.runs.items()
+            case: {key for key in RUN_BY["trajectories"] if not _same(key, of_run, CASES[case])}
+            for case, of_run in self.runs.items()
         }
 
     @cached_property
@@ -62,25 +62,25 @@ class Run:
         """The rows of the ledger by the names of their claims."""
         return {row["name"]: row for row in self.rows("claims.json")}
 
-    def others(self, keys: set[str], cases=CASES) -> list[str]:
+    def edited_cases(self, keys: set[str], cases=CASES) -> list[str]:
         return [case for case in cases if self.edited[case] & keys]
 
 
-def _same(key: str, about: dict, of_paper: dict) -> bool:
+def _same(key: str, of_run: dict, of_paper: dict) -> bool:
     if key == "solver":
-        wanted = {f"solver_{name}": value for name, value in of_paper[key].items()}
-        wanted["solver"] = wanted.pop("solver_name")
-        return {name: one for name, one in about.items() if name.startswith("solver")} == wanted
+        solver = {f"solver_{name}": value for name, value in of_paper[key].items()}
+        solver["solver"] = solver.pop("solver_name")
+        return {name: text for name, text in of_run.items() if name.startswith("solver")} == solver
     if key != "initial":
-        return about[key] == of_paper[key]
-    read = {site: [complex(z) for z in pair] for site, pair in json.loads(about[key]).items()}
+        return of_run[key] == of_paper[key]
+    read = {site: [complex(z) for z in pair] for site, pair in json.loads(of_run[key]).items()}
     return read == {site: [complex(z) for z in pair] for site, pair in of_paper[key].items()}
 
 
 def false_sentences(folder_of_run: Path | str) -> list[str]:
     """Return what is false of all that a run says; `folder_of_run` holds its `results`."""
     run = Run(Path(folder_of_run))
-    return [one for check in (ledger, notice, figures) for one in check(run)]
+    return [sentence for check in (ledger, notice, figures) for sentence in check(run)]
 
 
 # --- The ledger -----------------------------------------------------------------------------------
@@ -91,17 +91,17 @@ def cases_of(run: Run, name: str, on: tuple[str, ...]) -> set[str]:
     if not (run.results / f"{name}.nc").exists():
         return set()
     data = run.data(name)
-    found = {
-        str(one)
+    names = {
+        str(label)
         for along in ("case", "sweep")
         if along in data.coords
-        for one in np.atleast_1d(data[along].values)
+        for label in np.atleast_1d(data[along].values)
     }
     if on:
-        found &= set(on)
-    found |= {str(data.attrs.get("case"))} | {name.partition("/")[2].partition(".")[0]}
-    found = {SWEEPS[one]["case"] if one in SWEEPS else one for one in found}
-    return found & set(CASES)
+        names &= set(on)
+    names |= {str(data.attrs.get("case"))} | {name.partition("/")[2].partition(".")[0]}
+    names = {SWEEPS[label]["case"] if label in SWEEPS else label for label in names}
+    return names & set(CASES)
 
 
 def ledger(run: Run):
@@ -110,15 +110,15 @@ def ledger(run: Run):
         row = run.claims[claim.name]
         if row["verdict"] not in DECIDED:
             continue
-        for one in row["controls"]:
-            if one["passes"] is False:
-                yield f"{row['name']} is {row['verdict']}, and its control {one['fed']} is wrong"
+        for control in row["controls"]:
+            if control["passes"] is False:
+                yield f"{claim.name} is {row['verdict']}, and its control {control['fed']} is wrong"
         for name in claim.needs:
             folder = name.partition("/")[0]
             keys = RUN_BY.get(folder, DATA | {"boundary", "half_width"})
             if "." in name or folder != "trajectories":
                 keys = keys - {"solver"}
-            for case in run.others(keys, cases_of(run, name, claim.on)):
+            for case in run.edited_cases(keys, cases_of(run, name, claim.on)):
                 yield f"the claim {claim.name} is {row['verdict']}, and {case} is edited"
 
 
@@ -140,10 +140,10 @@ def notice(run: Run):
 def _wrong_values(run: Run, text: str, where: str):
     pattern = rf"(?<![\w.])({'|'.join(CASES)})\.(\w+) \((\S+) in place of (\S+)\)"
     for case, key, now, was in re.findall(pattern, text):
-        about = run.runs[case]
-        if key in about and key not in ("initial", "solver"):
-            values = [about[key], CASES[case][key]]
-            if [now, was] != [one if isinstance(one, str) else f"{one:g}" for one in values]:
+        of_run = run.runs[case]
+        if key in of_run and key not in ("initial", "solver"):
+            values = [of_run[key], CASES[case][key]]
+            if [now, was] != [item if isinstance(item, str) else f"{item:g}" for item in values]:
                 yield f"{where} says {case}.{key} ({now} in place of {was}), which was not run"
 
 
@@ -158,23 +158,23 @@ def figures(run: Run):
         comment = data.attrs.get("comment", "")
         number = re.match(r"fig([2-6])", name)
         if number and int(number[1]) <= 4:
-            shown = [f"fig{number[1]}_{size}" for size in ("small", "large")]
+            cases = [f"fig{number[1]}_{size}" for size in ("small", "large")]
             keys = RUN_BY["trajectories"]
-            titles = {float(one) for one in re.findall(r"\\\\Omega = ([-\d.]+)", text)}
-            if titles != {float(run.runs[case]["omega"]) for case in shown}:
+            titles = {float(omega) for omega in re.findall(r"\\\\Omega = ([-\d.]+)", text)}
+            if titles != {float(run.runs[case]["omega"]) for case in cases}:
                 yield f"{name} has titles at Omega = {sorted(titles)}, which were not run"
         elif number:
-            shown = [SWEEPS[f"{number[0]}_{side}"]["case"] for side in ("left", "right")]
+            cases = [SWEEPS[f"{number[0]}_{side}"]["case"] for side in ("left", "right")]
             keys = RUN_BY["sweeps"]
         else:
             along = data.coords["case"].values if "case" in data.coords else ()
-            shown, keys = [case for case in map(str, along) if case in CASES], DATA
-        for case in shown:
+            cases, keys = [case for case in map(str, along) if case in CASES], DATA
+        for case in cases:
             for key in run.edited[case] & keys:
                 if f"{case}.{key}" not in comment:
                     yield f"the data of {name} do not say that {case}.{key} is edited"
         if bool(comment) != ("Not the paper's: " in text):
             yield f"{name} and its data do not both say what is edited"
         yield from _wrong_values(run, comment, name)
-        if "the paper's initial conditions" in text and run.others(DATA):
-            yield f"{name} names data as the paper's, and {run.others(DATA)[0]} is edited"
+        if "the paper's initial conditions" in text and run.edited_cases(DATA):
+            yield f"{name} names data as the paper's, and {run.edited_cases(DATA)[0]} is edited"

@@ -46,11 +46,11 @@ def row_of(claim: str, change):
     """Return what changes a row of the ledger."""
 
     def plant(results) -> None:
-        told = json.loads((path := results / "claims.json").read_text(encoding="utf-8"))
-        for row in told["rows"]:
+        claims = json.loads((path := results / "claims.json").read_text(encoding="utf-8"))
+        for row in claims["rows"]:
             if claim == row["name"]:
                 change(row)
-        rewritten(path, json.dumps(told))
+        rewritten(path, json.dumps(claims))
 
     return plant
 
@@ -104,6 +104,6 @@ def test_nothing_is_false_of_the_quick_run(full_run):
     assert false_sentences(full_run) == []
 
 
-@pytest.mark.parametrize("number", range(len(PLANTED)), ids=[found for _, found in PLANTED])
+@pytest.mark.parametrize("number", range(len(PLANTED)), ids=[sentence for _, sentence in PLANTED])
 def test_a_false_sentence_is_found(said_of, number):
-    assert [one for one in said_of[number % 2] if PLANTED[number][1] in one] != []
+    assert [sentence for sentence in said_of[number % 2] if PLANTED[number][1] in sentence] != []

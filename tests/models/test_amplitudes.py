@@ -39,9 +39,9 @@ def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=FULL_CHAIN, **ch
     )
 
 
-def assert_same_bits(one, other, *fields):
+def assert_same_bits(run, expected, *fields):
     for field in fields:
-        np.testing.assert_array_equal(getattr(one, field), getattr(other, field), err_msg=field)
+        np.testing.assert_array_equal(getattr(run, field), getattr(expected, field), err_msg=field)
 
 
 @each_boundary
@@ -50,9 +50,9 @@ def test_runs_have_the_bits_of_the_same_model_in_the_library(name, boundary):
     """On a short chain, and on one that goes in tiles and waves."""
     for half_width, end in ((4, 1.0), (550, 0.05)):
         z, times = random_chain(half_width), {"end_time": end, "output_step": end}
-        one = run(name, z, CONSTANTS, boundary, **times)
-        other = simulate(chain(z, CONSTANTS, boundary, name, **times), FULL_CHAIN)
-        assert_same_bits(one, other, "final", "linf", "l2", "outcome")
+        trajectory = run(name, z, CONSTANTS, boundary, **times)
+        expected = simulate(chain(z, CONSTANTS, boundary, name, **times), FULL_CHAIN)
+        assert_same_bits(trajectory, expected, "final", "linf", "l2", "outcome")
 
 
 @each_boundary
@@ -60,15 +60,15 @@ def test_rates_and_energy_are_equations_4_and_8(boundary):
     cases = itertools.product([1, 2, 4, 7, 8], REDUCTIONS)
     for half_width, reduction in [(0, FULL_CHAIN), *cases]:
         z = random_chain(half_width, **reduction._asdict())
-        given = AmplitudeChain(*CONSTANTS, *choose_ends(boundary, reduction))
+        numbers = AmplitudeChain(*CONSTANTS, *choose_ends(boundary, reduction))
         y = pack(z, reduction)
         dy = np.zeros_like(y)
-        rates(given, y, dy)
-        found, where = unpack(dy, reduction), f"{half_width} {reduction}"
+        rates(numbers, y, dy)
+        computed, where = unpack(dy, reduction), f"{half_width} {reduction}"
         np.testing.assert_allclose(
-            found, slope(z, CONSTANTS, boundary), 1e-13, 1e-13, err_msg=where
+            computed, slope(z, CONSTANTS, boundary), 1e-13, 1e-13, err_msg=where
         )
-        assert energy(given, y) == pytest.approx(hamiltonian(z, CONSTANTS, boundary), rel=1e-13)
+        assert energy(numbers, y) == pytest.approx(hamiltonian(z, CONSTANTS, boundary), rel=1e-13)
 
 
 @given(z=chains(), numbers=constants, boundary=boundaries)
@@ -88,13 +88,13 @@ def test_ode45_of_real_unknowns_takes_the_published_steps():
         u = slope(x[0] + 1j * x[1], numbers, "free")
         return np.stack([u.real, u.imag])
 
-    parts = np.stack([z.real, z.imag])
-    final, steps, rejected = plain.ode45(rates_of_parts, parts, times, rtol, 1e-2 * rtol)
+    components = np.stack([z.real, z.imag])
+    final, steps, rejected = plain.ode45(rates_of_parts, components, times, rtol, 1e-2 * rtol)
     solver = {"name": "ode45_real", "rtol": rtol, "atol": 1e-2 * rtol}
     changes = {"end_time": 4.0, "output_step": 2.0}
-    found = run(solver, z, numbers, "free", **changes)
-    assert (found.outcome.steps, found.outcome.rejected) == (steps, rejected)
-    np.testing.assert_allclose(found.final, final[0] + 1j * final[1], atol=1e-8)
+    trajectory = run(solver, z, numbers, "free", **changes)
+    assert (trajectory.outcome.steps, trajectory.outcome.rejected) == (steps, rejected)
+    np.testing.assert_allclose(trajectory.final, final[0] + 1j * final[1], atol=1e-8)
 
 
 def mean_slope(old, new, numbers, boundary):

@@ -9,6 +9,6 @@ def test_the_bound_is_seen_from_both_ends():
     """P may neither grow nor fall faster than e^(4 gamma tau), whichever end is given."""
     tau, gamma = np.linspace(0.0, 2.0, 21), 0.5
     for rate, forth in ((2.0, 1.0), (-2.0, np.exp(-0.4)), (4.0, np.exp(4.0)), (0.0, np.exp(-0.2))):
-        found = growth_margin(tau, np.sqrt(0.5 * np.exp([rate * tau, rate * tau])), gamma)
-        assert found["from_start"] == pytest.approx(forth)
-        assert found["steepest"] == pytest.approx(abs(rate) / 2.0)
+        margins = growth_margin(tau, np.sqrt(0.5 * np.exp([rate * tau, rate * tau])), gamma)
+        assert margins["from_start"] == pytest.approx(forth)
+        assert margins["steepest"] == pytest.approx(abs(rate) / 2.0)

@@ -26,8 +26,8 @@ def exponential(z, tau, constants, boundary):
             [-drive, none, drive - chain, none],
         ]
     )
-    parts = np.concatenate([z[0].real, z[0].imag, z[1].real, z[1].imag])
-    re_a, im_a, re_b, im_b = (expm(tau * matrix) @ parts).reshape(4, sites)
+    components = np.concatenate([z[0].real, z[0].imag, z[1].real, z[1].imag])
+    re_a, im_a, re_b, im_b = (expm(tau * matrix) @ components).reshape(4, sites)
     return np.stack([re_a + 1j * im_a, re_b + 1j * im_b])
 
 
@@ -39,5 +39,5 @@ def test_flow_is_the_matrix_exponential(half_width, constants, boundary):
     z = random_chain(half_width)
     for tau in (0.0, 0.8, -0.5):
         expected = exponential(z, tau, constants, boundary)
-        found = flow(z, tau, *constants, boundary)
-        np.testing.assert_allclose(found, expected, atol=1e-12, err_msg=f"tau = {tau}")
+        computed = flow(z, tau, *constants, boundary)
+        np.testing.assert_allclose(computed, expected, atol=1e-12, err_msg=f"tau = {tau}")

@@ -35,19 +35,19 @@ def accurate(problem) -> np.ndarray:
 def sum_of_series(x, v, coupling, drive, powers):
     """Return the state after one step; `drive` holds the coefficients of D."""
     xs, vs, sines, cosines = (np.zeros((ORDER + 1, *x.shape), Extended) for _ in range(4))
-    apart, bonds = np.zeros_like(xs), np.zeros_like(x)
+    differences, bonds = np.zeros_like(xs), np.zeros_like(x)
     xs[0], vs[0], sines[0], cosines[0] = x, v, np.sin(x), np.cos(x)
     for k in range(ORDER):
-        np.subtract(xs[k, ::-1], xs[k], out=apart[k])
+        np.subtract(xs[k, ::-1], xs[k], out=differences[k])
         np.multiply(xs[k], -2, out=bonds)
         bonds[:, 1:] += xs[k, :, :-1]
         bonds[:, :-1] += xs[k, :, 1:]
-        driven = np.einsum("k,kci->ci", drive[: k + 1], apart[k::-1])
+        driven = np.einsum("k,kci->ci", drive[: k + 1], differences[k::-1])
         xs[k + 1] = vs[k] / (k + 1)
         vs[k + 1] = (coupling * bonds + driven - sines[k]) / (k + 1)
         sines[k + 1] = np.einsum("kci,kci->ci", cosines[: k + 1], vs[k::-1]) / (k + 1)
         cosines[k + 1] = -np.einsum("kci,kci->ci", sines[: k + 1], vs[k::-1]) / (k + 1)
-    return (np.einsum("k,kci->ci", powers, one) for one in (xs, vs))
+    return (np.einsum("k,kci->ci", powers, series) for series in (xs, vs))
 
 
 def test_every_method_is_exact_to_twelve_digits_at_the_end():
@@ -56,8 +56,8 @@ def test_every_method_is_exact_to_twelve_digits_at_the_end():
     problem = pendula(half_width=1, end_time=2.0, output_step=1.0)  # t = 400
     exact = accurate(problem).astype(float)
     fine = problem.changed(solver={"name": "kahan_li", "step": 0.05})
-    found = {name: final(problem, name) for name in ("taylor", "dop853")}
-    found["kahan_li"] = final(fine, None)
-    for name, state in found.items():
+    states = {name: final(problem, name) for name in ("taylor", "dop853")}
+    states["kahan_li"] = final(fine, None)
+    for name, state in states.items():
         assert np.abs(state - exact).max() < 1e-12, name
     assert np.abs(final(problem, "ode45") - exact).max() < 1e-9

@@ -30,14 +30,14 @@ def test_every_solver_agrees_with_plain_numpy(boundary):
         slope(problem), (0, end), start(problem).ravel(), "DOP853", rtol=1e-13, atol=1e-14
     )
     for solver in TIGHT:
-        found = final(problem, solver).ravel()
-        np.testing.assert_allclose(found, exact.y[:, -1], rtol=0, atol=2e-11, err_msg=solver)
+        computed = final(problem, solver).ravel()
+        np.testing.assert_allclose(computed, exact.y[:, -1], rtol=0, atol=2e-11, err_msg=solver)
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_pendula_that_are_not_driven_keep_their_energy(boundary):
-    alike = {0: (2.0, 2.0), 1: (1j, 1j)}
-    for changes in ({"initial": alike}, {"gamma": 0.0}):
+    symmetric = {0: (2.0, 2.0), 1: (1j, 1j)}
+    for changes in ({"initial": symmetric}, {"gamma": 0.0}):
         problem = pendula(boundary=boundary, mu=0.3, end_time=20.0, **changes)
         energies = [undriven_energy(problem, *state) for state in (start(problem), final(problem))]
         assert abs(energies[1] / energies[0] - 1) < 1e-13

@@ -30,9 +30,9 @@ def problem(name, initial, boundary="dirichlet", half_width=10, end_time=5.0, **
     )
 
 
-def growth(given, state):
+def growth(chain, state):
     """Return the largest rate of growth of a perturbation of a state."""
-    return exponents(given, state).real.max()
+    return exponents(chain, state).real.max()
 
 
 @pytest.mark.parametrize(("omega", "epsilon"), [(3.0, 0.1), (-2.0, 0.3)])
@@ -40,18 +40,18 @@ def test_rest_of_the_hamiltonian_chain_is_stable_below_the_published_threshold(o
     """Chernyavsky and Pelinovsky, arXiv 1605.06455: the infinite chain's is the limit of these."""
     sines = np.sin(np.arange(1, 22) * np.pi / 44.0) ** 2
     threshold = np.abs(omega - 4.0 * epsilon * sines).min()
-    rest = LocalisedState(np.zeros(84))
+    at_rest = LocalisedState(np.zeros(84))
     for gamma, grows in ((0.999 * threshold, False), (1.001 * threshold, True)):
         numbers = {"omega": omega, "epsilon": epsilon, "gamma": gamma}
-        given = problem("chernyavsky_pelinovsky", {0: (0, 0)}, **numbers)
-        assert (growth(given, rest) > 1e-3) == grows
+        chain = problem("chernyavsky_pelinovsky", {0: (0, 0)}, **numbers)
+        assert (growth(chain, at_rest) > 1e-3) == grows
 
 
 def soliton(epsilon, gamma):
     """Return the problem of the on-site soliton that continues sqrt(detuning + gamma), itself."""
     data = {0: (np.sqrt(1.0 + gamma),)}
-    given = problem("parametric", data, epsilon=epsilon, gamma=gamma)
-    return given, find_state(given)
+    chain = problem("parametric", data, epsilon=epsilon, gamma=gamma)
+    return chain, find_state(chain)
 
 
 def test_on_site_soliton_under_parametric_drive_loses_stability_as_published():
@@ -67,11 +67,11 @@ def test_on_site_soliton_under_parametric_drive_loses_stability_as_published():
 
 
 def test_long_range_coupling_has_the_exact_waves_on_a_ring():
-    given = problem("disorder_and_long_range", {0: (0,)}, "periodic", disorder=0.0)
-    found = np.sort(exponents(given, LocalisedState(np.zeros(42))).imag)
+    ring = problem("disorder_and_long_range", {0: (0,)}, "periodic", disorder=0.0)
+    frequencies = np.sort(exponents(ring, LocalisedState(np.zeros(42))).imag)
     angles = 2.0 * np.pi * np.arange(21) / 21.0
     waves = sum(2.0 * (np.cos(m * angles) - 1.0) / m**3 for m in range(1, 6))
-    np.testing.assert_allclose(found, np.sort([*waves, *-waves]), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(frequencies, np.sort([*waves, *-waves]), rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.7])

@@ -245,8 +245,8 @@ def contrast(first, second) -> float:
 def test_marks_on_the_map_of_fates_are_seen_on_every_fate(fate):
     """By their lightness, which people with any colour vision see: the rim or what it encloses."""
     mark = drawn("fates").axes[0].lines[0]
-    parts = mark.get_markerfacecolor(), mark.get_markeredgecolor()
-    assert max(contrast(LOOKS[fate], colour) for colour in parts) > 4.5
+    colours = mark.get_markerfacecolor(), mark.get_markeredgecolor()
+    assert max(contrast(LOOKS[fate], colour) for colour in colours) > 4.5
 
 
 def test_every_curve_of_pendula_over_the_top_is_seen_on_white():
@@ -257,12 +257,12 @@ def test_every_curve_of_pendula_over_the_top_is_seen_on_white():
 
 @pytest.mark.parametrize("name", ["fig2", "fig3", "fig4"])
 def test_the_reference_lies_under_each_run_to_its_end(name):
-    shown = dataset(f"figures/{name}")
+    figure = dataset(f"figures/{name}")
     widths = {strips.UNDER["lw"]}
     under = [line for axes in drawn(name).axes for line in axes.lines if line.get_lw() in widths]
     assert len(under) == 8  # two cases, two norms, and A and B
-    for size in shown["initial_size"].values:
-        true = shown["true_l2"].sel(initial_size=size, component="A").dropna("tau")
+    for size in figure["initial_size"].values:
+        true = figure["true_l2"].sel(initial_size=size, component="A").dropna("tau")
         assert any(np.array_equal(line.get_ydata(), true) for line in under)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from helpers import ROOT
 
-PARTS = (
+SOURCES = (
     "Snakefile",
     "workflow",
     "packages/latticode",
@@ -15,7 +15,7 @@ PARTS = (
     "config",
     "profiles",
     "environment.txt",
-    *(f"tests/baseline/{part}" for part in ("reference", "proofs", "speed", "quoted")),
+    *(f"tests/baseline/{folder}" for folder in ("reference", "proofs", "speed", "quoted")),
 )
 """What of the project a run needs."""
 
@@ -31,7 +31,7 @@ def finished(full_run, tmp_path) -> Path:
 def clone(tmp_path) -> Path:
     """Return a fresh copy of the project's sources, newer than any result."""
     left = shutil.ignore_patterns("__pycache__")
-    for place in PARTS:
+    for place in SOURCES:
         (copy := tmp_path / "clone" / place).parent.mkdir(parents=True, exist_ok=True)
         if (ROOT / place).is_dir():
             shutil.copytree(ROOT / place, copy, ignore=left, copy_function=shutil.copy)

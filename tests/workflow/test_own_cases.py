@@ -33,7 +33,7 @@ def own_run(made_once):
 
 
 @pytest.fixture
-def made(own_run, tmp_path):
+def finished_run(own_run, tmp_path):
     return shutil.copytree(own_run, tmp_path / "made")
 
 
@@ -73,10 +73,10 @@ def test_the_page_says_what_the_checks_say(own_run):
     assert not re.findall(r"\bnan\b", "".join(text))
 
 
-def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, changed):
+def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(finished_run, changed):
     changed["cases"]["sea"]["omega"] = 0.5
     changed["cases"]["fig5"]["omega"] = 7.5
-    assert planned(ROOT, made, "own", settings=changed) == {
+    assert planned(ROOT, finished_run, "own", settings=changed) == {
         "trajectory": 2,
         "own_checks": 2,
         "own_norms": 2,
@@ -88,16 +88,16 @@ def test_a_new_omega_reruns_its_case_the_sweep_of_that_and_the_report(made, chan
     }
 
 
-def test_a_lost_part_is_made_again_alone(made, changed):
+def test_a_lost_part_is_made_again_alone(finished_run, changed):
     """A survey has no more chunks than runs, whether or not it gives their number.
 
     tests/studies/test_parts.py shows that the number of parts changes no bit.
     """
-    assert len([*made.glob("results/surveys/map.parts/*-of-3.nc")]) == 3
+    assert len([*finished_run.glob("results/surveys/map.parts/*-of-3.nc")]) == 3
     for name in ("map.nc", "map.parts/1-of-3.nc"):
-        (made / "results/surveys" / name).unlink()
+        (finished_run / "results/surveys" / name).unlink()
     del changed["surveys"]["map"]["chunks"]
-    repeated = planned(ROOT, made, "results/surveys/map.nc", settings=changed)
+    repeated = planned(ROOT, finished_run, "results/surveys/map.nc", settings=changed)
     assert repeated == {"survey": 2}  # the chunk, and the survey of all chunks
 
 

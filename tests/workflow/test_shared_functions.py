@@ -89,10 +89,10 @@ def test_the_number_of_chunks_is_no_key_of_config_any_more():
         options.take_options({"chunks": 8}, {"chunks": 8})
 
 
-@pytest.mark.parametrize("given", [{"bits": "some"}, {"baseline": 7}])
-def test_an_option_of_a_call_with_a_wrong_value_is_refused(given):
-    with pytest.raises(ConfigurationError, match=f"--config {next(iter(given))}="):
-        options.take_options({}, given)
+@pytest.mark.parametrize("settings", [{"bits": "some"}, {"baseline": 7}])
+def test_an_option_of_a_call_with_a_wrong_value_is_refused(settings):
+    with pytest.raises(ConfigurationError, match=f"--config {next(iter(settings))}="):
+        options.take_options({}, settings)
 
 
 def test_options_of_a_call_are_no_keys_of_the_configuration():

@@ -123,10 +123,10 @@ REASONS = [
 ]
 
 
-@pytest.mark.parametrize(("state", "own", "screen", "says"), REASONS)
-def test_the_reason_of_a_job_of_slurm(tmp_path, state, own, screen, says):
-    (tmp_path / "own.log").write_text(own)
+@pytest.mark.parametrize(("state", "log", "screen", "cause"), REASONS)
+def test_the_reason_of_a_job_of_slurm(tmp_path, state, log, screen, cause):
+    (tmp_path / "own.log").write_text(log)
     (tmp_path / "slurm.log").write_text(screen)
     ((reason, more),) = causes_of_failures(SLURM.format(state=state, folder=tmp_path))
-    assert says in reason
-    assert more == str(tmp_path / ("own.log" if own or not screen else "slurm.log"))
+    assert cause in reason
+    assert more == str(tmp_path / ("own.log" if log or not screen else "slurm.log"))

@@ -14,9 +14,9 @@ PACKAGES = ["snakemake.cli", "snakemake.executors.local", "nbformat"]
 @cache
 def forking():
     """Return what forks from a process that has imported PACKAGES; only some systems can."""
-    found = multiprocessing.get_context("forkserver")
-    found.set_forkserver_preload(PACKAGES)
-    return found
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(PACKAGES)
+    return context
 
 
 def be(python, folder, screen, variables, arguments) -> None:
@@ -41,14 +41,14 @@ class Run:
     def __init__(self, python: Path, folder: Path, arguments: list[str], variables: dict[str, str]):
         screen = folder.parent / f"screen{len(list(folder.parent.iterdir()))}"
         os.mkfifo(screen)
-        given = (str(python), folder, screen, variables, arguments)
-        self._process = forking().Process(target=be, args=given)
+        passed = (str(python), folder, screen, variables, arguments)
+        self._process = forking().Process(target=be, args=passed)
         self._process.start()
         self.pid, self.kill = self._process.pid, self._process.kill
         self.stdout = screen.open()
 
     def end(self) -> tuple[int, str]:
         """Return the exit status and the rest of what was said: by all that have the screen."""
-        said = self.stdout.read()
+        output = self.stdout.read()
         self._process.join()
-        return self._process.exitcode, said
+        return self._process.exitcode, output

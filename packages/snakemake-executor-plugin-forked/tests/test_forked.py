@@ -77,9 +77,9 @@ def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder, sets, modules):
     assert not forked and status == 0
     assert output.count("forked: ") == output.count("forked: cannot import no_such_module: ") == 1
     # the file that their parent holds open is at its old place for the second one too
-    reports, *others = json.loads((folder / "a.json").read_text())
+    reports, *checks = json.loads((folder / "a.json").read_text())
     assert {name: reports[name] for name in alone if reports[name] != alone[name]} == {}
-    assert others == json.loads((folder / "b.json").read_text())[1:] == [True, "lett"]
+    assert checks == json.loads((folder / "b.json").read_text())[1:] == [True, "lett"]
 
 
 def test_a_benchmark_measures_the_job(folder):
@@ -167,7 +167,7 @@ SERVER_FAILS = {"server": KILLED}
 def test_jobs_that_fail_say_why_once_and_the_next_run_goes_on(folder):
     for fails in (FAILS, SERVER_FAILS):
         status, output = run(folder, "--keep-going", *(f"{how}.end" for how in fails))
-        assert status == 1 and [output.count(says) for says in fails.values()] == [1] * len(fails)
+        assert status == 1 and [output.count(text) for text in fails.values()] == [1] * len(fails)
         for noise in ("CalledProcessError", "server.py", "inside.py", sys.executable, "SystemExit"):
             assert noise not in output
     assert not list(folder.glob("*.end"))

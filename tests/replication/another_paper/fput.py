@@ -119,14 +119,14 @@ def make_run(folder: Path, alpha: float = ALPHA) -> list[str]:
     runs = {RUN: simulate(alpha), LINEAR: simulate(0.0)}
     for name, run in runs.items():
         save(folder / f"{name}.nc", run)
-    shown = runs[RUN].assign_attrs(caption="Energies of the first five modes against time.")
+    energies = runs[RUN].assign_attrs(caption="Energies of the first five modes against time.")
     figure = [str(folder / f"figures/fig1.{kind}") for kind in ("png", "pdf", "nc", "json")]
     (folder / "figures").mkdir()
-    style.save(draw_fig1(shown), shown, *figure)
-    datasets, part = [str(folder / f"{name}.nc") for name in runs], str(folder / "claims/all.json")
-    decide_claims(CLAIMS, datasets, list(runs), part)
+    style.save(draw_fig1(energies), energies, *figure)
+    datasets, rows = [str(folder / f"{name}.nc") for name in runs], str(folder / "claims/all.json")
+    decide_claims(CLAIMS, datasets, list(runs), rows)
     ledger = str(folder / "claims.json")
-    join_claims([part], ledger, str(folder / "tables/claims.md"))
+    join_claims([rows], ledger, str(folder / "tables/claims.md"))
     write_report(PAPER, datasets, [figure[2]], ledger, {}, str(folder / "report.html"))
     return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
 

@@ -41,8 +41,8 @@ def test_the_run_is_the_accepted_one_and_a_stronger_spring_is_found_in_all_that_
     results, names, accepted = run
     assert fput.compare(names, results, accepted).faults == 0
     fput.make_run(tmp_path / "other", alpha=0.3)
-    found = fput.compare(names, tmp_path / "other", accepted)
-    different = {result.name for result in found.findings if result.status.is_fault}
+    comparison = fput.compare(names, tmp_path / "other", accepted)
+    different = {result.name for result in comparison.findings if result.status.is_fault}
     assert {"runs/nonlinear.nc", "figures/fig1.png", "figures/fig1.json"} <= different
     assert "runs/linear.nc" not in different
 
@@ -51,5 +51,5 @@ def test_another_paper_loads_nothing_of_this_one():
     code = "import fput, sys; print([name for name in sys.modules if name.startswith('pendula')])"
     path = f"{python_path()}:{fput.__file__.rpartition('/')[0]}"
     command = [sys.executable, "-c", code]
-    found = subprocess.run(command, env={"PYTHONPATH": path}, capture_output=True, text=True)
-    assert found.stdout.strip() == "[]", found.stderr
+    process = subprocess.run(command, env={"PYTHONPATH": path}, capture_output=True, text=True)
+    assert process.stdout.strip() == "[]", process.stderr

@@ -105,8 +105,8 @@ def test_the_crate_is_read_back_with_what_it_says_of_each_file(members, tmp_path
     paper = read.root_dataset["citation"]
     assert paper["name"] == CITATION["references"][0]["title"]
     entities = {entity["@id"]: entity for entity in described["@graph"]}
-    found = [entities[name]["license"]["@id"].rpartition("/")[2] for name in ("./", DATASET)]
-    assert found == [CITATION["license"], "CC-BY-4.0"]
+    licenses = [entities[name]["license"]["@id"].rpartition("/")[2] for name in ("./", DATASET)]
+    assert licenses == [CITATION["license"], "CC-BY-4.0"]
     assert entities["./"]["author"] == [{"@id": "#The-pendula-maintainers"}]
     assert entities[DATASET]["description"] == "The lifetime of a breather"
     assert entities[FIGURE]["isBasedOn"] == {"@id": DATASET}
@@ -116,8 +116,8 @@ def test_the_crate_is_read_back_with_what_it_says_of_each_file(members, tmp_path
 def test_the_same_files_give_the_same_description_at_any_time(members, monkeypatch):
     described = pack.describe(PROJECT, members)
     monkeypatch.setattr("rocrate.model.root_dataset.iso_now", lambda: "2001-01-01T00:00:00+00:00")
-    again = pack.describe(PROJECT, dict(reversed(members.items())))
-    assert json.dumps(again) == json.dumps(described)
+    reordered = pack.describe(PROJECT, dict(reversed(members.items())))
+    assert json.dumps(reordered) == json.dumps(described)
     assert "2001" not in json.dumps(described)
 
 
@@ -130,9 +130,9 @@ def test_codecheck_lists_files_of_the_run_and_cites_the_paper():
     """The fields are those of https://codecheck.org.uk/spec/config/2.0/ that authors fill in."""
     text = (ROOT / "codecheck.yml").read_text()
     check = yaml.safe_load(text)
-    made = json.loads((ROOT / "tests/baseline/hashes.json").read_text())["files"]
-    assert text.startswith("---\n") and all(one["comment"] for one in check["manifest"])
-    assert {one["file"] for one in check["manifest"]} <= {f"results/{name}" for name in made}
+    hashes = json.loads((ROOT / "tests/baseline/hashes.json").read_text())["files"]
+    assert text.startswith("---\n") and all(entry["comment"] for entry in check["manifest"])
+    assert {entry["file"] for entry in check["manifest"]} <= {f"results/{name}" for name in hashes}
     paper = check["paper"]
     assert (paper["title"], paper["authors"]) == (CITATION["title"], CITATION["authors"])
     assert paper["reference-other"] == [f"https://doi.org/{CITATION['references'][0]['doi']}"]

@@ -42,11 +42,11 @@ class Run(NamedTuple):
             if not is_accepted_environment:
                 comparison.same_data = comparison.same_drawing = False
             comparison.found = dict(known)
-            for beside in sorted(known, key=baseline.place):
-                if beside.startswith(f"{stem}."):
-                    comparison.look_at(beside)
-            found = comparison.found[name]
-            findings += [comparison.strictly(found, any_bits) for any_bits in (False, True)]
+            for sibling in sorted(known, key=baseline.place):
+                if sibling.startswith(f"{stem}."):
+                    comparison.look_at(sibling)
+            finding = comparison.found[name]
+            findings += [comparison.strictly(finding, any_bits) for any_bits in (False, True)]
         return findings[:3]
 
     def accept(self, names=made_up.NAMES, words=()) -> str:
@@ -101,8 +101,8 @@ def accepted_run(tmp_path_factory) -> Run:
     folder = tmp_path_factory.mktemp("accepted_run")
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
     run.accept()
-    others = [made_up.make_run(folder / f"right_{seed}", seed) for seed in (2, 3)]
-    scatter.write_scatter(run.accepted, others, made_up.TRUSTED)
+    right_runs = [made_up.make_run(folder / f"right_{seed}", seed) for seed in (2, 3)]
+    scatter.write_scatter(run.accepted, right_runs, made_up.TRUSTED)
     return run
 
 
@@ -115,8 +115,8 @@ def known(accepted_run) -> dict[str, FileResult]:
 @pytest.fixture(scope="session")
 def moved_run(accepted_run, tmp_path_factory) -> Run:
     """Return another right run, not to be changed, in which chaos has other last bits."""
-    made = made_up.make_run(tmp_path_factory.mktemp("moved_run") / "results", seed=1)
-    return accepted_run._replace(made=made)
+    moved = made_up.make_run(tmp_path_factory.mktemp("moved_run") / "results", seed=1)
+    return accepted_run._replace(made=moved)
 
 
 @pytest.fixture(scope="session")

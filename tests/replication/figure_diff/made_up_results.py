@@ -40,12 +40,12 @@ TRUST, EXPONENTS, ROUNDING = "checks/trust.nc", "checks/lyapunov.nc", "checks/ba
 MAP, BOUND = "breathers/fates.nc", "certified/fig2_small.nc"
 LIVES, PROOFS, HARD = "checks/lifetimes.nc", "certified/breathers.nc", "checks/hard_cases.nc"
 PICTURE = "figures/fig2.png"
-LEDGER, PART, TABLE, REPORT = "claims.json", "claims/theory.json", "tables/claims.md", "report.html"
-LIVE = "live.html"
+LEDGER, THEORY = "claims.json", "claims/theory.json"
+TABLE, REPORT, LIVE = "tables/claims.md", "report.html", "live.html"
 NAMES = [
     *(REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP),
     *(LIVES, PROOFS, HARD),
-    *(LEDGER, PART, TABLE, REPORT, LIVE),
+    *(LEDGER, THEORY, TABLE, REPORT, LIVE),
     *(
         f"figures/{stem}.{kind}"
         for stem in ("fig2", "fig4")
@@ -167,10 +167,10 @@ def put_words(folder: Path, largest: float = 6.60403, verdict: str = "confirmed"
     row |= {"decided_by": [CHAOTIC.removesuffix(".nc")], "criterion": "largest norm <= 9.5"}
     row |= {"cutoffs": [{"value": 0.25, "from": "a quarter"}], "controls": []}
     rows = [row | {"measured": {"largest": largest}, "because": because}]
-    for name in (TABLE, PART):
+    for name in (TABLE, THEORY):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
     write_json(folder / LEDGER, {"rows": rows})
-    write_json(folder / PART, {"read": [REGULAR], "rows": rows})
+    write_json(folder / THEORY, {"read": [REGULAR], "rows": rows})
     table = f"# Claims\n\n| claim | verdict |\n|-------|---------|\n| bounded | {verdict} |\n"
     (folder / TABLE).write_text(table)
     times = '<section id="run">\n<p>Wall time: 96 s</p>\n</section>'

@@ -22,9 +22,9 @@ from replication.figure_diff.acceptance import AcceptanceError, check, choose
 SHORT = {"cases": {"fig2_small": {"end_time": 4, "omega": 8}}}
 
 
-def larger(found):
+def larger(data):
     """Return a dataset with its norms multiplied."""
-    return found.assign(l2=found["l2"] * 1.5)
+    return data.assign(l2=data["l2"] * 1.5)
 
 
 def contents(folder) -> dict[str, bytes]:
@@ -35,9 +35,9 @@ def contents(folder) -> dict[str, bytes]:
 def test_another_configuration_is_refused_by_what_is_other():
     with pytest.raises(AcceptanceError) as refused:
         check(SHORT, CONFIGURATION, "the configuration of config/*.yaml", acceptance.WAY_OUT)
-    said = str(refused.value)
-    assert said.startswith("nothing is accepted: this run does not match the configuration of ")
-    assert "cases.fig2_small.end_time is 4 in place of 50" in said and "--config baseline=" in said
+    text = str(refused.value)
+    assert text.startswith("nothing is accepted: this run does not match the configuration of ")
+    assert "cases.fig2_small.end_time is 4 in place of 50" in text and "--config baseline=" in text
 
 
 @pytest.mark.parametrize(
@@ -61,8 +61,8 @@ def test_a_name_of_nothing_is_refused_with_the_nearest():
 def test_accepting_takes_what_changed_and_the_same_run_again_changes_no_byte(run):
     run.change(REGULAR, larger)
     before = contents(run.accepted)
-    told = run.accept()
-    assert told.startswith(f"{len(NAMES)} files accepted, 1 of them new or changed, 0 removed")
+    report = run.accept()
+    assert report.startswith(f"{len(NAMES)} files accepted, 1 of them new or changed, 0 removed")
     after = contents(run.accepted)
     assert {name for name in after if after[name] != before[name]} == {REGULAR, baseline.RECORD}
     assert not run.judge().faults
@@ -73,7 +73,7 @@ def test_only_what_is_named_is_taken_and_what_is_no_longer_made_is_removed(run):
     for name in (REGULAR, CHAOTIC):
         run.change(name, larger)
     assert "1 of them new or changed" in run.accept(words=["trajectories/fig2_small"])
-    assert [found.name for found in run.judge().findings if found.status.is_fault] == [CHAOTIC]
+    assert [result.name for result in run.judge().findings if result.status.is_fault] == [CHAOTIC]
     assert "1 removed" in run.accept([name for name in NAMES if name != PICTURE])
     assert not (run.accepted / PICTURE).exists()
     assert run.findings()[PICTURE].status == Status.EXTRA
@@ -100,16 +100,16 @@ def test_files_of_two_environments_or_configurations_do_not_mix(run):
 
 
 def test_what_is_kept_is_every_sample_in_single_precision_unless_more_digits_are_declared(run):
-    def declared(found):
-        exact = found["l2"].assign_attrs(significant_digits=7)
-        return found.assign(exact=exact, l2=exact.assign_attrs(significant_digits=6))
+    def declared(data):
+        exact = data["l2"].assign_attrs(significant_digits=7)
+        return data.assign(exact=exact, l2=exact.assign_attrs(significant_digits=6))
 
     run.change(REGULAR, declared)
     run.accept()
-    kept, made = (read(folder / REGULAR) for folder in (run.accepted, run.made))
-    assert kept["exact"].identical(made["exact"]) and kept.attrs == made.attrs
-    assert kept["l2"].dtype == np.float32
-    assert np.array_equal(kept["l2"], made["l2"].astype("float32"))
+    accepted, computed = (read(folder / REGULAR) for folder in (run.accepted, run.made))
+    assert accepted["exact"].identical(computed["exact"]) and accepted.attrs == computed.attrs
+    assert accepted["l2"].dtype == np.float32
+    assert np.array_equal(accepted["l2"], computed["l2"].astype("float32"))
     with netCDF4.Dataset(run.accepted / REGULAR) as data:
         assert data["l2"].filters()["zlib"] and data["l2"].filters()["complevel"] == 9
     absent = {name for name in NAMES if not (run.accepted / name).exists()}
@@ -123,8 +123,9 @@ def test_a_copy_in_the_baseline_that_is_not_as_accepted_is_a_fault(run, name, ho
     path = run.accepted / name
     path.unlink() if how == "missing" else path.write_bytes(path.read_bytes() + b"\n")
     for any_bits in (False, True):
-        found = run.findings(any_bits=any_bits)[name]
-        assert found.status == Status.DAMAGED and how in found.reason and "restore" in found.reason
+        result = run.findings(any_bits=any_bits)[name]
+        assert result.status == Status.DAMAGED
+        assert how in result.reason and "restore" in result.reason
 
 
 @pytest.mark.parametrize("name", ["../thesis.md", "/thesis.md", "thesis.docx", "up/thesis.md"])
@@ -152,7 +153,7 @@ def test_a_file_that_is_no_longer_made_is_not_removed_once_it_was_edited(run):
 def test_edited_hashes_are_a_fault(run):
     path = run.accepted / baseline.RECORD
     path.write_text(path.read_text().replace("float64", "float32", 1))
-    (found,) = run.judge().findings
-    assert found.status == Status.DAMAGED and found.name == baseline.RECORD
+    (result,) = run.judge().findings
+    assert result.status == Status.DAMAGED and result.name == baseline.RECORD
     with pytest.raises(AcceptanceError, match=f"{baseline.RECORD} is damaged"):
         run.accept()

@@ -17,21 +17,21 @@ from replication.figure_diff.compare_shown import comparable, compare, hash_of
 from replication.figure_diff.comparison_page import compare_results
 
 
-def nudge(found):
+def nudge(data):
     """Return a dataset that differs by less than the tolerance."""
-    return found.assign(l2=found["l2"] * (1 + 1e-9))
+    return data.assign(l2=data["l2"] * (1 + 1e-9))
 
 
 def test_another_right_run_is_refused_with_the_accepted_bits_alone(moved_run):
     """Chaos takes another path in it, in all that rests on it; nothing else moves."""
-    strictly, found = moved_run.judge(), moved_run.judge(any_bits=True)
+    strictly, comparison = moved_run.judge(), moved_run.judge(any_bits=True)
     assert strictly.counts.keys() == {Status.DIFFERENT, Status.IDENTICAL}
     kinds = {Status.BEYOND, Status.WITHIN, Status.IDENTICAL}
-    assert not found.faults and found.counts.keys() == kinds
-    moved = {each.name for each in found.findings if each.status == Status.BEYOND}
+    assert not comparison.faults and comparison.counts.keys() == kinds
+    moved = {each.name for each in comparison.findings if each.status == Status.BEYOND}
     assert {CHAOTIC, made_up.SWEEP, made_up.MAP, LEDGER, REPORT, "figures/fig4.png"} < moved
     assert not any("fig2" in name for name in moved)
-    assert found.lines[-1].endswith("were not compared: they may be right or wrong")
+    assert comparison.lines[-1].endswith("were not compared: they may be right or wrong")
 
 
 @pytest.mark.parametrize(
@@ -48,8 +48,8 @@ def test_pictures_of_other_versions_are_judged_by_their_descriptions(run):
     pdf = run.made / "figures/fig2.pdf"
     pdf.write_bytes(sealed_pdf(pdf.read_bytes()))
     run.pretend("drawing", "zlib")
-    found = run.findings()["figures/fig2.pdf"]
-    assert found.status == Status.BEYOND and "its description is identical" in found.reason
+    finding = run.findings()["figures/fig2.pdf"]
+    assert finding.status == Status.BEYOND and "its description is identical" in finding.reason
 
 
 def test_other_versions_of_drawing_may_choose_other_ticks_and_no_other_words(run):
@@ -68,8 +68,8 @@ def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run, m
     made_up.put_words(run.made, largest=6.70403)  # nothing that moved is so large
     assert run.findings(any_bits=True)[LEDGER].status == Status.DIFFERENT
     made_up.put_words(moved.made, largest=6.9, verdict="not reproduced")
-    found = moved.findings(any_bits=True)
-    assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].reason
+    results = moved.findings(any_bits=True)
+    assert results[LEDGER].status == Status.DIFFERENT and "not reproduced" in results[LEDGER].reason
 
 
 @pytest.mark.parametrize(
@@ -182,10 +182,10 @@ def test_a_variable_that_says_nothing_of_chaos_is_neither_compared_nor_accepted(
     assert chaos.undeclared("waves/lives.nc", data) == ["l2", "bound"]
     assert chaos.undeclared("waves/lives.nc", declared(data, rests_on_chaos="no")) == ["bound"]
     run.change(made_up.LIVES, lambda lives: (lives + 1.0).drop_attrs())
-    found = run.findings(any_bits=True)[made_up.LIVES]
-    assert found.status == Status.DIFFERENT
-    assert found.reason.startswith("median does not declare whether it rests on chaos")
-    assert 'set the attribute rests_on_chaos = "no" or "yes"' in found.reason
+    finding = run.findings(any_bits=True)[made_up.LIVES]
+    assert finding.status == Status.DIFFERENT
+    assert finding.reason.startswith("median does not declare whether it rests on chaos")
+    assert 'set the attribute rests_on_chaos = "no" or "yes"' in finding.reason
     with pytest.raises(AcceptanceError, match=r"checks/lifetimes.nc, median does not declare"):
         run.accept()
 
@@ -215,13 +215,13 @@ def test_the_page_shows_findings_and_both_pictures_and_needs_no_network(run, mon
     monkeypatch.chdir(run.made.parent)
     made_up.put(run.made, "fig2", made_up.norms(False), label="norm")
     results = [f"results/{name}" for name in NAMES]
-    given = results, "results", str(run.accepted), CONFIGURATION, False
-    compare_results(*given, "diff/index.html", "diff/verdict.json")
-    page, told = (run.made.parent / "diff/index.html").read_text(), load_json("diff/verdict.json")
-    assert told["faults"] == 3 and told["counts"] == {"different": 3, "identical": len(NAMES) - 3}
-    assert (
-        len(told["lines"]) == 5 and told["lines"][-1] == f"3 different, {len(NAMES) - 3} identical"
-    )
+    arguments = results, "results", str(run.accepted), CONFIGURATION, False
+    compare_results(*arguments, "diff/index.html", "diff/verdict.json")
+    page = (run.made.parent / "diff/index.html").read_text()
+    verdict, same = load_json("diff/verdict.json"), len(NAMES) - 3
+    assert verdict["faults"] == 3 and verdict["counts"] == {"different": 3, "identical": same}
+    assert len(verdict["lines"]) == 5
+    assert verdict["lines"][-1] == f"3 different, {same} identical"
     assert "Figure diff: 3 faults" in page and "figures/fig2.json" in page
     assert page.count('src="data:image/png;base64,') == 2
     assert "://" not in page and str(run.made) not in page

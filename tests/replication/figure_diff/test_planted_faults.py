@@ -29,9 +29,9 @@ MAP, BOUND, LIVES, PROOFS, HARD = (
     made_up.PROOFS,
     made_up.HARD,
 )
-LEDGER, PART, TABLE, REPORT, LIVE = (
+LEDGER, THEORY, TABLE, REPORT, LIVE = (
     made_up.LEDGER,
-    made_up.PART,
+    made_up.THEORY,
     made_up.TABLE,
     made_up.REPORT,
     made_up.LIVE,
@@ -81,10 +81,10 @@ def drawn(name: str, file: str = "figures/fig2.json", **how) -> Fault:
     return Fault(name, file, lambda run: made_up.put(run.made, "fig2", made_up.norms(False), **how))
 
 
-def flip(found: bytes) -> bytes:
+def flip(content: bytes) -> bytes:
     """Return a file with one bit in its middle flipped."""
-    middle = len(found) // 2
-    return found[:middle] + bytes([found[middle] ^ 1]) + found[middle + 1 :]
+    middle = len(content) // 2
+    return content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :]
 
 
 def repainted(name: str, change: Callable, is_drawn_so: bool) -> Fault:
@@ -98,10 +98,10 @@ def repainted(name: str, change: Callable, is_drawn_so: bool) -> Fault:
             texts, changed = dict(image.text), change(np.array(image.convert("RGBA")))
         if is_drawn_so:
             texts[PIXELS] = digest_of_pixels(changed)
-        about = PngInfo()
+        metadata = PngInfo()
         for key, text in texts.items():
-            about.add_text(key, text)
-        Image.fromarray(changed).save(run.made / PICTURE, pnginfo=about)
+            metadata.add_text(key, text)
+        Image.fromarray(changed).save(run.made / PICTURE, pnginfo=metadata)
 
     status = DIFFERENT if is_drawn_so else DAMAGED
     return Fault(
@@ -113,14 +113,14 @@ def rewritten(name: str, change: Callable, is_drawn_so: bool) -> Fault:
     """Return the fault of a PDF of which `change` makes other content, sealed if it is drawn so."""
 
     def plant(run):
-        def packed(found):
-            if found[1][:1] != b"x":  # not what zlib has packed
-                return found[0]
-            return b"stream\n" + zlib.compress(change(zlib.decompress(found[1]))) + b"\nendstream"
+        def packed(match):
+            if match[1][:1] != b"x":  # not what zlib has packed
+                return match[0]
+            return b"stream\n" + zlib.compress(change(zlib.decompress(match[1]))) + b"\nendstream"
 
         content = SEALED.fullmatch((run.made / PDF).read_bytes())[1]
         changed = STREAM.sub(
-            lambda found: packed(found) if found[1][:1] == b"x" else found[0], content
+            lambda match: packed(match) if match[1][:1] == b"x" else match[0], content
         )
         assert changed != content
         (run.made / PDF).write_bytes(sealed_pdf(changed) if is_drawn_so else changed)
@@ -156,11 +156,11 @@ def with_exchanged_strokes(stream: bytes) -> bytes:
     )
     number = rb"([\d.]+) ([\d.]+) ([\d.]+) (RG|rg)"
 
-    def exchanged(found):
-        colour = np.array(found.groups()[:3], float)
+    def exchanged(match):
+        colour = np.array(match.groups()[:3], float)
         ends = [np.array(each.split(), float) for each in (red, blue)]
         hits = [i for i in (0, 1) if np.allclose(colour, ends[i], atol=1e-3)]
-        return (red, blue)[1 - hits[0]] + b" " + found[4] if hits else found[0]
+        return (red, blue)[1 - hits[0]] + b" " + match[4] if hits else match[0]
 
     return re.sub(number, exchanged, stream)
 
@@ -250,7 +250,7 @@ FAULTS = [
     hidden("group", lambda file: file.createGroup("more")),
     hidden("dimension", lambda file: file.createDimension("more", 3)),
     hidden("type", lambda file: file.createEnumType(np.int8, "fate", ENUM)),
-    content("lost seal", REGULAR, lambda found: found[:-LENGTH], DAMAGED),
+    content("lost seal", REGULAR, lambda content: content[:-LENGTH], DAMAGED),
     content("flipped bit", REGULAR, flip, DAMAGED),
     Fault(
         "attribute that hides numbers",
@@ -344,10 +344,10 @@ FAULTS = [
         "",
     ),
     text("code of the live page in a report", REPORT, "</p>", '</p>"code": "AA=="'),
-    content("emptied report", REPORT, lambda found: b"", DIFFERENT),
+    content("emptied report", REPORT, lambda content: b"", DIFFERENT),
     text("other WebAssembly", LIVE, '"code": "AGFz', '"code": "AGFt')._replace(elsewhere=WITHIN),
     text("words of the live page", LIVE, "Run a case.", "Run no case."),
-    content("flipped bit of a part", PART, flip, DAMAGED),
+    content("flipped bit of a part", THEORY, flip, DAMAGED),
     # Pictures
     drawn("curves of A and B exchanged", components="BA"),
     drawn("other colours", colours="BA"),
@@ -377,7 +377,7 @@ FAULTS = [
     Fault("older description", "figures/fig2.json", of_older_run("json"), reason="describes data"),
     text("description by hand", "figures/fig2.json", "some case", "another case"),
     # Files
-    content("empty picture", "figures/fig4.png", lambda found: b"", DAMAGED),
+    content("empty picture", "figures/fig4.png", lambda content: b"", DAMAGED),
     Fault("lost dataset", REGULAR, lambda run: (run.made / REGULAR).unlink(), MISSING, "", MISSING),
 ]
 
@@ -395,13 +395,13 @@ def test_a_planted_fault_is_found(fault, run, known):
 def test_most_faults_are_told_in_every_environment():
     """This list stands for the kinds of faults; what is not told elsewhere may be a right run."""
     columns = [(f.status, f.any_bits, f.elsewhere or f.any_bits) for f in FAULTS]
-    told = [sum(status.is_fault for status in column) for column in zip(*columns, strict=True)]
-    assert told == [len(FAULTS), 98, 96] and len(FAULTS) == 105
+    counts = [sum(status.is_fault for status in column) for column in zip(*columns, strict=True)]
+    assert counts == [len(FAULTS), 98, 96] and len(FAULTS) == 105
 
 
 def test_an_untouched_run_is_identical(known):
     assert known.keys() == {*made_up.NAMES}
-    assert {found.status for found in known.values()} == {Status.IDENTICAL}
+    assert {finding.status for finding in known.values()} == {Status.IDENTICAL}
 
 
 OF_CHAOS = (

@@ -56,29 +56,29 @@ def test_a_claim_on_some_cases_of_a_check_rests_on_these_alone(on, verdict):
 def edited(need, along, name):
     """Return an accepted dataset with other numbers in one of its cases, and without this case."""
     data = dataset(need)
-    here = data[along] == name
+    in_case = data[along] == name
     numbers = {
-        key: values.where(~here, 1.2345 * values)
+        key: values.where(~in_case, 1.2345 * values)
         for key, values in data.items()
         if along in values.dims and values.dtype.kind == "f"
     }
-    renamed = {along: data[along].where(~here, "another")}
+    renamed = {along: data[along].where(~in_case, "another")}
     return data.assign(numbers), data.assign_coords(renamed)
 
 
-def said(function, sources):
+def verdict_of(function, sources):
     try:
-        found = function(sources)
+        finding = function(sources)
     except (LookupError, ValueError):
         return None
-    return found.verdict, {name: str(value) for name, value in found.measured.items()}
+    return finding.verdict, {name: str(value) for name, value in finding.measured.items()}
 
 
 def silent_on(claim, control, names, sources):
     """Yield the cases of datasets of many that change what is said, although an edit of them does
     not make the claim, or its control, not applicable."""
     function = partial(feed, claim, control) if control else partial(decide, claim)
-    right = said(function, sources)
+    right = verdict_of(function, sources)
     for along, key in (("case", "omega"), ("sweep", "windows")):
         named = {
             label
@@ -87,10 +87,10 @@ def silent_on(claim, control, names, sources):
         }
         for need in names:
             held = set(sources[need][along].values) if along in sources[need].dims else set()
-            for one in (held & set(paper()[f"{along}s"])) - named:
-                for wrong in edited(need, along, one):
-                    if said(function, {**sources, need: wrong}) != right:
-                        yield need, one
+            for label in (held & set(paper()[f"{along}s"])) - named:
+                for wrong in edited(need, along, label):
+                    if verdict_of(function, {**sources, need: wrong}) != right:
+                        yield need, label
 
 
 @pytest.mark.parametrize("claim", all_claims(), ids=lambda claim: claim.name)

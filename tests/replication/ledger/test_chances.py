@@ -19,8 +19,8 @@ from replication.ledger.criterion import (
 )
 
 RNG = np.random.default_rng(5)
-KEPT = load_json(BASELINE / "quoted/right_runs.json")
-ROWS = {(row["claim"], row["control"]): row for row in KEPT["rows"]}
+RIGHT_RUNS = load_json(BASELINE / "quoted/right_runs.json")
+ROWS = {(row["claim"], row["control"]): row for row in RIGHT_RUNS["rows"]}
 
 
 def findings(numbers, *criteria):
@@ -37,7 +37,7 @@ def test_every_claim_and_control_has_a_chance():
         for description in ("", *(control.description for control in claim.controls))
     }
     assert ROWS.keys() == expected, "run `.ci/elsewhere moved`"
-    assert KEPT["runs"] >= 10
+    assert RIGHT_RUNS["runs"] >= 10
 
 
 @pytest.mark.parametrize("name", ROWS, ids="-".join)

@@ -35,20 +35,20 @@ BOTH = ("l2", "linf")
     ],
 )
 def test_a_verb_changes_what_it_names_and_keeps_labels(run, change, l2, linf):
-    found = change(run)
-    assert found["l2"].values.ravel().tolist() == l2 and found["linf"].values.tolist() == linf
-    assert found["l2"].attrs == {"tolerance": 0.1} and found["l2"].dims == ("case", "mu")
-    assert found["mu"].identical(run["mu"]) and found["case"].identical(run["case"])
+    altered = change(run)
+    assert altered["l2"].values.ravel().tolist() == l2 and altered["linf"].values.tolist() == linf
+    assert altered["l2"].attrs == {"tolerance": 0.1} and altered["l2"].dims == ("case", "mu")
+    assert altered["mu"].identical(run["mu"]) and altered["case"].identical(run["case"])
     assert run["l2"].values.ravel().tolist() == [1, 2, 3, 4, 5, 6]
 
 
 def test_what_is_taken_has_the_attributes_of_its_place_and_what_is_not_kept_is_dropped(run):
-    found = changes.take(l2="linf")(run)["l2"]
-    assert found.values.tolist() == [7, 8, 9] and found.attrs == {"tolerance": 0.1}
-    found = changes.take_from("l2", case="two")(run, -run)["l2"]
-    assert found.values.ravel().tolist() == [1, 2, 3, -4, -5, -6]
-    found = keep(mu=slice(0.2, None), case="two")(run)
-    assert found["l2"].values.tolist() == [[5, 6]] and found["linf"].values.tolist() == [8, 9]
+    altered = changes.take(l2="linf")(run)["l2"]
+    assert altered.values.tolist() == [7, 8, 9] and altered.attrs == {"tolerance": 0.1}
+    altered = changes.take_from("l2", case="two")(run, -run)["l2"]
+    assert altered.values.ravel().tolist() == [1, 2, 3, -4, -5, -6]
+    altered = keep(mu=slice(0.2, None), case="two")(run)
+    assert altered["l2"].values.tolist() == [[5, 6]] and altered["linf"].values.tolist() == [8, 9]
 
 
 @pytest.mark.parametrize(

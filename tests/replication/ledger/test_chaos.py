@@ -33,10 +33,10 @@ def test_most_data_as_close_as_the_ensemble_must_spread(shares, within, verdict)
 
 
 def test_an_accident_is_reported_with_its_shares_and_the_smallest_change_stands_for_smaller_ones():
-    found = almost_equal(sensitivity(1.0, 0.9, 0.4, 0.1), 1e-6)
-    assert found.measured == {"share_nearby": 0.9}
+    finding = almost_equal(sensitivity(1.0, 0.9, 0.4, 0.1), 1e-6)
+    assert finding.measured == {"share_nearby": 0.9}
     for words in ("up to 1e-06", "90%", "for 0.1", "10%"):
-        assert words in found.caveat
-    assert "0.001" not in found.caveat  # its upper limit is a half
-    found = almost_equal(sensitivity(0.9, 0.2, sizes=(1e-6, 1e-1)), 1e-7)
-    assert found.measured == {"share_nearby": 0.9}
+        assert words in finding.caveat
+    assert "0.001" not in finding.caveat  # its upper limit is a half
+    finding = almost_equal(sensitivity(0.9, 0.2, sizes=(1e-6, 1e-1)), 1e-7)
+    assert finding.measured == {"share_nearby": 0.9}

@@ -27,7 +27,7 @@ HELD = [
 ]
 
 
-@pytest.mark.parametrize(("criterion", "text", "right", "wrong"), HELD, ids=lambda one: str(one))
+@pytest.mark.parametrize(("criterion", "text", "right", "wrong"), HELD, ids=str)
 def test_a_criterion_decides_and_prints_the_same_limit(criterion, text, right, wrong):
     assert str(criterion) == text
     assert all(criterion.holds({"x": value}) for value in right)
@@ -56,5 +56,5 @@ LOW = Below(1.0, "x", "y")
     ],
 )
 def test_a_verdict_follows_from_the_criterion_alone(x, y, words, verdict, because):
-    found = judge({"x": x, "y": y}, LOW, *words)
-    assert (found.verdict, found.because) == (verdict, because)
+    finding = judge({"x": x, "y": y}, LOW, *words)
+    assert (finding.verdict, finding.because) == (verdict, because)

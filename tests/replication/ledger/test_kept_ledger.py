@@ -23,10 +23,10 @@ TURNS = {
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["name"])
 def test_a_row_could_have_failed_and_says_on_what_it_rests(row):
     """A claim that holds has refused a wrong case; one that falls could have been confirmed."""
-    assert all(one["passes"] for one in row["controls"])
-    musts = {one["must"] for one in row["controls"]}
+    assert all(control["passes"] for control in row["controls"])
+    musts = {control["must"] for control in row["controls"]}
     assert row["verdict"] not in TURNS or TURNS[row["verdict"]] in musts
-    assert all(one["from"] for one in row["cutoffs"])
+    assert all(cutoff["from"] for cutoff in row["cutoffs"])
     assert ("depends on the cut-off" in row["because"]) == bool(row["rests_on"])
     assert not (row["rests_on"] and row["verdict"] == "confirmed")
     assert row["verdict"] != "not reproduced" or row["origin"] == Origin.PAPER
@@ -39,12 +39,12 @@ def test_without_datasets_nothing_is_decided():
 
 
 NAMES = ["figures", "solvers", "theory", "chaos", "breathers", "newton", "unbounded", "certified"]
-PARTS = [BASELINE / f"claims/{name}.json" for name in NAMES]
+STUDY_CLAIMS = [BASELINE / f"claims/{name}.json" for name in NAMES]
 """The parts of the ledger, in the order of `PARTS_OF_LEDGER`."""
 
 
 def test_parts_make_the_accepted_ledger_and_its_table(tmp_path):
-    made = [str(tmp_path / name) for name in ("claims.json", "claims.md")]
-    join_claims(list(map(str, PARTS)), *made)
-    assert Path(made[0]).read_bytes() == (BASELINE / "claims.json").read_bytes()
-    assert Path(made[1]).read_bytes() == (BASELINE / "tables/claims.md").read_bytes()
+    joined = [str(tmp_path / name) for name in ("claims.json", "claims.md")]
+    join_claims(list(map(str, STUDY_CLAIMS)), *joined)
+    assert Path(joined[0]).read_bytes() == (BASELINE / "claims.json").read_bytes()
+    assert Path(joined[1]).read_bytes() == (BASELINE / "tables/claims.md").read_bytes()

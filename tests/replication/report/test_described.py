@@ -8,40 +8,40 @@ from latticode.datasets.netcdf import save
 from matplotlib.image import imsave
 from replication.report.described import MapLink, dataset, figure
 
-ABOUT = {"long_name": "height of <b>waves</b>", "units": "rad"}
+ATTRS = {"long_name": "height of <b>waves</b>", "units": "rad"}
 
 
 def test_a_dataset_is_told_with_its_parameters_and_variables(tmp_path):
-    about = {
+    attrs = {
         "title": "Waves",
         "seed": 20170817,
         "epsilon": 1e-7,
         "text": 400 * "a",
         "sizes": [1, 2],
     }
-    data = {"many": (("x", "y"), np.zeros((3, 100)), ABOUT), "one": ((), 1, ABOUT | {"units": "1"})}
+    data = {"many": (("x", "y"), np.zeros((3, 100)), ATTRS), "one": ((), 1, ATTRS | {"units": "1"})}
     (tmp_path / "waves").mkdir()
-    save(tmp_path / "waves/lives.nc", xr.Dataset(data, attrs=about))
-    found = dataset(tmp_path / "waves/lives.nc", tmp_path)
-    assert (found.link, found.title) == ("waves/lives.nc", "Waves")
+    save(tmp_path / "waves/lives.nc", xr.Dataset(data, attrs=attrs))
+    entry = dataset(tmp_path / "waves/lives.nc", tmp_path)
+    assert (entry.link, entry.title) == ("waves/lives.nc", "Waves")
     words = {"text": f"{300 * 'a'} ...", "sizes": "1, 2"}
-    assert found.attributes == {"seed": "20170817", "epsilon": "10⁻⁷", **words}
+    assert entry.attributes == {"seed": "20170817", "epsilon": "10⁻⁷", **words}
     meaning = "height of <b>waves</b>"
-    assert found.variables == [("many", meaning, "rad", "x 3 × y 100"), ("one", meaning, "", "")]
+    assert entry.variables == [("many", meaning, "rad", "x 3 × y 100"), ("one", meaning, "", "")]
 
 
 def test_a_figure_is_told_by_its_caption_and_the_size_of_its_picture(tmp_path):
     (tmp_path / "figures").mkdir()
-    about = {"caption": "Norms of A: left. Bars are errors."}
-    save(tmp_path / "figures/fig5.nc", xr.Dataset(attrs=about))
+    attrs = {"caption": "Norms of A: left. Bars are errors."}
+    save(tmp_path / "figures/fig5.nc", xr.Dataset(attrs=attrs))
     panels = {"Panels": "3 4 18 14;20 4 21 14"}
     imsave(tmp_path / "figures/fig5.png", np.zeros((20, 30)), metadata=panels)
-    found = figure(tmp_path / "figures/fig5.nc", tmp_path)
-    assert found == ("figures/fig5", about["caption"], 30, 20, [])
+    entry = figure(tmp_path / "figures/fig5.nc", tmp_path)
+    assert entry == ("figures/fig5", attrs["caption"], 30, 20, [])
     axes = [{"x": {"limits": [-6, 10]}, "y": {"limits": [0, 3]}}, {}]
     (tmp_path / "figures/fig5.json").write_text(json.dumps({"panels": axes}))
     link = MapLink("Ω", "γ", "live.html#omega={x}&gamma={y}")
     (panel,) = figure(tmp_path / "figures/fig5.nc", tmp_path, [link]).maps
     assert panel == (link, (10, 20, 50, 50), [-6, 10], [0, 3])
-    assert (found.label, found._replace(stem="own/cases/fig5").label) == ("Fig 5", "")
-    assert found.headline == "Norms of A"
+    assert (entry.label, entry._replace(stem="own/cases/fig5").label) == ("Fig 5", "")
+    assert entry.headline == "Norms of A"

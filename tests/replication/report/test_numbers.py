@@ -51,9 +51,9 @@ WRITTEN = [
 ]
 
 
-@pytest.mark.parametrize(("found", "expected"), WRITTEN, ids=[text for _, text in WRITTEN])
-def test_numbers_and_cases_are_written(found, expected):
-    assert found.replace("\N{NO-BREAK SPACE}", " ") == expected
+@pytest.mark.parametrize(("printed", "expected"), WRITTEN, ids=[text for _, text in WRITTEN])
+def test_numbers_and_cases_are_written(printed, expected):
+    assert printed.replace("\N{NO-BREAK SPACE}", " ") == expected
 
 
 def test_an_interval_that_is_written_contains_the_one_that_is_meant():
@@ -79,8 +79,8 @@ def test_an_interval_that_is_written_contains_the_one_that_is_meant():
     ],
 )
 def test_numbers_are_rounded_outward(value, digits, down, up):
-    found = outward(value, digits, DOWN), outward(value, digits, UP)
-    np.testing.assert_allclose(found, (down, up), rtol=1e-12)
+    bounds = outward(value, digits, DOWN), outward(value, digits, UP)
+    np.testing.assert_allclose(bounds, (down, up), rtol=1e-12)
 
 
 def test_links_are_seen_from_the_page():

@@ -45,18 +45,18 @@ def written(tmp_path, monkeypatch):
     return write
 
 
-def plain(html: str) -> str:
+def text_of(html: str) -> str:
     text = re.sub(r"<style>.*?</style>|<nav.*?</nav>|<[^>]*>", " ", html, flags=re.DOTALL)
     return " ".join(text.replace("\N{NO-BREAK SPACE}", " ").split())
 
 
 def row(name: str) -> dict:
-    return next(one for one in ROWS if one["name"] == name)
+    return next(claim for claim in ROWS if claim["name"] == name)
 
 
 def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
     held = row("fig5_decreases") | {"verdict": "confirmed"}
-    text = plain(written([held, held | {"name": "other", "verdict": "not reproduced"}]))
+    text = text_of(written([held, held | {"name": "other", "verdict": "not reproduced"}]))
     assert "2 claims of the paper: 1 confirmed, 1 not reproduced." in text
     table = text[text.index("figure verdict claims") :]
     assert "Fig 1 : fig1 is shown a drawing none" in table
@@ -64,7 +64,7 @@ def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
 
 
 @pytest.mark.parametrize(
-    ("verdicts", "said"),
+    ("verdicts", "words"),
     [
         (("confirmed",), "holds 1 confirmed"),
         (("confirmed with a caveat",), "holds with a caveat 1"),
@@ -73,13 +73,13 @@ def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
         (("confirmed", "not applicable"), "not applicable 1 confirmed"),
     ],
 )
-def test_a_figure_has_the_verdict_of_its_claims(written, verdicts, said):
+def test_a_figure_has_the_verdict_of_its_claims(written, verdicts, words):
     rows = [
-        row("fig5_decreases") | {"name": f"row{n}", "verdict": one}
-        for n, one in enumerate(verdicts)
+        row("fig5_decreases") | {"name": f"row{n}", "verdict": verdict}
+        for n, verdict in enumerate(verdicts)
     ]
     line, *_ = re.findall(r'<a href="#figures/fig5">.*?</tr>', written(rows), re.DOTALL)
-    assert f"fig5 is shown {said}" in plain(line)
+    assert f"fig5 is shown {words}" in text_of(line)
 
 
 def test_each_claim_is_shown_once_and_the_confirmed_ones_are_folded(written):
@@ -87,11 +87,11 @@ def test_each_claim_is_shown_once_and_the_confirmed_ones_are_folded(written):
     tags = Tags(html)
     assert tags.faults == [] and tags.open == []
     assert sorted(re.findall(r'class="claim" id="claim_(\w+)"', html)) == sorted(
-        one["name"] for one in ROWS
+        claim["name"] for claim in ROWS
     )
     opened = re.sub(r"<section[^>]*>\s*<details>.*?</section>", "", html, flags=re.DOTALL)
-    shown = set(re.findall(r'id="claim_(\w+)"', opened))
-    assert shown == {one["name"] for one in ROWS if "confirmed" not in one["verdict"]}
+    opened_claims = set(re.findall(r'id="claim_(\w+)"', opened))
+    assert opened_claims == {claim["name"] for claim in ROWS if "confirmed" not in claim["verdict"]}
 
 
 def counts_of(text: str) -> dict[str, int]:
@@ -106,7 +106,7 @@ def of_paper(rows) -> dict[str, int]:
 
 
 def test_the_lead_and_the_headings_of_the_report_count_each_claim_once(written):
-    text = plain(written(ROWS))
+    text = text_of(written(ROWS))
     lead = re.search(r"\d+ claims of the paper: (.*?);", text)[1]
     assert counts_of(lead) == of_paper(ROWS)
     headings = re.findall(r"(\d+) claims (confirmed(?: with a caveat)?): (.*?project)", text)
@@ -123,37 +123,37 @@ def test_the_lead_and_the_headings_of_the_report_count_each_claim_once(written):
 def test_the_readme_and_the_article_have_the_counts_of_the_ledger():
     counts = of_paper(ROWS)
     confirmed, caveat = counts["confirmed"], counts["confirmed with a caveat"]
-    rest = [
-        counts.get(one, 0) for one in ("not reproduced", "does not follow", "cannot be decided")
+    negative = [
+        counts.get(word, 0) for word in ("not reproduced", "does not follow", "cannot be decided")
     ]
     readme, article = (
         " ".join((ROOT / name).read_text("utf-8").split())
         for name in ("README.md", "docs/article.md")
     )
-    told = re.search(
+    match = re.search(
         r"of (\d+) claims of the paper (\d+) are confirmed and (\d+) with a caveat; (\d+)"
         r" are not reproduced, (\d+) do not follow .*?, and (\d+) cannot be decided",
         readme,
     )
-    assert list(map(int, told.groups())) == [sum(counts.values()), confirmed, caveat, *rest]
-    told = re.search(
+    assert list(map(int, match.groups())) == [sum(counts.values()), confirmed, caveat, *negative]
+    match = re.search(
         r"test (\d+) statements: .*? We confirm (\d+) statements, (\d+) of them with a caveat"
         r".*? We do not reproduce (\d+) statements: .*? The paper's (\d+) conclusions .*?"
         r" Another (\d+) cannot be decided",
         article,
     )
     held = [sum(counts.values()), confirmed + caveat, caveat]
-    assert list(map(int, told.groups())) == [*held, *rest]
+    assert list(map(int, match.groups())) == [*held, *negative]
 
 
 def test_the_article_has_the_words_of_the_report_on_each_figure(written):
     article = (ROOT / "docs/article.md").read_text("utf-8")
-    table = plain(written(ROWS)).partition("figure verdict claims")[2]
+    table = text_of(written(ROWS)).partition("figure verdict claims")[2]
     for figure in range(1, 7):
         cells = re.search(rf"^\| {figure} \|.*$", article, re.MULTILINE)[0].split("|")
         word, counts = cells[3].partition(";")[0].strip(), cells[4].strip()
-        shown = f"Fig {figure} : fig{figure} is shown {word} {counts}"
-        assert shown in table.replace(" ,", ",")
+        entry = f"Fig {figure} : fig{figure} is shown {word} {counts}"
+        assert entry in table.replace(" ,", ",")
 
 
 def test_what_files_say_is_never_markup(written):

@@ -23,12 +23,12 @@ def test_the_page_is_well_formed_and_shows_every_claim_figure_and_dataset(tags, 
     assert tags.faults == [] and tags.open == [] and len(html) < 2e6
     assert len(tags.ids) == len(set(tags.ids))
     rows = load_json(results / "claims.json")["rows"]
-    assert {one for one in tags.ids if one.startswith("claim_")} == {
+    assert {name for name in tags.ids if name.startswith("claim_")} == {
         f"claim_{row['name']}" for row in rows
     }
     drawn = {path.stem for path in (results / "figures").glob("*.png")}
-    drawn -= {one for one in drawn if one.startswith(("speed", "cost"))}
-    assert {one for one in tags.ids if one.startswith("figures/")} == {
+    drawn -= {name for name in drawn if name.startswith(("speed", "cost"))}
+    assert {name for name in tags.ids if name.startswith("figures/")} == {
         f"figures/{n}" for n in drawn
     }
     needed = {f"data_{name}.nc" for row in rows for name in row["decided_by"]}

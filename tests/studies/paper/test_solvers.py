@@ -45,7 +45,7 @@ def test_a_drift_by_each_reading(measured):
 
 
 @pytest.mark.parametrize(
-    ("drift", "start", "verdict", "said"),
+    ("drift", "start", "verdict", "reason"),
     [
         ({}, 1.0, Verdict.CONFIRMED, ""),
         ({("case1", "ode45"): 3e-6}, 1.0, Verdict.UNDECIDED, "on the definition in case1"),
@@ -59,7 +59,7 @@ def test_a_drift_by_each_reading(measured):
         ({("case0", "ode45"): 3e-6, ("case1",): 3e-4}, 100.0, Verdict.NOT_REPRODUCED, "case1"),
     ],
 )
-def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, verdict, said):
+def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, verdict, reason):
     """All drift by 1e-7, but for what is given; the energy at the start is `start`."""
     axes = {
         "case": ["case0_small", "case1_small"],
@@ -73,7 +73,7 @@ def test_an_energy_that_only_some_readings_keep_is_not_decided(drift, start, ver
         )
     largest.loc[{"of": "relative"}] = largest.sel(of="absolute") / start
     finding = drifts(xr.Dataset({"largest_drift": largest}, {"tau": [0.0, 50.0]}), "small")
-    assert finding.verdict == verdict and said in finding.because.replace("_small", "")
+    assert finding.verdict == verdict and reason in finding.because.replace("_small", "")
 
 
 def test_each_solver_has_its_horizon():

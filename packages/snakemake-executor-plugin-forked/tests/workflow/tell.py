@@ -7,7 +7,7 @@ from pathlib import Path
 
 of_shells = ("_", "SHLVL", "OLDPWD", "PS1")  # bash drops PS1 where nobody types
 links = {n: os.path.realpath(f"/proc/self/fd/{n}") for n in os.listdir("/proc/self/fd")}
-told = {
+surroundings = {
     "names": [__name__, __file__, len(sys.argv), os.path.dirname(sys.argv[0])],
     "given": [*snakemake.output, dict(snakemake.wildcards), snakemake.rule],  # noqa: F821
     "places": [os.getcwd(), tempfile.gettempdir(), os.umask(0), sys.stdin.read()],
@@ -20,4 +20,4 @@ told = {
 held = sys.modules.get("held")
 letters = held.FONT.read(4).decode() if held else ""
 forked = b"server.py" in Path(f"/proc/{os.getppid()}/cmdline").read_bytes()
-Path(snakemake.output[0]).write_text(json.dumps([told, forked, letters]))  # noqa: F821
+Path(snakemake.output[0]).write_text(json.dumps([surroundings, forked, letters]))  # noqa: F821
