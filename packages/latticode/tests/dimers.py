@@ -107,5 +107,5 @@ def integrate(z, solver, end=1.0, outputs=1, reduction=FULL_CHAIN, **changes) ->
 def case_of(name, half_width=30, **changes) -> Problem:
     """Return a case of the paper on a short chain."""
     omega, pair = CASES[name]
-    given = {"half_width": half_width, **changes}
-    return chain(on_sites({0: pair}), (1.0, 1.0, omega), **given)
+    keys = {"half_width": half_width, **changes}
+    return chain(on_sites({0: pair}), (1.0, 1.0, omega), **keys)

@@ -21,14 +21,14 @@ TURNS = [("dop853", "auto"), ("ode45", "kahan_li"), ("auto", "crank_nicolson")]
 def final(case, **solver):
     """Return the final state (field, site) of a case, and the attributes of its run."""
     run = simulate(case.changed(solver=solver))
-    parts = run["final"].values
-    return parts[0] + 1j * parts[1] if len(parts) > 1 else parts[0] + 0j, run.attrs
+    fields = run["final"].values
+    return fields[0] + 1j * fields[1] if len(fields) > 1 else fields[0] + 0j, run.attrs
 
 
 def growth(model, end):
     """Return how much larger a small change of the data is at the end."""
-    parts = np.random.default_rng(1).normal(size=(2, *model.start.shape))
-    change = 1e-7 * (parts[0] + 1j * parts[1] * model.start.imag.any())
+    noise = np.random.default_rng(1).normal(size=(2, *model.start.shape))
+    change = 1e-7 * (noise[0] + 1j * noise[1] * model.start.imag.any())
     return np.abs(model.follow(change) - end).max() / 1e-7
 
 
@@ -45,8 +45,8 @@ def error(model, end, name):
         return np.abs(state - end).max() / (attributes["solver_estimated_error"] + 1e-11)
     controls, allowed = SOLVERS[name]
     state, _ = final(model.case, name=name, **controls)
-    found = np.abs(state - end).max() / allowed
-    return found if found < 1.0 else found / max(1.0, growth(model, end))
+    ratio = np.abs(state - end).max() / allowed
+    return ratio if ratio < 1.0 else ratio / max(1.0, growth(model, end))
 
 
 def judge(model, names):

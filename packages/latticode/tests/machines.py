@@ -80,7 +80,7 @@ def playable(name: str) -> bool:
         return False
     features = binding.get_host_cpu_features()
     return all(
-        features.get(one.strip("+")) for one in f"fma,{PLAYED[name].features}".split(",") if one
+        features.get(word.strip("+")) for word in f"fma,{PLAYED[name].features}".split(",") if word
     )
 
 

@@ -41,9 +41,9 @@ def lap(w):
 
 def couple(matrix, w):
     """A matrix times the sites of the chain; beyond its ends nothing is known."""
-    found = np.full_like(w, np.nan)
-    found[MARGIN:-MARGIN] = matrix @ np.asarray(w)[MARGIN:-MARGIN]
-    return found
+    sums = np.full_like(w, np.nan)
+    sums[MARGIN:-MARGIN] = matrix @ np.asarray(w)[MARGIN:-MARGIN]
+    return sums
 
 
 NAMES = {
@@ -63,23 +63,23 @@ def beyond_ends(values, boundary, of_field=True):
     mirrored = np.where(turns % 2 == 0, place, values.size - 1 - place)
     match boundary:
         case "periodic":
-            found = values[place]
+            extended = values[place]
         case "antiperiodic":
-            found = values[place] * ((-1.0) ** turns if of_field else 1.0)
+            extended = values[place] * ((-1.0) ** turns if of_field else 1.0)
         case "free" if of_field:
-            found = values[mirrored]
+            extended = values[mirrored]
         case "dirichlet" if of_field:
-            found = np.where(turns == 0, values[place], 0.0)
+            extended = np.where(turns == 0, values[place], 0.0)
         case _:
-            found = values[np.clip(n, 0, values.size - 1)]
-    return found.view(Sites)
+            extended = values[np.clip(n, 0, values.size - 1)]
+    return extended.view(Sites)
 
 
 def run(text, names=NAMES):
     """Return the names that the text of a model makes, where its functions are these."""
-    made = dict(names)
-    exec(text, made)
-    return made
+    namespace = dict(names)
+    exec(text, namespace)
+    return namespace
 
 
 def traced(text):
@@ -92,23 +92,23 @@ def slope_of(text, parameters, boundary, fields, form):
 
     They have the fields one after the other, and behind those of `d2_dt2` all velocities.
     """
-    made, second_order = run(text), form == "d2_dt2"
-    equations = made[form]
+    namespace, second_order = run(text), form == "d2_dt2"
+    equations = namespace[form]
     takes_velocities = equations.__code__.co_argcount > 1 + fields
 
-    def everywhere(value, like):
+    def everywhere(value, field):
         if np.ndim(value) == 2:
             return value
-        return beyond_ends(np.broadcast_to(value, like.shape), boundary, of_field=False)
+        return beyond_ends(np.broadcast_to(value, field.shape), boundary, of_field=False)
 
     def slope(t, y):
         states = y.reshape(fields * (1 + second_order), -1)
         rows = [beyond_ends(state, boundary) for state in states]
-        given = {
+        numbers = {
             name: everywhere(value, states[0]) for name, value in {**parameters, "t": t}.items()
         }
         arguments = rows if takes_velocities else rows[:fields]
-        returned = equations(SimpleNamespace(**given), *arguments)
+        returned = equations(SimpleNamespace(**numbers), *arguments)
         returned = returned if isinstance(returned, tuple) else (returned,)
         inside = [
             np.broadcast_to(rate, rows[0].shape)[MARGIN:-MARGIN].view(np.ndarray)

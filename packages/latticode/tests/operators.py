@@ -6,7 +6,7 @@ from pathlib import Path
 
 COMPLEX = {"amplitudes", "initial", "z"}
 """What complex numbers are called: their modulus is `hypot` of C, and `numerics` has its own."""
-PARTS = ("real", "imag", "shape", "size")
+ATTRIBUTES = ("real", "imag", "shape", "size")
 EXACT_BASES = (-1, 0.5, 2)
 """Numbers whose whole powers are exact."""
 
@@ -23,7 +23,7 @@ def whole_power(base: ast.AST, exponent: ast.AST) -> bool:
 
 def complex_inside(node: ast.AST) -> bool:
     """Return whether an expression holds a complex number, but not only its parts or a function."""
-    if isinstance(node, ast.Call) or (isinstance(node, ast.Attribute) and node.attr in PARTS):
+    if isinstance(node, ast.Call) or (isinstance(node, ast.Attribute) and node.attr in ATTRIBUTES):
         return False
     named = getattr(node, "id", "") or getattr(node, "attr", "")
     return named in COMPLEX or any(map(complex_inside, ast.iter_child_nodes(node)))

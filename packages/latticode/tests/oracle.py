@@ -99,9 +99,9 @@ def chains(draw, widths=(0, 3), even=False, synchronised=False):
     half_width = draw(st.integers(*widths))
     shape = (2, 2, 2 * half_width + 1)
     # thirds, because the sums of simple numbers would not round at all
-    parts = draw(arrays(float, shape, elements=st.floats(-6, 6, width=32))) / 3
-    parts[np.abs(parts) < 1e-6] = 0.0  # the tolerances are absolute: smaller data are refused
-    return symmetrise(parts[0] + 1j * parts[1], even, synchronised)
+    drawn = draw(arrays(float, shape, elements=st.floats(-6, 6, width=32))) / 3
+    drawn[np.abs(drawn) < 1e-6] = 0.0  # the tolerances are absolute: smaller data are refused
+    return symmetrise(drawn[0] + 1j * drawn[1], even, synchronised)
 
 
 constants = st.tuples(st.floats(0, 2), st.floats(-2, 2), st.floats(-8, 8))

@@ -59,8 +59,8 @@ def turned(compiled: CompiledMethod, rate: float) -> CompiledMethod:
         outcome = compiled.run(system, y, times, controls, work, record, stop)
         y[0::2], y[1::2] = rotated(y[0::2], y[1::2], rate * times[-1])
         if record.every:
-            kept = record.snapshots
-            kept[0], kept[1] = rotated(kept[0], kept[1], rate * times[:: record.every])
+            states = record.snapshots
+            states[0], states[1] = rotated(states[0], states[1], rate * times[:: record.every])
         return outcome
 
     return compiled._replace(run=run)

@@ -36,8 +36,8 @@ class Drawn:
     @cached_property
     def case(self):
         """The case of the library."""
-        made = traced(self.text)
-        functions = {self.form: made[self.form]}
+        names = traced(self.text)
+        functions = {self.form: names[self.form]}
         model = Model(fields=self.fields, parameters=self.parameters, **functions)
         first, last = self.sites[0], self.sites[-1]
         length = {"sites": last + 1} if first == 0 else {"half_width": last}
@@ -51,10 +51,10 @@ class Drawn:
 
     def follow(self, perturbation=0.0):
         """Return the state at the end, laid out as `start`, by NumPy and SciPy alone."""
-        given = self.text, self.parameters, self.boundary, len(self.fields), self.form
+        arguments = self.text, self.parameters, self.boundary, len(self.fields), self.form
         start = self.start + perturbation
         flat = {"i_dt": start, "dt": start.real, "d2_dt2": np.array([start.real, start.imag])}
-        end = solution(slope_of(*given), flat[self.form].ravel(), self.end_time)
+        end = solution(slope_of(*arguments), flat[self.form].ravel(), self.end_time)
         if end is None or self.form != "d2_dt2":
             return end if end is None else end.reshape(start.shape)
         values, velocities = end.reshape(2, *start.shape)
@@ -171,7 +171,7 @@ class Grammar:
 def reflected(text):
     """Return an expression with left and right exchanged."""
     exchanged = {".left": ".right", ".right": ".left", ", +": ", -", ", -": ", +"}
-    return re.sub(r"\.left|\.right|, [+-](?=\d\))", lambda found: exchanged[found[0]], text)
+    return re.sub(r"\.left|\.right|, [+-](?=\d\))", lambda match: exchanged[match[0]], text)
 
 
 def drawn(seed, attempt=0):

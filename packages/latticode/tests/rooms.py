@@ -37,13 +37,13 @@ class Rooms:
     def upwards(self) -> list[tuple[str, str]]:
         """Return the imports from a room that is above."""
         return [
-            (str(module), str(other))
-            for module, other in self.between()
-            if self.storey_of(other) < self.storey_of(module)
+            (str(module), str(imported))
+            for module, imported in self.between()
+            if self.storey_of(imported) < self.storey_of(module)
         ]
 
     def lines(self, modules) -> int:
-        return sum(len((self.package / one).read_text().splitlines()) for one in modules)
+        return sum(len((self.package / module).read_text().splitlines()) for module in modules)
 
 
 @cache
@@ -70,9 +70,9 @@ def modules_imported(package: Path, file: Path) -> set[str]:
             home = (package.name, *inside)[: len(inside) + 2 - node.level] if node.level else ()
             base = ".".join([*home, *([node.module] if node.module else [])])
             names |= {base, *(f"{base}.{alias.name}" for alias in node.names)}
-    own = f"{package.name}."
-    parts = (name.removeprefix(own) for name in names if name.startswith(own))
-    return {name for name in parts if _is_module(package, name)}
+    prefix = f"{package.name}."
+    inside_names = (name.removeprefix(prefix) for name in names if name.startswith(prefix))
+    return {name for name in inside_names if _is_module(package, name)}
 
 
 def _is_module(package: Path, name: str) -> bool:
@@ -87,8 +87,8 @@ def graph_of(package: Path) -> dict[str, set[str]]:
     """
     graph = {}
     for file in sorted(package.rglob("*.py")):
-        parts = file.relative_to(package).with_suffix("").parts
-        name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+        words = file.relative_to(package).with_suffix("").parts
+        name = ".".join(words[:-1] if words[-1] == "__init__" else words)
         if name:
             graph[name] = modules_imported(package, file) - {name}
     return graph

@@ -15,10 +15,10 @@ def test_the_examples_of_a_page_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = "\n".join(re.findall(r"^```pycon\n(.*?)^```", page.read_text(), re.M | re.S))
     parsed = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
-    said: list[str] = []
+    output: list[str] = []
     runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
-    runner.run(parsed, out=said.append)
-    assert runner.tries > 3 and runner.failures == 0, "".join(said)
+    runner.run(parsed, out=output.append)
+    assert runner.tries > 3 and runner.failures == 0, "".join(output)
 
 
 def test_the_first_example_makes_its_plot(tmp_path, monkeypatch):

@@ -47,8 +47,8 @@ def test_importing_the_package_loads_nothing_else():
     code = "import sys, latticode; print(*(m for m in sys.modules if m.startswith('latticode.')))"
     paths = {**os.environ, "PYTHONPATH": str(Path(latticode.__file__).parents[1])}
     command = [sys.executable, "-c", code + "; print('numpy' in sys.modules)"]
-    said = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
-    assert said.stdout.split() == ["False"]
+    process = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
+    assert process.stdout.split() == ["False"]
 
 
 def test_every_public_name_is_there_and_explained():
@@ -70,14 +70,14 @@ def test_type_checkers_see_the_names_that_there_are():
 
 
 def test_help_on_a_case_begins_with_its_keys():
-    shown = pydoc.plaintext.document(latticode.Case).splitlines()
-    assert shown[1].startswith(" |  Case(*, model, parameters={}, initial, half_width=30,")
-    assert "model: a Model, or the path of its file." in shown[7]
+    lines = pydoc.plaintext.document(latticode.Case).splitlines()
+    assert lines[1].startswith(" |  Case(*, model, parameters={}, initial, half_width=30,")
+    assert "model: a Model, or the path of its file." in lines[7]
 
 
 def test_the_examples_in_the_docstrings_run():
-    found = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
-    assert found.attempted and not found.failed
+    results = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
+    assert results.attempted and not results.failed
 
 
 @pytest.mark.parametrize(
@@ -113,11 +113,11 @@ def test_what_cannot_be_done_is_told_before_anything_runs(call, words, run):
 def test_snapshots_are_chosen_by_their_times(run, tmp_path):
     latticode.save(tmp_path / "run.nc", run)
     netcdf.write(tmp_path / "job.nc", *trajectory_contents("job", PROBLEM, made(PROBLEM)))
-    for found in (run, latticode.read(tmp_path / "run.nc"), latticode.read(tmp_path / "job.nc")):
-        chosen = found["modulus"].sel(snapshot=1.5)
-        assert (chosen == found["modulus"].isel(snapshot=60)).all() and chosen.ndim == 2
+    for opened in (run, latticode.read(tmp_path / "run.nc"), latticode.read(tmp_path / "job.nc")):
+        chosen = opened["modulus"].sel(snapshot=1.5)
+        assert (chosen == opened["modulus"].isel(snapshot=60)).all() and chosen.ndim == 2
         with pytest.raises(KeyError):
-            found["modulus"].sel(snapshot=20)
+            opened["modulus"].sel(snapshot=20)
     assert len(notebook.draw_spacetime(run).axes) >= 3
 
 
@@ -137,10 +137,10 @@ def test_a_survey_is_drawn_against_one_axis_over_two_as_maps_or_by_member():
     values, members = [0.5, 1.0], {"count": 3, "size": 0.01, "seed": 1}
     case = CASE.changed(end_time=1)
     line = notebook.draw_survey(survey(case, {"c": values}, keep=["final_l2"]))
-    assert [list(one.get_xdata()) for one in line.axes[0].get_lines()] == [values] * 2
+    assert [list(curve.get_xdata()) for curve in line.axes[0].get_lines()] == [values] * 2
     over_two = survey(case, {"c": values, "end_time": [1, 2]}, keep=["final_l2"])
     maps = notebook.draw_survey(over_two).axes
-    assert [one.get_title() for one in maps[:2]] == ["u", "v"]
+    assert [axes.get_title() for axes in maps[:2]] == ["u", "v"]
     drawn = maps[0].collections[0].get_array()
     assert (drawn == over_two["final_l2"].isel(component=0).T).all()
     points = notebook.draw_survey(survey(case, {}, keep=["final_l2"], members=members))
@@ -170,8 +170,8 @@ def test_imaginary_parts_that_nothing_reads_are_refused_and_others_explained(cap
 def test_a_survey_with_failed_runs_is_drawn_and_says_how_many_are_left_out():
     escaping = Model(fields="x", parameters={"k": 1.0}, d2_dt2=lambda p, x: p.k * x * x * x)
     case = Case(model=escaping, initial={0: [1]}, half_width=1, end_time=2)
-    found = survey(case, {"k": [0.1, 0.5, 9.0]}, keep=["final_l2"])
-    assert found.attrs["failed_runs"] == 1 and str(found["failure"][2].values).startswith("taylor")
-    drawn = surveys.gather_survey(found)
+    data = survey(case, {"k": [0.1, 0.5, 9.0]}, keep=["final_l2"])
+    assert data.attrs["failed_runs"] == 1 and str(data["failure"][2].values).startswith("taylor")
+    drawn = surveys.gather_survey(data)
     assert "Failed runs (1) are left out." in drawn.attrs["caption"]
-    assert len(notebook.draw_survey(found).axes) == 1
+    assert len(notebook.draw_survey(data).axes) == 1

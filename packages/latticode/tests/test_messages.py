@@ -82,6 +82,6 @@ def test_a_power_of_a_number_is_taken_to_a_parameter():
 
 
 def test_a_model_shows_its_fields_its_parameters_and_its_equations():
-    shown = repr(DNLS)
-    assert shown.startswith("Model model: fields u; a = 1.0\n")
-    assert "i_dt=lambda p, u: p.a * lap(u) + abs2(u) * u" in shown
+    text = repr(DNLS)
+    assert text.startswith("Model model: fields u; a = 1.0\n")
+    assert "i_dt=lambda p, u: p.a * lap(u) + abs2(u) * u" in text

@@ -28,8 +28,8 @@ ALLOWED = {
 
 def test_operators_have_the_same_bits_everywhere():
     """Each use stands in ALLOWED, and what is allowed is still used."""
-    found = used_in(ROOTS["latticode"] / "latticode", MAY_DIFFER)
-    assert found == ALLOWED.keys(), "use latticode.numerics in place of these"
+    operators = used_in(ROOTS["latticode"] / "latticode", MAY_DIFFER)
+    assert operators == ALLOWED.keys(), "use latticode.numerics in place of these"
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ def rate(function):
     """Return equations in the form of `i_dt` from the rates of real fields."""
 
     def i_dt(p, *fields):
-        return tuple(1j * one for one in function(p, *(field.real for field in fields)))
+        return tuple(1j * value for value in function(p, *(field.real for field in fields)))
 
     return i_dt
 
@@ -34,7 +34,7 @@ def exponent_of(case):
     growth = follow(problem_of(case))
     tau, logarithm = growth.tau, growth.log_growth[0]
     middle = tau[-1] / 2
-    value, error = (one(tau, logarithm, middle) for one in (mean_rate, mean_rate_error))
+    value, error = (measure(tau, logarithm, middle) for measure in (mean_rate, mean_rate_error))
     return float(value), float(error), bool(is_chaotic(tau, logarithm, growth.size))
 
 
@@ -56,8 +56,8 @@ def test_a_dimer_traps_itself_from_four_on():
 
     model = Model(fields=("u", "v"), parameters={"chi": 1.0}, i_dt=i_dt)
     case = Case(model=model, half_width=0, initial={0: [1, 0]}, end_time=40)
-    found = survey(case, {"chi": [3.5, 3.999, 4.001, 4.5]}, keep=[least_excess])
-    assert (found["least_excess"].values > 0).tolist() == [False, False, True, True]
+    surveyed = survey(case, {"chi": [3.5, 3.999, 4.001, 4.5]}, keep=[least_excess])
+    assert (surveyed["least_excess"].values > 0).tolist() == [False, False, True, True]
 
 
 def two_sites(eps, second):
@@ -71,9 +71,9 @@ def two_sites(eps, second):
         fields="u", parameters={"eps": eps}, i_dt=lambda p, u: -p.eps * lap(u) - abs2(u) * u
     )
     case = Case(model=model, half_width=20, initial={0: [1], 1: [second]}, end_time=1)
-    found = check_breather(problem_of(case))
-    frequency = abs(float(found["breather_frequency"]))
-    return eps / frequency, float(found["breather_growth"]) / frequency
+    breather = check_breather(problem_of(case))
+    frequency = abs(float(breather["breather_frequency"]))
+    return eps / frequency, float(breather["breather_growth"]) / frequency
 
 
 def test_a_twisted_mode_is_unstable_from_0_146_on():
@@ -129,11 +129,11 @@ def recurrence(tau, position, momentum):
     """
     frequency = 2 * np.sin(np.pi / 64)
     energy = 0.5 * (momentum**2 + frequency**2 * position**2) / (8 * frequency**2)
-    again = np.where(tau > 5000, energy, 0.0).argmax()
+    recurred = np.where(tau > 5000, energy, 0.0).argmax()
     return (
-        tau[again] * frequency / (2 * np.pi),
-        energy[again],
-        energy[:again].min(),
+        tau[recurred] * frequency / (2 * np.pi),
+        energy[recurred],
+        energy[:recurred].min(),
         energy[tau < 64].max(),
     )
 
@@ -141,19 +141,19 @@ def recurrence(tau, position, momentum):
 def leapfrog(step, alpha, end):
     """Return the recurrence of the scheme of 1955, which is of order two in its step."""
     x, v = np.sin(np.pi * np.arange(33) / 32), np.zeros(33)
-    mode, parts = x / 4, np.empty((2, round(end / step)))
+    mode, modes = x / 4, np.empty((2, round(end / step)))
 
     def force(x):
         bond = np.diff(x)
         return np.concatenate([[0.0], np.diff(bond + alpha * bond * bond), [0.0]])
 
     v += 0.5 * step * force(x)
-    for i in range(parts.shape[1]):
+    for i in range(modes.shape[1]):
         x = x + step * v
         pull = force(x)
-        parts[:, i] = mode @ x, mode @ (v + 0.5 * step * pull)
+        modes[:, i] = mode @ x, mode @ (v + 0.5 * step * pull)
         v += step * pull
-    return recurrence(step * np.arange(1, parts.shape[1] + 1), *parts)
+    return recurrence(step * np.arange(1, modes.shape[1] + 1), *modes)
 
 
 def test_fermi_pasta_ulam_and_tsingou_find_their_recurrence():
@@ -173,15 +173,15 @@ def test_fermi_pasta_ulam_and_tsingou_find_their_recurrence():
         return {"position": p.mode * x, "momentum": p.mode * v}
 
     mode = np.sin(np.pi * np.arange(1, 32) / 32)
-    given = {"alpha": 0.25, "mode": mode / 4}
-    model = Model(fields="x", parameters=given, d2_dt2=d2_dt2, conserved=first_mode)
+    parameters = {"alpha": 0.25, "mode": mode / 4}
+    model = Model(fields="x", parameters=parameters, d2_dt2=d2_dt2, conserved=first_mode)
     initial = {n: [mode[n + 15]] for n in range(-15, 16)}
     run = simulate(
         Case(model=model, half_width=15, initial=initial, end_time=9500, output_step=0.5)
     )
     periods, energy, least, early = recurrence(run["tau"].values, *run["conserved"].values)
     assert energy > 0.97 and least < 0.1 and early < 1.03
-    published, finer = (leapfrog(8**-0.5 / part, 0.25, 10200)[0] for part in (1, 2))
+    published, finer = (leapfrog(8**-0.5 / divisor, 0.25, 10200)[0] for divisor in (1, 2))
     assert published == pytest.approx(157, abs=0.5)
     assert periods == pytest.approx(finer - (published - finer) / 3, abs=0.5)
 
@@ -252,7 +252,7 @@ def test_forty_sites_of_lorenz_1996_have_the_exponent_1_67():
         after, before = [*x[1:], x[0].right], [x[-1].left, *x[:-1]]
         second = [x[-2].left, *before[:-1]]
         rows = zip(x, after, before, second, strict=True)
-        return [(right - two) * left - here + p.F for here, right, left, two in rows]
+        return [(right - two) * left - middle + p.F for middle, right, left, two in rows]
 
     model = Model(fields=tuple("abcdefgh"), parameters={"F": 8.0}, i_dt=rate(ring))
     initial = {n: [8 + 0.01 * (n == 0), *[8] * 7] for n in range(-2, 3)}

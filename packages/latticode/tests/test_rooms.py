@@ -48,9 +48,9 @@ def test_a_folder_can_be_seen_at_one_glance():
     entries = {
         folder: len(
             {
-                other.relative_to(folder).parts[0]
-                for other in MODULES
-                if other.is_relative_to(folder) and other.name != "__init__.py"
+                module.relative_to(folder).parts[0]
+                for module in MODULES
+                if module.is_relative_to(folder) and module.name != "__init__.py"
             }
         )
         for folder in folders

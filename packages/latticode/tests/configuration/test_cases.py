@@ -22,11 +22,11 @@ def i_dt(p, u):
 def write(tmp_path):
     """Return a function: the model of a file with this text."""
 
-    def made(text, name="mine.py"):
+    def write_model(text, name="mine.py"):
         (tmp_path / name).write_text(text, encoding="utf-8")
         return Model.read(tmp_path / name)
 
-    return made
+    return write_model
 
 
 @pytest.fixture
@@ -43,11 +43,11 @@ def configured(tmp_path):
 
 
 def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
-    plain = configured("initial: {0: [1.5]}, half_width: 4, parameters: {gamma: 0.2}")
-    assert plain["model"]["name"] == "mine.py" and plain["model"]["text"] == DAMPED
-    assert plain["parameters"] == {"epsilon": 1.0, "gamma": 0.2}
-    assert str(tmp_path) not in str(plain)
-    assert Problem.of(plain).plain() == plain
+    entries = configured("initial: {0: [1.5]}, half_width: 4, parameters: {gamma: 0.2}")
+    assert entries["model"]["name"] == "mine.py" and entries["model"]["text"] == DAMPED
+    assert entries["parameters"] == {"epsilon": 1.0, "gamma": 0.2}
+    assert str(tmp_path) not in str(entries)
+    assert Problem.of(entries).plain() == entries
 
 
 @pytest.mark.parametrize(
@@ -138,14 +138,14 @@ def test_names_that_cannot_stand_in_equations_are_refused(fields, parameters, me
     assert message in str(error.value)
 
 
-def case_with(given, by):
+def case_with(value, by):
     """Return a case whose parameter `a` is given by the model or by the case."""
     model = Model(
         fields="u",
-        parameters={"a": given if by == "model" else 1.0},
+        parameters={"a": value if by == "model" else 1.0},
         i_dt=lambda p, u: lap(u) + p.a * u,
     )
-    return case(model=model, parameters={} if by == "model" else {"a": given})
+    return case(model=model, parameters={} if by == "model" else {"a": value})
 
 
 VALUES = [
@@ -159,14 +159,14 @@ VALUES = [
 ]
 
 
-@pytest.mark.parametrize(("given", "value"), VALUES)
+@pytest.mark.parametrize(("entry", "value"), VALUES)
 @pytest.mark.parametrize("by", ["model", "case"])
-def test_values_of_parameters_are_taken_from_model_and_case_alike(given, value, by):
-    made = case_with(given, by)
-    problem = Problem.of(made.problem())
+def test_values_of_parameters_are_taken_from_model_and_case_alike(entry, value, by):
+    configured = case_with(entry, by)
+    problem = Problem.of(configured.problem())
     assert problem.parameters == {"a": value}
-    run, plain = simulate(made), simulate(case_with(value, "case"))
-    np.testing.assert_array_equal(run["final"], plain["final"])
+    run, expected = simulate(configured), simulate(case_with(value, "case"))
+    np.testing.assert_array_equal(run["final"], expected["final"])
     assert json.loads(run.attrs["parameters"]) == {"a": value}
 
 
@@ -190,11 +190,11 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("given", "message"), WRONG)
+@pytest.mark.parametrize(("value", "message"), WRONG)
 @pytest.mark.parametrize("by", ["model", "case"])
-def test_values_that_are_no_parameters_are_refused_before_any_run(given, message, by):
+def test_values_that_are_no_parameters_are_refused_before_any_run(value, message, by):
     with pytest.raises(ConfigurationError) as error:
-        case_with(given, by)
+        case_with(value, by)
     assert "parameters.a: " in str(error.value) and message in str(error.value)
     assert ("(the default in model)" in str(error.value)) == (by == "model")
     assert "has 1 error:" in str(error.value)
@@ -297,7 +297,7 @@ def test_a_complex_number_divides_as_it_multiplies():
 
     divided = by(lambda p, u: lap(u) / (p.a + 2j) + u.conj() / 2j + u.real)
     times = by(lambda p, u: lap(u) * (p.a - 2j) / (p.a * p.a + 4) - 0.5j * u.conj() + u.real)
-    runs = [simulate(case(model=one))["final"] for one in (divided, times)]
+    runs = [simulate(case(model=model))["final"] for model in (divided, times)]
     np.testing.assert_allclose(*runs, atol=1e-13)
 
 

@@ -25,8 +25,8 @@ def test_costs_are_said_in_words(cost, words):
 
 
 def test_a_little_too_much_memory_is_not_printed_as_what_is_allowed():
-    said = name_excess(RunCost(1.0, 8.01e9), LIMITS)
-    assert "a little over 8 GB of memory, but limits.gigabytes allows 8 GB;" in said
+    message = name_excess(RunCost(1.0, 8.01e9), LIMITS)
+    assert "a little over 8 GB of memory, but limits.gigabytes allows 8 GB;" in message
     assert "about 1 second and 9 GB of memory" in name_excess(RunCost(1.0, 9e9), LIMITS)
 
 
@@ -46,10 +46,10 @@ def case_of(model, **keys):
 @pytest.mark.parametrize("amplitude", [1.0, 5.0])
 def test_steps_of_waves_are_estimated_within_a_factor_of_three(solver, amplitude):
     case = case_of(CUBIC, initial={0: [amplitude], 1: [0.8 * amplitude]}, solver=solver)
-    plain = case.problem()
+    problem = case.problem()
     run = simulate(case)
-    made = run.attrs["steps"] + run.attrs["rejected_steps"]
-    assert 1 / 3 < steps_of(plain["solver"], plain, demand(plain))[0] / made < 3
+    steps = run.attrs["steps"] + run.attrs["rejected_steps"]
+    assert 1 / 3 < steps_of(problem["solver"], problem, demand(problem))[0] / steps < 3
 
 
 @pytest.mark.parametrize("k", [1e6, 1e7, 1e8])

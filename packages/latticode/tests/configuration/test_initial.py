@@ -56,8 +56,8 @@ STARTS_OF_ONE_FIELD = {
 
 @pytest.mark.parametrize("initial", STARTS_OF_ONE_FIELD.values(), ids=STARTS_OF_ONE_FIELD)
 def test_an_array_and_a_function_of_the_sites_start_a_run_as_scipy_does(initial):
-    found = final_of(CASE.changed(initial=initial))
-    np.testing.assert_allclose(found, waves_by_scipy(PULSE, 4), rtol=0, atol=1e-12)
+    final = final_of(CASE.changed(initial=initial))
+    np.testing.assert_allclose(final, waves_by_scipy(PULSE, 4), rtol=0, atol=1e-12)
 
 
 def test_a_function_is_evaluated_on_the_sites_of_each_chain_and_an_array_is_not():
@@ -94,10 +94,10 @@ STARTS = {
 
 @pytest.mark.parametrize("start", STARTS.values(), ids=STARTS)
 def test_a_run_goes_on_from_another_at_its_time(start, halves, capsys):
-    first, whole = halves
+    first, single = halves
     run = simulate(CASE.changed(end_time=8, **start(first)))
-    assert (run["tau"].values == whole["tau"].values[160:]).all() and run.attrs["start_time"] == 4
-    assert abs(run["final"] - whole["final"]).max() < 1e-13
+    assert (run["tau"].values == single["tau"].values[160:]).all() and run.attrs["start_time"] == 4
+    assert abs(run["final"] - single["final"]).max() < 1e-13
     assert "agrees with one run from 0 within the error of taylor" in capsys.readouterr().out
     assert "divergence_time" in check(CASE.changed(end_time=8, **start(first)), run)
 
@@ -106,10 +106,10 @@ def test_a_run_that_goes_on_by_steps_of_one_length_has_the_bits_of_one_run(capsy
     case = Case(
         model=TODA, half_width=4, initial={0: [1]}, end_time=4, solver="kahan_li", boundary="free"
     )
-    whole = simulate(case.changed(end_time=8))
+    single = simulate(case.changed(end_time=8))
     on = simulate(case.changed(initial=simulate(case), end_time=8))
-    assert (on["final"] == whole["final"]).all()
-    assert (on["l2"] == whole["l2"].sel(tau=on["tau"])).all()
+    assert (on["final"] == single["final"]).all()
+    assert (on["l2"] == single["l2"].sel(tau=on["tau"])).all()
     assert capsys.readouterr().out == ""
 
 
@@ -144,10 +144,10 @@ def test_a_configuration_starts_from_a_file_beside_it(name, write, tmp_path):
     write(tmp_path / name, simulate(CASE.changed(initial=PULSE, end_time=1)))
     text = f"cases: {{mine: {{model: dnls.py, half_width: {M}, initial: {name}, end_time: 4}}}}"
     (tmp_path / "mine.yaml").write_text(text)
-    plain = load(gather([tmp_path / "mine.yaml"], {})).shown_problem("mine")
-    assert plain["start_time"] == (1 if name == "start.nc" else 0)
-    found = integrate(Problem.of(plain)).final[0]
-    np.testing.assert_allclose(found, waves_by_scipy(PULSE, 4), rtol=0, atol=1e-12)
+    entries = load(gather([tmp_path / "mine.yaml"], {})).shown_problem("mine")
+    assert entries["start_time"] == (1 if name == "start.nc" else 0)
+    final = integrate(Problem.of(entries)).final[0]
+    np.testing.assert_allclose(final, waves_by_scipy(PULSE, 4), rtol=0, atol=1e-12)
 
 
 def test_a_list_in_a_configuration_is_a_number_for_each_site(tmp_path):

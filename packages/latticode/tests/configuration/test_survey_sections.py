@@ -30,8 +30,8 @@ def test_a_survey_is_read_with_its_grids_and_whole_numbers():
     }
     assert plan.shape == (5, 2, 1, 3)
     assert settings.plain_survey("map")["members"]["count"] == 3
-    whole, part = settings.cost_of_survey("map"), settings.cost_of_survey("map", 10)
-    assert part.seconds == pytest.approx(whole.seconds / 10)
+    full, tenth = settings.cost_of_survey("map"), settings.cost_of_survey("map", 10)
+    assert tenth.seconds == pytest.approx(full.seconds / 10)
 
 
 def test_what_varies_together_is_the_last_axis():
@@ -42,7 +42,7 @@ def test_what_varies_together_is_the_last_axis():
 
 
 @pytest.mark.parametrize(
-    ("survey", "told"),
+    ("survey", "message"),
     [
         ({}, "surveys.map.axes: is empty, and there are no members"),
         ({"case": "mien", "axes": {"c": [1]}}, "there is no case 'mien'; did you mean 'mine'"),
@@ -71,8 +71,8 @@ def test_what_varies_together_is_the_last_axis():
         ),
     ],
 )
-def test_what_a_survey_may_not_say(survey, told):
-    with pytest.raises(ConfigurationError, match=told):
+def test_what_a_survey_may_not_say(survey, message):
+    with pytest.raises(ConfigurationError, match=message):
         loaded(**survey)
 
 
@@ -96,11 +96,11 @@ def driven(at):
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_a_function_is_evaluated_on_the_sites_of_each_run_of_a_survey(name):
     case, half_widths = driven(FUNCTIONS[name]), [3, 4, 6]
-    found = notebook.survey(case, {"half_width": half_widths}, keep=["final_l2"])
+    surveyed = notebook.survey(case, {"half_width": half_widths}, keep=["final_l2"])
     alone = [notebook.simulate(case.changed(half_width=m)) for m in half_widths]
     expected = [run["l2"].values[:, -1] for run in alone]
-    np.testing.assert_array_equal(found["final_l2"], expected)
-    assert '"6": {"at":' in found.attrs["parameters_by_half_width"]
+    np.testing.assert_array_equal(surveyed["final_l2"], expected)
+    assert '"6": {"at":' in surveyed.attrs["parameters_by_half_width"]
 
 
 def test_a_survey_of_a_file_evaluates_functions_on_the_sites_of_each_run():
@@ -116,6 +116,6 @@ def test_a_survey_of_a_file_evaluates_functions_on_the_sites_of_each_run():
 
 def test_values_on_an_axis_take_the_place_of_a_function():
     case = driven(lambda n: (n == 0) * 1.0)
-    found = notebook.survey(case, {"half_width": [3, 6], "at": [0.5]}, keep=["final_l2"])
+    surveyed = notebook.survey(case, {"half_width": [3, 6], "at": [0.5]}, keep=["final_l2"])
     alone = notebook.simulate(case.changed(half_width=6, parameters={"at": 0.5}))
-    assert found["final_l2"].values[1, 0] == alone["l2"].values[0, -1]
+    assert surveyed["final_l2"].values[1, 0] == alone["l2"].values[0, -1]

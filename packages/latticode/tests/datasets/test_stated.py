@@ -9,7 +9,7 @@ CONSTANTS = {"epsilon": 1.0, "gamma": 0.5, "omega": -4.0}
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("arguments", "attributes"),
     [
         ({"seed": 3, "window": None}, {"seed": 3}),
         ({"constants": CONSTANTS}, CONSTANTS),
@@ -21,8 +21,8 @@ CONSTANTS = {"epsilon": 1.0, "gamma": 0.5, "omega": -4.0}
         ({"ends": {0.2: 1, 0.1: 2}}, {"ends": '{"0.2": 1, "0.1": 2}'}),
     ],
 )
-def test_arguments_become_numbers_and_text(given, says):
-    assert stated(given, (), [], make) == says | {"computed_by": f"{__name__}.make"}
+def test_arguments_become_numbers_and_text(arguments, attributes):
+    assert stated(arguments, (), [], make) == attributes | {"computed_by": f"{__name__}.make"}
 
 
 def test_several_problems_state_what_they_share_once_and_the_rest_by_name():

@@ -22,14 +22,14 @@ def font_of(slant):
 
 @pytest.mark.parametrize("slant", SLANTS)
 def test_no_letter_is_lost_and_the_whole_font_is_found_afterwards(slant):
-    whole = font_of(slant)
+    full_font = font_of(slant)
     with light_fonts():
-        assert font_of(slant) != whole
-        with TTFont(font_of(slant)) as light, TTFont(whole) as full:
+        assert font_of(slant) != full_font
+        with TTFont(font_of(slant)) as light, TTFont(full_font) as full:
             assert light.getBestCmap() == full.getBestCmap()
             assert not set(LEFT_OUT) & set(light.keys())
             assert dict(light["kern"].kernTables[0].kernTable)
-    assert font_of(slant) == whole
+    assert font_of(slant) == full_font
 
 
 def test_a_pdf_holds_as_truetype_the_letters_of_any_name(tmp_path):

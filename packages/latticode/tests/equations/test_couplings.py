@@ -53,8 +53,8 @@ def grid(sites):
     """Return the Laplacian of a square with open ends, for as many sites."""
     side = round(len(sites) ** 0.5)
     line = scipy.sparse.diags_array([1.0, -2.0, 1.0], offsets=[-1, 0, 1], shape=(side, side))
-    one = scipy.sparse.eye_array(side)
-    return scipy.sparse.kron(line, one) + scipy.sparse.kron(one, line)
+    identity = scipy.sparse.eye_array(side)
+    return scipy.sparse.kron(line, identity) + scipy.sparse.kron(identity, line)
 
 
 @pytest.mark.parametrize("solver", ["taylor", "dop853", "crank_nicolson"])
@@ -75,14 +75,14 @@ def test_a_square_lattice_by_its_laplacian_follows_scipy(solver):
     final = run["final"].values[:, 0]
     error = np.abs(final[0] + 1j * final[1] - exact).max()
     assert error < (1e-4 if solver == "crank_nicolson" else 1e-10)
-    kept = run["conserved"].values[0]
-    assert np.abs(kept / kept[0] - 1).max() < (1e-5 if solver == "crank_nicolson" else 1e-10)
+    power = run["conserved"].values[0]
+    assert np.abs(power / power[0] - 1).max() < (1e-5 if solver == "crank_nicolson" else 1e-10)
 
 
 def test_an_interaction_over_the_whole_chain_falls_with_a_power_of_the_distance():
     def interaction(n):
-        apart = np.abs(n[:, None] - n[None, :])
-        return np.where(apart > 0, 1.0 / np.maximum(apart, 1) ** 3.0, 0.0)
+        distance = np.abs(n[:, None] - n[None, :])
+        return np.where(distance > 0, 1.0 / np.maximum(distance, 1) ** 3.0, 0.0)
 
     model = Model(
         fields="x",
@@ -107,29 +107,29 @@ def test_sums_over_a_row_go_from_the_first_site_to_the_last_dense_or_sparse():
     matrix, factors = rng.normal(size=(2, 23, 23))[0], rng.normal(size=25)
     columns, starts = np.tile(np.arange(23), 23), np.arange(0, 23 * 23 + 1, 23)[None]
     room, nothing = np.zeros((1, 25)), np.zeros((1, 1, 1))
-    found = np.zeros((2, 25))
-    for dense, result in zip((matrix.T.copy()[None], nothing), found, strict=True):
+    sums = np.zeros((2, 25))
+    for dense, result in zip((matrix.T.copy()[None], nothing), sums, strict=True):
         couplings = Couplings(dense, matrix.ravel(), columns, starts, room, room, room, room)
         multiply_by_matrix(couplings, 0, factors, result, 1)
     for site in range(23):
         total = 0.0
         for column in range(23):
             total += matrix[site, column] * factors[1 + column]
-        assert (found[:, 1 + site] == total).all()
+        assert (sums[:, 1 + site] == total).all()
 
 
 def test_a_ring_by_its_matrix_has_the_motion_and_the_exponent_of_lap():
     ring = np.roll(np.eye(8), 1, axis=0) + np.roll(np.eye(8), -1, axis=0) - 2 * np.eye(8)
     start = np.random.default_rng(3).normal(size=(8, 2)) @ (0.4, 0.4j)
-    given = {"sites": 8, "boundary": "periodic", "initial": start, "end_time": 20}
+    settings = {"sites": 8, "boundary": "periodic", "initial": start, "end_time": 20}
     by_lap = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
     by_matrix = Model(
         fields="u", parameters={"W": ring}, i_dt=lambda p, u: couple(p.W, u) + abs2(u) * u
     )
-    found = [check(Case(model=model, **given)) for model in (by_lap, by_matrix)]
-    assert float(found[1]["largest_difference"]) < 1e-9
-    assert float(found[0]["exponent"]) == pytest.approx(float(found[1]["exponent"]), abs=1e-3)
-    assert "coupling matrix are not supported" in found[1].attrs["breather_refusal"]
+    checks = [check(Case(model=model, **settings)) for model in (by_lap, by_matrix)]
+    assert float(checks[1]["largest_difference"]) < 1e-9
+    assert float(checks[0]["exponent"]) == pytest.approx(float(checks[1]["exponent"]), abs=1e-3)
+    assert "coupling matrix are not supported" in checks[1].attrs["breather_refusal"]
 
 
 def test_data_that_are_even_are_not_cut_in_half_where_a_matrix_is_not():
@@ -148,13 +148,13 @@ def test_a_configuration_sweeps_surveys_and_files_take_matrices(tmp_path):
         "def i_dt(p, u):\n"
         "    return p.c * couple(p.W, u)\n"
     )
-    given = {"model": str(tmp_path / "far.py"), "initial": {0: [1]}, "end_time": 1}
-    by_hand = {**given, "sites": 2, "parameters": {"W": [[0, 1], [1, 0]]}}
-    settings = load({"cases": {"far": given, "by_hand": by_hand}})
+    keys = {"model": str(tmp_path / "far.py"), "initial": {0: [1]}, "end_time": 1}
+    by_hand = {**keys, "sites": 2, "parameters": {"W": [[0, 1], [1, 0]]}}
+    settings = load({"cases": {"far": keys, "by_hand": by_hand}})
     assert settings.problem("by_hand")["parameters"]["W"]["columns"] == [1, 0]
     two = simulate(Case(**by_hand))
     assert two["final"].values[0, 0, 0] == pytest.approx(np.cos(1.0), abs=1e-12)
-    case = Case(**given, half_width=4)
+    case = Case(**keys, half_width=4)
     assert survey(case, {"half_width": [2, 4], "c": [0.5, 1]})["max_l2"].shape == (2, 2, 1)
     assert bool(np.isfinite(sweep(case, [2, 4], windows=[(0.5, 1)])["l2"]).all())
     run = simulate(case.changed(half_width=60))

@@ -78,8 +78,8 @@ def test_the_checks_find_the_lorenz_system_chaotic_and_its_origin_a_saddle():
 def test_the_exponents_of_a_steady_state_are_those_of_its_values_alone():
     model = Model(fields="x", parameters={}, dt=lambda p, x: 0.1 * lap(x) + x * (1 - x * x))
     case = Case(model=model, half_width=2, initial={0: [1.1]}, end_time=1)
-    found = check(case)
-    assert found.sizes["mode"] == 5
+    checked = check(case)
+    assert checked.sizes["mode"] == 5
 
 
 @pytest.mark.parametrize("rate", [lambda p, x: -p.k * x.real, lambda p, x: x.real**2])

@@ -56,8 +56,8 @@ def test_neighbours_of_each_reach_get_the_bonds_that_the_page_names(reach, added
     for n, m in bonds:
         matrix[[n, m], [m, n]] += 1.0
         matrix[[n, m], [n, m]] -= 1.0
-    found = final(lambda p, u: shift(u, reach) + shift(u, -reach) - 2 * u)
-    np.testing.assert_allclose(found, solved(lambda u: matrix @ u), rtol=0, atol=1e-10)
+    computed = final(lambda p, u: shift(u, reach) + shift(u, -reach) - 2 * u)
+    np.testing.assert_allclose(computed, solved(lambda u: matrix @ u), rtol=0, atol=1e-10)
 
 
 def test_the_picture_on_the_page_is_that_of_the_mirror():
@@ -75,12 +75,12 @@ def test_bonds_across_an_end_are_cut_by_parameters_as_the_page_does():
     def i_dt(p, u):
         return p.right * (shift(u, 2) - u) + p.left * (shift(u, -2) - u)
 
-    there = {
+    parameters = {
         "right": lambda n: (n + 2 <= n.max()) * 1.0,
         "left": lambda n: (n - 2 >= n.min()) * 1.0,
     }
     matrix = np.diag(np.ones(2 * M - 1), 2) + np.diag(np.ones(2 * M - 1), -2)
     matrix -= np.diag(matrix.sum(axis=1))
     np.testing.assert_allclose(
-        final(i_dt, **there), solved(lambda u: matrix @ u), rtol=0, atol=1e-10
+        final(i_dt, **parameters), solved(lambda u: matrix @ u), rtol=0, atol=1e-10
     )

@@ -26,7 +26,7 @@ def largest_error(rates, boundary, solver, half_width=5):
     model = Model(fields=("a", "b"), parameters={}, i_dt=traced(text)["i_dt"], text=text)
     sites = 2 * half_width + 1
     start = np.random.default_rng(1).normal(size=(2, sites, 2)) @ (0.4, 0.4j)
-    given = Problem(
+    problem = Problem(
         model=model,
         half_width=half_width,
         boundary=boundary,
@@ -36,7 +36,7 @@ def largest_error(rates, boundary, solver, half_width=5):
         solver={"name": solver, "rtol": 1e-12, "atol": 1e-12},
     )
     expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 1.0)
-    return np.abs(simulate(given).final.ravel() - expected).max()
+    return np.abs(simulate(problem).final.ravel() - expected).max()
 
 
 @pytest.mark.parametrize("form", FORMS)

@@ -60,12 +60,12 @@ def rates(function, *values):
     x, y = values
     initial = {n: [x[n], y[n]] for n in range(len(x))}
     case = Case(model=model, half_width=10, initial=initial, end_time=1, solver="dop853")
-    found = simulate(case)["final"].sel(component="y", part="value").values[10 : 10 + len(x)]
-    return found - y
+    final = simulate(case)["final"].sel(component="y", part="value").values[10 : 10 + len(x)]
+    return final - y
 
 
 @pytest.mark.parametrize(
-    ("function", "plain"),
+    ("function", "of_numpy"),
     [
         (lambda x, y: max(x, 0.5), lambda x: np.maximum(x, 0.5)),
         (lambda x, y: max(x, -0.3, 0.2 * x), lambda x: np.maximum(np.maximum(x, -0.3), 0.2 * x)),
@@ -79,9 +79,9 @@ def rates(function, *values):
         (lambda x, y: where(x >= 0, x, 3), lambda x: np.where(x >= 0, x, 3)),
     ],
 )
-def test_each_function_is_that_of_numpy(function, plain):
+def test_each_function_is_that_of_numpy(function, of_numpy):
     x = np.array([-1.0, -0.25, 0.0, 0.25, 0.5, 1.0, 2.0])
-    np.testing.assert_allclose(rates(function, x, 0.1 * x), plain(x), atol=1e-9)
+    np.testing.assert_allclose(rates(function, x, 0.1 * x), of_numpy(x), atol=1e-9)
 
 
 def test_of_plain_numbers_they_are_those_of_python():

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from latticode import Case, Model, abs2, cos, lap, simulate, sin, sqrt
 from scipy.integrate import solve_ivp
-from test_traced_models import TIGHT, beside
+from test_traced_models import TIGHT, neighbours
 
 M, END = 4, 4.0
 DRAWN = np.random.default_rng(3).uniform(-1, 1, 2 * M + 1)
@@ -93,16 +93,16 @@ SECOND = {
 
 
 def start_of(initial, fields):
-    found = np.zeros((fields, 2 * M + 1), complex)
+    start = np.zeros((fields, 2 * M + 1), complex)
     for site, values in initial.items():
-        found[:, M + site] = values
-    return found
+        start[:, M + site] = values
+    return start
 
 
 def agrees(model, boundary, initial, slope, start):
     """Compare a run with SciPy, whose state has the shape of `start`: two parts of each field."""
     case = Case(model=model, half_width=M, boundary=boundary, initial=initial, end_time=END)
-    found = simulate(case)["final"].values
+    final = simulate(case)["final"].values
     solved = (
         solve_ivp(
             lambda t, y: np.ravel(slope(t, y.reshape(start.shape))),
@@ -114,29 +114,29 @@ def agrees(model, boundary, initial, slope, start):
         .reshape(start.shape)
     )
     expected = np.stack([solved.real, solved.imag]) if np.iscomplexobj(solved) else solved
-    np.testing.assert_allclose(found, expected.reshape(found.shape), rtol=0, atol=1e-11)
+    np.testing.assert_allclose(final, expected.reshape(final.shape), rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("name", FIRST)
 def test_lattices_of_complex_fields(name):
-    fields, parameters, boundary, initial, traced, plain = FIRST[name]
+    fields, parameters, boundary, initial, traced, rates = FIRST[name]
     model = Model(fields=fields, parameters=parameters, i_dt=traced)
 
     def slope(t, u):
-        r, s = ([beside(one, by, boundary) for one in u] for by in (1, -1))
-        return -1j * np.asarray(plain(t, *u, r, s)).reshape(u.shape)
+        r, s = ([neighbours(field, by, boundary) for field in u] for by in (1, -1))
+        return -1j * np.asarray(rates(t, *u, r, s)).reshape(u.shape)
 
     agrees(model, boundary, initial, slope, start_of(initial, len(model.fields)))
 
 
 @pytest.mark.parametrize("name", SECOND)
 def test_lattices_of_oscillators(name):
-    parameters, boundary, initial, traced, plain = SECOND[name]
+    parameters, boundary, initial, traced, forces = SECOND[name]
     model = Model(fields="x", parameters=parameters, d2_dt2=traced)
 
     def slope(t, y):
         x, v = y
-        return np.stack([v, plain(t, x, v, *(beside(x, by, boundary) for by in (1, -1)))])
+        return np.stack([v, forces(t, x, v, *(neighbours(x, by, boundary) for by in (1, -1)))])
 
     start = start_of(initial, 1)[0]
     agrees(model, boundary, initial, slope, np.stack([start.real, start.imag]))

@@ -31,6 +31,6 @@ def test_solvers_follow_random_models_in_plain_python(tmp_path):
 @pytest.mark.parametrize("seed", range(0, MODELS, 5))
 def test_compiled_solvers_follow_random_models(seed):
     """Under the default solver alone, but for long tests: each solver takes seconds to compile."""
-    others = TURNS[seed % len(TURNS)] if MODELS > 40 else ()
+    second = TURNS[seed % len(TURNS)] if MODELS > 40 else ()
     model = drawn(seed)
-    assert not judge(model, ["taylor", *others]), str(model)
+    assert not judge(model, ["taylor", *second]), str(model)

@@ -6,7 +6,7 @@ from latticode.equations.model import Model, ModelError, abs2, conj, cos, exp, l
 from latticode.integrators.methods import methods_taking
 from latticode.simulation.simulate import IntegrationError, simulate
 from scipy.integrate import quad, solve_ivp
-from test_traced_models import TIGHT, beside, problem
+from test_traced_models import TIGHT, neighbours, problem
 
 SITES = 13
 PLACES = np.linspace(0.3, 1.4, SITES)
@@ -84,42 +84,42 @@ SECOND = {
 
 
 def sides(values, boundary):
-    return [beside(values, by, boundary) for by in (1, -1)]
+    return [neighbours(values, by, boundary) for by in (1, -1)]
 
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "periodic"])
 @pytest.mark.parametrize("name", FIRST)
 def test_functions_of_complex_fields_equal_scipy(name, boundary):
-    traced, plain = FIRST[name]
+    traced, of_numpy = FIRST[name]
     model = Model(fields="u", parameters={"a": 0.7, "b": PLACES}, i_dt=traced)
     initial = np.random.default_rng(5).normal(size=(1, SITES, 2)) @ (0.7, 0.7j)
     expected = solve_ivp(
-        lambda t, u: -1j * plain(t, u, *sides(u, boundary)), (0.0, 1.0), initial[0], **TIGHT
+        lambda t, u: -1j * of_numpy(t, u, *sides(u, boundary)), (0.0, 1.0), initial[0], **TIGHT
     ).y[:, -1]
     for solver in ("taylor", "dop853"):
-        found = simulate(problem(model, initial, boundary, solver)).final[0]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10)
+        final = simulate(problem(model, initial, boundary, solver)).final[0]
+        np.testing.assert_allclose(final, expected, rtol=0, atol=1e-10)
 
 
 @pytest.mark.parametrize("boundary", ["free", "periodic"])
 @pytest.mark.parametrize("name", SECOND)
 def test_forces_and_velocities_equal_scipy(name, boundary):
-    traced, plain = SECOND[name]
+    traced, of_numpy = SECOND[name]
     model = Model(fields="x", parameters={"k": 0.7}, d2_dt2=traced)
     initial = np.random.default_rng(6).normal(size=(1, SITES, 2)) @ (0.4, 0.4j)
 
     def slope(t, flat):
         x, v = flat.reshape(2, -1)
-        return np.ravel([v, plain(t, x, v, *sides(x, boundary), *sides(v, boundary))])
+        return np.ravel([v, of_numpy(t, x, v, *sides(x, boundary), *sides(v, boundary))])
 
     start = np.ravel([initial[0].real, initial[0].imag])
     expected = solve_ivp(slope, (0.0, 1.0), start, **TIGHT).y[:, -1].reshape(2, -1)
     solvers = [name for name in methods_taking(model) if name != "crank_nicolson"]
     assert ("kahan_li" in solvers) == name.startswith("Toda")
     for solver in set(solvers) - {"ode45"}:  # it has the rates of dop853
-        found = simulate(problem(model, initial, boundary, solver)).final[:, 0]
+        final = simulate(problem(model, initial, boundary, solver)).final[:, 0]
         error = 1e-10 if solver != "kahan_li" else 1e-8
-        np.testing.assert_allclose(found, expected, rtol=0, atol=error)
+        np.testing.assert_allclose(final, expected, rtol=0, atol=error)
 
 
 def test_rates_of_parameters_alone_move_fields_steadily():
@@ -129,9 +129,9 @@ def test_rates_of_parameters_alone_move_fields_steadily():
         i_dt=lambda p, u, v: (-0.5j * p.k, 0.4 * p.k * sin(p.k)),
     )
     initial = np.random.default_rng(5).normal(size=(2, SITES)) + 0j
-    found = simulate(problem(model, initial, "free")).final
+    final = simulate(problem(model, initial, "free")).final
     rates = np.array([[-0.35], [-0.28j * np.sin(0.7)]])
-    np.testing.assert_allclose(found, initial + rates, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(final, initial + rates, rtol=0, atol=1e-12)
 
 
 def test_a_series_of_every_fourth_order_alone_limits_the_step():
@@ -139,9 +139,9 @@ def test_a_series_of_every_fourth_order_alone_limits_the_step():
     model = Model(
         fields="u", parameters={}, i_dt=lambda p, u: 1j * exp(-sin(p.t * p.t) * sin(p.t * p.t))
     )
-    found = simulate(problem(model, np.zeros((1, SITES)) + 1.0, "free")).final
+    final = simulate(problem(model, np.zeros((1, SITES)) + 1.0, "free")).final
     expected = 1.0 + quad(lambda t: np.exp(-(np.sin(t * t) ** 2)), 0.0, 1.0, epsabs=1e-14)[0]
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(final, expected, rtol=0, atol=1e-11)
 
 
 def test_a_domain_that_is_left_ends_the_run_and_gives_no_numbers():
@@ -174,5 +174,5 @@ def test_phases_of_first_order_equal_scipy():
 
     expected = solve_ivp(slope, (0.0, 1.0), initial[0].real, **TIGHT).y[:, -1]
     for solver in ("taylor", "dop853"):
-        found = simulate(problem(phases, initial, "periodic", solver)).final[0]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-11)
+        final = simulate(problem(phases, initial, "periodic", solver)).final[0]
+        np.testing.assert_allclose(final, expected, rtol=0, atol=1e-11)

@@ -28,7 +28,7 @@ def problem(model, initial, boundary, solver="taylor", end_time=1.0, **parameter
     )
 
 
-def beside(values, by, boundary):
+def neighbours(values, by, boundary):
     """Return the values (site,) at the sites n + by."""
     mode = {"dirichlet": "constant", "free": "symmetric", "periodic": "wrap"}[boundary]
     return np.pad(values, 7, mode)[7 + by : 7 + by + values.size]
@@ -52,14 +52,14 @@ def traced(terms):
     """Return the model of random terms."""
 
     def i_dt(p, *fields):
-        def one(number, parameter, factors):
-            found = [
+        def product(number, parameter, factors):
+            values = [
                 shift(conj(fields[f]) if conjugated else fields[f], int(by))
                 for f, conjugated, by in factors
             ]
-            return reduce(lambda a, b: a * b, found, number * getattr(p, str(parameter)))
+            return reduce(lambda a, b: a * b, values, number * getattr(p, str(parameter)))
 
-        return [sum(one(*term) for term in row) for row in terms]
+        return [sum(product(*term) for term in row) for row in terms]
 
     names = tuple(f"u{i}" for i in range(len(terms)))
     return Model(fields=names, parameters={"a": 0.7, "b": -0.4}, i_dt=i_dt)
@@ -74,11 +74,11 @@ def rate(terms, boundary, parameters):
         for row in terms:
             total = 0
             for number, parameter, factors in row:
-                found = number * parameters[parameter]
+                product = number * parameters[parameter]
                 for f, conjugated, by in factors:
-                    values = beside(fields[f], by, boundary)
-                    found = found * (values.conj() if conjugated else values)
-                total = total + found
+                    values = neighbours(fields[f], by, boundary)
+                    product = product * (values.conj() if conjugated else values)
+                total = total + product
             rows.append(-1j * total)
         return np.ravel(rows)
 
@@ -98,11 +98,11 @@ def random_problem(seed, fields, reach, boundary, half_width):
 
 @pytest.mark.parametrize("numbers", RANDOM)
 def test_random_polynomials_equal_scipy_on_numpy(numbers):
-    given, terms = random_problem(*numbers)
-    slope = rate(terms, given.boundary, {"a": 0.7, **given.parameters})
-    expected = solve_ivp(slope, (0.0, 1.0), given.initial.ravel(), **TIGHT).y[:, -1]
-    found = simulate(given).final.ravel()
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
+    chain, terms = random_problem(*numbers)
+    slope = rate(terms, chain.boundary, {"a": 0.7, **chain.parameters})
+    expected = solve_ivp(slope, (0.0, 1.0), chain.initial.ravel(), **TIGHT).y[:, -1]
+    final = simulate(chain).final.ravel()
+    np.testing.assert_allclose(final, expected, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
@@ -115,8 +115,8 @@ def test_half_of_an_even_chain_has_the_bits_of_the_whole(boundary):
     model = Model(fields="u", parameters={"a": 0.7}, i_dt=i_dt)
     assert model.even and not Model(fields="u", parameters={}, i_dt=lambda p, u: u.right).even
     half = np.random.default_rng(3).normal(size=(1, 10, 2)) @ (0.5, 0.5j)
-    given = problem(model, np.concatenate([half[:, :0:-1], half], axis=1), boundary)
-    runs = [simulate(given, kept) for kept in (None, FULL_CHAIN)]
+    even_chain = problem(model, np.concatenate([half[:, :0:-1], half], axis=1), boundary)
+    runs = [simulate(even_chain, cut) for cut in (None, FULL_CHAIN)]
     assert runs[0].final[0, 0] == runs[0].final[0, -1]
     for name in ("final", "l2", "linf", "state"):
         np.testing.assert_array_equal(*(getattr(run, name) for run in runs))
@@ -138,16 +138,16 @@ def test_sines_drives_and_functions_of_time_equal_scipy(solver):
 
     def slope(t, flat):
         x, v = flat.reshape(2, -1)
-        after, before = beside(x, 1, "free") - x, x - beside(x, -1, "free")
+        after, before = neighbours(x, 1, "free") - x, x - neighbours(x, -1, "free")
         bonds = 0.5 * (np.sin(after) - np.sin(before)) + 0.2 * (after - before)
         drive = (1.0 + 0.4 * np.sin(t)) * np.cos(2.2 * t + 0.3)
         return np.ravel([v, bonds - np.sin(x) + drive * x + 0.1 * t - 0.05])
 
     start = np.ravel([initial[0].real, initial[0].imag])
     expected = solve_ivp(slope, (0.0, 2.0), start, **TIGHT).y[:, -1]
-    found = simulate(problem(model, initial, "free", solver, end_time=2.0)).final[:, 0]
+    final = simulate(problem(model, initial, "free", solver, end_time=2.0)).final[:, 0]
     error = 1e-9 if solver != "kahan_li" else 1e-8
-    np.testing.assert_allclose(found.ravel(), expected, rtol=0, atol=error)
+    np.testing.assert_allclose(final.ravel(), expected, rtol=0, atol=error)
 
 
 def test_the_bound_of_rates_derives_the_equations_once(monkeypatch):

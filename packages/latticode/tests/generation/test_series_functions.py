@@ -37,15 +37,15 @@ def function_of_argument(name):
 def coefficients(name, argument):
     """Return the coefficients of a function of the series `argument`, all orders one by one."""
     function = function_of_argument(name)
-    places = {one: f"row{i}" for i, one in enumerate([ARGUMENT, *members(function)])}
+    places = {member: f"row{i}" for i, member in enumerate([ARGUMENT, *members(function)])}
     rows = {place: np.zeros(ORDER + 1) for place in places.values()} | {"row0": argument}
     for k in range(ORDER + 1):
         code = FunctionText(0)
         write_function(
             code,
             function,
-            lambda one, order: f"{places[one]}[{order}]",
-            lambda one, text: f"{places[one]}[k] = {text}",
+            lambda member, order: f"{places[member]}[{order}]",
+            lambda member, text: f"{places[member]}[k] = {text}",
             even=k % 2 == 0,
         )
         exec("\n".join(code.lines), {**FUNCTIONS, **rows, "k": k})
@@ -56,11 +56,11 @@ series = st.lists(st.floats(-1, 1), min_size=ORDER, max_size=ORDER)
 
 
 @pytest.mark.parametrize("name", DIRECT)
-@given(first=st.floats(1, 3), others=series)
-def test_the_sum_of_the_series_is_the_function_of_the_sum(name, first, others):
+@given(first=st.floats(1, 3), higher=series)
+def test_the_sum_of_the_series_is_the_function_of_the_sum(name, first, higher):
     """On a circle around zero, where the terms that are left out are below rounding."""
-    argument = np.array([first, *others])
+    argument = np.array([first, *higher])
     z = 0.04 * np.exp(2j * np.pi * np.arange(8) / 8)
-    found = polynomial.polyval(z, coefficients(name, argument))
+    value = polynomial.polyval(z, coefficients(name, argument))
     expected = DIRECT[name](polynomial.polyval(z, argument))
-    np.testing.assert_allclose(found, expected, rtol=1e-14, atol=1e-14)
+    np.testing.assert_allclose(value, expected, rtol=1e-14, atol=1e-14)

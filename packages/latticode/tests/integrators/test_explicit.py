@@ -135,12 +135,12 @@ def test_a_single_step_errs_by_one_power_more_than_its_order(name, lengths, tole
     errors = np.zeros(2)
     for i, length in enumerate(lengths):
         for start in (2 + 0.5j, 1 - 1j, 0.5 + 2j, -1 + 1.5j):
-            given = [0.0, length], (tolerance, tolerance), start
-            _, final, outcome = systems.run(name, 1.0, *given)
+            arguments = [0.0, length], (tolerance, tolerance), start
+            _, final, outcome = systems.run(name, 1.0, *arguments)
             assert outcome.steps == 1
             errors[i] += abs(final - systems.accurate(1.0, [0.0, length], start)[-1])
-    found = np.log(errors[0] / errors[1]) / np.log(lengths[0] / lengths[1])
-    assert order[0] < found < order[1]
+    slope = np.log(errors[0] / errors[1]) / np.log(lengths[0] / lengths[1])
+    assert order[0] < slope < order[1]
 
 
 @pytest.mark.parametrize(
@@ -210,13 +210,13 @@ def stopped_after_a_step(name, end, controls=(1e-6, 1e-6), start=systems.START):
 @each_method
 def test_a_solution_that_blows_up_is_reported_where_it_does(name):
     """Steps too short for the run tell it, whatever the time at which the run begins."""
-    times, given = np.linspace(0.0, 10.0, 41), ((1e-7, 1e-9), 3.0 + 1.0j)
-    values, _, here = systems.run(name, -1.0, times, *given)
-    assert here.status != DONE
-    np.testing.assert_array_equal(np.isfinite(values), times <= here.time)
-    there = systems.run(name, -1.0, times - 10.0, *given)[2]
-    assert there.status == here.status
-    assert (there.time + 10.0, there.steps) == pytest.approx((here.time, here.steps), abs=5e-2)
+    times, arguments = np.linspace(0.0, 10.0, 41), ((1e-7, 1e-9), 3.0 + 1.0j)
+    values, _, first = systems.run(name, -1.0, times, *arguments)
+    assert first.status != DONE
+    np.testing.assert_array_equal(np.isfinite(values), times <= first.time)
+    early = systems.run(name, -1.0, times - 10.0, *arguments)[2]
+    assert early.status == first.status
+    assert (early.time + 10.0, early.steps) == pytest.approx((first.time, first.steps), abs=5e-2)
 
 
 @pytest.mark.parametrize("name", ["dop853", "taylor"])
@@ -224,8 +224,8 @@ def test_a_step_of_a_ten_milliardth_of_the_run_is_refused(name):
     controls = (1e-6, 1e-6)
     h = stopped_after_a_step(name, 10.0, controls).time
     assert 0.01 < h < 1.0
-    kept, refused = (stopped_after_a_step(name, part * h, controls) for part in (0.99e10, 1.01e10))
-    assert (kept.status, kept.time) == (INTERRUPTED, h)
+    done, refused = (stopped_after_a_step(name, span * h, controls) for span in (0.99e10, 1.01e10))
+    assert (done.status, done.time) == (INTERRUPTED, h)
     if name == "taylor":
         assert refused == (STEP_TOO_SMALL, 0.0, 1, 0, ORDER)
     else:  # it takes twice the shortest step, since data at rest would otherwise be refused
@@ -238,8 +238,8 @@ def test_a_step_of_ode45_of_a_ten_milliardth_of_the_run_is_refused(end, status):
     record, stop = systems.stopped_by(1, 3)
     times = [0.0, 1e-9, end]
     _, _, outcome = systems.run("ode45", 1.0, times, (1e-6, 1e-6), record=record, stop=stop)
-    taken = int(status == INTERRUPTED)
-    assert outcome == (status, taken * 1e-9, taken, 0, 1 + 6 * taken)
+    steps = int(status == INTERRUPTED)
+    assert outcome == (status, steps * 1e-9, steps, 0, 1 + 6 * steps)
 
 
 @pytest.mark.parametrize(("mu", "status"), [(1e18, STEP_TOO_SMALL), (1e200, NOT_FINITE)])

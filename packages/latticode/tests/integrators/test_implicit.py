@@ -17,8 +17,8 @@ each_scheme = pytest.mark.parametrize("scheme", SCHEMES)
 
 
 def run(z, end, outputs=1, numbers=(1.0, 1.0, -4.0), boundary="dirichlet", **controls):
-    given = {"numbers": numbers, "boundary": boundary}
-    return integrate(z, SOLVERS["crank_nicolson"] | controls, end, outputs, None, **given)
+    settings = {"numbers": numbers, "boundary": boundary}
+    return integrate(z, SOLVERS["crank_nicolson"] | controls, end, outputs, None, **settings)
 
 
 # --- What the scheme is -------------------------------------------------------------------------
@@ -165,8 +165,8 @@ def test_after_six_steps_of_a_smooth_solution_one_iteration_does(scheme, outputs
 
 @each_scheme
 def test_the_tolerance_is_relative_and_a_chain_at_rest_takes_one_iteration_a_step(scheme):
-    given = [0.0, 0.1, 0.4], (0.1, 1e-10, 50)
-    one, small = (linear(scheme, *given, start=scale + 0j) for scale in (1.0, 2.0**-40))
-    assert small[0] * 2.0**40 == one[0] and small[1] == one[1]
+    arguments = [0.0, 0.1, 0.4], (0.1, 1e-10, 50)
+    large, small = (linear(scheme, *arguments, start=scale + 0j) for scale in (1.0, 2.0**-40))
+    assert small[0] * 2.0**40 == large[0] and small[1] == large[1]
     final, outcome = linear(scheme, [0.0, 1.0], (0.5, 1e-3, 5), start=0j)
     assert (final, outcome) == (0j, (DONE, 1.0, 2, 0, 2 + BEGINNING[scheme]))

@@ -20,7 +20,7 @@ def chain(x):
 
 
 PAIRS = Model(fields=("x", "y"), parameters={"drive": 0.1}, d2_dt2=lambda p, x, y: pairs(p, x, y))
-STILL = Model(
+UNDRIVEN = Model(
     fields="x",
     parameters={},
     d2_dt2=lambda p, x: chain(x),
@@ -52,17 +52,17 @@ def by_steps_of(step):
 
 @pytest.mark.parametrize("drive", [0.0, 0.1])
 def test_its_order_is_eight_with_the_drive_and_without(drive):
-    given = {0: (0.6 + 0.3j, 0.1), 1: (0.2, -0.1j)}
+    initial = {0: (0.6 + 0.3j, 0.1), 1: (0.2, -0.1j)}
     exact, coarse, fine = (
-        run(PAIRS, given, 44.4, 1, solver, drive=drive).final
+        run(PAIRS, initial, 44.4, 1, solver, drive=drive).final
         for solver in (TIGHT, by_steps_of(44.4 / 50), by_steps_of(44.4 / 100))
     )
-    errors = [np.abs(one - exact).max() for one in (coarse, fine)]
+    errors = [np.abs(final - exact).max() for final in (coarse, fine)]
     assert errors[1] > 1e-12 and 7.6 < np.log2(errors[0] / errors[1]) < 8.6
 
 
 def test_its_energy_errs_but_does_not_drift():
-    energies = run(STILL, {0: (0.6,), 1: (0.6j,)}, 2000.0, 400, by_steps_of(0.5)).conserved["H"]
+    energies = run(UNDRIVEN, {0: (0.6,), 1: (0.6j,)}, 2000.0, 400, by_steps_of(0.5)).conserved["H"]
     spread = np.abs(energies / energies[0] - 1).max()
     halves = energies[:200].mean(), energies[200:].mean()
     assert 1e-9 < spread < 1e-6 and abs(halves[1] / halves[0] - 1) < 0.1 * spread

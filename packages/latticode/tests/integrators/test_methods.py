@@ -12,7 +12,7 @@ from latticode.integrators.families import other_family, pair_of, third_of
 from latticode.integrators.method import Method
 from latticode.integrators.methods import METHODS, NAMED
 
-HERE = Path(__file__).parent
+FOLDER = Path(__file__).parent
 LINE = "from .midpoint import Midpoint as Midpoint\n"
 
 
@@ -22,14 +22,14 @@ def used(tmp_path_factory):
     folder = tmp_path_factory.mktemp("library")
     package = folder / "latticode"
     shutil.copytree(
-        HERE.parents[1] / "latticode", package, ignore=shutil.ignore_patterns("__pycache__")
+        FOLDER.parents[1] / "latticode", package, ignore=shutil.ignore_patterns("__pycache__")
     )
     methods = package / "integrators" / "methods"
-    shutil.copy(HERE / "midpoint.py", methods)
+    shutil.copy(FOLDER / "midpoint.py", methods)
     text = (methods / "__init__.py").read_text()
     (methods / "__init__.py").write_text(text.replace("from .ode45", f"{LINE}from .ode45", 1))
     done = subprocess.run(
-        [sys.executable, HERE / "use_of_midpoint.py"],
+        [sys.executable, FOLDER / "use_of_midpoint.py"],
         env=os.environ | {"PYTHONPATH": str(folder)},
         capture_output=True,
         text=True,

@@ -46,10 +46,10 @@ RUNS = [
 
 @pytest.mark.parametrize("run", RUNS)
 def test_norms_and_sites_above_1e_60_have_every_bit_that_they_have_without_the_rule(run, results):
-    with_rule, without = (made[f"{run}.final"] for made in results)
+    with_rule, without = (arrays[f"{run}.final"] for arrays in results)
     seen = np.abs(without) > LOOKED_AT
     np.testing.assert_array_equal(with_rule[seen], without[seen])
-    np.testing.assert_array_equal(*(made[f"{run}.norms"] for made in results))
+    np.testing.assert_array_equal(*(arrays[f"{run}.norms"] for arrays in results))
     if "noise" not in run:
         assert (with_rule != without).any(), "the rule did not act"
 

@@ -76,8 +76,8 @@ def test_interpolants_have_their_order_everywhere(fraction):
 def error_of(y, w, h, k, tolerances):
     """Return the error of a step of dop853, in units of the tolerance."""
     spare = np.zeros((2, *y.shape))
-    found = dop853.error_estimates(y, w, k, *spare, tolerances, (1, y.shape[1] - 1))
-    return dop853.step_error(h, *found)
+    estimates = dop853.error_estimates(y, w, k, *spare, tolerances, (1, y.shape[1] - 1))
+    return dop853.step_error(h, *estimates)
 
 
 @pytest.mark.parametrize("threshold", [1e-2, 1.5])
@@ -90,8 +90,8 @@ def test_errors_are_those_of_the_largest_complex_component(threshold):
         np.abs(np.tensordot(weights, slopes[: len(weights)], 1)) for weights in (FIFTH, THIRD, E)
     )
     expected = np.max(fourth / np.maximum(plain.larger(z, new), threshold))
-    found = ode45.relative_error(y, w, k[:7], threshold, np.zeros((4, 5)))
-    assert found == pytest.approx(expected, rel=1e-13)
+    error = ode45.relative_error(y, w, k[:7], threshold, np.zeros((4, 5)))
+    assert error == pytest.approx(expected, rel=1e-13)
     scale = 0.3 + 0.2 * plain.larger(z, new)
     e5, e3 = np.max(fifth / scale), np.max(third / scale)
     expected = 0.7 * e5**2 / np.sqrt(e5**2 + 0.01 * e3**2)
@@ -106,10 +106,10 @@ def test_a_nan_is_never_a_small_error(stage):
     assert not ode45.relative_error(y, y, k[:7], 0.01, np.zeros((2, 4))) < np.inf
 
 
-@pytest.mark.parametrize(("one", "other"), [(1.0, 2.0), (np.inf, 1.0), (np.nan, 1.0)])
-def test_the_worse_of_two_errors_is_the_larger_or_the_one_that_is_no_number(one, other):
-    expected = np.maximum(one, other)
-    np.testing.assert_equal([dop853.worse(one, other), dop853.worse(other, one)], [expected] * 2)
+@pytest.mark.parametrize(("x", "y"), [(1.0, 2.0), (np.inf, 1.0), (np.nan, 1.0)])
+def test_the_worse_of_two_errors_is_the_larger_or_the_one_that_is_no_number(x, y):
+    expected = np.maximum(x, y)
+    np.testing.assert_equal([dop853.worse(x, y), dop853.worse(y, x)], [expected] * 2)
 
 
 @pytest.mark.parametrize(

@@ -54,14 +54,14 @@ def run(method, z, boundary, even, times=TIMES, every=20):
     return (y[:, 1:-1], record.l2, record.linf, record.snapshots), outcome
 
 
-def compared(*given):
+def compared(*arguments):
     """Compare a run in tiles with one in one piece; return what is kept of it, and its counts."""
-    tiled, counts = run(run_in_tiles, *given)
-    whole, expected = run(run_in_one, *given)
+    tiled, counts = run(run_in_tiles, *arguments)
+    in_one, expected = run(run_in_one, *arguments)
     assert counts == expected
-    for one, other in zip(tiled, whole, strict=True):
-        np.testing.assert_array_equal(one, other)
-    return whole[-1], counts
+    for left, right in zip(tiled, in_one, strict=True):
+        np.testing.assert_array_equal(left, right)
+    return in_one[-1], counts
 
 
 # A ring must be taken in one piece: in tiles it would lose the neighbours across its seam. Half of
@@ -93,8 +93,8 @@ def test_a_site_at_the_end_of_the_margin_is_felt_by_the_last_stage(distance):
     amplitudes = np.zeros((2, 3 * tiles.LONGEST), complex)
     amplitudes[:, last + distance] = 1.0, 0.5j
     amplitudes[:, first - distance] = 0.3j, -1.0
-    kept, _ = compared(amplitudes, "dirichlet", False, np.linspace(0.0, 0.2, 41), 1)
-    assert (kept[:, [first, last], 1:] > 0.0).all()
+    moduli, _ = compared(amplitudes, "dirichlet", False, np.linspace(0.0, 0.2, 41), 1)
+    assert (moduli[:, [first, last], 1:] > 0.0).all()
 
 
 @given(sites=st.integers(1, 5 * tiles.LONGEST))

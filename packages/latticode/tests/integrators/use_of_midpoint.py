@@ -55,17 +55,17 @@ def fault_of(name: str) -> str:
 
 def main() -> dict:
     case = Case(**KEYS, solver="midpoint")
-    run, plain = simulate(case), case.problem()
+    run, entries = simulate(case), case.problem()
     auto = {"name": "auto", "error": 1e-3}
-    by_error = simulate_problem(ProblemOfTwo.of(plain | {"solver": auto}))
+    by_error = simulate_problem(ProblemOfTwo.of(entries | {"solver": auto}))
     checks = check(case, run)
     return {
         "error": np.abs(final_of(run) - true_final()).max(),
-        "controls": plain["solver"],
+        "controls": entries["solver"],
         "solver": run.attrs["solver"],
         "steps": float(run.attrs["steps"] + run.attrs["rejected_steps"]),
-        "estimated_steps": steps_of(plain["solver"], plain, demand(plain))[0],
-        "cost": str(case.cost(plain)),
+        "estimated_steps": steps_of(entries["solver"], entries, demand(entries))[0],
+        "cost": str(case.cost(entries)),
         "agrees_with": by_error.solver["agrees_with"],
         "judge": checks.attrs["second_name"],
         "difference": float(checks["largest_difference"]),

@@ -29,23 +29,23 @@ def double_first(values):
 
 def test_a_part_has_no_machine_code_and_is_compiled_once_for_all_callers():
     @uncached
-    def part(x):
+    def square(x):
         return x + 1.0
 
     @uncached
     def first(x):
-        return part(x)
+        return square(x)
 
     @uncached
     def second(x):
-        return part(x) + part(2.0 * x)
+        return square(x) + square(2.0 * x)
 
     with event.install_recorder("numba:compile") as compiled:
         assert (first(1.0), second(1.0)) == (2.0, 5.0)
     names = [record.data["dispatcher"].__name__ for _, record in compiled.buffer if record.is_start]
     assert sorted(names) == ["first", "part", "second"]
-    assert not part.overloads  # Python has not called it
-    (code,) = part.subroutine.overloads.values()
+    assert not square.overloads  # Python has not called it
+    (code,) = square.subroutine.overloads.values()
     assert isinstance(code.library, SubroutineLibrary)
     assert not code.library._codegen._engine.is_symbol_defined(code.fndesc.llvm_func_name)
 

@@ -26,30 +26,30 @@ def module(tmp_path):
 
 
 @pytest.fixture
-def kept(tmp_path):
+def cache(tmp_path):
     return tmp_path / "kept"
 
 
-def compile_anew(path, kept):
+def compile_anew(path, cache):
     """Return what a new process makes of `double`: a compiled function that has run nothing yet."""
     for remembered in (sources.digest_of, sources.digest_of_modules, sources._imports_of):
         remembered.cache_clear()
     spec = spec_from_file_location("made", path)
     built = sys.modules["made"] = module_from_spec(spec)  # kept code names its module
     spec.loader.exec_module(built)
-    return make_kernel(built.double, kept)
+    return make_kernel(built.double, cache)
 
 
-def found(compiled) -> int:
+def hits(compiled) -> int:
     return sum(compiled.stats.cache_hits.values())
 
 
-def test_each_type_of_argument_has_a_file_of_its_own(module, kept):
-    first, second = compile_anew(module, kept), compile_anew(module, kept)
+def test_each_type_of_argument_has_a_file_of_its_own(module, cache):
+    first, second = compile_anew(module, cache), compile_anew(module, cache)
     assert (first(3), second(2.5)) == (6, 5.0)  # neither knew of the other when it was compiled
-    third = compile_anew(module, kept)
-    assert (third(3), third(2.5), found(third)) == (6, 5.0, 2)
-    assert len(list(kept.rglob("*.kernel"))) == len(list(kept.rglob("*.*"))) == 2
+    third = compile_anew(module, cache)
+    assert (third(3), third(2.5), hits(third)) == (6, 5.0, 2)
+    assert len(list(cache.rglob("*.kernel"))) == len(list(cache.rglob("*.*"))) == 2
 
 
 CHAIN = """
@@ -62,35 +62,35 @@ class Chain(NamedTuple):
 
 
 @pytest.mark.parametrize("fields", [("charge", "mass"), ("mass", "charge")])
-def test_named_tuples_of_one_name_share_no_code(module, kept, monkeypatch, fields):
+def test_named_tuples_of_one_name_share_no_code(module, cache, monkeypatch, fields):
     """They may differ in the order of their fields, or only in the module of their class."""
     module.write_text("def double(x):\n    return x[0].mass - x[0].charge, x[0]\n")
     for name, order in ("first", ("mass", "charge")), ("second", fields):
         monkeypatch.setitem(sys.modules, name, built := ModuleType(name))
         exec(CHAIN.format(*order), built.__dict__)
-        compiled = compile_anew(module, kept)
+        compiled = compile_anew(module, cache)
         chain = built.Chain(mass=3.0, charge=1.0)
         difference, same = compiled((chain,))
-        assert difference == 2.0 and type(same) is built.Chain and found(compiled) == 0
+        assert difference == 2.0 and type(same) is built.Chain and hits(compiled) == 0
 
 
-def test_a_copied_project_with_new_time_stamps_finds_its_kernels(module, kept):
-    compile_anew(module, kept)(3)
+def test_a_copied_project_with_new_time_stamps_finds_its_kernels(module, cache):
+    compile_anew(module, cache)(3)
     moved = shutil.copytree(module.parent, module.parent.with_name("copy")) / module.name
     os.utime(moved, (0, 0))
-    compiled = compile_anew(moved, kept)
-    assert compiled(3) == 6 and found(compiled) == 1
+    compiled = compile_anew(moved, cache)
+    assert compiled(3) == 6 and hits(compiled) == 1
 
 
-def test_an_edited_module_or_another_setting_of_the_compiler_finds_none(module, kept, monkeypatch):
-    compile_anew(module, kept)(3)
+def test_an_edited_module_or_another_setting_of_the_compiler_finds_none(module, cache, monkeypatch):
+    compile_anew(module, cache)(3)
     with monkeypatch.context() as changed:
         changed.setenv("NUMBA_OPT", "1")
-        assert found(compile_anew(module, kept)) == 0 and compile_anew(module, kept)(3) == 6
+        assert hits(compile_anew(module, cache)) == 0 and compile_anew(module, cache)(3) == 6
     # of another length, since Python compares the size of a module and the second of its last edit
     module.write_text(SOURCE.replace("2 * x", "21 * x"))
-    edited = compile_anew(module, kept)
-    assert edited(3) == 63 and found(edited) == 0
+    edited = compile_anew(module, cache)
+    assert edited(3) == 63 and hits(edited) == 0
 
 
 FOREIGN = pickle.dumps(("of another numba",))
@@ -102,47 +102,47 @@ DAMAGE = {
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_file_is_compiled_and_written_again(module, kept, damage):
-    compile_anew(module, kept)(3)
-    (file,) = kept.rglob("*.kernel")
+def test_a_damaged_file_is_compiled_and_written_again(module, cache, damage):
+    compile_anew(module, cache)(3)
+    (file,) = cache.rglob("*.kernel")
     file.write_bytes(DAMAGE[damage](file, file.read_bytes()))
-    compiled = compile_anew(module, kept)
-    assert compiled(3) == 6 and found(compiled) == 0
-    recomputed = compile_anew(module, kept)  # the lengths differ: numba numbers what it compiles
-    assert recomputed(3) == 6 and found(recomputed) == 1
+    compiled = compile_anew(module, cache)
+    assert compiled(3) == 6 and hits(compiled) == 0
+    recomputed = compile_anew(module, cache)  # the lengths differ: numba numbers what it compiles
+    assert recomputed(3) == 6 and hits(recomputed) == 1
 
 
-def test_a_file_that_others_can_write_is_not_loaded(module, kept):
+def test_a_file_that_others_can_write_is_not_loaded(module, cache):
     """Its hash is right, so only its owner or mode can show that it is foreign code."""
-    compile_anew(module, kept)(3)
-    (file,) = kept.rglob("*.kernel")
+    compile_anew(module, cache)(3)
+    (file,) = cache.rglob("*.kernel")
     file.chmod(0o666)
-    compiled = compile_anew(module, kept)
-    assert compiled(3) == 6 and found(compiled) == 0
+    compiled = compile_anew(module, cache)
+    assert compiled(3) == 6 and hits(compiled) == 0
     assert file.stat().st_mode & 0o777 == 0o600  # it was compiled and kept again
 
 
-def test_a_folder_that_others_can_write_is_not_used(monkeypatch, kept):
-    kept.mkdir()
-    kept.chmod(0o777)
-    monkeypatch.setenv(VARIABLE, str(kept))
+def test_a_folder_that_others_can_write_is_not_used(monkeypatch, cache):
+    cache.mkdir()
+    cache.chmod(0o777)
+    monkeypatch.setenv(VARIABLE, str(cache))
     with pytest.warns(
         UserWarning, match="another user owns that folder or can write to it.*chmod go-w"
     ):
         assert kept_in() is None
 
 
-def test_what_nobody_used_for_long_is_removed_when_a_module_is_compiled_anew(module, kept):
-    compile_anew(module, kept)(3)
-    (old,) = kept.iterdir()
+def test_what_nobody_used_for_long_is_removed_when_a_module_is_compiled_anew(module, cache):
+    compile_anew(module, cache)(3)
+    (old,) = cache.iterdir()
     module.write_text(SOURCE + "# edited\n")
-    compile_anew(module, kept)(3)
+    compile_anew(module, cache)(3)
     assert old.exists()  # a run of another branch may need it tomorrow
     long_ago = time.time() - 2 * UNUSED
     os.utime(old, (long_ago, long_ago))
     module.write_text(SOURCE + "# edited twice\n")
-    compile_anew(module, kept)(3)
-    assert not old.exists() and len(list(kept.iterdir())) == 2
+    compile_anew(module, cache)(3)
+    assert not old.exists() and len(list(cache.iterdir())) == 2
 
 
 def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
@@ -158,11 +158,11 @@ def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
     assert kept_in() == kernel_cache.platformdirs.user_cache_path("latticode")
 
 
-def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
+def test_code_that_holds_addresses_of_its_process_is_not_kept(module, cache):
     large = "import numpy as np\nTABLE = np.ones(200_000)\n"  # numba compiles in where it lies
     module.write_text(large + SOURCE.replace("2 * x", "2 * x * TABLE[x]"))
-    assert compile_anew(module, kept)(3) == 6.0
-    assert not list(kept.rglob("*.kernel"))
+    assert compile_anew(module, cache)(3) == 6.0
+    assert not list(cache.rglob("*.kernel"))
 
 
 @pytest.mark.parametrize("mask", [0o000, 0o002, 0o027, 0o077])

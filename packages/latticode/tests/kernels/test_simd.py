@@ -82,11 +82,11 @@ def operate(out, number, a, b):
         store(out, i * LANES, results[i])
 
 
-@given(one=numbers, other=numbers)
-def test_operators_of_vectors_and_of_a_number_to_the_left_have_the_bits_of_numpy(one, other):
+@given(x=numbers, y=numbers)
+def test_operators_of_vectors_and_of_a_number_to_the_left_have_the_bits_of_numpy(x, y):
     with np.errstate(all="ignore"):
-        results = one + other, one - other, one * other, 0.7 + one, 0.7 - one, 0.7 * one, -one
-        computed, expected = rows_of(operate, 7, 0.7, one, other), np.array(results)
+        results = x + y, x - y, x * y, 0.7 + x, 0.7 - x, 0.7 * x, -x
+        computed, expected = rows_of(operate, 7, 0.7, x, y), np.array(results)
     np.testing.assert_array_equal(computed, expected)
     np.testing.assert_array_equal(np.signbit(computed[6]), np.signbit(expected[6]))  # of zero too
 

@@ -56,23 +56,23 @@ def test_limits_of_a_rate_are_those_of_chi_squared(stats):
 
 
 @pytest.mark.parametrize(
-    ("count", "found"), [(15, (7.0, 3.0, 11.0)), (10, (4.5, 1.0, 8.0)), (6, (2.5, 0.0, 5.0))]
+    ("count", "limits"), [(15, (7.0, 3.0, 11.0)), (10, (4.5, 1.0, 8.0)), (6, (2.5, 0.0, 5.0))]
 )
-def test_limits_of_a_median_are_the_order_statistics_of_the_sign_test(count, found):
+def test_limits_of_a_median_are_the_order_statistics_of_the_sign_test(count, limits):
     """Among 15 the fourth and the twelfth, as tables of the sign test have it."""
-    assert confidence.median_limits(np.arange(count)[::-1]) == found
+    assert confidence.median_limits(np.arange(count)[::-1]) == limits
 
 
 @pytest.mark.parametrize(
-    ("lives", "found"),
+    ("lives", "limits"),
     [
         ([0.0, 1.0, 2.0, 3.0, 4.0], (2.0, -np.inf, np.inf)),  # too few for limits
         ([1.0] * 10 + [np.inf] * 12, (np.inf, 1.0, np.inf)),
         ([1.0, 1.0, np.inf, np.inf], (np.inf, -np.inf, np.inf)),
     ],
 )
-def test_a_median_that_was_not_lived_to_see_is_infinite(lives, found):
-    assert confidence.median_limits(lives) == found
+def test_a_median_that_was_not_lived_to_see_is_infinite(lives, limits):
+    assert confidence.median_limits(lives) == limits
 
 
 def test_the_limits_of_a_ratio_are_just_what_student_s_t_allows():

@@ -34,12 +34,12 @@ def test_chains_at_rest_do_not_differ():
     assert norm_difference(at_rest, at_rest, at_rest, at_rest + 1e-300).all()
 
 
-@pytest.mark.parametrize(("off", "kept"), [(5e-10, 11), (2e-9, 1)])
-def test_a_longer_reference_is_shortened_and_times_are_the_same_up_to_1e_9(off, kept):
+@pytest.mark.parametrize(("off", "samples"), [(5e-10, 11), (2e-9, 1)])
+def test_a_longer_reference_is_shortened_and_times_are_the_same_up_to_1e_9(off, samples):
     longer = run(count=21)
     longer["tau"] = 0.5 * np.arange(21) + np.where(np.arange(21) > 0, off, 0.0)
     computed = difference(run(), longer)
-    assert computed.sizes["tau"] == kept and not computed.any()
+    assert computed.sizes["tau"] == samples and not computed.any()
 
 
 def test_the_first_time_above_a_level_counts_and_never_is_not_unknown():

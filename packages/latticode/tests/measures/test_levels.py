@@ -8,7 +8,7 @@ WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
 
 
 @pytest.mark.parametrize(
-    ("values", "more", "found"),
+    ("values", "more", "level"),
     [
         ([1.0, 2.0, 3.0, 3.0, 3.01], {}, 20.0),
         ([3.0, 2.0, 3.0, 3.0, 3.0], {}, 20.0),
@@ -21,5 +21,5 @@ WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
         ([1.0, 2.0, 10.0, 10.04, 10.08], {}, np.inf),  # by less than the tolerance a step
     ],
 )
-def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end(values, more, found):
-    assert levelling(WIDTHS, np.array(values), **more) == found
+def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end(values, more, level):
+    assert levelling(WIDTHS, np.array(values), **more) == level

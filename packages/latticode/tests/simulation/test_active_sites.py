@@ -35,8 +35,8 @@ def test_data_that_are_not_even_move_as_on_a_long_chain(start_time):
     problem = endless(CUBIC, data, **times)
     intervals = list(integrate_intervals(problem, 1e-20))
     finite = simulate(problem.changed(half_width=200))
-    shown = np.concatenate([interval.record.l2[0, 1:] for interval in intervals])
-    np.testing.assert_allclose(shown, finite.l2[0, 1:], rtol=1e-12)
+    norms = np.concatenate([interval.record.l2[0, 1:] for interval in intervals])
+    np.testing.assert_allclose(norms, finite.l2[0, 1:], rtol=1e-12)
     last = intervals[-1]
     u = last.right_half[0] + 1j * last.right_half[1]
     np.testing.assert_allclose(u, finite.final[0, 200 : 200 + u.size], atol=1e-11)

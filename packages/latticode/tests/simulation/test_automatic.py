@@ -21,9 +21,9 @@ def taylor(tolerance):
 @pytest.mark.parametrize("error", [1e-2, 1e-6, 1e-11])
 def test_the_error_that_was_asked_for_is_kept(case, error):
     exact = run(case, taylor(1e-15), 5.0)
-    kept = run(case, error, 5.0)
-    assert norm_difference(kept.linf, kept.l2, exact.linf, exact.l2).max() < error
-    assert kept.solver["estimated_error"] <= error == kept.solver["requested_error"]
+    trajectory = run(case, error, 5.0)
+    assert norm_difference(trajectory.linf, trajectory.l2, exact.linf, exact.l2).max() < error
+    assert trajectory.solver["estimated_error"] <= error == trajectory.solver["requested_error"]
 
 
 def test_what_double_precision_cannot_do_is_refused_with_the_time_it_lasts():
@@ -36,5 +36,5 @@ def test_what_stays_at_rest_is_no_obstacle(pair):
     """Zero differs from zero by nothing, and no norm of it is divided by."""
     numbers = (1.0, 0.0, -4.0)  # without a drive B stays at rest where it starts so
     solver = {"name": "auto", "error": 1e-9}
-    kept = simulate(chain(on_sites({0: pair}), numbers, solver=solver, half_width=2))
-    assert kept.solver["estimated_error"] <= 1e-9
+    trajectory = simulate(chain(on_sites({0: pair}), numbers, solver=solver, half_width=2))
+    assert trajectory.solver["estimated_error"] <= 1e-9

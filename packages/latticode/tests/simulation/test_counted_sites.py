@@ -37,8 +37,8 @@ def test_chains_of_any_length_follow_scipy(sites, boundary):
     assert run["site"].values.tolist() == list(range(sites))
     slope = slope_of(DNLS, {"V": 0.1 * np.arange(sites)}, boundary, 1, "i_dt")
     exact = solution(slope, start, 2.0)
-    found = run["final"].values[:, 0]
-    assert np.abs(found[0] + 1j * found[1] - exact).max() < 1e-10
+    final = run["final"].values[:, 0]
+    assert np.abs(final[0] + 1j * final[1] - exact).max() < 1e-10
     assert float(run["l2"][0, -1]) == pytest.approx(np.linalg.norm(exact), rel=1e-12)
 
 
@@ -60,17 +60,17 @@ def test_a_conserved_density_is_summed_over_an_even_number_of_sites():
     for boundary in ("periodic", "dirichlet"):
         initial = {n: [u] for n, u in enumerate(start)}
         case = Case(model=model, sites=8, boundary=boundary, initial=initial, end_time=1)
-        kept = simulate(case)["conserved"].isel(tau=0)
+        sums = simulate(case)["conserved"].isel(tau=0)
         right = np.roll(start, -1) if boundary == "periodic" else np.append(start[1:], 0)
         expected = [np.sum(np.abs(start) ** 2), np.sum((1j * start.conj() * right).real)]
-        np.testing.assert_allclose(kept, expected, rtol=1e-13)
+        np.testing.assert_allclose(sums, expected, rtol=1e-13)
 
 
 def test_data_that_look_even_are_not_cut_in_half():
     model = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
-    given = {"model": model, "boundary": "free", "end_time": 5}
-    counted = simulate(Case(sites=9, initial={4: [1.5]}, **given))
-    centred = simulate(Case(half_width=4, initial={0: [1.5]}, **given))
+    settings = {"model": model, "boundary": "free", "end_time": 5}
+    counted = simulate(Case(sites=9, initial={4: [1.5]}, **settings))
+    centred = simulate(Case(half_width=4, initial={0: [1.5]}, **settings))
     np.testing.assert_array_equal(counted["final"].values, centred["final"].values)
     assert counted.attrs["sites"] == 9 and "half_width" not in counted.attrs
 
@@ -78,12 +78,12 @@ def test_data_that_look_even_are_not_cut_in_half():
 def test_checks_surveys_and_figures_take_them():
     model = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
     case = Case(model=model, sites=6, boundary="periodic", initial={0: [1.5]}, end_time=5)
-    found = check(case)
-    assert float(found["largest_difference"]) < 1e-11
-    assert found["site"].values.tolist() == [0, 1, 2, 3, 4, 5]
+    checked = check(case)
+    assert float(checked["largest_difference"]) < 1e-11
+    assert checked["site"].values.tolist() == [0, 1, 2, 3, 4, 5]
     members = {"count": 3, "size": 1e-3, "seed": 1}
-    kept = survey(case, {"c": [0.5, 1.0], "initial.0.0": [1.0, 2.0]}, members=members)
-    assert kept["max_l2"].shape == (2, 2, 3, 1) and bool(np.isfinite(kept["max_l2"]).all())
+    surveyed = survey(case, {"c": [0.5, 1.0], "initial.0.0": [1.0, 2.0]}, members=members)
+    assert surveyed["max_l2"].shape == (2, 2, 3, 1) and bool(np.isfinite(surveyed["max_l2"]).all())
     assert draw_spacetime(simulate(case)) is not None
 
 

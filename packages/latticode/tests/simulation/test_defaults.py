@@ -80,31 +80,31 @@ def test_a_force_with_a_kink_is_not_left_to_a_series_that_passes_over_it():
 
 @pytest.mark.parametrize("model", [ROOTS, SINGULAR])
 def test_a_survey_and_a_sweep_say_it_once_and_the_survey_of_each_run(model, capsys):
-    found = survey(case_of(model), {"k": [0.5, 1.0, 2.0]}, keep=["final_l2"], cores=2)
+    surveyed = survey(case_of(model), {"k": [0.5, 1.0, 2.0]}, keep=["final_l2"], cores=2)
     (line,) = capsys.readouterr().out.splitlines()
     assert line.startswith("3 of 3 runs used another solver; the first, k = 0.5: the run uses d")
-    assert found.attrs["runs_by_another_solver"] == 3 and found.attrs["solver"] == "dop853"
-    assert (found["remark"].values != "").all() and found.attrs["failed_runs"] == 0
+    assert surveyed.attrs["runs_by_another_solver"] == 3 and surveyed.attrs["solver"] == "dop853"
+    assert (surveyed["remark"].values != "").all() and surveyed.attrs["failed_runs"] == 0
     sweep(case_of(model), [3, 4], windows=[(1, 2)])
     (line,) = capsys.readouterr().out.splitlines()
     assert line.startswith("half-width 3: the run uses dop853 instead of taylor")
 
 
 def test_a_configuration_says_it_before_any_run():
-    plain = {"model": ROOTS, "initial": {0: [1]}}
-    (line,) = load({"cases": {"mine": plain}}).long_runs()
+    entries = {"model": ROOTS, "initial": {0: [1]}}
+    (line,) = load({"cases": {"mine": entries}}).long_runs()
     assert (
         line.startswith("cases.mine: the run uses dop853 instead of taylor") and NO_SERIES in line
     )
-    assert load({"cases": {"mine": plain | {"solver": "ode45"}}}).long_runs() == []
+    assert load({"cases": {"mine": entries | {"solver": "ode45"}}}).long_runs() == []
 
 
 @pytest.mark.parametrize("model", [DRAG, ROOTS, SINGULAR])
 def test_auto_and_check_work_without_a_power_series(model):
     run = simulate(case_of(model, solver={"name": "auto", "error": 1e-8}))
     assert (run.attrs["solver"], run.attrs["solver_agrees_with"]) == ("dop853", "ode45")
-    found = check(case_of(model))
-    assert found.attrs["second_name"] == "ode45" and float(found["largest_difference"]) < 1e-9
+    checked = check(case_of(model))
+    assert checked.attrs["second_name"] == "ode45" and float(checked["largest_difference"]) < 1e-9
 
 
 @pytest.mark.parametrize("name", ["foo", "delfour_fortin_payre", "kahan_li"])

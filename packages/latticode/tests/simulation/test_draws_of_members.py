@@ -18,5 +18,5 @@ def test_uneven_data_are_not_even_and_their_neighbours_move_a_little():
     drawn = perturb_unevenly(initial, 1e-6, np.random.default_rng(0))
     assert drawn.shape == (2, 3)
     np.testing.assert_allclose(drawn[:, 1], initial[:, 0], rtol=1e-5)
-    beside = np.abs(drawn[:, [0, 2]])
-    assert (beside > 1e-8).all() and (beside < 5e-5).all() and len(np.unique(beside)) == 4
+    moved = np.abs(drawn[:, [0, 2]])
+    assert (moved > 1e-8).all() and (moved < 5e-5).all() and len(np.unique(moved)) == 4

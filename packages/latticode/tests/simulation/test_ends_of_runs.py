@@ -68,15 +68,15 @@ def test_a_long_ring_goes_order_by_order_as_a_short_one_does():
     z = np.zeros((1, 1201), complex)
     z[0, [0, 1, -1]] = 1.0, 0.5j, -0.3
     final = on_a_ring(LONG, z, "antiperiodic").final
-    other = on_a_ring(LONG, z, "antiperiodic", "dop853").final
-    np.testing.assert_allclose(final, other, rtol=0, atol=1e-11)
+    expected = on_a_ring(LONG, z, "antiperiodic", "dop853").final
+    np.testing.assert_allclose(final, expected, rtol=0, atol=1e-11)
 
 
 def test_the_power_is_conserved_across_the_ends():
     z = np.zeros((1, 9), complex)
     z[0, [0, -1]] = 1.0, 0.7j
-    kept = on_a_ring(LONG, z, "antiperiodic").conserved["P"]
-    assert np.abs(kept / kept[0] - 1.0).max() < 1e-13
+    power = on_a_ring(LONG, z, "antiperiodic").conserved["P"]
+    assert np.abs(power / power[0] - 1.0).max() < 1e-13
 
 
 def test_an_even_state_is_not_halved():

@@ -17,15 +17,15 @@ from scipy.integrate import solve_ivp
 AUTO = {"name": "auto", "error": 1e-9}
 
 
-def true_final(one):
+def true_final(case):
     """Return the fields at the end of a run of the planted lattice, by SciPy on plain NumPy."""
 
     def rate(t, u):
         lap_u = np.append(u[1:], u[-1]) - 2 * u + np.append(u[:1], u[:-1])
         return -1j * (lap_u + np.abs(u) ** 2 * u)
 
-    start = one.amplitudes[0]
-    return solve_ivp(rate, (0, one.end_time), start, method="DOP853", rtol=1e-12, atol=1e-13).y.T[
+    start = case.amplitudes[0]
+    return solve_ivp(rate, (0, case.end_time), start, method="DOP853", rtol=1e-12, atol=1e-13).y.T[
         -1
     ]
 
@@ -34,25 +34,25 @@ def true_final(one):
 
 
 def test_auto_leaves_a_taylor_method_whose_phases_alone_are_wrong():
-    one = problem(with_wrong("taylor"), solver=AUTO)
-    found = simulation.simulate(one)
-    assert found.solver["name"] == "dop853" and found.solver["agrees_with"] == "ode45"
-    assert "taylor and dop853 differ by 5" in found.solver["disagreement"]
-    error = np.abs(found.final[0] - true_final(one)).max() / found.linf.max()
-    assert error < found.solver["estimated_error"] <= AUTO["error"]
+    case = problem(with_wrong("taylor"), solver=AUTO)
+    trajectory = simulation.simulate(case)
+    assert trajectory.solver["name"] == "dop853" and trajectory.solver["agrees_with"] == "ode45"
+    assert "taylor and dop853 differ by 5" in trajectory.solver["disagreement"]
+    error = np.abs(trajectory.final[0] - true_final(case)).max() / trajectory.linf.max()
+    assert error < trajectory.solver["estimated_error"] <= AUTO["error"]
 
 
 def test_auto_raises_where_no_third_method_can_decide():
-    one = problem(with_wrong("dop853", equations=WithoutTaylor), solver=AUTO)
+    case = problem(with_wrong("dop853", equations=WithoutTaylor), solver=AUTO)
     with pytest.raises(IntegrationError, match=r"dop853 and ode45 differ by .* no third method"):
-        simulation.simulate(one)
+        simulation.simulate(case)
 
 
 def test_auto_raises_where_three_methods_follow_three_motions():
     equations = with_wrong("ode45", equations=with_wrong("taylor"), rate=-EXTRA_TURN)
-    one = problem(equations, solver=AUTO)
+    case = problem(equations, solver=AUTO)
     with pytest.raises(IntegrationError, match="and ode45 agrees with neither; allow a larger"):
-        simulation.simulate(one)
+        simulation.simulate(case)
 
 
 class WithoutTaylor(TracedEquations):
@@ -102,10 +102,10 @@ def test_the_stated_error_bounds_that_of_functions_of_neighbours_next_to_ends(ra
     model = Model(fields=("a", "b"), parameters={}, i_dt=traced(text)["i_dt"], text=text)
     start = np.random.default_rng(1).normal(size=(2, 11, 2)) @ (0.4, 0.4j)
     solver = {"name": "auto", "error": 1e-8}
-    given = problem(
+    case = problem(
         model=model, half_width=5, boundary=boundary, initial=start, end_time=5.0, solver=solver
     )
-    run = simulation.simulate(given)
+    run = simulation.simulate(case)
     expected = solution(slope_of(text, {}, boundary, 2, "i_dt"), start.ravel(), 5.0)
     error = np.abs(run.final.ravel() - expected).max() / run.linf.max()
     assert error < run.solver["estimated_error"] <= 1e-8
@@ -114,29 +114,29 @@ def test_the_stated_error_bounds_that_of_functions_of_neighbours_next_to_ends(ra
 # --- check
 
 
-def dataset(one):
+def dataset(case):
     """Return the run of a problem as `simulate` of a notebook does."""
-    return as_xarray(*trajectory_contents("run", one, simulation.simulate(one)))
+    return as_xarray(*trajectory_contents("run", case, simulation.simulate(case)))
 
 
 def test_check_reports_phases_that_are_wrong_though_all_norms_are_right():
-    one = problem(with_wrong("taylor"), snapshot_every=5)
-    found = run_again(one, dataset(one))
-    assert float(found["difference"].max()) < 1e-11 and found.attrs["second_name"] == "dop853"
-    expected = 2 * np.sin(0.5 * EXTRA_TURN * found["kept_tau"])
-    scale = found["field_difference"] / expected.where(expected > 0)
+    case = problem(with_wrong("taylor"), snapshot_every=5)
+    checked = run_again(case, dataset(case))
+    assert float(checked["difference"].max()) < 1e-11 and checked.attrs["second_name"] == "dop853"
+    expected = 2 * np.sin(0.5 * EXTRA_TURN * checked["kept_tau"])
+    scale = checked["field_difference"] / expected.where(expected > 0)
     assert ((scale > 0.3) | scale.isnull()).all() and (scale.max() <= 1.001)
-    assert float(found["largest_difference"]) == float(found["field_difference"].max())
+    assert float(checked["largest_difference"]) == float(checked["field_difference"].max())
     slow = problem(with_wrong("taylor"), snapshot_every=20, end_time=30.0)
     assert 10.0 <= float(run_again(slow, dataset(slow))["divergence_time"]) <= 24.0
 
 
 def test_check_judges_the_fields_of_the_run_that_it_is_given():
-    one = problem(snapshot_every=10)
-    run = dataset(one)
-    assert float(run_again(one, run)["largest_difference"]) < 1e-11
+    case = problem(snapshot_every=10)
+    run = dataset(case)
+    assert float(run_again(case, run)["largest_difference"]) < 1e-11
     run["final"] = -run["final"]
-    assert float(run_again(one, run)["largest_difference"]) > 0.5
+    assert float(run_again(case, run)["largest_difference"]) > 0.5
 
 
 @pytest.mark.parametrize("solver", ["taylor", "dop853", "ode45", "crank_nicolson", "kahan_li"])

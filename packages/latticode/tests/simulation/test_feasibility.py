@@ -26,7 +26,7 @@ def test_ordinary_runs_meet_no_obstacle(name, size):
     assert obstacle(name, size) is None
 
 
-REST = {"size": 0.0, "numbers": (0.0, 0.0, 0.1), "step": 2.0**-20}  # exact in doubles
+AT_REST = {"size": 0.0, "numbers": (0.0, 0.0, 0.1), "step": 2.0**-20}  # exact in doubles
 LOOSE = {"rtol": 1e-40, "atol": 1e-14}
 REFUSED = [
     (
@@ -37,8 +37,8 @@ REFUSED = [
     ),
     (
         "crank_nicolson",
-        REST | {"span": (1e9 + 1.0) * 2.0**-20},
-        REST | {"span": 1e9 * 2.0**-20},
+        AT_REST | {"span": (1e9 + 1.0) * 2.0**-20},
+        AT_REST | {"span": 1e9 * 2.0**-20},
         "the step is too short",
     ),
     *(("crank_nicolson", {"step": step}, {}, "must be positive") for step in (0.0, -0.1, np.nan)),
@@ -78,8 +78,8 @@ def test_power_series_beyond_the_doubles_are_refused():
 
 def fault(rates=(0.0, 1.0), peak=0.0, span=1.0, values=(1.0, 1.0), **solver):
     """Return what is found for constants k and m that turn the data at such rates."""
-    given = (dict(zip("km", row, strict=True)) for row in (values, rates))
-    return find_fault(*given, peak, span, {"name": "dop853"} | solver)
+    parameters = (dict(zip("km", row, strict=True)) for row in (values, rates))
+    return find_fault(*parameters, peak, span, {"name": "dop853"} | solver)
 
 
 def test_the_key_that_stands_in_the_way_is_named():
@@ -94,8 +94,8 @@ def test_the_key_that_stands_in_the_way_is_named():
 def test_rates_of_a_model_are_those_of_its_terms():
     """Constants are told from the cubic term, which turns data of size 2 twice as fast."""
     numbers = {"epsilon": 0.5, "gamma": 1.0, "omega": -3.0}
-    rest, moving = (rates_of(DIMERS, numbers, peak) for peak in (0.0, 2.0))
-    assert rest["initial"] == 0.0 and rest["parameters"] == moving["parameters"] > 3.0
+    at_rest, moving = (rates_of(DIMERS, numbers, peak) for peak in (0.0, 2.0))
+    assert at_rest["initial"] == 0.0 and at_rest["parameters"] == moving["parameters"] > 3.0
     assert moving["initial"] >= 2.0
 
 
@@ -109,8 +109,8 @@ def test_power_series_are_refused_by_the_size_of_their_last_coefficient():
     """With |A| = 1 it is the rate to the sixteenth power."""
     for power, refused in ((269.5, False), (270.5, True)):
         rate = 10.0 ** (power / 16)
-        found = fault((0.0, rate), 1.0, 1.0 / rate, name="taylor", rtol=1e-9, atol=0.0)
-        assert (found is not None) == refused
+        message = fault((0.0, rate), 1.0, 1.0 / rate, name="taylor", rtol=1e-9, atol=0.0)
+        assert (message is not None) == refused
     slow = {"name": "taylor", "rtol": 1e-9, "atol": 0.0}
     assert "numbers of 1e-28" in fault((0.0, 1e-17), 1e-10, 1.1e11, **slow)[1]
     assert fault((0.0, 1e-17), 1e-10, 0.9e11, **slow) is None  # nothing moves

@@ -180,10 +180,10 @@ def test_a_fault_of_the_run_reaches_the_caller(known, ctrl_c):
 def test_a_thread_does_one_run_after_another_and_keeps_no_array():
     first = interruptible(lambda stop: threading.get_ident())
     array = np.zeros(3)
-    kept = weakref.ref(array)
-    assert interruptible(lambda given, stop: threading.get_ident(), array) == first
+    reference = weakref.ref(array)
+    assert interruptible(lambda values, stop: threading.get_ident(), array) == first
     del array
-    wait_for(lambda: kept() is None)
+    wait_for(lambda: reference() is None)
     assert first != threading.get_ident()
 
 

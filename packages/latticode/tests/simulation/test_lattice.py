@@ -34,8 +34,8 @@ def test_symmetries_are_found(reduction):
 @given(st.integers(0, 6), st.integers(0, 1), st.booleans())
 def test_the_last_bit_of_any_part_breaks_a_symmetry(site, component, imaginary):
     z = random_chain(3, even=True, synchronised=True)
-    part = z.imag if imaginary else z.real
-    part[component, site] = np.nextafter(part[component, site], np.inf)
+    values = z.imag if imaginary else z.real
+    values[component, site] = np.nextafter(values[component, site], np.inf)
     centre = site == 3  # a change at the centre leaves the data even
     assert find_reduction(z) == Reduction(even=centre, synchronised=False)
 
@@ -80,17 +80,17 @@ def observed(z, reduction=FULL_CHAIN, times=1, i=0, every=1):
 def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
     z = random_chain(half_width, **reduction._asdict())
     record = observed(z, reduction)
-    kept = z[: len(record.l2)]
-    np.testing.assert_allclose(record.linf[:, 0], np.abs(kept).max(axis=1), rtol=1e-14)
-    np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(kept, axis=1), rtol=1e-14)
+    stored = z[: len(record.l2)]
+    np.testing.assert_allclose(record.linf[:, 0], np.abs(stored).max(axis=1), rtol=1e-14)
+    np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(stored, axis=1), rtol=1e-14)
     sites = slice(half_width if reduction.even else 0, None)
-    np.testing.assert_allclose(record.snapshots[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
+    np.testing.assert_allclose(record.snapshots[:, :, 0], np.abs(stored)[:, sites], rtol=1e-14)
 
 
 def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only():
     z = random_chain(2)
     record = observed(z, times=7, i=4, every=2)
-    written = [np.count_nonzero(one != -1.0) for one in (record.linf, record.l2, record.snapshots)]
+    written = [np.count_nonzero(a != -1.0) for a in (record.linf, record.l2, record.snapshots)]
     assert written == [2, 2, 10]
     np.testing.assert_allclose(record.snapshots[:, :, 2], np.abs(z), rtol=1e-14)
     assert np.all(observed(z, times=7, i=3, every=2).snapshots == -1.0)

@@ -45,19 +45,19 @@ def test_a_problem_cannot_be_changed_in_place():
 
 def test_a_change_leaves_the_rest_as_it_was():
     problem = chain(PAIR, numbers=(0.5, 0.7, 3.0))
-    other = problem.changed(omega=1.0, half_width=4, end_time=2.0)
+    longer = problem.changed(omega=1.0, half_width=4, end_time=2.0)
     changed = {"parameters": problem.parameters | {"omega": 1.0}, "half_width": 4, "end_time": 2.0}
-    assert other.plain() == problem.plain() | changed
-    assert other.amplitudes.shape == (2, 9) and other.sites == 9
+    assert longer.plain() == problem.plain() | changed
+    assert longer.amplitudes.shape == (2, 9) and longer.sites == 9
 
 
 @given(chains(widths=(0, 3)), st.sampled_from(["dirichlet", "free", "periodic"]))
 def test_plain_values_make_the_same_problem(data, boundary):
     problem = chain(data, (0.3, -0.7, 2.0), boundary)
-    again = Problem.of(problem.plain())
-    assert again.plain() == problem.plain()
-    np.testing.assert_array_equal(again.amplitudes, problem.amplitudes)
-    np.testing.assert_array_equal(again.times, problem.times)
+    restored = Problem.of(problem.plain())
+    assert restored.plain() == problem.plain()
+    np.testing.assert_array_equal(restored.amplitudes, problem.amplitudes)
+    np.testing.assert_array_equal(restored.times, problem.times)
 
 
 @given(chains(widths=(0, 3)))

@@ -38,8 +38,8 @@ def soon(monkeypatch):
 
 def test_a_long_run_shows_how_far_it_is_and_the_time_left(soon, capsys):
     simulate(LONG)
-    shown = capsys.readouterr().err
-    assert "simulate: taylor:" in shown and "%" in shown and "<" in shown
+    screen = capsys.readouterr().err
+    assert "simulate: taylor:" in screen and "%" in screen and "<" in screen
 
 
 def test_a_survey_shows_how_many_of_its_runs_are_done(soon, capsys):
@@ -61,9 +61,9 @@ def test_nothing_is_shown_in_a_file(monkeypatch, capsys):
 
 
 def test_what_is_shown_changes_no_bit(soon):
-    shown = simulate(LONG)
+    run = simulate(LONG)
     progress.is_visible = lambda: False
-    assert shown.identical(simulate(LONG))
+    assert run.identical(simulate(LONG))
 
 
 def test_ctrl_c_ends_a_script_in_one_line():
@@ -74,20 +74,20 @@ def test_ctrl_c_ends_a_script_in_one_line():
         [sys.executable, "-c", SCRIPT], stdout=subprocess.PIPE, stderr=theirs, text=True
     )
     os.close(theirs)
-    shown = ""
+    screen = ""
     assert process.stdout.readline() == "begins\n"
-    while "simulate: taylor:" not in shown:
-        shown += os.read(ours, 1000).decode(errors="replace")
+    while "simulate: taylor:" not in screen:
+        screen += os.read(ours, 1000).decode(errors="replace")
     process.send_signal(signal.SIGINT)
     process.wait(60)
     os.set_blocking(ours, False)
     try:
         while more := os.read(ours, 1000).decode(errors="replace"):
-            shown += more
+            screen += more
     except OSError:  # the end
         pass
-    assert "Traceback" not in shown
-    assert shown.rstrip().split("\r")[-1].strip() == "simulate was interrupted"
+    assert "Traceback" not in screen
+    assert screen.rstrip().split("\r")[-1].strip() == "simulate was interrupted"
 
 
 def test_jupyter_shows_an_interrupt_as_one_line():
@@ -124,15 +124,15 @@ def as_in_a_shell():
 
 @pytest.mark.parametrize("cores", [1, 2])
 def test_an_interrupted_survey_goes_on_from_the_runs_that_are_done(cores, as_in_a_shell, capsys):
-    part, keep, calls = interrupted_survey(3, cores)
-    done = (part["unfinished"] == "").values
-    assert 0 < done.sum() < 6 and part.attrs["unfinished_runs"] == 6 - done.sum()
-    assert np.isnan(part["final_l2"].values[~done]).all()
+    unfinished, keep, calls = interrupted_survey(3, cores)
+    done = (unfinished["unfinished"] == "").values
+    assert 0 < done.sum() < 6 and unfinished.attrs["unfinished_runs"] == 6 - done.sum()
+    assert np.isnan(unfinished["final_l2"].values[~done]).all()
     assert f"{6 - done.sum()} of 6 runs are unfinished; to continue" in capsys.readouterr().out
-    made = len(calls)
-    whole = survey(CASE, {"c": VALUES}, keep=keep, resume=part)
-    assert sorted(calls[made:]) == [c for c, was in zip(VALUES, done, strict=True) if not was]
-    assert whole.identical(survey(CASE, {"c": VALUES}, keep=keep))
+    count = len(calls)
+    resumed = survey(CASE, {"c": VALUES}, keep=keep, resume=unfinished)
+    assert sorted(calls[count:]) == [c for c, was in zip(VALUES, done, strict=True) if not was]
+    assert resumed.identical(survey(CASE, {"c": VALUES}, keep=keep))
 
 
 def test_an_interrupt_before_the_first_run_is_done_ends_a_survey(as_in_a_shell):
@@ -144,11 +144,11 @@ def test_an_interrupt_before_the_first_run_is_done_ends_a_survey(as_in_a_shell):
 
 
 def test_another_survey_is_not_resumed(as_in_a_shell):
-    part, keep, _ = interrupted_survey(3)
+    unfinished, keep, _ = interrupted_survey(3)
     for call in (
-        lambda: survey(CASE, {"c": VALUES[:3]}, keep=keep, resume=part),
-        lambda: survey(CASE.changed(end_time=2), {"c": VALUES}, keep=keep, resume=part),
-        lambda: survey(CASE, {"c": VALUES}, keep=["max_l2"], resume=part),
+        lambda: survey(CASE, {"c": VALUES[:3]}, keep=keep, resume=unfinished),
+        lambda: survey(CASE.changed(end_time=2), {"c": VALUES}, keep=keep, resume=unfinished),
+        lambda: survey(CASE, {"c": VALUES}, keep=["max_l2"], resume=unfinished),
     ):
         with pytest.raises(ConfigurationError, match=r"differ in (c|end_time)|no max_l2"):
             call()

@@ -11,7 +11,7 @@ from oracle import BOUNDARIES, boundaries, chains, constants, random_chain
 
 CLOSE = {"ode45": 1e-4, "dop853": 1e-8, "taylor": 1e-8, "crank_nicolson": 1e-8}
 """How close runs are over a unit of time, worst case."""
-KEPT = CLOSE | {"crank_nicolson": 5e-2}
+TOLERANCES = CLOSE | {"crank_nicolson": 5e-2}
 """How well norms are kept that the equations keep: the trapezoidal rule keeps them nearly only."""
 DRIFTS = {"ode45": 1e-3, "dop853": 1e-9, "taylor": 1e-9}
 """How well the energy is kept, relative to it where it is above one."""
@@ -30,33 +30,33 @@ def energy_of(trajectory):
     return trajectory.conserved["H"]
 
 
-def assert_same_bits(name, one, other):
+def assert_same_bits(name, run, expected_run):
     for field in ("final", "linf", "l2", "modulus"):
-        found, expected = getattr(one, field), getattr(other, field)
-        np.testing.assert_array_equal(found, expected, err_msg=f"{name}: {field}")
-    np.testing.assert_array_equal(energy_of(one), energy_of(other), err_msg=name)
+        values, expected = getattr(run, field), getattr(expected_run, field)
+        np.testing.assert_array_equal(values, expected, err_msg=f"{name}: {field}")
+    np.testing.assert_array_equal(energy_of(run), energy_of(expected_run), err_msg=name)
 
 
 @given(z=chains(widths=(1, 4), even=True), numbers=constants, boundary=boundaries)
 @some
 def test_half_of_an_even_chain_has_the_bits_of_the_whole(z, numbers, boundary):
     for name in SOLVERS:
-        half, whole = (run(name, z, numbers, boundary, kept) for kept in (EVEN, FULL_CHAIN))
-        assert_same_bits(name, half, whole)
-        assert half.outcome == whole.outcome
+        half, full = (run(name, z, numbers, boundary, cut) for cut in (EVEN, FULL_CHAIN))
+        assert_same_bits(name, half, full)
+        assert half.outcome == full.outcome
 
 
 @given(z=chains(synchronised=True), numbers=constants, boundary=boundaries)
 @some
 def test_where_a_equals_b_they_stay_so_and_keep_their_norm(z, numbers, boundary):
     for name in SOLVERS:
-        found = run(name, z, numbers, boundary)
-        np.testing.assert_array_equal(found.final[0], found.final[1], err_msg=name)
-        assert_norms_are_kept(name, found.l2)
+        trajectory = run(name, z, numbers, boundary)
+        np.testing.assert_array_equal(trajectory.final[0], trajectory.final[1], err_msg=name)
+        assert_norms_are_kept(name, trajectory.l2)
 
 
 def assert_norms_are_kept(name, l2):
-    np.testing.assert_allclose(l2 - l2[:, :1], 0.0, atol=KEPT[name], err_msg=name)
+    np.testing.assert_allclose(l2 - l2[:, :1], 0.0, atol=TOLERANCES[name], err_msg=name)
 
 
 @each_solver
@@ -83,8 +83,8 @@ def test_exchange_of_a_and_b_exchanges_the_bits(z, numbers, boundary):
 @some
 def test_conjugation_reverses_time(z, numbers, boundary):
     for name in SOLVERS:
-        there = run(name, z, numbers, boundary).final
-        back = np.conj(run(name, np.conj(there), numbers, boundary).final)
+        final = run(name, z, numbers, boundary).final
+        back = np.conj(run(name, np.conj(final), numbers, boundary).final)
         np.testing.assert_allclose(back, z, atol=CLOSE[name], err_msg=name)
 
 

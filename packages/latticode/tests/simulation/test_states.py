@@ -104,8 +104,8 @@ def test_a_file_keeps_the_state_as_a_configuration_asks(tmp_path):
     path.write_text(f"cases: {{mine: {{model: phi4.py, {keys}, initial: {{{data}}}}}}}")
     problem = Problem.of(load(gather([path], {})).shown_problem("mine"))
     variables, _ = trajectory_contents("mine", problem, integrate(problem))
-    found = variables["state"].values[:, 0]
-    np.testing.assert_allclose(found, kinks_by_scipy([0, 2.5, 5]), rtol=0, atol=1e-12)
+    states = variables["state"].values[:, 0]
+    np.testing.assert_allclose(states, kinks_by_scipy([0, 2.5, 5]), rtol=0, atol=1e-12)
 
 
 def test_a_function_that_a_survey_keeps_reads_the_state():
@@ -113,8 +113,8 @@ def test_a_function_that_a_survey_keeps_reads_the_state():
         return np.abs(np.fft.rfft(run.state[0, 0, problem.half_width + 3]))
 
     case = KINKS.changed(snapshot_step=0.5)
-    kept = survey(case, {"c": [0.25, 0.5]}, keep=[spectrum])["spectrum"].values
-    for c, values in zip([0.25, 0.5], kept, strict=True):
+    spectra = survey(case, {"c": [0.25, 0.5]}, keep=[spectrum])["spectrum"].values
+    for c, values in zip([0.25, 0.5], spectra, strict=True):
         run = simulate(case.changed(parameters={"c": c}))
         alone = run["state"].sel(part="value", component="x", site=3)
         np.testing.assert_array_equal(values, np.abs(np.fft.rfft(alone.values)))
@@ -133,5 +133,5 @@ def test_the_state_of_a_real_equation_of_first_order_has_one_part():
     decay = Model(fields="x", parameters={}, dt=lambda p, x: -x)
     run = simulate(Case(model=decay, half_width=1, initial={0: [-2]}, end_time=1))
     assert list(run["part"].values) == ["value"]
-    found = run["state"].sel(part="value", component="x", site=0).values
-    np.testing.assert_allclose(found, -2 * np.exp(-run["snapshot"].values), rtol=1e-13)
+    states = run["state"].sel(part="value", component="x", site=0).values
+    np.testing.assert_allclose(states, -2 * np.exp(-run["snapshot"].values), rtol=1e-13)

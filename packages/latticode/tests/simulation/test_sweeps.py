@@ -49,15 +49,15 @@ def test_means_are_integrals_over_the_window(swept, run):
 def test_a_chain_that_nothing_crosses_stands_for_longer_ones(monkeypatch):
     followed = []
 
-    def follow(problem, **others):
+    def follow(problem, **options):
         followed.append(problem.half_width)
-        return simulate(problem, **others)
+        return simulate(problem, **options)
 
     monkeypatch.setattr("latticode.simulation.sweep.simulate", follow)
     swept = sweep(PROBLEM, [8, 25, 40, 12, 30], WINDOWS)
     assert followed == [8, 25, 12]  # by tau = 3 the data have come to M = 12, and to M = 25 not
-    for part in (swept["l2"], swept["linf"]):
-        np.testing.assert_array_equal(part[2], part[1])
-        np.testing.assert_array_equal(part[4], part[1])
-        assert (part[3] != part[1]).any()
+    for norms in (swept["l2"], swept["linf"]):
+        np.testing.assert_array_equal(norms[2], norms[1])
+        np.testing.assert_array_equal(norms[4], norms[1])
+        assert (norms[3] != norms[1]).any()
     assert sweep(PROBLEM, [40], WINDOWS)["l2"].tolist() == swept["l2"][2:3].tolist()
