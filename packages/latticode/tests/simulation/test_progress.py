@@ -150,5 +150,5 @@ def test_another_survey_is_not_resumed(as_in_a_shell):
         lambda: survey(CASE.changed(end_time=2), {"c": VALUES}, keep=keep, resume=unfinished),
         lambda: survey(CASE, {"c": VALUES}, keep=["max_l2"], resume=unfinished),
     ):
-        with pytest.raises(ConfigurationError, match=r"differ in (c|end_time)|no max_l2"):
+        with pytest.raises(ConfigurationError, match=r"differs in (c|end_time)|no max_l2"):
             call()
