@@ -50,9 +50,9 @@ def missing(meaning: str) -> dict[str, str]:
 
 
 def chaotic_along(dimension: str) -> dict[str, str]:
-    """Return the attribute of a variable that is chaotic at some values along `dimension`.
+    """Return the attribute of a variable that rests on chaos only at some values of `dimension`.
 
-    These are values of a parameter, at which cases with this value are chaotic.
+    The dimension has values of a case's parameter; the values in question are of chaotic cases.
     """
     return {CHAOS: f"{ALONG}{dimension}"}
 

@@ -14,8 +14,8 @@ const ticks = (least, most, count) => {
   return Array.from({ length: Math.floor(most / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
 };
 
-// Return axes from time 0 to `end` and from `least` to `most`, with curves and bands between two
-// curves as [kind, times, values, upper values], and upright lines as [kind, time].
+// Return axes from time 0 to `end` and from `least` to `most`. A curve is [kind, times, values], a
+// band between two curves [kind, times, values, upper values], an upright line [kind, time].
 const writePanel = ({ end, least, most, hasGrid }, curves, uprights) => {
   const x = (tau) => Math.round(400 + (3400 * tau) / end) / 10;
   const y = (value) => Math.round(1700 - (1600 * (value - least)) / (most - least)) / 10;

@@ -119,7 +119,7 @@ def own_files(settings: PaperConfiguration) -> list[str]:
     motions += [f"sections/{name}" for name in settings.sections]
     if not any([*names_by_folder.values(), motions]):
         raise ConfigurationError(
-            "the configuration has no case, sweep or survey of your own: add some with "
+            "the configuration has no case, sweep or survey of your own: add one with "
             "--configfile (see docs/own_cases.md)"
         )
     places = [f"{folder}/{name}" for folder, names in names_by_folder.items() for name in names]

@@ -90,7 +90,7 @@ GROWS = AllOf(
         FACTOR, "factor_at_least", label=f"least factor by which l2 grew since tau = {SETTLED:g}"
     ),
 )
-"""The criterion that l2 grows, on lower limits."""
+"""The criterion for growth of l2, on lower confidence limits."""
 
 
 def growth_of(run: xr.Dataset) -> dict[str, float]:
