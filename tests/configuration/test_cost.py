@@ -10,7 +10,7 @@ from latticode.configuration.files import ConfigurationError, gather
 from latticode.datasets.netcdf import read
 from latticode.integrators.methods import METHODS
 from latticode.simulation.simulate import simulate
-from pendula.configuration.cost import ORDINARY, demand, estimate, integrated_pairs
+from pendula.configuration.cost import CHEAP_VALUES, demand, estimate, integrated_pairs
 from pendula.configuration.messages import STUDIES, load
 from pendula.problem import PaperProblem
 
@@ -85,7 +85,7 @@ def test_work_and_time_are_those_that_were_measured(solver, measured):
     ],
 )
 def test_the_key_that_costs_most_is_named(change, key):
-    costly, text = find_excess(problem(**change), LIMITS, estimate, ORDINARY)
+    costly, text = find_excess(problem(**change), LIMITS, estimate, CHEAP_VALUES)
     assert costly == key and "the run would take" in text and "limits." in text
 
 

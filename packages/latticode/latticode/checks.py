@@ -62,8 +62,8 @@ def choose_solver(name: str, peak: float, known: Collection[str] = METHODS) -> d
 def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return the norms of a second run and its differences from `run`; NaN if it fails.
 
-    `run` is the stored trajectory of `problem` by any solver. Its file may have no phases before
-    the end time, so its solver runs again too, and stores the fields at the snapshots.
+    `run` is the stored trajectory of `problem` by any solver. It may have no phases before the end
+    time, so its solver runs again too, and stores the fields at the snapshots.
     """
     peak, known = float(modulus(problem.initial).max()), set(problem.equations.methods)
     solver = choose_solver(str(run.attrs["solver"]), peak, known)
@@ -151,7 +151,7 @@ def follow(problem: Problem) -> TangentGrowth:
 
 
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
-    """Return the growth rate of a tangent vector, a test for chaos, and when rounding shows."""
+    """Return the growth rate of a tangent vector, a test for chaos, and when errors are visible."""
     try:
         growth = follow(problem)
     except IntegrationError as error:

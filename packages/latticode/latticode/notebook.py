@@ -24,7 +24,7 @@ from latticode.configuration import cases, cost, values
 from latticode.configuration.files import ConfigurationError, list_faults
 from latticode.configuration.initial import end_of_run
 from latticode.configuration.keys import CaseKeys, ChangedKeys, show_keys
-from latticode.configuration.messages import in_words
+from latticode.configuration.messages import configuration_error
 from latticode.configuration.schema import Configuration, RunLimits, load
 from latticode.configuration.solvers import DEFAULT, with_controls
 from latticode.datasets import netcdf
@@ -74,7 +74,7 @@ class Case(cases.CaseSection):
     parameters: {name: a number, one number per site, or a function of the sites}; by default the
         values of the model.
     initial: the fields at the start, complex. A field with d2_dt2 has its value as the real part
-        and its rate as the imaginary part. One of
+        and its rate as the imaginary part. Give one of
         - {site: [a value for each field]}; other sites are at rest;
         - an array (site,), or (field, site) for several fields;
         - a function of the array of sites that returns such an array;
@@ -84,9 +84,9 @@ class Case(cases.CaseSection):
     start_time: the time p.t at the start. Default: 0, or the end of the run in `initial`.
     half_width: M; the chain has the 2M + 1 sites -M..M. Default: 30.
     sites: N, instead of half_width; the chain has the N sites 0..N-1.
-    boundary: "dirichlet" (default; zero beyond the ends), "free" (a mirror beyond the last site:
-        coupling to second neighbours adds a bond between the last two sites), "periodic" or
-        "antiperiodic".
+    boundary: "dirichlet" (default; zero beyond the ends), "free" (beyond the ends is the mirror
+        image of the chain, so coupling to second neighbours adds a bond between the last two
+        sites), "periodic" or "antiperiodic".
     end_time, output_step: the end, and the time step of stored norms. Default: 50 and 0.025.
     snapshot_step: the time step at which the fields on all sites are stored, a multiple of
         output_step that divides the run. Default: one that gives at least 200 snapshots.
@@ -136,7 +136,7 @@ def validate_case(
     try:
         initialise(**with_controls({"solver": DEFAULT, **keys}, {}))
     except ValidationError as error:
-        raise in_words(error, "the case", root, ("cases", "case")) from None
+        raise configuration_error(error, "the case", root, ("cases", "case")) from None
 
 
 def _limits(hours: float | None, gigabytes: float | None) -> dict[str, float]:
@@ -151,10 +151,10 @@ def _require_affordable(case: cases.CaseSection, chosen_limits: Mapping[str, flo
     try:
         limits = RunLimits(**chosen_limits)
     except ValidationError as error:
-        raise in_words(error, "the limit", RunLimits) from None
+        raise configuration_error(error, "the limit", RunLimits) from None
     # first without snapshots: choosing their times takes long for a run of too many steps
     for problem in (case.problem, case.shown_problem):
-        excess = cost.find_excess(problem(), limits.model_dump(), case.cost, case.ordinary)
+        excess = cost.find_excess(problem(), limits.model_dump(), case.cost, case.cheap_values)
         if excess:
             raise list_faults([f"{excess[0]}: {_as_argument(excess[1])}"], "the case")
     _announce(case.cost(case.shown_problem()))
@@ -178,7 +178,7 @@ def _load(sections: Mapping, limits: Mapping[str, float]) -> Configuration:
 
 
 def _announce(estimate: cost.RunCost) -> None:
-    if estimate.seconds > cost.WORTH_SAYING:
+    if estimate.seconds > cost.LONG_RUN:
         print(f"the run takes {estimate}", flush=True)
 
 
@@ -287,7 +287,7 @@ def read(path: str | Path) -> xr.Dataset:
 def timed(data: xr.Dataset) -> xr.Dataset:
     """Return a dataset with times as the coordinates of snapshots: sel(snapshot=20) is at time 20.
 
-    In files, snapshots are only numbered, and `sel` would silently use a time as a number.
+    In files, snapshots are only numbered: there sel(snapshot=20) returns the snapshot number 20.
     """
     if "snapshot_tau" not in data or data["snapshot_tau"].dims != ("snapshot",):
         return data
@@ -465,8 +465,8 @@ def check(
     """Return checks of a run: its error, whether its motion is chaotic, and a localised state.
 
     `run` is from `simulate`; by default the case is integrated here. `checks` is a function
-    (problem, run) that returns a dataset, by default the one described in `latticode.checks`; it
-    needs `variables` in the run, besides the norms.
+    (problem, run) that returns a dataset, by default the one described in `latticode.checks`. It
+    reads the norms and the `variables` of the run.
 
     >>> from latticode import Model, abs2, lap
     >>> dnls = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
@@ -493,7 +493,7 @@ def lyapunov(case: cases.CaseSection, count: int = 1, hours: float | None = None
     exponent and exponent_error (number,), largest first, per unit of tau, and log_growth (number,
     growth_tau). The sum of all exponents is the mean divergence of the equations.
 
-    Raises ConfigurationError if there are fewer directions than exponents, or if the work would
+    Raises ConfigurationError if `count` exceeds the dimension of phase space, or if the work would
     take more than `hours` (default: 1); IntegrationError like `simulate`.
 
     >>> from latticode import Model

@@ -88,9 +88,9 @@ class PaperCaseSection(cases.CaseSection):
         return [*METHODS_OF[model], "auto"]
 
     @property
-    def ordinary(self) -> Mapping[str, Mapping]:
+    def cheap_values(self) -> Mapping[str, Mapping]:
         """For each key that determines the cost, values at which a run is short."""
-        return cost.ORDINARY if self.mu is None else cost.OF_PENDULA
+        return cost.CHEAP_VALUES if self.mu is None else cost.OF_PENDULA
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
         mu = self.mu

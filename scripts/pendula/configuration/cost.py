@@ -13,14 +13,14 @@ from pendula.feasibility import clock_of
 SWING = 1.7
 """The rate of pendula per unit of t that sets the steps of explicit methods; above the frequency 1
 because of the terms of the sine."""
-ORDINARY = cost.ORDINARY | {
+CHEAP_VALUES = cost.CHEAP_VALUES | {
     "omega": {"omega": 1.0},
     "epsilon": {"epsilon": 1.0},
     "gamma": {"gamma": 1.0},
     "initial": {"initial": {0: (1.0, 0.1)}},
 }
-OF_PENDULA = ORDINARY | {"mu": {"mu": 0.1}}
-"""Values at which a run is short, by key: ORDINARY for the amplitudes, OF_PENDULA for pendula."""
+OF_PENDULA = CHEAP_VALUES | {"mu": {"mu": 0.1}}
+"""Values at which a run is short, by key; OF_PENDULA is for pendula."""
 
 
 def demand(problem: Mapping) -> Demand:

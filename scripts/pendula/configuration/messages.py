@@ -29,7 +29,7 @@ def load(raw: dict) -> PaperConfiguration:
     try:
         settings = Sections.model_validate(raw)
     except ValidationError as error:
-        raise messages.in_words(error, "the configuration", root=Sections) from None
+        raise messages.configuration_error(error, "the configuration", root=Sections) from None
     lines = [
         f"{study}.{key}: {text}"
         for study in STUDIES

@@ -38,10 +38,10 @@ def paper() -> dict[str, Any]:
 def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
     """Return the differences from the paper's configuration by key; added cases do not count."""
     differences = find_differences(paper(), configuration, TOLERATED)
-    return {".".join(place): _in_words(place, *pair) for place, pair in differences.items()}
+    return {".".join(place): _difference_text(place, *pair) for place, pair in differences.items()}
 
 
-def _in_words(place: tuple, was: Any, now: Any) -> str:
+def _difference_text(place: tuple, was: Any, now: Any) -> str:
     keys = place[1:] if place[0] in ("cases", "sweeps") else place
     short, of_paper = _short(now), _short(was)
     value = str(now) if short == of_paper else short  # print all digits if both look the same

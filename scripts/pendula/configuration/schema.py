@@ -145,9 +145,7 @@ class PaperConfiguration(schema.Configuration):
             if hasattr(section, "runs_of")
             for runs in section.runs_of(self)
         }
-        long = {
-            label: total for label, total in totals.items() if total.seconds > cost.WORTH_SAYING
-        }
+        long = {label: total for label, total in totals.items() if total.seconds > cost.LONG_RUN}
         return [*super().long_runs(), *(f"{label} {total}" for label, total in long.items())]
 
     def excess(self, key: str, costs: list[RunCost], times: float = 1.0) -> Faults:

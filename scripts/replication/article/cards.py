@@ -293,9 +293,9 @@ RESULTS = "results"
 def chosen_value(data: xr.Dataset, name: str) -> str:
     """Return an attribute of a dataset, or the range of a coordinate, as text."""
     if name not in data.coords:
-        return _in_words(data.attrs[name])
+        return _cell_text(data.attrs[name])
     values = data[name].values
-    return f"{_in_words(values.min())} to {_in_words(values.max())}, {values.size} values"
+    return f"{_cell_text(values.min())} to {_cell_text(values.max())}, {values.size} values"
 
 
 def tabulate(data: xr.Dataset, variable: str, selections: Iterable[Mapping[str, Any]]) -> Table:
@@ -313,9 +313,9 @@ def tabulate(data: xr.Dataset, variable: str, selections: Iterable[Mapping[str, 
     keys = tuple({name: row.coords[name].item() for name in labels} for row in rows)
     texts = tuple(
         (
-            *(_in_words(key[name]) for name in labels),
-            _in_words(row.item()),
-            *(_in_words(data[f"{variable}{suffix}"].sel(key).item()) for suffix in suffixes),
+            *(_cell_text(key[name]) for name in labels),
+            _cell_text(row.item()),
+            *(_cell_text(data[f"{variable}{suffix}"].sel(key).item()) for suffix in suffixes),
         )
         for key, row in zip(keys, rows, strict=True)
     )
@@ -370,7 +370,7 @@ def describe_ends(values: xr.DataArray) -> str:
     return "{} numbers, from {} to {}".format(values.size, *ends)
 
 
-def _in_words(value: Any) -> str:
+def _cell_text(value: Any) -> str:
     if isinstance(value, str):
         return symbols(value)
     if isinstance(value, float | np.floating):

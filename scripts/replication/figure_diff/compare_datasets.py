@@ -132,7 +132,7 @@ def differences(
 
 
 def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[VariableDifference]:
-    before, after = hashes.in_words(was), hashes.in_words(now)
+    before, after = hashes.attribute_texts(was), hashes.attribute_texts(now)
     for key in sorted({*before, *after}):
         pair = after.get(key, "absent"), before.get(key, "absent")
         if pair[0] != pair[1]:

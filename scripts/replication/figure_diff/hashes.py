@@ -63,10 +63,10 @@ def of_values(variable: xr.Variable) -> str:
 
 
 def _of_attributes(attributes: Mapping[str, Any]) -> str:
-    return of_bytes(json.dumps(in_words(attributes), sort_keys=True).encode())
+    return of_bytes(json.dumps(attribute_texts(attributes), sort_keys=True).encode())
 
 
-def in_words(attributes: Mapping[str, Any]) -> dict[str, str]:
+def attribute_texts(attributes: Mapping[str, Any]) -> dict[str, str]:
     """Return the attributes that are part of the result, each as text with all digits."""
     of_result = {name: each for name, each in attributes.items() if name not in NO_RESULT}
     return {name: json.dumps(np.asarray(each).tolist()) for name, each in of_result.items()}

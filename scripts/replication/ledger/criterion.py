@@ -64,7 +64,7 @@ class Limit(Criterion):
     @property
     def words(self) -> str:
         """The label of the numbers in print."""
-        return self.label or ", ".join(map(in_words, self.names))
+        return self.label or ", ".join(map(with_spaces, self.names))
 
     def __str__(self) -> str:
         return f"{self.words} {self.sign} {limit_as_text(self.limit)}"
@@ -168,7 +168,7 @@ def limit_as_text(number: float) -> str:
     return next((text for text in texts if float(text) == number), f"{number:.4g}")
 
 
-def in_words(name: str) -> str:
+def with_spaces(name: str) -> str:
     """Return the name of a number as words."""
     return name.replace("_over_", " / ").replace("_", " ")
 
@@ -217,9 +217,9 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
     numbers = {name: float(value) for name, value in measured.items()}
     if off := dict.fromkeys(criterion.failing(numbers)):
         if all(math.isnan(numbers[name]) for name in off):
-            unknown = f"unknown: {', '.join(map(in_words, off))}"
+            unknown = f"unknown: {', '.join(map(with_spaces, off))}"
             return Finding(numbers, criterion, Verdict.UNDECIDED, unknown)
-        reasons = ", ".join(f"{in_words(name)} is {numbers[name]:.3g}" for name in off)
+        reasons = ", ".join(f"{with_spaces(name)} is {numbers[name]:.3g}" for name in off)
         return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails or reasons)
     verdict = Verdict.CAVEAT if caveat else Verdict.CONFIRMED
     return Finding(numbers, criterion, verdict, caveat)

@@ -39,7 +39,7 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
 def counted(rows: list[dict]) -> list[str]:
     """Return a line for each origin of claims with their number, in total and by verdict."""
     return [
-        f"{sum(verdicts.values())} claims {origin}: {_in_words(verdicts)}"
+        f"{sum(verdicts.values())} claims {origin}: {_list_counts(verdicts)}"
         for origin, verdicts in tally(rows).items()
     ]
 
@@ -48,7 +48,7 @@ def counted_verdicts(rows: list[dict]) -> str:
     """Return how many rows have each verdict, such as "2 confirmed, 1 not reproduced"."""
     counts = Counter(row["verdict"] for row in rows)
     return (
-        _in_words({str(verdict): counts[verdict] for verdict in Verdict if counts[verdict]})
+        _list_counts({str(verdict): counts[verdict] for verdict in Verdict if counts[verdict]})
         or "none"
     )
 
@@ -74,7 +74,7 @@ def whether_it_holds(rows: list[dict]) -> str:
     return "holds with a caveat" if counts[Verdict.CAVEAT] else "holds"
 
 
-def _in_words(counts: dict[str, int]) -> str:
+def _list_counts(counts: dict[str, int]) -> str:
     return ", ".join(
         f"{n} {verdict if n == 1 else verdict.replace('does not', 'do not')}"
         for verdict, n in counts.items()

@@ -108,7 +108,7 @@ def dataset(path: Path, page: Path) -> DescribedDataset:
     with readable(path), netCDF4.Dataset(path) as data:
         raw_attributes = {name: value for name, value in vars(data).items() if name not in SHARED}
         variables = [_variable(variable) for variable in data.variables.values()]
-    attributes = {name: _in_words(value) for name, value in raw_attributes.items()}
+    attributes = {name: _attribute_text(value) for name, value in raw_attributes.items()}
     title = attributes.pop("title", "")
     return DescribedDataset(path.relative_to(page).as_posix(), title, attributes, variables)
 
@@ -124,9 +124,9 @@ def _variable(variable: netCDF4.Variable) -> DescribedVariable:
     )
 
 
-def _in_words(value: Any) -> str:
+def _attribute_text(value: Any) -> str:
     if np.ndim(value):
-        return _shortened(", ".join(map(_in_words, value)))
+        return _shortened(", ".join(map(_attribute_text, value)))
     if isinstance(value, str):
         return _shortened(value)
     return str(value) if isinstance(value, int | np.integer) else number(value, 5)

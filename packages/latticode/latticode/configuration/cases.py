@@ -55,7 +55,7 @@ FEWEST = 200
 MOST_NUMBERS = 20_000_000
 """The most moduli that are kept in memory; very long chains get fewer snapshots."""
 UNKNOWN = "initial", "mu", "parameters", "solver.name"
-"""Keys without which no run can be judged; if one is invalid, `obstacles` is not called."""
+"""Keys that `obstacles` needs; it is not called if one of them is invalid."""
 MOST_COUNTED = 1e15
 """Beyond this many steps, rounding hides whether a step divides a time. Such runs are rejected for
 their cost."""
@@ -262,9 +262,9 @@ class CaseSection(Section):
         return self.model.why_no_series if isinstance(self.model, Traced) else ""
 
     @property
-    def ordinary(self) -> Mapping[str, Mapping]:
+    def cheap_values(self) -> Mapping[str, Mapping]:
         """Values that make a run short, for the keys that determine its cost."""
-        return cost.ORDINARY
+        return cost.CHEAP_VALUES
 
     def _faults_of_model(self) -> Iterator[tuple[str, str]]:
         known = self.model.parameters

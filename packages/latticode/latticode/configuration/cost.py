@@ -16,15 +16,15 @@ from latticode.integrators.method import Demand, Obstacle
 from latticode.integrators.methods import METHODS, methods_taking
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
-WORTH_SAYING = 180.0
-"""In seconds; if a run is estimated to take longer, its cost is printed before it starts."""
+LONG_RUN = 180.0
+"""In seconds; the cost of a run that is estimated to take longer is printed before it starts."""
 
 
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
 """Cost of an output: interpolation of the state, norms and energy."""
 OUTPUT_BYTES, MODULUS_BYTES, STATE_BYTES, SITE_BYTES = 200.0, 40.0, 60.0, 200.0
-"""Bytes of an output, of a stored modulus, of a modulus stored with the real and imaginary parts of
-its field, and of a site of the full chain in complex numbers."""
+"""Bytes per output, per stored modulus, per modulus stored with the real and imaginary parts of its
+field, and per site of the full chain in complex numbers."""
 
 
 def span_of(problem: Mapping) -> float:
@@ -159,7 +159,7 @@ def with_checks(problem: Mapping, measure: Measure = demand) -> RunCost:
 
 
 def of_checked(runs: Iterable[RunCost]) -> RunCost:
-    """Return the cost of runs of which two, as large as the first, are compared field by field."""
+    """Return the cost of runs; memory must suffice to compare two runs as large as the first."""
     first, *_ = runs = list(runs)
     compared = first._replace(seconds=0.0, memory=KEPT_TO_COMPARE * first.memory)
     return total([*runs, compared])
@@ -177,7 +177,7 @@ def steps_of(solver: Mapping, problem: Mapping, needs: Demand) -> tuple[float, f
     return cost.steps(solver, needs, span_of(problem), problem["output_step"])
 
 
-ORDINARY = {
+CHEAP_VALUES = {
     "half_width": {"half_width": 30},
     "sites": {"half_width": 30, "site_count": None},
     "output_step": {"output_step": 0.025},
@@ -193,18 +193,18 @@ def find_excess(
     problem: Mapping,
     limits: Mapping[str, float],
     estimate_cost: Callable[[Mapping], RunCost] = estimate,
-    ordinary: Mapping[str, Mapping] = ORDINARY,
+    cheap_values: Mapping[str, Mapping] = CHEAP_VALUES,
     subject: str = "the run",
 ) -> Obstacle | None:
     """Return (key, message) if a run exceeds the limits on time or memory, else None.
 
-    The key is the one for which the `ordinary` values would save most. `estimate_cost` returns the
+    It is the key for which `cheap_values` would lower the cost most. `estimate_cost` returns the
     cost of a problem, and `subject` names the run in the message.
     """
     cost = estimate_cost(problem)
     if cost.excess(limits) <= 1.0:
         return None
-    costs = {key: estimate_cost({**problem, **values}) for key, values in ordinary.items()}
+    costs = {key: estimate_cost({**problem, **values}) for key, values in cheap_values.items()}
     key = min(costs, key=lambda key: costs[key].excess(limits))
     return key, name_excess(cost, limits, subject)
 

@@ -110,7 +110,7 @@ def parse(text: str) -> tuple[Any, list[str]]:
         faults = list(_faults(node, (), set(), loader)) if node else []
         return (None, faults) if faults else (loader.construct_document(node) if node else None, [])
     except yaml.YAMLError as error:
-        return None, [_in_words(error, text)]
+        return None, [_describe_yaml_error(error, text)]
 
 
 def _pairs(pairs: list, faults: list[str]) -> dict:
@@ -202,7 +202,7 @@ def _surprises(node: yaml.ScalarNode, tag: str, loader: yaml.CSafeLoader) -> Ite
         yield f"{text[:60]} is not a {'date' if tag == 'timestamp' else 'number'} that can be read"
 
 
-def _in_words(error: yaml.YAMLError, text: str) -> str:
+def _describe_yaml_error(error: yaml.YAMLError, text: str) -> str:
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
     problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
     if mark is None:
@@ -254,7 +254,7 @@ def _located(entry: Any, paths: Mapping[str, tuple[str, ...]], folder: Path) -> 
 
 
 def gather(files: list[Path], entries: Mapping) -> dict:
-    """Return the merged content of `files` and `entries`: later files overrule, and entries all."""
+    """Return `files`, then `entries`, merged in this order: each overrides those before it."""
     merged: dict = {}
     for path in files:
         merged = merge(merged, with_paths(read(path), Path(path).parent))

@@ -44,7 +44,7 @@ WORDS = {
 }
 
 
-def in_words(
+def configuration_error(
     error: ValidationError, subject: str, root: type[BaseModel], place: tuple = ()
 ) -> ConfigurationError:
     """Return the exception that lists all errors of `subject`, at the path `place` in `root`."""

@@ -18,7 +18,7 @@ from latticode.integrators.families import remark_on
 from . import cost
 from .cases import CaseSection, is_multiple
 from .cost import RunCost
-from .messages import in_words
+from .messages import configuration_error
 from .solvers import DEFAULT, Solver, Solvers, with_controls
 from .surveys import SurveySection
 from .values import Distinct, Name, Natural, Positive, Section, Window, excerpt_of, faults
@@ -50,7 +50,7 @@ class Sweep(Section):
     @model_validator(mode="after")
     def _consistent(self) -> "Sweep":
         all_faults = [
-            ("windows", f"[{start:g}, {end:g}] does not run forward from a time >= 0")
+            ("windows", f"[{start:g}, {end:g}] must satisfy 0 <= start < end")
             for start, end in self.windows
             if not 0 <= start < end
         ]
@@ -156,10 +156,10 @@ class Configuration(Section):
     def _excess_of_case(self, name: str) -> list[tuple[str, str]]:
         case, limits = self.cases[name], self.limits.model_dump()
         subject, estimate_cost = self.cost_estimate(name)
-        excess = cost.find_excess(case.problem(), limits, case.cost, case.ordinary)
-        # only now with snapshots: choosing their times takes long for a run of too many steps
+        excess = cost.find_excess(case.problem(), limits, case.cost, case.cheap_values)
+        # snapshots come second: choosing their times takes long for a run of too many steps
         excess = excess or cost.find_excess(
-            case.shown_problem(), limits, estimate_cost, case.ordinary, subject
+            case.shown_problem(), limits, estimate_cost, case.cheap_values, subject
         )
         return [excess] if excess else []
 
@@ -211,10 +211,10 @@ class Configuration(Section):
         if total.excess(limits) <= 1.0:
             return []
         many = self.sweeps[name].half_widths
-        ordinary = self._sum_of(name, ({"half_width": 30} for _ in many))
+        narrow = self._sum_of(name, ({"half_width": 30} for _ in many))
         end = self.cases[self.sweeps[name].case].start_time + 50.0
         short = self._sum_of(name, ({"half_width": m, "end_time": end} for m in many))
-        key = "windows" if short.excess(limits) < ordinary.excess(limits) else "half_widths"
+        key = "windows" if short.excess(limits) < narrow.excess(limits) else "half_widths"
         return [(key, cost.name_excess(total, limits))]
 
     def cost_of_sweep(self, name: str) -> RunCost:
@@ -256,7 +256,7 @@ class Configuration(Section):
         }
 
     def cost_of_survey(self, name: str, chunks: int = 1) -> RunCost:
-        """Return the cost of a chunk of a survey if each run costs as much as the worst corner."""
+        """Return the cost of a chunk of a survey; all runs cost as much as the costlier corner."""
         survey, base = self.surveys[name], self.cases[self.surveys[name].case]
         runs = -(-prod(survey.plan.shape) // chunks)
         dearest = max(
@@ -279,7 +279,7 @@ class Configuration(Section):
             costs[f"cases.{name}: {subject} {verb}"] = estimate_cost(case.shown_problem())
         costs |= {f"sweeps.{name}: the run takes": self.cost_of_sweep(name) for name in self.sweeps}
         costs |= {f"surveys.{n}: its runs take": self.cost_of_survey(n) for n in self.surveys}
-        long = [f"{k} {total}" for k, total in costs.items() if total.seconds > cost.WORTH_SAYING]
+        long = [f"{k} {total}" for k, total in costs.items() if total.seconds > cost.LONG_RUN]
         solvers = {name: case.problem()["solver"] for name, case in self.cases.items()}
         remarks = {name: remark_on(solver) for name, solver in solvers.items()}
         return [*(f"cases.{name}: {text}" for name, text in remarks.items() if text), *long]
@@ -314,4 +314,4 @@ def load(raw: dict) -> Configuration:
     try:
         return Configuration.model_validate(raw)
     except ValidationError as error:
-        raise in_words(error, "the configuration", Configuration) from None
+        raise configuration_error(error, "the configuration", Configuration) from None

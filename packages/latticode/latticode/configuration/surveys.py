@@ -31,7 +31,7 @@ MOST_RUNS = 10_000_000
 FARTHEST = 5.0
 """In standard deviations; normal random numbers are hardly ever larger."""
 MOST_CHECKED = 1000
-"""The longest axis with all values checked before the runs; of longer ones, the ends are."""
+"""Axes of at most this many values are checked in full before the runs, others at both ends."""
 
 
 class GridSection(Section):
@@ -88,7 +88,7 @@ class SurveySection(Section):
     case: Name
     axes: dict[str, Axis] = {}
     together: dict[str, Column] = {}
-    """Values that vary together along one more axis, the last: lists of equal length, by name."""
+    """Lists of equal length, by name, that vary together along one more axis, which is the last."""
     members: MembersSection | None = None
     keep: Annotated[list[KeptName], Field(min_length=1), Distinct] = ["max_l2"]
     window: Window | None = None
@@ -105,9 +105,9 @@ class SurveySection(Section):
         if not (self.axes or self.together or self.members):
             all_faults.append(("axes", "is empty, and there are no members: give an axis"))
         if runs > MOST_RUNS:
-            all_faults.append(("axes", f"make {runs} runs; the most is {MOST_RUNS}"))
+            all_faults.append(("axes", f"make {runs} runs; at most {MOST_RUNS} are allowed"))
         if self.window and not 0 <= self.window[0] < self.window[1]:
-            text = f"[{self.window[0]:g}, {self.window[1]:g}] does not run forward from a time >= 0"
+            text = f"[{self.window[0]:g}, {self.window[1]:g}] must satisfy 0 <= start < end"
             all_faults.append(("window", text))
         if all_faults:
             raise faults(all_faults)
@@ -115,7 +115,7 @@ class SurveySection(Section):
 
     @property
     def plan(self) -> survey.Survey:
-        """The survey for `latticode.simulation`; numbers are real or whole where possible."""
+        """The survey for `latticode.simulation`; complex values become real or whole if exact."""
         columns = self._columns()
         axes = {name: columns[name] for name in self.axes}
         if rows := [columns[name] for name in self.together]:

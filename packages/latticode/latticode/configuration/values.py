@@ -173,7 +173,7 @@ class Steps(Section):
     @model_validator(mode="after")
     def _forward(self) -> "Steps":
         if not self.first < self.last:
-            raise fault(f"does not run forward from {self.first:g} to {self.last:g}")
+            raise fault(f"first is {self.first:g}; it must be less than last, {self.last:g}")
         return self
 
     @property

@@ -99,7 +99,7 @@ def broken(check: dict) -> dict[str, float]:
 
 
 def describe(name: str, check: dict) -> str:
-    """Return a message for each variable that exceeds its tolerance, or that the check holds."""
+    """Return a line for each variable that exceeds its tolerance, or "NAME holds" if none does."""
     faults = [
         f"CHECK VIOLATED: {name}: {variable} is {worst:.6g}, tolerance {limit:.6g}"
         for variable, (worst, limit) in deciding(check).items()

@@ -42,5 +42,5 @@ def digest(dataset: "Dataset") -> str:
 
 
 def fingerprint(text: str) -> str:
-    """Return the SHA-256 of a text; PNG and PDF files contain that of their description."""
+    """Return the SHA-256 of a text. PNG and PDF files contain the SHA-256 of their description."""
     return sha256(text.encode("utf-8")).hexdigest()

@@ -167,8 +167,8 @@ def read(path: str | Path) -> "Dataset":
 def readable(path: str | Path) -> Iterator[None]:
     """Verify the seal of a file, and turn any error of the block into a DatasetError with a remedy.
 
-    Files without a seal are accepted, since other programs write them. Any error, because libraries
-    raise many types for a damaged file, such as one with unreadable names or impossible sizes.
+    Files without a seal are accepted, since other programs write them. All errors are caught:
+    libraries raise many types for damage, such as unreadable names or impossible sizes.
     """
     try:
         content = Path(path).read_bytes()

@@ -60,7 +60,7 @@ SOLVER_NAMES = {name: method.label for name, method in NAMED.items()} | {
 
 
 class NamingError(ValueError):
-    """A variable has no description, or units that its name does not have."""
+    """A variable has no long name, or units that are not allowed for its name."""
 
 
 def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]:

@@ -26,7 +26,7 @@ LONG_NAMES = {
     "mean": "mean of the {norm} over the window",
     "final": "{norm} at the end time",
     "exponent": "exponent of time with which the power of all fields grows in the window",
-    "divergence": "first time at which a run by another method differs visibly; infinite: at none",
+    "divergence": "first time at which a run by another method differs visibly; infinite: never",
 }
 """Long names of kept results."""
 TEXTS = {
@@ -44,7 +44,7 @@ COUNTS = {
 
 
 def make_survey(name: str, problem: Problem, survey: Mapping[str, Any]) -> ManyRuns:
-    """Return the runs of a survey, given as plain values; they conclude with its `Contents`."""
+    """Return the runs of a survey in plain values; the result of the study is its `Contents`."""
     members = survey["members"] and Members(**survey["members"])
     plan = Survey(
         survey["axes"],

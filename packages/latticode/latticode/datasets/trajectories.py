@@ -33,7 +33,7 @@ def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> 
 
 
 def trajectory_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
-    """Return norms, conserved quantities with names of their own, and snapshots."""
+    """Return norms, conserved quantities that have their own variables, and snapshots."""
     names, every = problem.equations.names, len(trajectory.snapshot_tau)
     variables = {
         "tau": Variable(("tau",), trajectory.tau),

@@ -268,7 +268,7 @@ def save(
     the description contains the digest of the data. A picture of different data is thus detected.
     """
     if note:
-        # without a layout engine the panels are not moved: only the left half below them is free
+        # without a layout engine the panels make no room, and only the left half below is free
         has_layout = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
         text = fill(note, NOTE if has_layout else NOTE * 2 // 5)
         figure.supxlabel(text, x=0.5 if has_layout else 0.22, fontsize=7)
@@ -298,7 +298,7 @@ def save(
 
 
 def _measure_less(figure: Figure) -> None:
-    """Exclude the sides of panels that have no ticks from the layout, which they do not affect.
+    """Exclude sides of panels without ticks from the layout, because they do not affect it.
 
     Measuring a side is slow, because matplotlib computes all ticks of its axis again.
     """

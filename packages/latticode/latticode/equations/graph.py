@@ -286,7 +286,7 @@ def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[No
     derivatives: dict[Node, Node] = {}
 
     def of_sum(build: Callable, a: Node, b: Node) -> Node:
-        """Return the derivative of a + b or a - b; for b = c d in the order (a' + c d') + c' d."""
+        """Return the derivative of a + b or a - b; for b = c d it is (a' + c d') + c' d."""
         if b.operation != "mul" or b.operands[0] is b.operands[1]:
             return build(derivatives[a], derivatives[b])
         c, d = b.operands

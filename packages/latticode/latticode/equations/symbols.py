@@ -35,7 +35,7 @@ ARRAYS = (
     "and shift(u, m), and a value for each site is a parameter"
 )
 LONGEST_SHIFT = 7
-"""The largest distance in sites to a neighbour, which must be in the next vector of eight sites."""
+"""Largest distance in sites to a neighbour: it must be in the same or the next vector of eight."""
 BRANCH = (
     "a comparison or a branch uses a symbol, which has no value yet; write max(a, b), "
     "where(x > 0, a, b), abs(x) or sign(x) of latticode"

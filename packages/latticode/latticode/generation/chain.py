@@ -55,7 +55,7 @@ def close(chain: Any, y: Array) -> None:
 
 @kernel
 def seen_at(chain: Any, site: int, sites: int) -> int:
-    """Return which site has the value of `site`, which may be beyond an end; -1 if it is at rest.
+    """Return the site with the value of `site`, which may lie beyond an end; -1 if it is at rest.
 
     Sites are counted from 0.
     """
@@ -71,7 +71,7 @@ def seen_at(chain: Any, site: int, sites: int) -> int:
 
 @kernel
 def sign_at(chain: Any, site: int, sites: int) -> float:
-    """Return the sign with which `site` has the value of the site `seen_at`."""
+    """Return the factor, 1 or -1, between the values at `site` and at the site `seen_at`."""
     outside = site < 0 or site >= sites
     return -1.0 if outside and chain.left == ANTIPERIODIC else 1.0
 
@@ -123,7 +123,7 @@ def modulus2(y: Array, re: int, j: int) -> float:
 
 @kernel
 def can_be_tiled(chain: Any) -> bool:
-    """Return whether tiles of the chain may take a step one by one, which a ring does not allow."""
+    """Return whether a step may be computed tile by tile, which is impossible on a ring."""
     return chain.left != PERIODIC and chain.left != ANTIPERIODIC
 
 

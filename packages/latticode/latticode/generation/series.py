@@ -35,7 +35,7 @@ from .chain import seen_at, sign_at
 
 @inlined_by_llvm
 def place_of(chain: Any, series: PowerSeries, site: int) -> int:
-    """Return where an order has the value of `site`, also beyond an end; -1 if it is at rest."""
+    """Return the offset in an order of the value of `site`, as `seen_at`; -1 if it is at rest."""
     at = seen_at(chain, site, (series.blocks - 1) * LANES + series.sites_in_last)
     return at // LANES * BLOCK_SIZE + at % LANES if at >= 0 else -1
 
@@ -95,8 +95,7 @@ def sides_of(series: PowerSeries, k: int, component: int, block: int) -> tuple[i
 SHORT = 32
 """Chains of more blocks are computed in waves, which is faster for them."""
 GROUP = 8
-"""Blocks whose order is computed together. They and the blocks one order behind fit into the
-cache."""
+"""Number of blocks computed together; they fit into the cache with the blocks one order behind."""
 
 
 def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -> Callable:

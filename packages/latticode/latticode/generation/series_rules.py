@@ -105,8 +105,10 @@ class SeriesWriter:
         return {expression: i for i, expression in enumerate(needed)}
 
     def _is_stored(self, expression: Node) -> bool:
-        """Return whether all orders are in memory anyway: for clocks, fields at the site, and
-        differences of two such fields."""
+        """Return whether all orders are in memory anyway.
+
+        This holds for clocks, fields at the site, and differences of two such fields.
+        """
         if expression.operation == "sub":
             return all(a.operation == "field" and self._is_stored(a) for a in expression.operands)
         return expression in self.clocks or (

@@ -57,7 +57,7 @@ class ModelInputs(NamedTuple):
 
 
 def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInputs:
-    """Return the inputs of expressions. Constants are the largest parts without time and fields."""
+    """Return the inputs of expressions. Constants are the largest terms free of time and fields."""
     constants, at_sites, clocks = {}, {}, {}
 
     def visit(expression: Node) -> None:

@@ -13,12 +13,12 @@ loop reads it at every step and then ends (see latticode.simulation.interrupts).
 
 For equations that depend on time, `build` takes `at_time(system, t)`, which returns the system at
 time t. It is called before every call of `rates`, or once per step for a power series. In floating
-point t + h - t may differ from h; with `at_time` the step is rounded to t + h - t, because the
-equations would notice the difference.
+point t + h - t may differ from h. With `at_time` the step is rounded to t + h - t, which is the
+difference of the times at which the equations are evaluated.
 
 Every explicit method measures errors by the largest component. It therefore takes the same steps on
-half of a chain that is even in n. Its loop steps to `t_new`, which may pass several outputs `i`,
-and interpolates those.
+half of a chain that is even in n. Its loop steps to `t_new` and interpolates all outputs `i` that
+this step has passed.
 """
 
 from typing import NamedTuple

@@ -50,8 +50,7 @@ def work_arrays(sites: int) -> int:
 
 # numba types literals separately and would compile `write_sum` again
 FIFTH, THIRD, CURVE = np.int64(17), np.int64(18), 19
-"""Rows of the table with the weights of the two error estimates, and the interpolant's first row.
-"""
+"""Rows of the table: weights of the two error estimates, and the first row of the interpolant."""
 ROWS = table(
     {**STAGES, FIFTH: E5, THIRD: E3, **dict(enumerate((D4, D5, D6, D7), CURVE))}, CURVE + 4
 )
@@ -300,7 +299,7 @@ def build(
         most_growth = 6.0
         overflowed = not h < np.inf
         shortest = SMALLEST_PART * (end - t)
-        if h <= shortest:  # the first guess may be too short, and is no reason to stop
+        if h <= shortest:  # a first guess that is too short is no reason to stop
             h = 2.0 * shortest
         while i < times.size:
             if stop[0]:

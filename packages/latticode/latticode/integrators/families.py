@@ -42,7 +42,7 @@ def other_family(solver: str, names: Collection[str]) -> str:
 COARSEST, FINEST, REFINEMENT = 1e-4, 1e-15, 0.1
 """Coarsest and finest tolerance of `auto`, and the largest ratio of successive tolerances."""
 MARGIN_OF_START, PER_RADIAN, MOST_ADDED = 20.0, 0.2, 1e4
-"""Final error over tolerance: of short runs, its increase per radian, and the largest increase."""
+"""Ratio of final error to tolerance in short runs, its increase per radian and largest increase."""
 
 
 def pair_of(names: Collection[str]) -> tuple[str, ...]:
@@ -73,7 +73,7 @@ def next_tolerance(tolerance: float, missing: float) -> float:
 def instead_of_taylor(solver: Mapping[str, Any]) -> dict[str, Any]:
     """Return the controls of dop853 that replace those of `taylor`.
 
-    Its tolerances are ten times as large, as are its defaults.
+    Tolerances are multiplied by ten, the ratio of the two methods' default tolerances.
     """
     return {"name": "dop853", "rtol": 10.0 * solver["rtol"], "atol": 10.0 * solver["atol"]}
 

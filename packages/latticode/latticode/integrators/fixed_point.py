@@ -1,7 +1,7 @@
 """Implicit steps by fixed-point iteration, as the schemes of `crank_nicolson` need them.
 
-A step solves new = base + factor G(new) for the new state. It has no step control or error
-estimate in common with the explicit methods.
+A step solves new = base + factor G(new) for the new state. This module shares no step control or
+error estimate with the explicit methods.
 
 The iteration starts from a polynomial extrapolation of the last six steps. It stops when no number
 changes by more than tolerance * |y|, where |y| is the largest number in the state at the previous
@@ -113,7 +113,7 @@ def build(begin: Callable, slope: Callable, observe: Callable) -> Callable:
             change = update(base, factor, scratch[2], threshold, new)
             if change <= enough:
                 return True, evaluations + count
-            # the first change depends on the guess and says nothing about convergence
+            # the first change depends on the guess and is no sign of convergence
             if not change < np.inf or (count > 2 and change >= last):
                 return False, evaluations + count
             last = change

@@ -117,8 +117,8 @@ class Method:
     step_divides_outputs: ClassVar[bool] = False
     """Whether the control `step` must divide the time between two outputs."""
     continues_exactly: ClassVar[bool] = False
-    """Whether a run continued from its final state has the bits of a single run. Steps then end
-    at outputs and depend only on the state."""
+    """Whether a continued run has the bits of a single run, because its steps end at outputs and
+    depend only on the state."""
     takes_tiles: ClassVar[bool] = False
     """Whether `build` takes the arguments `can_be_tiled` and `system_of_tile` (see `dop853`)."""
     look: ClassVar[tuple[str, str] | None] = None

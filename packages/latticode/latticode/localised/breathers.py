@@ -175,7 +175,7 @@ def find_state(problem: Problem) -> LocalisedState:
         state, power = uncoupled(problem, even)
     except NoStateError:
         raise NoStateError(
-            "no such state of a single uncoupled site near the data; change them"
+            "a single uncoupled site has no such state near the data; change the data"
         ) from None
     return coupled(problem, state, power)
 

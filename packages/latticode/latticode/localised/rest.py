@@ -14,7 +14,7 @@ from .linearised import linearise
 MOST_NAMED = 4
 """Number of sites that a message lists by number."""
 PRESENT = 1e-6
-"""Smallest amplitude at a site that counts as part of a growing mode, relative to its largest."""
+"""A site is part of a growing mode if its amplitude exceeds this fraction of the mode's largest."""
 
 
 def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarray, float]:

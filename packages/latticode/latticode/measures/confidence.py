@@ -67,9 +67,9 @@ def difference_limits(
 def chance_inside(most: int, draws: int, members: int) -> float:
     """Return the probability that at most `most` of `draws` lie in the range of `members` values.
 
-    All values are independent with the same continuous distribution. The result depends only on
-    their order: it is the share of orders with enough draws below the first or above the last
-    member, to three digits.
+    All values are independent with the same continuous distribution, so all orders of draws and
+    members are equally likely. The result, to three digits, is the share of orders with enough
+    draws below the lowest or above the highest member.
     """
     total = special.gammaln(np.array([draws + members + 1.0, members + 1.0, draws + 1.0]))
     outside = np.arange(draws - most, draws + 1.0)

@@ -32,7 +32,7 @@ VISIBLE = 0.01
 NORMS = ("linf", "l2")
 PARAMETERS = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "output_step")
 
-ABSENT = "infinite: at no tau that both have; NaN: not known"
+ABSENT = "infinite: at no common tau; NaN: unknown"
 """The meaning of times that are not finite, for the long names of variables."""
 
 

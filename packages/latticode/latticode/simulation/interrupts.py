@@ -129,8 +129,8 @@ def interruptible(run: Callable, *arguments: Any) -> Any:
     """Return run(*arguments, stop), a run that Ctrl-C can stop.
 
     The flag `stop` is an array of one boolean. `run` must release the GIL and read the flag at
-    every step, or call this function for such runs, which then share its thread and flag. Raises
-    the errors of the run, and KeyboardInterrupt if the caller or the main thread is interrupted.
+    every step, or consist of calls of this function, which share one thread and flag. Raises the
+    errors of the run, and KeyboardInterrupt if the caller or the main thread is interrupted.
     """
     stop = getattr(_thread_state, "stop", None)
     if stop is not None:
@@ -219,8 +219,8 @@ def _wait(ends: SimpleQueue) -> tuple[Any, BaseException | None]:
 def _main_thread_is_interrupted() -> bool:
     """Return whether the main thread is handling a KeyboardInterrupt.
 
-    Python raises it only in the main thread. When this leaves a pool of threads, it waits for their
-    runs, which must therefore stop by themselves.
+    Python raises it only in the main thread. If this thread then leaves a pool of threads, it waits
+    for the pool's runs, which must therefore stop by themselves.
     """
     main = threading.main_thread()
     if main is threading.current_thread():

@@ -238,7 +238,7 @@ class _ComparedRuns(NamedTuple):
         return compare(first, second)
 
     def agreeing(self, methods: Sequence[str]) -> Trajectory:
-        """Return a run that agrees within the error with one by a method of another family."""
+        """Return a run that a method of another family confirms within the error."""
         names = pair_of(methods)
         tolerance, before = first_tolerance(self.error, angle_of(self.problem)), None
         while True:
@@ -269,7 +269,7 @@ class _ComparedRuns(NamedTuple):
     def supported(
         self, pair: tuple[Trajectory, ...], between: Agreement, third: str | None
     ) -> Trajectory:
-        """Return the trajectory of a pair that agrees with a run by a third method.
+        """Return whichever trajectory of a pair agrees with a run by a third method.
 
         Raises IntegrationError if neither does.
         """

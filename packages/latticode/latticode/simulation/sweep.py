@@ -14,8 +14,8 @@ from .simulate import Trajectory, simulate
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")
 REACHED = 1e-20
-"""Power at an end of the chain, relative to the largest at a site, above which the ends matter.
-Below it their effect on norms is far below rounding."""
+"""The ends matter if the power at an end site is above this fraction of the largest at a site.
+Otherwise their effect on norms is far below rounding."""
 
 Window = tuple[float, float]
 

@@ -27,7 +27,7 @@ from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .observables import ObservableRecord, blank_record
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
-"""Modes of numpy.pad for values beyond the ends, by the sites where the ends take their values."""
+"""Modes of numpy.pad that give the values beyond the ends, by `Ends.sees`."""
 HEAD_OF_RUNS = """
 from latticode.integrators.methods import NAMED
 from latticode.kernels.compiled import kernel
@@ -60,7 +60,7 @@ def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str
     """Return the methods of these names with the kernels of the module `home`, by name.
 
     The module defines `observe`, the rules of the methods, `can_be_tiled`, `system_of_tile`, and
-    `at_time` if it is `driven`. Its `WORK`, if defined, is the number of work arrays of a power
+    `at_time` if `driven`. Its `WORK`, if defined, is the number of work arrays of a power
     series.
     """
     methods = [NAMED[name] for name in names]

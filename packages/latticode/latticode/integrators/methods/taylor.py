@@ -37,7 +37,7 @@ class Taylor(Method):
         if peak == 0.0 or rate * span < 1e-6:
             return None
         octaves = abs(frexp(peak)[1]) + self.order * (abs(frexp(rate)[1]) + 1)
-        if octaves < LARGEST_EXPONENT:  # the usual case, which needs no logarithms since 2 < 10
+        if octaves < LARGEST_EXPONENT:  # the usual case; 2**n < 10**n, so no logarithm is needed
             return None
         power = (log(peak) + self.order * log(rate)) / log(10.0)
         if abs(power) > LARGEST_EXPONENT:
