@@ -82,5 +82,5 @@ def test_a_sweep_of_pendula_is_one_of_angles(swept):
 
 
 def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():
-    with pytest.raises(ConfigurationError, match="differ in model, mu"):
+    with pytest.raises(ConfigurationError, match="differs in model, mu"):
         check(SWING, simulate(Case(omega=-4, half_width=8, end_time=2)).assign(final=0))
