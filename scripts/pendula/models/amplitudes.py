@@ -13,6 +13,7 @@ from latticode.equations.graph import neg
 from latticode.generation.chain import MIRROR, at_every_site, close, modulus2
 from latticode.generation.chain import can_be_tiled as can_be_tiled
 from latticode.generation.modules import load_function, load_rule, load_series
+from latticode.integrators.taylor import PowerSeries
 from latticode.kernels.compiled import kernel
 from latticode.simulation.observables import ObservableRecord, observe_moduli
 
@@ -47,9 +48,14 @@ field = load_function((neg(_im_rate), _re_rate))
 """The function (constants, seen) -> (Re F, Im F) for A, where i A' = F; for B, exchange A and B.
 
 See `generation.modules.load_function`; in `seen`, A is field 0 and B is field 1."""
-continue_series = load_series(AMPLITUDE_MODEL).continue_in_waves
-"""The function (chain, series) that writes the coefficients of all orders from those of order 0."""
+continue_in_waves = load_series(AMPLITUDE_MODEL).continue_in_waves
 write_rates = at_every_site(load_rule(AMPLITUDE_MODEL.rates, "y"))
+
+
+@kernel
+def continue_series(chain: AmplitudeChain, series: PowerSeries) -> None:
+    """Write the coefficients of all orders from those of order 0."""
+    continue_in_waves(chain, series)
 
 
 @kernel

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from latticode.equations.ends import ANTIPERIODIC, FREE, MIRROR, PERIODIC
-from latticode.kernels.compiled import inlined_by_llvm, kernel
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, kernel
 from latticode.kernels.simd import LANES, vector_views
 
 Array = np.ndarray
@@ -135,14 +135,14 @@ def at_every_site(rule: Callable, rows: int = 2) -> Callable:
     the same bits, which is faster than single sites.
     """
 
-    @inlined_by_llvm
+    @in_one_pass
     def walk(chain: Any, states: tuple, dy: Any, width: int) -> None:
         last = dy.shape[1] - 1 - width  # the column at which the last block starts
         for re in range(0, dy.shape[0], rows):
             for j in range(1, dy.shape[1] - 1, width):
                 rule(chain, states, re, min(j, last), dy)
 
-    @inlined_by_llvm
+    @in_one_pass
     def write(chain: Any, states: tuple, dy: Array) -> None:
         """Write `dy` from a tuple of states with filled ghosts."""
         if dy.shape[1] - 2 < LANES:

@@ -4,6 +4,7 @@ The text depends only on the model and on which of its parameters have a value f
 saved in the kernel cache, and its kernels are in a folder named by a hash of it.
 """
 
+import linecache
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -29,12 +30,13 @@ def at_time(system, t):
     return System(system.constants, clocks, *others)
 """
 CLOCKS = """
-@inlined_by_llvm
-def write_clocks(system, m, d):
+@in_one_pass
+def write_clocks(system, series):
+    m, d = series.memory, spare_start(series)
 {series}
 @kernel
 def continue_series(system, series):
-    write_clocks(system, series.memory, spare_start(series))
+    write_clocks(system, series)
     continue_in_waves(system, series)
 """
 CLOCK_SERIES = """\
@@ -146,6 +148,7 @@ def load_text(text: str) -> ModuleType:
     """
     file = keep_source("model.py", text)
     module = ModuleType(f"latticode_model_{file.parent.name}")
+    linecache.cache[str(file)] = len(text), None, text.splitlines(keepends=True), str(file)
     sys.modules[module.__name__] = module
     exec(compile(text, str(file), "exec"), module.__dict__)
     return module

@@ -13,7 +13,7 @@ from latticode.equations.symbols import ModelError
 from .statements import FunctionText, Names, inputs_of, require_exchangeable, stages_of
 
 RULE = """
-@inlined_by_llvm
+@in_one_pass
 def {name}_at_site(system, states, re, j, dy):
     {unpacked}
 {statements}

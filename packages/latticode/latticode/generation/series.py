@@ -10,7 +10,6 @@ the whole chain.
 from collections.abc import Callable
 from typing import Any
 
-from latticode.equations.ends import ANTIPERIODIC, PERIODIC
 from latticode.integrators.taylor import (
     BLOCK_SIZE,
     LEFT,
@@ -23,10 +22,10 @@ from latticode.integrators.taylor import (
     block_start,
     ghosts_start,
 )
-from latticode.kernels.compiled import inlined_by_llvm, uncached
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm
 from latticode.kernels.simd import LANES, fill, keep_lanes, load, store
 
-from .chain import seen_at, sign_at
+from .chain import can_be_tiled, seen_at, sign_at
 
 # --- The ends of the chain: `close` of `chain`, one order at a time ------------------------
 # The padding of a last block has the values of its ghost in every order. These never exceed the
@@ -43,7 +42,7 @@ def place_of(chain: Any, series: PowerSeries, site: int) -> int:
 def close_ends(reach: int) -> Callable:
     """Return the function that fills ghosts and padding of order k, for rates of this reach."""
 
-    @inlined_by_llvm
+    @in_one_pass
     def close(chain: Any, series: PowerSeries, k: int, at_left: bool, at_right: bool) -> None:
         m, sites_in_last, before = series.memory, series.sites_in_last, series.blocks - 1
         for i in range(reach):
@@ -107,7 +106,7 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
     """
     close_order = close_ends(reach)
 
-    @uncached
+    @in_one_pass
     def continue_series(chain: Any, series: PowerSeries) -> None:
         """Write the coefficients of all orders from those of order 0.
 
@@ -118,7 +117,7 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
         """
         blocks = series.blocks
         # the first block of a ring needs the last one
-        at_once = everywhere or blocks <= SHORT or chain.left in (PERIODIC, ANTIPERIODIC)
+        at_once = everywhere or blocks <= SHORT or not can_be_tiled(chain)
         group, lag = (blocks, 0) if at_once else (GROUP, 1)
         for start in range(0, blocks + lag * ORDER, group):
             for k in range(ORDER + 1):

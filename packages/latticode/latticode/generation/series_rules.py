@@ -44,7 +44,7 @@ RULE = """
 SPARE = {spare} * LANES
 WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
 {shifts}
-@inlined_by_llvm
+@in_one_pass
 def write_next_order(system, series, k, first, last):
     m, d, share = series.memory, spare_start(series), 1.0 / (k + 1)
     at_start = 1.0 if k == 0 else 0.0

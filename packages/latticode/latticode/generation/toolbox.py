@@ -11,7 +11,7 @@ import numpy as np
 
 from latticode.integrators import taylor
 from latticode.integrators.taylor import EXTRA, ORDER, ORDER_STRIDE, X, Y, block_start, spare_start
-from latticode.kernels.compiled import inlined_by_llvm, kernel
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, kernel
 from latticode.kernels.simd import (
     LANES,
     TINY,

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.kernels.compiled import inlined_by_llvm, inlined_by_numba, kernel
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, inlined_by_numba, kernel
 from latticode.kernels.simd import (
     LANES,
     fill,
@@ -78,7 +78,7 @@ class PowerSeries(NamedTuple):
     sites_in_last: int  # lanes with sites in a component's last block; the others are padding
 
 
-@inlined_by_llvm
+@kernel
 def lay_out(work: Array, y: Array) -> PowerSeries:
     """Return a series for states of the shape of `y`, in the memory of `work`."""
     sites = y.shape[1] - 2
@@ -135,7 +135,7 @@ def sum_at(m: Array, i: int, h: float) -> Any:
     return total
 
 
-@inlined_by_llvm
+@in_one_pass
 def advance(series: PowerSeries, h: float, threshold: float) -> None:
     """Replace order 0 by the sum of the series at time `h`, the state after the step.
 

@@ -52,8 +52,9 @@ def _with_numba_alone(function: Callable, root: Path | None, **options: Any) -> 
 
 if version("numba").rpartition(".")[0] in TESTED:
     from .inside_numba import make_kernel
+    from .one_pass import in_one_pass
 else:
-    make_kernel = _with_numba_alone
+    make_kernel, in_one_pass = _with_numba_alone, None
     warnings.warn(
         f"kernels take twice as long to compile with numba {version('numba')}; results are the"
         f" same. The faster compiler was tested with numba {', '.join(TESTED)}",
@@ -82,6 +83,9 @@ def inlined_by_numba(function: Callable) -> Callable:
 def inlined_by_llvm(function: Callable) -> Callable:
     """Return a function that LLVM inlines, because a call would move vectors to memory."""
     return _compiled(function, forceinline=True)
+
+
+in_one_pass = in_one_pass or inlined_by_llvm
 
 
 def _compiled(function: Callable, root: Path | None = None, **options: Any) -> Callable:

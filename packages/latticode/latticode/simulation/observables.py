@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from latticode.generation.chain import MIRROR, modulus2
-from latticode.kernels.compiled import inlined_by_llvm, uncached
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, uncached
 from latticode.kernels.simd import largest_magnitude
 
 
@@ -69,7 +69,7 @@ def sums_over_chain(chain: Any, a: np.ndarray, b: np.ndarray) -> tuple[float, fl
 def norms_by(square: Callable) -> Callable:
     """Return the kernel that writes the norms of a state, from square(y, row, j) = |A_n|^2."""
 
-    @inlined_by_llvm
+    @in_one_pass
     def write_norms(chain: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
         """Write the l-infinity and l2 norms of each component over the whole chain."""
         squares, last = record.scratch, y.shape[0] // 2 - 1
@@ -90,14 +90,18 @@ def observer(square: Callable, keep_site: Callable) -> Callable:
     """Return the kernel that stores norms, and snapshots by keep_site(y, k, j, snapshot, array)."""
     write_norms = norms_by(square)
 
-    @uncached
-    def observe(system: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
+    @in_one_pass
+    def write(system: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
         """Write the observables of the state `y` at output `i`."""
         write_norms(system, y, i, record)
         if record.every > 0 and i % record.every == 0:
             for k in range(y.shape[0] // 2):
                 for j in range(1, y.shape[1] - 1):
                     keep_site(y, k, j, i // record.every, record.snapshots)
+
+    @uncached
+    def observe(system: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
+        write(system, y, i, record)
 
     return observe
 

@@ -1,0 +1,57 @@
+"""Functions that are translated in one pass compute what numba's own compiler computes."""
+
+import numpy as np
+import pytest
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, uncached
+from latticode.kernels.simd import fill, load, store
+from numba.core.errors import NumbaError
+
+SHIFT = 3
+
+
+@inlined_by_llvm
+def halves(x, k):
+    return 0.5 * x, k // 2
+
+
+def write_sums(values, out, offset, is_even):
+    total, last = 0.0, values.shape[0] - 1
+    for k in range(last, -1, -1):
+        half, by = halves(values[k, 1], k)
+        if by % 2 == 0 and not is_even:
+            total = total - half / (k + 1)
+        else:
+            for j in range(1, by):
+                total += (1.0 * j) * values[min(j, last), 0]
+        out[k] = -total if k > SHIFT or is_even else total + offset
+    wide = fill(total) * load(values, 0)
+    store(out, last + 1, 2.0 * wide - load(values, 1))
+
+
+def filled(written, offset, is_even):
+    """Return what a function of this module writes."""
+
+    @uncached
+    def run(values, out, offset, is_even):
+        written(values, out, offset, is_even)
+
+    values, out = np.random.default_rng(1).normal(size=(10, 2)), np.zeros(18)
+    run(values, out, offset, is_even)
+    return out
+
+
+@pytest.mark.parametrize(("offset", "is_even"), [(0.25, True), (0.25, False), (2, False)])
+def test_a_translated_function_has_the_bits_of_a_compiled_one(offset, is_even):
+    translated = filled(in_one_pass(write_sums), offset, is_even)
+    np.testing.assert_array_equal(translated, filled(uncached(write_sums), offset, is_even))
+    assert np.count_nonzero(translated) > 10
+
+
+def test_a_statement_outside_the_language_is_rejected_by_its_text():
+    @in_one_pass
+    def endless(values, out, offset, is_even):
+        while is_even:
+            out[0] += offset
+
+    with pytest.raises((NotImplementedError, NumbaError), match="while is_even"):
+        filled(endless, 1.0, False)
