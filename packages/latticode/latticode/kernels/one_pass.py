@@ -1,9 +1,9 @@
 """Generated functions as LLVM's code in one pass over their statements, in a tenth of numba's time.
 
 numba infers the types of a function by iteration and rewrites its statements many times, which
-takes milliseconds for each of them. In a function that is translated here, every name has the type
-of the value that is assigned to it, so that one pass suffices. Each operation is numba's own for
-these types, so that the bits are those of a function compiled by numba.
+takes milliseconds a statement. In a function that is translated here, a name has the type of the
+value assigned to it, so that one pass suffices. Each operation is numba's own for these types, so
+that the bits are those of a function compiled by numba.
 
 The language: assignments, `if`, `for ... in range(...)`, and expressions of numbers, vectors,
 arrays and tuples. A `return` is the last statement. `and` and `or` evaluate both sides.
@@ -105,7 +105,9 @@ _TRANSLATED: dict[Callable, Callable] = {}
 class _Translation:
     """One expansion of a function into the code of a caller."""
 
-    def __init__(self, function: Callable, context, builder, known: dict) -> None:
+    def __init__(
+        self, function: Callable, context: Any, builder: ir.IRBuilder, known: dict
+    ) -> None:
         self.definition = _definition_of(function)
         self.context, self.builder, self.known = context, builder, known
         self.outside: Mapping[str, Any] = {
