@@ -84,7 +84,7 @@ def test_the_exponents_of_a_steady_state_are_those_of_its_values_alone():
 
 @pytest.mark.parametrize("rate", [lambda p, x: -p.k * x.real, lambda p, x: x.real**2])
 def test_i_dt_of_a_real_field_without_its_factor_is_refused(rate):
-    with pytest.raises(ModelError, match=r"give dt, which returns dx/dt, or multiply"):
+    with pytest.raises(ModelError, match=r"define dt instead, which returns dx/dt, or multiply"):
         Model(fields="x", parameters={"k": 1.0}, i_dt=rate)
 
 
