@@ -107,5 +107,5 @@ def test_the_power_series_refuses_them_and_the_default_goes_on_by_dop853(capsys)
     ],
 )
 def test_branches_and_comparisons_of_complex_numbers_are_refused(function):
-    with pytest.raises(ModelError, match=r"where\(|give its part .real"):
+    with pytest.raises(ModelError, match=r"where\(|give a real one, such as \.real"):
         Model(fields="u", parameters={}, i_dt=function)
