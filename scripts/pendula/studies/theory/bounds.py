@@ -1,4 +1,4 @@
-"""Trajectories compared with the bounds of Theorems 1 to 3, and the theorem that covers each."""
+"""Trajectories compared with the bounds of Theorems 1 to 3 on P = |A|^2 + |B|^2 in l2."""
 
 from collections.abc import Mapping
 
@@ -21,7 +21,7 @@ NUMBERS = {
     "widened": ("the same bound with the coupling energy kept", None),
     "theorem_3": ("C_N of Theorem 3", None),
 }
-"""The numbers of a trajectory: long name, and tolerance if the check depends on the number."""
+"""The long name of each number of a trajectory, and its tolerance if the check depends on it."""
 PRINTED_NUMBERS = ("start", "theorem_1", "theorem_2", "widened", "theorem_3")
 """Numbers that follow from the initial conditions."""
 

@@ -1,4 +1,4 @@
-"""All checks of the theory, in one job, because most of them take less time than its start."""
+"""All checks of the theory, in one job: most of them take less time than the start of a job."""
 
 from collections.abc import Iterator
 

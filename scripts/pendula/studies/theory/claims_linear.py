@@ -43,7 +43,10 @@ def dispersion() -> None:
     kind=Kind.THEOREM,
 )
 def stable_below(chart: xr.Dataset) -> Finding:
-    """Require no growth below gamma_0, and half of each resolved rate of N sites above it."""
+    """Require no growth below gamma_0, and growth at half of the predicted rate above it.
+
+    The prediction is for N sites. Rates that are too low to be measured are left out.
+    """
     below, above = (chart["gamma"] < chart["gamma_0"]), (chart["gamma"] > chart["gamma_0"])
     is_resolved = above & (chart["finite_rate"] > 2.0 * RESOLVED.value)
     measured = {

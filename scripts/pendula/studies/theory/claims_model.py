@@ -34,10 +34,11 @@ def by_algebra(
     kind: Kind = Kind.IDENTITY,
     caveat: str = "",
 ) -> Callable:
-    """Return a decorator for a claim that holds if the statements in `twins` leave no terms.
+    """Return a decorator for a claim that holds if the statements in `twins` are proved.
 
-    `twins` describes the wrong twin of each statement, which a control puts in its place. The
-    decorated function names the claim, and its docstring gives the reason for these statements.
+    A statement is proved if its residual, a polynomial, has no terms. `twins` describes a wrong
+    twin of each statement; a control replaces the statement by this twin. The decorated function
+    names the claim, and its docstring gives the reason for these statements.
     """
 
     def declare(function: Callable) -> Callable:
@@ -53,18 +54,18 @@ def by_algebra(
 
 
 def terms_left(identities: xr.Dataset, *names: str) -> dict[str, float]:
-    """Return the number of terms that each of these statements leaves, as measured numbers."""
+    """Return the number of terms in the residual of each of these statements."""
     terms = identities["terms"]
     return {f"terms_left_of_{name}": terms.sel(identity=name).max() for name in names}
 
 
 def nothing_left(left: Mapping[str, float]) -> AtMost:
-    """Return the criterion that these statements leave no terms."""
+    """Return the criterion that the residuals of these statements have no terms."""
     return AtMost(0, *left, label="terms left of the identity")
 
 
 def twin(name: str, description: str) -> ClaimControl:
-    """Return the control with this statement replaced by its wrong twin."""
+    """Return the control that replaces this statement by its wrong twin."""
 
     def wrong(identities: xr.Dataset) -> xr.Dataset:
         is_named = identities["identity"] == name
@@ -83,7 +84,7 @@ def twin(name: str, description: str) -> ClaimControl:
     },
 )
 def hamiltonian() -> None:
-    """The gradient of H gives the rates of (4), and the rate of H along them vanishes."""
+    """The gradient of H gives the rates of (4), and H is constant on solutions of (4)."""
 
 
 @claim(
@@ -96,7 +97,7 @@ def hamiltonian() -> None:
     kind=Kind.IDENTITY,
 )
 def no_gauge(identities: xr.Dataset) -> Finding:
-    """Without the drive a shift of all phases is a symmetry; with it terms must be left."""
+    """Require that a shift of all phases, a symmetry without the drive, is none with the drive."""
     left = identities["twin_terms"].min("boundary")
     measured = {
         f"terms_left_of_{form}": left.sel(identity=f"phases of ({form}) without drive")
@@ -121,12 +122,13 @@ def without_drive(lyapunov: xr.Dataset) -> xr.Dataset:
 )
 def one_integral(lyapunov: xr.Dataset) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
-    # A second integral makes at least four exponents of each spectrum vanish. It would be missed if
-    # the interval of one excluded zero by chance: hence Bonferroni's bound, for four in a spectrum.
+    # A second integral makes at least four exponents of each spectrum vanish. It is missed if one
+    # of their intervals excludes zero by chance. Bonferroni's bound makes this improbable.
     level = 1.0 - RARE.value / (4 * lyapunov.sizes["spectrum_case"])
     wider = student(INTERVALS - 1, level) / student(INTERVALS - 1)
     pairs = 0.5 * (size <= wider * error).sum("index")
-    # exponents whose confidence interval is closer to zero than the mean spacing of exponents
+    # pairs of exponents with |exponent| + error below the mean spacing; exponents range from -max
+    # to max
     between = 2.0 * size.max("index") / size.sizes["index"]
     vanishing = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max()}
@@ -170,7 +172,7 @@ def pt_form() -> None:
     {"exchange of A and B": "the exchange of A and iB"},
 )
 def exchange() -> None:
-    """The rates of the exchanged state are the exchanged rates."""
+    """An exchange of A and B exchanges their rates."""
 
 
 @by_algebra(
@@ -183,7 +185,7 @@ def exchange() -> None:
     },
 )
 def synchronised() -> None:
-    """The exchange preserves A = B, where the rates are those of (5), without a drive."""
+    """The exchange of A and B preserves A = B, where (4) is a scalar equation without a drive."""
 
 
 @by_algebra(

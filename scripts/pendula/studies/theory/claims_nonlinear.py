@@ -1,4 +1,7 @@
-"""Section 4: claims on Lemma 2, the inequalities, Theorems 1 to 3, and their proofs."""
+"""Section 4: claims on Lemma 2, the inequalities, Theorems 1 to 3, and their proofs.
+
+P is |A|^2 + |B|^2 in l2, and delta its initial value.
+"""
 
 from functools import partial
 
@@ -42,17 +45,17 @@ RESOLVED_ORDER = Cutoff(0.05, "orders are measured to one decimal")
     kind=Kind.THEOREM,
 )
 def local_existence() -> None:
-    """Picard's method requires Lipschitz rates: the linear ones by (17), the cubic ones by (18)."""
+    """Picard's method requires Lipschitz rates: (17) bounds linear terms, and (18) cubic terms."""
 
 
 DISTANCE, GROWTH = "distance of two solutions", "(19)"
-"""Statements proved by algebra: bounds on the rate of a distance, and on the rate of P."""
+"""Names of two bounds proved by algebra: on the rate of a distance, and on the rate of P."""
 of_lemma_2 = partial(claim, "Lemma 2", needs=checks("identities", "well_posed"), kind=Kind.THEOREM)
 HALF_OF_THE_RATE = twin(DISTANCE, "a rate for half of the drive")
 
 
 def of_a_neighbour(well_posed: xr.Dataset) -> xr.Dataset:
-    """Return, as a control, a solution from perturbed data in place of the second solver's."""
+    """Return, as a control, the distance of a perturbed solution as that between solvers."""
     near = well_posed.sel(perturbation_size=well_posed["perturbation_size"].min(), drop=True)
     return well_posed.assign(
         between_solvers=float(well_posed["perturbation_size"].min())
@@ -61,13 +64,13 @@ def of_a_neighbour(well_posed: xr.Dataset) -> xr.Dataset:
 
 
 def of_one_distance(well_posed: xr.Dataset) -> xr.Dataset:
-    """Return, as a control, runs with the same distance for all perturbations."""
+    """Return, as a control, distances that do not depend on the size of the perturbation."""
     sizes = well_posed["perturbation_size"]
     return well_posed.assign(distance_ratio=well_posed["distance_ratio"] * sizes.max() / sizes)
 
 
 def beyond_runs(well_posed: xr.Dataset, time: str) -> str:
-    """Return the caveat on the range of the runs; the attribute `time` has their duration."""
+    """Return the caveat that runs cover limited data, and times up to the attribute `time`."""
     largest, end = well_posed["initial_power"].max(), well_posed.attrs[time]
     return (
         f"computed from random initial conditions with P up to {largest:g} and for |tau| up to"
@@ -109,11 +112,11 @@ def global_existence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
     ),
 )
 def uniqueness(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
-    """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d: if zero, it stays zero.
+    """The distance d of two solutions obeys d' <= (2 |gamma| + M^2 / 2) d, so d = 0 persists.
 
-    M is the largest amplitude on the straight line between the two states. The derivative of the
-    rates, integrated along this line, is their difference; the identity bounds this derivative. Two
-    solvers find the same solution.
+    M is the largest amplitude on the straight line between the two states. The rates of the states
+    differ by the integral of the rates' derivative along this line. The identity bounds this
+    derivative. Two solvers must also find the same solution.
     """
     left = terms_left(identities, DISTANCE)
     measured = {
@@ -140,9 +143,10 @@ RATE = "largest growth of the log of a distance, divided by (2 gamma + M^2 / 2) 
     ),
 )
 def continuous_dependence(identities: xr.Dataset, well_posed: xr.Dataset) -> Finding:
-    """The same rate bounds the distance at any later time by a multiple of the initial distance.
+    """By the rate in `uniqueness` a later distance is at most a multiple of the initial distance.
 
-    The later distance thus shrinks with the initial one, in proportion because rates are smooth.
+    A later distance therefore shrinks with the initial distance. It is proportional to a small
+    initial distance, because the rates are smooth.
     """
     left, near = terms_left(identities, DISTANCE), well_posed.sortby("perturbation_size")
     logs = (
@@ -240,7 +244,7 @@ def theorem_1() -> None:
     kind=Kind.THEOREM,
 )
 def theorem_2() -> None:
-    """P is continuous, and by (25) no state of small energy has P at the barrier."""
+    """P starts below the barrier of (25), and no state of small energy has P at the barrier."""
 
 
 @by_algebra(
@@ -285,7 +289,7 @@ def bootstrap(check: xr.Dataset) -> Finding:
     kind=Kind.THEOREM,
 )
 def theorem_3() -> None:
-    """H is conserved, and by its lower bound and (27) it is at least P^2 / (8 N) - c P."""
+    """H is conserved and, by its lower bound and (27), at least P^2 / (8 N) - c P, c constant."""
 
 
 @claim(
@@ -317,7 +321,7 @@ ABOVE_THE_BAND = exchange("omega", 0.0, 8.0)
     controls=(ClaimControl("Omega = 8, where Theorem 1 bounds P on any chain", ABOVE_THE_BAND),),
 )
 def bound_grows(check: xr.Dataset) -> Finding:
-    """Require that C_N grows with N, and that the largest P at a fixed energy does too."""
+    """Require that both C_N and the largest P at a fixed energy grow with N."""
     measured = {
         name: number(check, name, omega=0.0) for name in ("constant_exponent", "shell_exponent")
     }
@@ -363,10 +367,11 @@ SIZES = ("theorem_1", "theorem_2")
     ),
 )
 def sharp_theorems(check: xr.Dataset) -> Finding:
-    """Compare the bounds C delta for small data, delta = P(0), with the largest growth of P.
+    """Compare the bounds P <= C delta for small data with the largest growth of P.
 
-    The paper prints no constants C: they may be the least possible ones, or those of the
-    inequalities in its proofs. If only the latter are not attained, the claim is undecided.
+    The paper prints no constants C. They may be the least possible constants, or the larger ones
+    that follow from its proofs. If only bounds with the larger constants are not attained, the
+    claim is undecided.
     """
     measured = {}
     for theorem in SIZES:

@@ -1,10 +1,10 @@
 """From Newton's equations (1) to (4): the straightforward computations that the paper omits.
 
-The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and likewise y with B. Here
-cosine and sine of the fast time omega t are indeterminates; A and B depend on the slow time. The
-residual of (1) at mu^3 must have no first harmonic, or the remainder would grow with time: this
-gives (4). The energy of (1), averaged over a period in the frame that rotates with the pendula, is
--H at mu^4.
+The angles of (3) are x = 2 mu (Re A cos omega t - Im A sin omega t), and y with B in place of A.
+Here cos omega t and sin omega t are indeterminates, and A and B depend on the slow time. The
+residual of (1) at mu^3 must have no first harmonic, because the remainder would otherwise grow with
+time. This gives (4). The energy of (1), averaged over a period in the frame that rotates with the
+pendula, is -H at mu^4.
 """
 
 from collections.abc import Callable, Mapping
@@ -81,19 +81,19 @@ def turning(re: np.ndarray, im: np.ndarray) -> np.ndarray:
 
 
 def accelerations(ends: str, x: np.ndarray, drive: fmpq_mpoly = DOUBLE) -> np.ndarray:
-    """Return x'' and y'' by the traced equations (1) at the angles `x`, both (component, site)."""
+    """Return x'' and y'' of (1), (component, site), at the angles `x` of the same shape."""
     state = np.stack([x, 0 * x], axis=1)
     constants = {"coupling": EPSILON * MU**2, "drive": 2 * GAMMA * MU**2 * drive}
     return rates(ends, state, KERNEL_MODEL, SINES, **constants)[:, 1]
 
 
 def first_harmonic(ends: str, slow: fmpq, drive: fmpq_mpoly = DOUBLE) -> list[fmpq_mpoly]:
-    """Return the first harmonic, by cos and by sin, of the residual of (1) at mu^3.
+    """Return the cosine and sine parts of the first harmonic in the residual of (1) at mu^3.
 
     The amplitudes obey (4) with tau = `slow` mu^2 t.
     """
     change = slow * rates(ends)
-    # x'' + x of (3): terms of mu^2 Omega in omega^2, and of the mixed fast and slow derivative
+    # x'' + x at mu^3: from omega^2 = 1 + mu^2 Omega, and from the mixed fast and slow derivative
     inertia = -scaled(OMEGA, turning(STATE[:, 0], STATE[:, 1]))
     inertia = inertia - 2 * turning(change[:, 1], -change[:, 0])
     forces = accelerations(ends, angles(), drive=drive)
@@ -119,7 +119,7 @@ def newtons_energy(ends: str, x: np.ndarray) -> fmpq_mpoly:
 
 
 def inherited(ends: str, omega: fmpq_mpoly) -> list[fmpq_mpoly]:
-    """Return residuals: of -H as the averaged energy of (1), and of (1) as its gradient."""
+    """Return the averaged energy of (1) plus H, and x'' and y'' of (1) plus its gradient."""
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
     generic = STATE[:, 0]
@@ -135,7 +135,7 @@ def inherited(ends: str, omega: fmpq_mpoly) -> list[fmpq_mpoly]:
 
 
 def synchronised(ends: str, sign: int) -> list[fmpq_mpoly]:
-    """Return the residual of y = `sign` x under (1), and the contribution of the drive there.
+    """Return y'' - `sign` x'' of (1) on y = `sign` x, and the terms of the drive in x'' and y''.
 
     The sine acts on each angle separately, so the result holds for any odd function.
     """

@@ -52,7 +52,7 @@ def controls_of(solver: dict) -> dict:
 
 
 def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
-    """Return H of (8) by the kernel of the solvers, (...), for `amplitudes` (..., 2, N)."""
+    """Return H of (8) for `amplitudes` (..., 2, N), computed by the solvers' kernel."""
     chains = amplitudes.reshape(-1, *amplitudes.shape[-2:])
     states = np.zeros((len(chains), 4, chains.shape[2] + 2))
     states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = chains.real, chains.imag
@@ -80,6 +80,6 @@ def one_pair(sites: int, pair: Sequence[complex]) -> np.ndarray:
 
 
 def alternating(sites: int, x: float) -> np.ndarray:
-    """Return A_n = -B_n = (-1)^n x, (2, N)."""
+    """Return amplitudes (2, N) with A_n = -B_n = (-1)^n x, counting n from the left end."""
     wave = x * (1.0 - 2.0 * (np.arange(sites) % 2))
     return np.stack([wave, -wave]).astype(complex)

@@ -89,7 +89,7 @@ def gather_bounds(cases: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_bounds(data: xr.Dataset) -> Figure:
-    """Draw P of each case, initial and largest, and its bounds."""
+    """Draw the initial and the largest P of each case, and the bounds on P."""
     figure = style.new_figure(style.WIDTH, 2.8)
     axes, rows = figure.subplots(), np.arange(data.sizes["case"])
     hollow = {"color": "white", "markeredgecolor": "black", "label": "at the start"}

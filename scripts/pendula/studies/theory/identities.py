@@ -1,8 +1,8 @@
 """The paper's identities, proved by algebra: both sides are polynomials, compared term by term.
 
 These are polynomials in the fields and the constants, for each kind of ends. An identity holds for
-all data and constants if and only if the difference of its sides has no terms. Each statement has a
-wrong twin, which must leave terms.
+all data and constants if and only if its residual, the difference of its sides, vanishes. Each
+statement has a wrong twin, a false statement with a residual that must not vanish.
 """
 
 from collections.abc import Callable, Mapping
@@ -44,8 +44,8 @@ from .polynomials import (
 
 HALF = fmpq(1, 2)
 TURN = fmpq(3, 5), fmpq(4, 5)
-"""Cosine and sine of an irrational fraction of a turn. Its multiples are dense, so that a symmetry
-under this angle is one under all angles."""
+"""Cosine and sine of an irrational fraction of a turn. Its multiples are dense, so a symmetry under
+a shift of phases by this angle is a symmetry under all shifts."""
 
 # --- The paper's other forms of the equations, as it prints them ----------------------------------
 
@@ -117,7 +117,7 @@ def p_and_t(ends: str, direction: int) -> Residual:
 
 
 def phases(ends: str, gamma: fmpq_mpoly, **constants: Any) -> Residual:
-    """Return the residual of the equations with this drive under a shift of all phases."""
+    """Return the residual of the symmetry under a shift of all phases, with the drive `gamma`."""
     return equivariance(ends, turned, gamma=gamma, **constants)
 
 
@@ -146,7 +146,10 @@ def of_pt(ends: str, gamma: fmpq_mpoly) -> Residual:
 
 
 def pt_hamiltonian(ends: str, image: Callable) -> Residual:
-    """Return the rates of (10) minus those of K = H / 8: i u' = dK/d(conj v), likewise v'."""
+    """Return the rates of (10) minus the rates that follow from the energy K = H / 8.
+
+    If `image` exchanges u and v, they are i u' = dK/d(conj v) and i v' = dK/d(conj u).
+    """
     slope = gradient(fmpq(1, 8) * put(energy(ends), from_pt(STATE)))
     return rates(ends, model=PT) - HALF * times(0, -1, image(slope))
 
@@ -160,9 +163,10 @@ def sign_of_gamma(ends: str, image: Callable) -> Residual:
 
 
 def of_a_wave(ends: str, kappa: fmpq_mpoly) -> Residual:
-    """Return the linear rates of a site minus (14); its neighbours are cos(theta) times the site.
+    """Return the linear rates of a site of a wave minus its rates by (14).
 
-    The linear equation (14) is i A' + kappa A = gamma (conj B - conj A). SINE is sin(theta / 2).
+    The linear equation (14) is i A' + kappa A = gamma (conj B - conj A). Each neighbour of the site
+    has its amplitudes times cos(theta), and SINE is sin(theta / 2).
     """
     site = STATE[..., :1]
     neighbour = scaled(1 - 2 * SINE**2, site)
@@ -211,12 +215,12 @@ IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
     **derivation.IDENTITIES,
     **inequalities.IDENTITIES,
 }
-"""By statement: the function that returns its residual from a kind of ends and an argument, the
-argument of the statement, and the argument of its wrong twin."""
+"""For each statement a function that returns a residual, its argument for the statement, and its
+argument for the wrong twin. This argument follows the kind of ends."""
 
 
 def prove_identities() -> xr.Dataset:
-    """Return the number of terms that each statement and its twin leave, for each kind of ends."""
+    """Return the number of terms in the residuals of statements and of twins, by kind of ends."""
     dims = ("identity", "boundary")
     right, wrong = (
         [

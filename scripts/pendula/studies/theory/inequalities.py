@@ -1,8 +1,10 @@
 """Proofs of the inequalities of Section 4: larger minus smaller side is a sum of squares.
 
 The factors of the squares are nonnegative for epsilon, gamma > 0 and both signs of Omega. The
-residual of an inequality is its larger side minus its smaller side minus these squares: it must
-have no terms. A wrong twin has 3/4 of the larger side, or half of the drive.
+residual of an inequality is its larger side minus its smaller side minus these squares. It must
+vanish. Each inequality has a wrong twin, with a residual that must not vanish: its larger side is
+multiplied by 3/4, or its gamma by 1/2. P is |A|^2 + |B|^2 in l2, and `drive` and `bonds` are
+functions of `polynomials`.
 """
 
 from collections.abc import Callable, Mapping
@@ -33,7 +35,7 @@ HALF, QUARTER, LESS = fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)
 
 
 def sums(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
-    """Return 4 P - bonds() as a sum of squares."""
+    """Return 4 P - bonds(ends) as a sum of squares."""
     right, left = joined(ends, state)
     ends_twice = 2 * densities(state)[:, [0, -1]].sum() if ends == "free" else ZERO
     return ((right + left) ** 2).sum() + ends_twice
@@ -51,7 +53,10 @@ def pairs(values: np.ndarray) -> fmpq_mpoly:
 
 
 def driven(change: fmpq_mpoly, state: np.ndarray, factor: int) -> list[fmpq_mpoly]:
-    """Return `factor` gamma |state|^2 -+ `change` minus squares of the drive, for each sign."""
+    """Return `factor` gamma |state|^2 - s `change` minus squares, for s = 1 and s = -1.
+
+    The squares have the factor 2 gamma.
+    """
     together, (x, y) = state[0] + state[1], state[0] - state[1]
     power = factor * GAMMA * densities(state).sum()
     return [
@@ -61,17 +66,18 @@ def driven(change: fmpq_mpoly, state: np.ndarray, factor: int) -> list[fmpq_mpol
 
 
 def growth(ends: str, factor: int) -> Residual:
-    """Return the residual of (19): |dP/dtau| <= `factor` gamma P, in both directions of time."""
+    """Return the residuals of (19), |dP/dtau| <= `factor` gamma P, for both signs of dP/dtau."""
     return driven(2 * (STATE * rates(ends)).sum(), STATE, factor)
 
 
 def parting(ends: str, factor: int) -> Residual:
-    """Return the residual of a bound on the rate of |d|^2, for two solutions a small d apart.
+    """Return the residuals of a bound on the rate of |d|^2, for a small difference d of solutions.
 
-    The bound is `factor` gamma |d|^2, plus the sum of |A_n|^2 |d_n|^2 and the like for B.
+    With d = (a, b) in A and B, the bound is `factor` gamma |d|^2 plus the sum of |A_n|^2 |a_n|^2
+    and |B_n|^2 |b_n|^2. There is a residual for each sign of the rate.
     """
     (re, im), (x, y) = STATE.swapaxes(0, 1), PERTURBATION.swapaxes(0, 1)
-    along, across = re * x + im * y, im * x - re * y  # Re and Im of A conj(d)
+    along, across = re * x + im * y, im * x - re * y  # Re and Im of A conj(a) and B conj(b)
     quartic = (densities() * densities(PERTURBATION)).sum()
     bounds = driven(
         2 * (PERTURBATION * linear_rates(ends, PERTURBATION, STATE)).sum(), PERTURBATION, factor
@@ -83,25 +89,25 @@ def parting(ends: str, factor: int) -> Residual:
 
 
 def laplacian(ends: str, share: int | fmpq) -> Residual:
-    """Return the residual of (17), its larger side times `share`."""
+    """Return the residual of (17) after multiplication of its larger side by `share`."""
     return 4 * share * densities().sum() - bonds(ends) - sums(ends)
 
 
 def of_products(ends: str, share: int | fmpq) -> Residual:
-    """Return the residual of (18) squared, its larger side times `share`."""
+    """Return the residual of (18) with both sides squared and the larger side times `share`."""
     a, b = densities()
     both = sum((a[i] * b[j] for i, j in permutations(range(SITES), 2)), start=ZERO)
     return share * a.sum() * b.sum() - (a * b).sum() - both
 
 
 def embedding(ends: str, share: int | fmpq) -> Residual:
-    """Return the residual of (22) to the fourth power, its larger side times `share`."""
+    """Return the residual of (22) between fourth powers, with the larger side times `share`."""
     a = densities()[0]
     return share * a.sum() ** 2 - (a**2).sum() - 2 * pairs(a)
 
 
 def embedding_reversed(ends: str, share: int | fmpq) -> Residual:
-    """Return the residual of (27) to the fourth power, its larger side times `share`."""
+    """Return the residual of (27) between fourth powers, with the larger side times `share`."""
     a = densities()[0]
     differences = sum(((x - y) ** 2 for x, y in combinations(a, 2)), start=ZERO)
     return share * len(a) * (a**2).sum() - a.sum() ** 2 - differences
@@ -116,7 +122,7 @@ def above_band(ends: str, gammas: int) -> Residual:
 
 
 def below_band(ends: str, gammas: int) -> Residual:
-    """Return the residual of (25), where Omega = -|Omega|, with `gammas` as in `above_band`."""
+    """Return the residual of (25) for Omega < 0, with `gammas` in place of the factor of gamma."""
     squares = densities()
     power = squares.sum()
     bound = (-OMEGA - gammas * GAMMA) * power - QUARTER * power**2
@@ -127,7 +133,7 @@ def below_band(ends: str, gammas: int) -> Residual:
 def size_of_energy(ends: str, gammas: int) -> Residual:
     """Return the residuals of |H| <= (|Omega| + 2 gamma + 4 epsilon) P + P^2 / 4.
 
-    There is one for each sign of H and of Omega.
+    There is one for each sign of H and of Omega. `gammas` replaces the factor 2 of gamma.
     """
     squares, h, left = densities(), energy(ends), []
     power, quartic = squares.sum(), (squares**2).sum()

@@ -1,4 +1,4 @@
-"""Traced equations on polynomials over the rationals (python-flint), to prove identities.
+"""Equations evaluated on polynomials over the rationals (python-flint), to prove identities.
 
 The fields of a chain of SITES pairs and the constants are indeterminates. Only neighbours are
 coupled, so a chain of three sites represents any longer one: it has two ends and a site between
@@ -34,7 +34,7 @@ Residual = fmpq_mpoly | np.ndarray | list
 
 
 def object_array(values: Iterable, shape: tuple[int, ...] = (2, 2, SITES)) -> np.ndarray:
-    """Return an array of polynomials, which `np.array` would read as sequences of terms."""
+    """Return an array of polynomials; `np.array` would read each as a sequence of terms."""
     array = np.empty(shape, object)
     for at, value in zip(np.ndindex(*shape), values, strict=True):
         array[at] = value
@@ -46,7 +46,7 @@ STATE, PERTURBATION = object_array(GENS[7:19]), object_array(GENS[19:])
 
 
 def scaled(by: Any, values: np.ndarray) -> np.ndarray:
-    """Return an array times a number or polynomial, which NumPy would read as a sequence."""
+    """Return an array times a number or polynomial; NumPy would read the latter as a sequence."""
     return np.frompyfunc(lambda value: by * value, 1, 1)(values)
 
 
@@ -65,7 +65,7 @@ def rates(
 ) -> np.ndarray:
     """Return the rates of a state, of the same shape; `constants` replace their indeterminates.
 
-    `functions` has a `sin` of polynomials if the model has a sine.
+    If the model has a sine, `functions` must have a `sin` for polynomials.
     """
     values = {"epsilon": EPSILON, "gamma": GAMMA, "omega": OMEGA} | constants
     shape, (right, left) = state.shape, neighbours(state, ends)
@@ -124,7 +124,7 @@ def bonds(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
 
 
 def drive(state: np.ndarray = STATE) -> fmpq_mpoly:
-    """Return the real part of the sum of (A_n - B_n)^2, which has the factor gamma in -H."""
+    """Return the real part of the sum of (A_n - B_n)^2; -H contains it times gamma."""
     x, y = state[0] - state[1]
     return (x**2 - y**2).sum()
 

@@ -35,7 +35,7 @@ def check_chart() -> dict:
     """Return measured and predicted growth rates on a grid of (Omega, gamma).
 
     Runs start from tiny random data. The slope of log l2 over their second half tends to the
-    largest rate of the finite chain, as the fastest mode outgrows all others.
+    largest rate of the finite chain, because the fastest mode outgrows all others.
     """
     data, half = random_amplitudes(SEED, SITES), 0.5 * END_TIME
     measured = [
@@ -65,7 +65,7 @@ def check_chart() -> dict:
 def edge_wave(omega: float, sites: int) -> np.ndarray:
     """Return the wave A = -B nearest to the edge of the band, at the phase of its least P.
 
-    A is real if kappa > 0, with Omega below the band, and imaginary otherwise.
+    A is real if Omega is below the band, where kappa > 0, and imaginary above the band.
     """
     shape = modes(sites, ENDS)[0] if omega < 0.0 else 1j * modes(sites, ENDS)[-1]
     return np.stack([shape, -shape]).astype(complex)
@@ -75,7 +75,7 @@ def check_threshold() -> dict:
     """Return thresholds of finite chains minus gamma_0, and the growth at and above a threshold.
 
     The threshold of a finite chain exceeds gamma_0 by an amount of order 1 / N^2. At this threshold
-    the wave at the edge of the band must grow in proportion to tau: by (14) as 4 gamma tau.
+    the wave at the edge of the band must grow in proportion to tau, by (14) as 4 gamma tau.
     """
     rows, sizes, omegas = [], (SITES, 81, 601), np.array([-4.0, 8.0])
     thresholds = np.transpose([finite_threshold(omegas, 1.0, n, ENDS) for n in sizes])

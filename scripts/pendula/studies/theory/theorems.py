@@ -1,4 +1,8 @@
-"""Checks of the sharpness of Theorems 1 to 3, and of errors in their proofs."""
+"""Checks of the sharpness of Theorems 1 to 3, and of errors in their proofs.
+
+P is |A|^2 + |B|^2 in l2, and delta its initial value. The constants a, c, C_0 and C_N are those of
+`pendula.models.bounds`.
+"""
 
 import numpy as np
 from latticode.datasets.checks import table, variable
@@ -20,11 +24,11 @@ from .equations import ENDS, PAIR, alternating, constants_at, one_pair, total_en
 from .stability import edge_wave
 
 TINY = 1e-5
-"""Amplitude of tiny data: the cubic terms change ratios by its square."""
+"""Amplitude of tiny data. Cubic terms change ratios in proportion to its square."""
 SQUARES = (20.0, 25.0, 40.0, 60.0)
 """Values of x^2 for A = -B = (-1)^n x at Omega = -4: 20, where H is least, and larger ones."""
 LONG, SIZES = 513, (11, 81)
-"""Sites of a chain on which data nearly attain the bounds, and of two chains that are compared."""
+"""Number of sites of a chain on which data nearly attain the bounds, and of two compared chains."""
 
 
 def check_sharpness() -> dict:
@@ -36,11 +40,11 @@ def check_sharpness() -> dict:
     SQUARES. Without ends these data would attain its bound for any x^2 >= 2 c if Omega <= 0. With
     ends they attain a share that grows with x.
 
-    The paper prints no constants for bounds in terms of delta = P(0). P of the wave reaches
+    The paper prints no constants for bounds in terms of delta. P of the wave reaches
     `least_constant` delta. For small delta the inequalities of the proofs give P <=
-    `proof_constant` delta: the largest |H| at this delta over the least |H| at this P. These
-    inequalities are H <= (Omega + 2 gamma) delta for Theorem 1; for Theorem 2 |H| <= C delta and C
-    delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta.
+    `proof_constant` delta. This constant is the largest |H| / delta divided by the least |H| / P.
+    The proof of Theorem 1 has H <= (Omega + 2 gamma) delta. The proof of Theorem 2 has |H| <= c
+    delta and c delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta.
     """
     above, below = constants_at(8.0), constants_at(-4.0)
     high, low = (TINY * edge_wave(constants.omega, LONG) for constants in (above, below))
@@ -87,8 +91,8 @@ def largest_of_energy(constants: Constants, sites: int, energy: float) -> float:
 def check_chain_growth() -> dict:
     """Return the exponents of N in C_N of Theorem 3 and in the largest P at one energy.
 
-    The energy is that of one pair; chains have two SIZES. If the largest P at this energy grows
-    with N, so must every bound in terms of H.
+    The energy is that of one excited pair, on chains of two SIZES. If the largest P at this energy
+    grows with N, every bound in terms of H must grow too.
     """
     exponents, omegas, dims = [], [0.0, 8.0], ("omega",)
     for constants in map(constants_at, omegas):
@@ -133,9 +137,10 @@ def check_errata() -> dict:
 
 
 def margin(constants: Constants, sites: int, drive: float) -> float:
-    """Return H minus its lower bound in Theorem 3's proof, with `drive` gamma, for A = -B = (-1)^n.
+    """Return H minus its lower bound in Theorem 3's proof for A_n = -B_n = (-1)^n.
 
-    The quartic terms cancel, so the sign is the same for data of any size.
+    The bound contains `drive` times gamma. The quartic terms cancel, so the sign is the same for
+    data of any size.
     """
     z = alternating(sites, 1.0)
     quartic = 0.25 * np.sum(square_modulus(z) ** 2)
@@ -147,9 +152,9 @@ def without_continuity(constants: Constants) -> dict:
     """Return data that satisfy all premises of the printed proof of Theorem 2, but violate (24).
 
     For small data, here delta = delta_0 / 2, the premises are (25), a constant -H > 0, and |H| <= C
-    delta with C = c. The proof concludes P <= C_0 delta. The premises do not exclude states beyond
-    the barrier of (25): a pair (x, 0) there has the same energy. Continuity does, because P starts
-    below 2 a.
+    delta, where C is c. The proof concludes P <= C_0 delta. The premises do not exclude states beyond
+    the barrier of (25), P = 2 a: one excited pair (x, 0) there has the same energy. The continuity
+    of P excludes these states, because P starts below 2 a.
     """
     delta_0, c_0 = theorem_2_constants(constants)
     delta, gap = 0.5 * delta_0, theorem_2_gap(constants)

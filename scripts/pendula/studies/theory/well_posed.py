@@ -22,7 +22,7 @@ OMEGAS, POWERS, COURSES = [-4.0, 0.0, 8.0], [1.0, 26.0, 1000.0], ["forward", "ba
 """Omega of the paper's figures; P(0), which is 26 for the paper's large data; directions of
 time."""
 DIRECTIONS, SIZES = ["A alone", "one pair", "all sites"], [1e-4, 1e-6, 1e-8]
-"""The amplitudes that are perturbed, and the perturbations relative to the norm."""
+"""Which amplitudes are perturbed, and the sizes of perturbations relative to the norm."""
 SITES, SEED = 21, 11
 END_TIME, CLOSE_TIME, OUTPUTS = 10.0, 1.0, 400
 """Distances are measured at CLOSE_TIME, before chaos amplifies small ones to order one."""
@@ -31,9 +31,9 @@ SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 
 
 def start_of(power: float, course: str) -> np.ndarray:
-    """Return random amplitudes (2, N) with this P.
+    """Return random amplitudes (2, N) with P = |A|^2 + |B|^2 = `power`.
 
-    A forward run from conjugate data is the conjugate of the backward run from the data.
+    For a backward run they are conjugate. A forward run from conjugate data is the conjugate of the backward run from the data.
     """
     amplitudes = np.sqrt(power) * random_amplitudes(SEED, SITES)
     return amplitudes.conj() if course == "backward" else amplitudes
@@ -61,10 +61,10 @@ def margins(constants: Constants, start: np.ndarray, gamma: float) -> dict[str, 
 
 
 def dependence(constants: Constants, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the growth of the distances of perturbed runs by CLOSE_TIME, (direction, size).
+    """Return the factors by which distances of perturbed runs grow until CLOSE_TIME, and rates.
 
-    Also return its logarithm divided by the bound (2 |gamma| + M^2 / 2) tau, where M is the largest
-    amplitude.
+    Both are (direction, size). A rate is the logarithm of a factor divided by its bound
+    (2 |gamma| + M^2 / 2) tau, where M is the largest amplitude.
     """
     first = run(constants, ENDS, start, CLOSE_TIME, OUTPUTS, solver=SOLVER)
     ratios = np.empty((len(DIRECTIONS), len(SIZES)))
