@@ -151,10 +151,10 @@ def margin(constants: Constants, sites: int, drive: float) -> float:
 def without_continuity(constants: Constants) -> dict:
     """Return data that satisfy all premises of the printed proof of Theorem 2, but violate (24).
 
-    For small data, here delta = delta_0 / 2, the premises are (25), a constant -H > 0, and |H| <= C
-    delta, where C is c. The proof concludes P <= C_0 delta. The premises do not exclude states beyond
-    the barrier of (25), P = 2 a: one excited pair (x, 0) there has the same energy. The continuity
-    of P excludes these states, because P starts below 2 a.
+    For small data, here delta = delta_0 / 2, the premises are (25), a constant -H > 0, and |H| <= c
+    delta. The proof concludes P <= C_0 delta. The premises do not exclude states beyond the barrier
+    of (25), P = 2 a: one excited pair (x, 0) there has the same energy. The continuity of P
+    excludes these states, because P starts below 2 a.
     """
     delta_0, c_0 = theorem_2_constants(constants)
     delta, gap = 0.5 * delta_0, theorem_2_gap(constants)

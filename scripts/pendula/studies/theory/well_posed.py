@@ -33,7 +33,8 @@ SECOND = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
 def start_of(power: float, course: str) -> np.ndarray:
     """Return random amplitudes (2, N) with P = |A|^2 + |B|^2 = `power`.
 
-    For a backward run they are conjugate. A forward run from conjugate data is the conjugate of the backward run from the data.
+    For backward runs they are conjugate: a forward run from conjugate data is the conjugate of the
+    backward run from the data.
     """
     amplitudes = np.sqrt(power) * random_amplitudes(SEED, SITES)
     return amplitudes.conj() if course == "backward" else amplitudes
