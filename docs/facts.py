@@ -1,7 +1,7 @@
-"""What the README and docs/ quote, as text.
+"""The numbers that the README and docs/ quote, as text.
 
-These are the counts of the ledger, a proof rounded upward, and what was measured of speed. A
-function stands for a topic: a template says `{{ scale.minutes }}`. No number is typed here.
+They are the counts of the ledger, a proved bound rounded upward, and measured times. Each function
+returns the facts of one topic, and a template prints them, for example by `{{ scale.minutes }}`.
 """
 
 import json
@@ -29,7 +29,7 @@ from benchmarks import scale as scale_of
 
 BASELINE = Path(__file__).resolve().parents[1] / "tests/baseline"
 SMALLEST_SHOWN = 1e-9
-"""Smaller chances are no news."""
+"""Smaller chances are not listed."""
 LONG_STUDIES = {
     "unbounded": "The infinite chain",
     "chaos": "The transition at Ω = 0",
@@ -38,14 +38,14 @@ LONG_STUDIES = {
 }
 """The long studies, by the names of their files in tests/baseline/quoted."""
 DIGITS = 4
-"""So many digits has a number under a variation."""
+"""Significant digits of the numbers in tables of variations."""
 WITHOUT_EFFECT = {
     "life": ("level",),
     "transition": ("multiple",),
     **dict.fromkeys(("centre_share", "l2", "linf"), ("level", "multiple")),
     **dict.fromkeys(("passed", "power_excess"), ("settled",)),
 }
-"""Choices of the same study that a number does not depend on, by the number."""
+"""For each number, the choices of its study that do not affect it."""
 MEANINGS = {
     "transition": "median time at which P of the chain first reaches a level of its final value",
     "life": "median time at which the central pair first holds at most the mean power of a pair",
@@ -55,7 +55,7 @@ MEANINGS = {
     "growth_behind_front": "growth κ of |A + B| per site behind the first front",
     "power_excess": "relative excess of P of a site over that of the amplitudes on the same chain",
 }
-"""What numbers mean, where their datasets say it in names of variables."""
+"""Meanings of numbers for which the datasets give only names of variables."""
 CHOICES = {
     "omega": "Omega",
     "start_amplitude": "A_0",
@@ -76,11 +76,11 @@ CHOICES = {
     "settled": "settled from tau",
     "steps": "steps of a period",
 }
-"""Texts for choices and labels, by their names in the datasets."""
+"""Texts that are printed for choices and labels, by their names in the datasets."""
 
 
 class Accepted(Results):
-    """The accepted results, as pages read those of a run."""
+    """The accepted results, read in the same way as the results of a run."""
 
     def __init__(self):
         super().__init__((), "")
@@ -89,7 +89,7 @@ class Accepted(Results):
         return self.path(f"{name}.nc").exists()
 
     def path(self, link: str) -> Path:
-        """Return the accepted file to which a page links."""
+        """Return the path of the accepted file to which a page links."""
         return BASELINE.parents[1] / original_of(link) if is_quoted(link) else BASELINE / link
 
 
@@ -109,7 +109,7 @@ def topics(accepted: Results) -> dict[str, Any]:
 
 
 def right_runs(record: dict) -> dict:
-    """Return the chances that a right run turns a verdict: the largest, and those by design."""
+    """Return the largest chances that a correct run changes a verdict, and those of the tests."""
     rows = sorted(record["rows"], key=lambda row: -row["chance"])
     likely_rows = [row for row in rows if row["chance"] >= SMALLEST_SHOWN]
     return {
@@ -134,7 +134,7 @@ def right_runs(record: dict) -> dict:
 
 
 def designed() -> list[tuple[str, str, float]]:
-    """Return the chances that follow from the tests themselves: by claim, what must happen."""
+    """Return claim, event and chance for events that the statistical tests themselves allow."""
     second = paper()["chaos"]["second_solver"]
     drawn, others = second["members"], second["first_members"]
     inside = len(second["half_widths"]) * chance_inside(drawn // 2, drawn, others)
@@ -157,12 +157,12 @@ def designed() -> list[tuple[str, str, float]]:
 
 
 def least_share_above_half(members: int) -> int:
-    """Return the least count of members whose share has an upper confidence limit of a half."""
+    """Return the smallest count, out of `members`, whose share has an upper limit of a half."""
     return next(n for n in range(members) if share_limits(n, members).high >= 0.5)
 
 
 def variations(accepted: Results) -> dict:
-    """Return by study the tables of numbers that were measured again with other choices."""
+    """Return, for each long study, tables of the numbers measured again with other choices."""
     studies = []
     for name, title in LONG_STUDIES.items():
         data = accepted[f"quoted/{name}"]
@@ -172,7 +172,7 @@ def variations(accepted: Results) -> dict:
 
 
 def number_and_variations(data: xr.Dataset, name: str) -> dict:
-    """Return what a number means, its choices, and a table of its values at all labels."""
+    """Return the meaning of a number, its choices, and a table of its values at all labels."""
     places = [at_place for varied, at_place in single_numbers(data) if varied == name]
     labels = [variations_of(at_place, name) for at_place in places]
     changed = [
@@ -204,7 +204,7 @@ def number_and_variations(data: xr.Dataset, name: str) -> dict:
 
 
 def choices_of(variable: xr.DataArray) -> str:
-    """Return the text for the choices of a number that can change it."""
+    """Return a text with the choices that can change a number."""
     choices = re.findall(r"(\w[\w ]*) = (\([^)]*\)|[^,]*)", variable.attrs["choices"])
     without = WITHOUT_EFFECT.get(str(variable.name), ())
     texts = [choice_in_words(f"{key} = {value}") for key, value in choices if key not in without]
@@ -230,7 +230,7 @@ def place_of(variable: xr.DataArray, at_place: xr.Dataset) -> str:
 
 
 def speed(data: xr.Dataset) -> dict:
-    """Return our solvers' least times in ms at the required error, and peers' times over ours."""
+    """Return our solvers' shortest times in ms at the required error, and the ratios of peers."""
     best = 1e3 * data["best_seconds"].dropna("solver", how="all").dropna("case", how="all")
     winners = [str(name) for name in best.idxmin("solver").values]
     fastest = max(dict.fromkeys(winners), key=winners.count)
@@ -267,7 +267,7 @@ def speed(data: xr.Dataset) -> dict:
 
 
 def speeds(accepted: Results) -> dict:
-    """Return the growth of the cost with the sites in µs, and peers on Newton's equations."""
+    """Return times per site in µs for several lengths, and peers on Newton's equations."""
     pendula, cost = accepted["speed/pendula"], accepted["speed/cost"]["seconds"]
     titles, ratios = pendula["title"].to_series(), pendula["ratio"].transpose("peer", "case")
     return {
@@ -295,7 +295,7 @@ def speeds(accepted: Results) -> dict:
 
 
 def scale(measured: dict) -> dict:
-    """Return what a survey of many runs and a very long chain took."""
+    """Return time and memory of a survey of many runs, and of a very long chain."""
     survey, solvers = measured["survey"], ("dop853", "taylor")
     chains = [measured[name] for name in solvers]
     return {
@@ -320,7 +320,7 @@ def scale(measured: dict) -> dict:
 
 
 def full_run(measured: dict) -> dict:
-    """Return the wall and processor time of whole runs in seconds, and their disk space in MB."""
+    """Return wall and processor times of full runs in s, and their disk space in MB."""
     return {
         "processor": measured["machine"]["processor"],
         "cores": str(measured["machine"]["cores"]),

@@ -1,11 +1,11 @@
-"""Keep what the README and docs/ quote of long studies, which no full run makes.
+"""Store the parts of long studies that the README and docs/ quote, because a full run omits them.
 
-Run as `python docs/keep.py results` after `snakemake unbounded`, `transition`, `over_the_top`, or
-`fates sensitivity`, if a long study was made anew. It reduces the studies to what is quoted, in
+Run `python docs/keep.py results` after a long study was computed again, with `snakemake unbounded`,
+`transition`, `over_the_top`, or `fates sensitivity`. The quoted parts are stored in
 tests/baseline/quoted.
 
-Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
-it keeps what they say as the configuration that the claims are about.
+Run `python docs/keep.py config` after config/*.yaml have been changed to a new reading of the
+paper. This configuration is stored as the one that the claims are about.
 """
 
 import json
@@ -31,16 +31,16 @@ def of_unbounded(folder: Path) -> xr.Dataset:
 
 
 def of_numbers(path: Path, *names: str) -> xr.Dataset:
-    """Return the numbers of a study with their variations, and attributes that are named."""
+    """Return the numbers of a study with their variations, and the named attributes."""
     study = read(path)
     return _with_attributes_of(study, study, "members", "end_time", *names)
 
 
 def of_breathers(folder: Path) -> xr.Dataset:
-    """Return the map of fates, and numbers of it and of other studies with their variations."""
+    """Return the map of fates, and the numbers of all studies of breathers with variations."""
     fates = read(folder / "fates.nc")
     studies = [read(folder / f"{name}.nc") for name in ("areas", "shares", "least_power")]
-    # text of a fixed length would be cut to the shortest
+    # as objects, because the merge would cut texts to the shortest length
     studies = [
         study.assign_coords(variation=study["variation"].astype(object)) for study in studies
     ]
@@ -56,17 +56,17 @@ def of_breathers(folder: Path) -> xr.Dataset:
 
 
 def _with_attributes_of(data: xr.Dataset, study: xr.Dataset, *names: str) -> xr.Dataset:
-    """Return the data with the attributes of a study that are named, alone."""
+    """Return the data with no attributes but the named ones of a study."""
     return data.drop_attrs(deep=False).assign_attrs({name: study.attrs[name] for name in names})
 
 
 SECTIONS = ("cases", "sweeps", "solvers")
 SECTIONS += ("chaos", "breathers", "newton", "unbounded", "certified")
-"""The sections of the configuration that claims rest on."""
+"""The sections of the configuration that determine the verdicts on claims."""
 
 
 def configuration() -> dict:
-    """Return what config/*.yaml say of SECTIONS, but for long studies, which no claim reads."""
+    """Return SECTIONS of config/*.yaml, without long studies, which no claim reads."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
     settings = json.loads(load(raw).model_dump_json())
@@ -79,7 +79,7 @@ def configuration() -> dict:
 
 
 def keep_configuration() -> None:
-    """Write it beside the module that compares other configurations with it, an entry a line."""
+    """Write the configuration that the claims are about, one entry per line."""
     sections = [
         ",\n".join(f'  "{name}": {json.dumps(value)}' for name, value in section.items())
         for section in configuration().values()
@@ -90,7 +90,7 @@ def keep_configuration() -> None:
 
 
 def main(results: Path, folder: Path = QUOTED) -> None:
-    """Keep whatever of the long studies the folder of results holds."""
+    """Store the quoted parts of each long study that is in the folder of results."""
     folder.mkdir(exist_ok=True)
     for (study, last), reduced in {
         ("unbounded", "numbers"): of_unbounded,

@@ -1,6 +1,6 @@
-"""The moving picture at the top of the README: pendula of Fig 4 from the small initial amplitudes.
+"""The animation at the top of the README: the pendula of Fig 4, with small initial amplitudes.
 
-An SVG that moves by itself needs no script, stays sharp, and is a tenth of a video.
+An animated SVG needs no script, is sharp at any size, and has a tenth of the size of a video.
 """
 
 import numpy as np
@@ -10,10 +10,10 @@ from pendula.problem import PaperProblem
 
 SHOWN_SITES = range(-10, 11)
 END_TIME = 14.0
-"""The motion needs so long to fill the sites that are shown; one unit of tau takes a second."""
+"""The time tau at which all shown sites are in motion; one unit of tau takes a second."""
 FRAMES_PER_SECOND = 12
 MU = 0.09
-"""The size of the angles, so small that no pendulum goes over the top."""
+"""The small parameter that scales the angles; with it no pendulum goes over the top."""
 ROD, GAP = 46, 36
 COLOURS = {"A": "#c0392b", "B": "#1b4fd1"}
 HEAD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} 190" role="img">
@@ -29,7 +29,7 @@ type="rotate" dur="{seconds}s" repeatCount="indefinite" values="{angles}"/></g><
 def swing_angles() -> np.ndarray:
     """Return the angle of each pendulum in degrees, (frame, component, shown site).
 
-    By (3) it is 2 mu Re(A exp(i phase)); a swing is shown in one second.
+    By (3) an amplitude A gives the angle 2 mu Re(A exp(i phase)). An oscillation takes a second.
     """
     case = Case(omega=0.0, initial={0: [1.0, 0.1]}, solver="taylor")
     problem = PaperProblem.of(case.shown_problem()).changed(snapshot_every=0)

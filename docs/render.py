@@ -1,8 +1,7 @@
-"""Write the README and the pages of docs/ that quote results, from their templates, and the moving
-picture of the README.
+"""Write the README, its animation, and the pages of docs/ that quote results.
 
-Run as `python docs/render.py` from anywhere. A template takes its numbers from facts.py. A
-test fails where a page is not what its template gives.
+Run `python docs/render.py` from any folder. The pages are made from templates with the numbers of
+facts.py. A test fails if a page differs from the page that its template gives.
 """
 
 from pathlib import Path
@@ -22,11 +21,11 @@ PAGES = {
     ROOT / "docs/variations.md": SOURCE / "variations.md.j2",
     ROOT / "docs/article.md": ARTICLE.folder / "article.md.j2",
 }
-"""The template of each page that has one."""
+"""The template of each page."""
 
 
 def render() -> dict[Path, str]:
-    """Return the text of each page that has a template."""
+    """Return the text of each page in PAGES, and of the animation."""
     accepted = facts.Accepted()
     environment = Environment(
         loader=FileSystemLoader(SOURCE),

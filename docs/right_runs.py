@@ -1,8 +1,8 @@
-"""Keep the chances that another right run turns a verdict, for docs/report.md and its test.
+"""Store the chances that another correct run changes a verdict, for docs/report.md and its test.
 
-Run as `python docs/right_runs.py FOLDER ...` with the results of several right runs, which differ
-in last bits or seeds; `.ci/elsewhere moved` makes some and does so. Writes
-tests/baseline/quoted/right_runs.json, and fails where verdicts differ or a chance is too large.
+Run `python docs/right_runs.py FOLDER ...` with the results of several correct runs, which differ in
+last bits or seeds. `.ci/elsewhere moved` makes such runs and calls this script. It writes
+tests/baseline/quoted/right_runs.json, and fails if verdicts differ or a chance is too large.
 """
 
 import sys
@@ -23,20 +23,20 @@ RECORD = ROOT / "tests/baseline/quoted/right_runs.json"
 
 
 def look_at(folder: Path) -> dict[str, dict[str, Finding]]:
-    """Return by claim all that is found in the results of a run."""
+    """Return all findings on each claim in the results of a run."""
     sources = {name: read(folder / f"{name}.nc") for name in needed(all_claims())}
     return {claim.name: look(claim, sources) for claim in all_claims()}
 
 
 def verdict_of(findings: Mapping[str, Finding], moves: Sequence[str]) -> Verdict:
-    """Return the verdict on a claim, which has a caveat if a moved cut-off turns it."""
+    """Return the verdict on a claim, with a caveat if a moved cut-off changes it."""
     verdict = findings[""].verdict
     turns = any(findings[move].verdict != verdict for move in moves)
     return Verdict.CAVEAT if turns and verdict == Verdict.CONFIRMED else verdict
 
 
 def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[dict]:
-    """Yield a row for a claim and for each of its controls, from what is found in each run."""
+    """Yield a row for a claim and for each of its controls, from the findings of each run."""
     controls = [control.description for control in claim.controls]
     moves = [name for name in looks[0] if name and name not in controls]
     chances = {"": chance_of_claim(looks, moves)}
@@ -58,7 +58,7 @@ def rows_of(claim: Claim, looks: Sequence[Mapping[str, Finding]]) -> Iterator[di
 
 
 def keep_chances(folders: Sequence[Path], path: Path = RECORD) -> list[dict]:
-    """Write the rows of all claims, and return those that another right run may turn."""
+    """Write the rows of all claims; return those whose verdict another run may change."""
     runs = [look_at(folder) for folder in folders]
     rows = [
         row for claim in all_claims() for row in rows_of(claim, [run[claim.name] for run in runs])

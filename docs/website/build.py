@@ -1,8 +1,7 @@
 """Build the site of the project's pages and of the library's API reference.
 
-Run as `python docs/website/build.py [project]`, with the packages of requirements.txt beside this
-file. The site is written to build/site/html, and opens from a disk. A link or an anchor that leads
-nowhere is an error.
+Run `python docs/website/build.py [project]` with the packages of requirements.txt in this folder.
+The site is written to build/site/html, and works without a web server. A broken link is an error.
 """
 
 import doctest
@@ -22,27 +21,27 @@ CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$]+)\$", re.DOTALL)
 EXAMPLE = re.compile(r"^```(python|pycon)\n(.*?)^```\n", re.MULTILINE | re.DOTALL)
 LIBRARY = "packages/latticode/docs/"
-"""Pages of this folder are notebooks, too."""
+"""The folder of pages that are also written as notebooks."""
 LINK = re.compile(r"\[((?:[^][]|\[[^]]*\])*)\]\(([^)#\s]+)\)")
 
 
 def linked_pages(project: Path) -> list[str]:
-    """Return the pages that the navigation of the site names."""
+    """Return the paths of the pages in the navigation of the site."""
     text = (project / CONFIGURATION).read_text("utf-8")
     return re.findall(r"^ +- (\S+\.md)$", text, re.MULTILINE)
 
 
 def outside_code(pattern: re.Pattern, replacement, text: str) -> str:
-    """Return a page in which a pattern is replaced wherever it is not in code."""
-    pieces = CODE.split(text)  # text and code in turn
+    """Return a page with a pattern replaced everywhere except in code."""
+    pieces = CODE.split(text)  # alternately text and code
     pieces[::2] = [pattern.sub(replacement, piece) for piece in pieces[::2]]
     return "".join(pieces)
 
 
 def formula_in_mathml(formula: re.Match) -> str:
-    """Return a formula as browsers draw it without a script.
+    """Return a formula in MathML, which browsers draw without a script.
 
-    A line that began with its tag would be a paragraph of its own: a span can be in a sentence.
+    A formula within a sentence is in a span: a line that begins with <math> would be a paragraph.
     """
     if formula[1]:
         return f"<div>{convert(formula[1], display='block')}</div>"
@@ -50,9 +49,9 @@ def formula_in_mathml(formula: re.Match) -> str:
 
 
 def collect_page(project: Path, page: str) -> None:
-    """Copy a page to where MkDocs reads it, with the pictures and files to which it links.
+    """Copy a page to the folder PAGES of MkDocs, with the pictures and files to which it links.
 
-    A link to a folder becomes plain text, because a site has no page of a folder.
+    A link to a folder becomes plain text, because the site has no page for a folder.
     """
     source = project / page
 
@@ -76,7 +75,7 @@ def collect_page(project: Path, page: str) -> None:
 
 
 def notebook_of(text: str) -> str:
-    """Return a page as a Jupyter notebook: its examples in cells, which show the last figure."""
+    """Return a page as a Jupyter notebook; its examples are cells that show the last figure."""
     cells, end = [], 0
     parse = doctest.DocTestParser().get_examples
     for example in EXAMPLE.finditer(text):
