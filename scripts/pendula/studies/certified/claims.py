@@ -34,7 +34,7 @@ NEAR = Cutoff(1e-12, "twelve correct digits of a state")
     origin=Origin.OWN,
 )
 def curves_certified(trust: xr.Dataset) -> Finding:
-    """Require small bounds, and that no norm differs from the reference by more than its bound."""
+    """Require small bounds, and norms that differ from the reference by at most their bounds."""
     proved = trust.where(trust["l2_bound"].notnull(), drop=True)
     if not proved.sizes["case"]:
         raise UndecidableError("no curve of these cases is proved")
@@ -69,7 +69,7 @@ def curves_certified(trust: xr.Dataset) -> Finding:
     origin=Origin.OPEN,
 )
 def breathers_exist(proved: xr.Dataset) -> Finding:
-    """Require a proof for each computed state that a true one lies within a small radius."""
+    """Require, for each computed state, a proof that a true state lies within a small radius."""
     measured = {
         "proofs": proved.sizes["proof"],
         "largest_radius": proved["radius"].max(skipna=False),

@@ -1,7 +1,7 @@
 """Proofs that steady breathers of (4) exist on the infinite chain.
 
-A steady state A = a, B = b or A = i a, B = i b with real a and b, and s = gamma in the real,
-s = -gamma in the imaginary case, is a zero of F on the space of bounded sequences u = (a_n, b_n),
+A steady state is A = a, B = b or A = i a, B = i b, with real a and b. Let s be gamma in the first
+case, and -gamma in the second. The state is a zero of F on bounded sequences u = (a_n, b_n),
 
     F(u)_n = epsilon (u_{n+1} - 2 u_n + u_{n-1}) + Omega u_n + s (X u_n - u_n) + u_n^3 / 2,
 
@@ -9,23 +9,25 @@ where X exchanges a and b, powers are taken component by component, and |u| is t
 |a_n|, |b_n|. So DF(u) = epsilon D + Omega + s (X - 1) + 3 u^2 / 2, with D the second difference.
 In bounds, epsilon stands for its modulus.
 
-Given: numbers u with u_n = 0 for |n| > M (doubles, so exact), and any matrix N on the block
-|n| <= M, here approximately the inverse of K, the part of DF(u) within the block.
+Let u be exact numbers (doubles) with u_n = 0 for |n| > M. The block is the sites |n| <= M, and K is
+the part of DF(u) within the block. N is any matrix on the block, here nearly the inverse of K.
 
-Approximate inverse. Beyond the block DF(u) has constant coefficients. Its part at one site is the
-matrix C with Omega - s - 2 epsilon on and s off the diagonal, whose eigenvalues are
-Omega - 2 epsilon on (1, 1) and Omega - 2 s - 2 epsilon on (1, -1); let d be the smaller of their
-moduli. C^-1 has x on and y off the diagonal, so |C^-1| = |x| + |y| = max(|x + y|, |x - y|) = 1 / d.
-Let A be N on the block and C^-1 at each site beyond.
+Approximate inverse. Beyond the block DF(u) has constant coefficients. Its part at one site is a
+2 x 2 matrix C. The diagonal entries of C are Omega - s - 2 epsilon, and the others are s. Its
+eigenvalues are Omega - 2 epsilon, for (1, 1), and Omega - 2 s - 2 epsilon, for (1, -1). Let d be
+the smaller modulus of the two. If the diagonal entries of C^-1 are x and the others y, then
+|C^-1| = |x| + |y| = max(|x + y|, |x - y|) = 1 / d. The approximate inverse A of DF(u) is N on the
+block and C^-1 at each site beyond.
 
-1. |1 - A DF(u)| <= Z, the larger of 2 epsilon / d and of the row sums in the block of
-   |1 - N K| + epsilon |N E|, where E are the four columns of the sites n = M and n = -M. Proof: for
-   |w| <= 1, (A DF(u) w)_n = w_n + C^-1 epsilon (w_{n+1} + w_{n-1}) beyond the block, and
-   N (K w + epsilon e) in it, where e is w_{M+1} and w_{-M-1} at the two ends and zero elsewhere.
+1. |1 - A DF(u)| <= Z, where Z is the larger of 2 epsilon / d and the largest row sum of
+   |1 - N K| + epsilon |N E|. E consists of four columns of the unit matrix on the block: those of
+   a and b at n = M and n = -M. Proof: let |w| <= 1. Beyond the block (A DF(u) w)_n is
+   w_n + C^-1 epsilon (w_{n+1} + w_{n-1}). On the block A DF(u) w is N (K w + epsilon e), where e is
+   w_{M+1} at n = M, w_{-M-1} at n = -M, and zero at the other sites.
 2. If Z < 1, A is injective. Proof: A DF(u) has an inverse by Neumann's series, so A is onto. Hence
    so is N, and a square matrix that is onto is injective; C^-1 is injective anyway.
-3. |A F(u)| <= eta, the larger of |N F(u)| and of epsilon |u_M| / d and epsilon |u_{-M}| / d.
-   Proof: beyond the block, F(u) is zero but for epsilon u_{+-M} at the sites +-(M + 1).
+3. |A F(u)| <= eta, the largest of |N F(u)|, epsilon |u_M| / d and epsilon |u_{-M}| / d.
+   Proof: beyond the block, F(u) is zero except epsilon u_{+-M} at the sites +-(M + 1).
 4. |A (DF(v) - DF(u))| <= lambda r + mu r^2 for |v - u| <= r, with lambda = 3 max_i sum_j
    |N_ij u_j| and mu = (3/2) max(|N|, 1 / d). Proof: DF(v) - DF(u) multiplies u_j by
    (3/2) (v_j^2 - u_j^2), at most 3 |u_j| r + (3/2) r^2, and u_j = 0 beyond the block.
@@ -36,12 +38,12 @@ r of u. Proof: |DT(v)| <= q(|v - u|) by 1 and 4, so that |T(v) - u| <= eta + the
 0 to r = p(r) + r <= r. T maps the closed ball into itself and contracts it. Its only fixed point is
 a zero of F since A is injective; and every zero of F is a fixed point of T.
 
-It is localised: the true state tends to zero. Proof: F, DF and A map sequences that tend to zero to
+The true state is localised: it tends to zero. Proof: F, DF and A map sequences that tend to zero to
 sequences that tend to zero. These form a closed subspace that contains u, so the theorem also holds
-in this subspace. The zero of F that it gives there is the only one within r of u.
+in this subspace. The zero of F in the subspace is the only one within r of u.
 
-Symmetries. F commutes with n -> -n, with X, and with u -> -u, which preserve |.|. If u has one of
-these symmetries to the last bit, so has the true state, because it is unique.
+Symmetries. F commutes with n -> -n, with X, and with u -> -u, and these maps preserve |.|. If u has
+one of these symmetries to the last bit, the true state has it too, because it is unique.
 
 The state is not zero, since r < |u| is required.
 
@@ -72,13 +74,13 @@ class ProofChain(NamedTuple):
 
 
 def as_ball(value: float) -> arb:
-    """Return a ball around the decimal that prints as this double: 0.1 is one tenth."""
+    """Return a ball around the decimal that Python prints for this double: 1/10 for 0.1."""
     exact = decimal(value)
     return arb(fmpq(exact.numerator, exact.denominator))
 
 
 class Estimates(NamedTuple):
-    """The numbers of the theorem as balls, whose upper ends are bounds."""
+    """The numbers of the theorem as balls; the upper end of each ball is a bound."""
 
     eta: arb
     z: arb  # Z
@@ -91,10 +93,10 @@ class ProofFailedError(ArithmeticError):
 
 
 def refine(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
-    """Return a state of ten digits after one step of Newton's method, which doubles the digits.
+    """Return `state`, which is rounded to ten decimals, after one step of Newton's method.
 
-    The step is computed with balls. Far from the centre the ten digits are zeros, so the result is
-    the step itself, and its last bits must not depend on the machine.
+    The step doubles the number of correct decimals. It is computed with balls: far from the centre
+    `state` is zero, so the result is the step itself, and must not depend on the machine.
     """
     with ctx.workprec(BITS):
         u = on_full_chain(state)
@@ -106,7 +108,7 @@ def refine(chain: ProofChain, s: float, state: np.ndarray) -> np.ndarray:
 def prove(chain: ProofChain, s: float, state: np.ndarray) -> float:
     """Return r such that one true steady state of the infinite chain lies within r of `state`.
 
-    The state is even, (component, site 0..M), in doubles; `s` is the drive on a and b. Raises
+    `state` is an even state in doubles, (component, site 0..M); for `s` see the module. Raises
     ProofFailedError if an inequality of the theorem cannot be shown.
     """
     with ctx.workprec(BITS):
@@ -118,13 +120,13 @@ def prove(chain: ProofChain, s: float, state: np.ndarray) -> float:
 
 
 def on_full_chain(state: np.ndarray) -> list[arb]:
-    """Return an even state (component, site 0..M) on the sites -M..M, all of a, then all of b."""
+    """Return a and then b on the sites -M..M, for an even state (component, site 0..M)."""
     full_state = np.concatenate([state[:, :0:-1], state], axis=1)
     return [arb(float(value)) for value in full_state.ravel()]
 
 
 def make_estimates(chain: ProofChain, s: float, u: list[arb]) -> Estimates:
-    """Return the numbers of 1, 3 and 4 for exact u, all of a on -M..M, then all of b."""
+    """Return eta, Z, lambda and mu; `u` has exact numbers, a and then b on the sites -M..M."""
     k, size = make_derivative(chain, s, u), len(u)
     epsilon, tail = abs(as_ball(chain.epsilon)), tail_distance(chain, s)
     if not 2 * epsilon < tail:

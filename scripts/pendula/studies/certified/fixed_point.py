@@ -1,6 +1,6 @@
-"""A solution of (4) as polynomials whose coefficients are integers in units of 2^-bits.
+"""A solution of (4) as polynomials with integer coefficients, in units of 2^-bits.
 
-The initial data are even in n, and so is the solution, because the reflected chain has the same
+The initial data are even in n. The solution is even too, because the reflected chain has the same
 equations and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} = u_1.
 
 The interval between two outputs is divided into equal steps, and in each step the curve is a
@@ -10,14 +10,15 @@ coefficients of the step before, which is also an integer, so the curve has no j
 `generate_steps` computes the curve; the proof does not depend on how. `require_full_interval`
 checks that the steps between two outputs cover the interval exactly. `bound_jump` bounds the
 distance from the start of a step to the end of the step before, or to the initial data.
-`bound_defect` bounds the residual of (4): with step = 1 / H, a common denominator q of the
-constants, the integer polynomials P and the linear part L of (4), the coefficients of
+`bound_defect` bounds the defect i p' - F(p) of the curve p, where (4) is i u' = F(u). Let the step
+be 1 / H, q a common denominator of the constants, P = 2^bits p, and L the linear part of F. Then
 
-    2 q H 4^bits i P'(theta) - 2 q 4^bits L P - q |P|^2 P,
+    2 q H 4^bits i P'(theta) - 2 q 4^bits L P - q |P|^2 P
 
-are integers: those of i p' - F(p), times the step, in units of 8^-bits / (2 q H). Products of
-integer polynomials give them without rounding. The sum of their absolute values bounds the integral
-of the defect's l2 norm over the step, since theta^k <= 1 and an l2 norm is at most an l1 norm.
+has integer coefficients, and is the defect times the step in units of 8^-bits / (2 q H). Products
+of integer polynomials give it without rounding. The sum of the coefficients' absolute values bounds
+the integral of the defect's l2 norm over the step, because theta^k <= 1 and an l2 norm is at most
+an l1 norm.
 """
 
 from collections.abc import Iterator, Sequence
@@ -33,11 +34,11 @@ from flint import fmpz_poly
 from pendula.problem import PaperProblem
 
 UP = 1.0 + 1e-9
-"""A computed sum or product of positive numbers, with fewer than a million roundings, is an upper
-bound of the exact one after multiplication by this: 1e6 * 2^-53 < 1e-9."""
+"""This factor makes a computed sum or product of positive numbers an upper bound of the exact one,
+if it has fewer than a million roundings: 1e6 * 2^-53 < 1e-9."""
 
 LAST_TERM = 16
-"""A step is shortened if the last term of its polynomial is larger than this, in units."""
+"""A step is shortened if the last coefficient of its polynomials is larger than this integer."""
 MOST_STEPS = 64
 """Largest number of steps between two outputs."""
 
@@ -72,7 +73,7 @@ class Step(NamedTuple):
 
 
 def decimal(x: float) -> Fraction:
-    """Return the decimal that prints as this double: 1/10 for 0.1."""
+    """Return the decimal that Python prints for this double, exactly: 1/10 for 0.1."""
     return Fraction(repr(float(x)))
 
 
@@ -135,7 +136,7 @@ def generate_steps(
         state = current
         last_term = max(abs(series[-1]) for step in steps for row in step.terms for series in row)
         if max(last_term, 1) * divisor**order <= LAST_TERM * (divisor - 1) ** order:
-            divisor -= 1  # by the last terms, longer steps would also have been short enough
+            divisor -= 1  # the last terms of longer steps would also have been small enough
 
 
 def evaluate_end(terms: IntegerSeries) -> list[list[int]]:
@@ -193,8 +194,8 @@ def bound_defect(step: Step, chain: FixedPointChain) -> float:
     h = chain.interval / step.divisor
     x, y = ([fmpz_poly(series) for series in row] for row in step.terms)
     q, field = scaled_linear([x, y], chain)
-    # multiplied by the denominator of h, so that all numbers are integers; its numerator multiplies
-    # L and |P|^2 P
+    # the expression in the module's docstring, with the denominator of h as H; the numerator of h
+    # multiplies L P and |P|^2 P
     shift, total = 4**chain.bits, 0
     for n, (re, im) in enumerate(zip(x, y, strict=True)):
         square = (re * re + im * im) * (q * h.numerator)

@@ -1,28 +1,29 @@
-"""A proven bound of the distance from a curve of integers to the true solution, by frames.
+"""A proven bound of the distance between the curve of `fixed_point` and the true solution.
 
 Errors of large or chaotic solutions grow so fast that no norm bounds them usefully. The bound
-therefore follows the linearised flow, as in R. J. Lohner (1988). The curve p is that of
-`fixed_point`, on half of a chain; u is the solution of (4) with the printed decimals as constants.
-The error e = u - p obeys
+therefore follows the linearised flow, as in R. J. Lohner (1988). Let p be the curve, on half of a
+chain, and u the solution of (4), i u' = L u + N(u), with the printed decimals as constants. L is
+linear, and N is the cubic term. The error e = u - p obeys
 
     e' = J e - i (r - d),   J e = -i (L e + DN(p) e),
 
-where d is the defect of p, and r the part of the cubic term beyond first order in e. Norms |.| are
-over all real numbers of half of a chain; the norm over the whole chain is at most sqrt(2) times as
-large, because each site but n = 0 counts twice.
+where d is the defect of p, and r has the terms of N(p + e) beyond first order in e. The l2 norms
+|.| are over all real numbers of half of a chain. The norm over the whole chain is at most sqrt(2)
+times as large, because each site except n = 0 counts twice.
 
-Between two frames e = M z + w, where z is a constant vector of real numbers, M(tau) any matrix
-whose columns are states, and w the remainder, zero at first. M is continued as polynomials with
+Between two frames e = M z + w. Here z is a constant vector of real numbers, M(tau) is any matrix
+with states as columns, and the remainder w is zero at first. M is continued as polynomials with
 double coefficients, which solve M' = J M approximately. From the equation of e,
 
     |w|' <= mu |w| + |J M - M'| |z| + |r| + |d|,   mu = 2 |gamma| + |epsilon| / 2 + a^2 / 2, (i)
 
-where a is the largest |A_n| of p over the step. Proof of mu: Re <w, J w> is
-Im <w, L w> + Im <w, DN w>. In it gamma conj(b - a) gives at most 2 |gamma| |w|^2. The bonds cancel,
-except the bond of the sites 0 and 1, which counts twice in one direction and once in the other and
-leaves |epsilon| |w_0| |w_1| <= |epsilon| |w|^2 / 2. Of DN w = |A|^2 w + A^2 conj(w) / 2 only the
-second part contributes. By (i) |w| at the end of a step h is at most e^(mu h) times the sum of |w|
-at its start and of the integrals of the other terms.
+where a is the largest |A_n| or |B_n| of p over the step. Proof of mu: Re <w, J w> is
+Im <w, L w> + Im <w, DN(p) w>. The drive in L contributes at most 2 |gamma| |w|^2. The bonds cancel,
+except the bond of the sites 0 and 1. It counts twice in one direction and once in the other, and
+contributes at most |epsilon| |w_0| |w_1| <= |epsilon| |w|^2 / 2. In DN(p) w =
+|A|^2 w + A^2 conj(w) / 2 only the second term contributes, at most a^2 |w|^2 / 2. By (i) |w| at the
+end of a step h is at most e^(mu h) times the sum of |w| at its start and of the integrals of the
+other terms.
 
 A new frame has the columns of any nearly orthogonal matrix Q: |Q^T Q - I| <= eta < 1/2. With
 G = Q^T Q, e = Q z' holds for z' = G^-1 (Q^T M z + Q^T w), and |G^-1 x - x| <= eta / (1 - eta) |x|,
@@ -30,8 +31,9 @@ G = Q^T Q, e = Q z' holds for z' = G^-1 (Q^T M z + Q^T w), and |G^-1 x - x| <= e
 
     |z'_i| <= y_i + sqrt(1 + eta) |w| + eta / (1 - eta) (|y| + sqrt(1 + eta) |w|).
 
-R and Q^T Q are computed in doubles. Each entry is a sum of n = 4 (M + 1) products. Its error is at
-most gamma_n = n u / (1 - n u) times the product of the two columns' norms, in any order of the sum
+R and Q^T Q are computed in doubles. Each entry is a sum of n products, four for each site. Its
+error is at most gamma_n = n UNIT / (1 - n UNIT) times the product of the two columns' norms, in any
+order of the sum
 (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 3.1).
 
 The tangent polynomials. Let S_i and P_i be the coefficients of |A|^2 and A^2, computed from those
@@ -40,18 +42,18 @@ i <= k of (S_i T_{k-i} + P_i conj(T_{k-i}) / 2). The sum includes i beyond the o
 be smaller than that of T, because S and P have twice the order of p. So the residual of T in
 M' = J M has the coefficients, in powers of theta,
 
-- for k below the order K of T: only rounding. The terms have at most 4 K + 16 roundings: one of the
-  coefficients and one of a constant, the product of two and its sum over up to K + 1
-  products and two parts, S + P / 2, the product with T, the sum over K + 1 terms of two parts, the
-  linear terms (9), step, quotient. Their absolute values sum to at most h (lambda t_k + 2 sum of
-  s_i t_{k-i}), where t_k is the Frobenius norm of T_k, s_i = sum of a_j a_{i-j}, a_j the largest
-  |p_j| of a site, and lambda = 5 |epsilon| + |Omega| + 2 |gamma| (rows of the bonds sum to 4,
-  columns to 5 at most).
+- for k below the order K of T: only rounding. Each term has at most 4 K + 16 roundings: of the
+  coefficients, of a constant, of S and P (a product, and a sum over up to K + 1 products and two
+  parts), of S + P / 2, of the product with T, of the sum over K + 1 terms of two parts, of the
+  linear terms (9), of the factor h, and of the division. The absolute values of the terms sum to at
+  most h (lambda t_k + 2 sum of s_i t_{k-i}). Here t_k is the Frobenius norm of T_k, s_i is the sum
+  of a_j a_{i-j}, a_j is the largest |p_j| of any site, and lambda is
+  5 |epsilon| + |Omega| + 2 |gamma|: rows of the bonds sum to at most 4, columns to at most 5.
 - for k from K on: at most h (lambda t_K [k = K] + (3/2) sum of s_i t_{k-i}).
 
-Their integrals over theta are these divided by k + 1. M at the end of a step is the rounded sum of
-its coefficients, with an error of at most gamma_{K+1} times the sum of t_k. This error times |z| is
-added to w.
+Integrated over theta, these bounds are divided by k + 1. M at the end of a step is the rounded sum
+of its coefficients, with an error of at most gamma_{K+1} times the sum of t_k. This error times |z|
+is added to w.
 
 The quadratic term. |A + e|^2 (A + e) - |A|^2 A without its terms of first order is
 2 Re(conj(A) e) e + |e|^2 A + |e|^2 e, so |r| <= (3 a y + y^2) y / 2 if |e| <= y. The trial bound of
@@ -60,8 +62,8 @@ must be smaller than the trial. Then |w| stays below the trial over the whole st
 continuous, and |e| stays below y = trial + (sum of t_k) |z|.
 
 The contributions to the bound obey the same inequalities, so bounds of |z_i| and |w| are stored
-separately for each. An additional contribution is a unit error at the start. It is not part of the
-bound, but determines the order of the columns in a new frame.
+separately for each contribution. An additional contribution is a unit error at the start. It is not
+part of the bound, but determines the order of the columns in a new frame.
 
 Rounding of the bound itself: the bound uses only + - * / and square roots of nonnegative numbers. A
 step has fewer than a million roundings, which the factor `UP` covers; TINY covers losses by
@@ -129,7 +131,7 @@ class Tube(NamedTuple):
 
 
 def make_initial_tube(chain: FixedPointChain, initial_error: float) -> Tube:
-    """Return the tube at the start, whose error is that of rounding the initial data."""
+    """Return the tube at the start, around the rounding errors of the initial data."""
     size = 4 * chain.sites
     z = np.zeros((size, UNIT_ERROR + 1))
     z[:, 0], z[:, UNIT_ERROR] = initial_error, 1.0 / sqrt(size)
@@ -152,7 +154,7 @@ def bound_distances(tube: Tube) -> np.ndarray:
 def advance_tube(
     tube: Tube, step: Step, chain: FixedPointChain, jump: float, order: int = ORDER
 ) -> Tube:
-    """Return the tube at the end of a step whose start is at a distance `jump` from the curve."""
+    """Return the tube at the end of a step; `jump` bounds the jump of the curve at its start."""
     coefficients = as_doubles(step, chain)
     sizes = UP * np.sqrt(np.max(np.sum(coefficients**2, axis=1), axis=(1, 2))) + TINY
     h = float(chain.interval / step.divisor)
@@ -182,7 +184,7 @@ def bound_exponential(x: float) -> float:
 def _bound_quadratic_term(w: float, mz_bound: float, largest: float, time: float) -> float:
     """Return a bound of the quadratic term's addition to |w| over a step, infinite if not small.
 
-    `mz_bound` bounds |M z|, and `time` e^(mu h) h.
+    `mz_bound` is a bound of |M z|, and `time` is a bound of e^(mu h) h.
     """
     trial = w + SLACK * (w + mz_bound) + TINY
     y = UP * (trial + mz_bound)
@@ -272,7 +274,7 @@ def sum_terms(terms: list) -> np.ndarray:
 
 
 def change_frame(tube: Tube) -> Tube:
-    """Return a tube around the same errors, whose matrix is nearly orthogonal."""
+    """Return a tube around the same errors that has a nearly orthogonal matrix."""
     size = len(tube.z)
     matrix = tube.matrix.reshape(size, size)
     lengths = np.sqrt(np.sum(matrix**2, axis=0))
@@ -327,8 +329,8 @@ def certify(
 ) -> CertifiedCurve:
     """Return the curve at the outputs of a problem, with a proven bound of its error.
 
-    The coefficients are in units of 2^-bits, and the polynomials of the given order. `progress` is
-    called with the numbers of outputs reached and of all. Raises NotEvenError and StepError.
+    The curve's polynomials have this order, and coefficients in units of 2^-bits. `progress` is
+    called with the number of outputs done and of all outputs. Raises NotEvenError and StepError.
     """
     chain = make_half_chain(problem, bits)
     state, initial_error = round_initial_data(problem, chain)
@@ -360,10 +362,10 @@ def bound_output_error(
 ) -> float:
     """Return a bound of the errors of outputs by rounding of states, norms and times.
 
-    Doubles of the states, squares, the at most 16 levels of the sum, and the root are at most 12
-    roundings of the norm. Over `delay` the solution moves by at most delay |u'|, where
-    |u'| <= (lambda + |u|^2 / 2) |u|; |u| itself grows by at most e^(2 |gamma| delay), which `UP`
-    covers.
+    The norm has at most 12 roundings: those of states, of squares, of at most 16 levels of the sum,
+    and of the root. Over `delay` the solution moves by at most delay |u'|, where |u'| is at most
+    (4 |epsilon| + |Omega| + 2 |gamma| + |u|^2 / 2) |u|. In this time |u| grows at most by the
+    factor e^(2 |gamma| delay), which `UP` covers.
     """
     strength = float(4 * abs(chain.epsilon) + abs(chain.omega) + 2 * abs(chain.gamma))
     norm = UP * sqrt(np.sum(state * state))

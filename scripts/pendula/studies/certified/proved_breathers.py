@@ -17,17 +17,17 @@ from . import existence
 from .existence import ProofChain
 
 DIGITS = 10
-"""Decimals of a state that are the same with LAPACK on every machine."""
+"""States computed with LAPACK are the same on every machine to this number of decimals."""
 
 
 def prove_breathers(
     gamma: float, half_width: int, proofs: Sequence[Mapping], control_omegas: Sequence[float]
 ) -> Contents:
-    """Return the dataset of breathers with their proofs, one for each of `proofs`.
+    """Return the dataset of steady breathers, each with the result of its proof.
 
-    Each proof gives `family`, `omega` and `epsilon`. States are stored on the sites 0..half_width
-    of the infinite chain. As controls, the first state is also tested at each of `control_omegas`,
-    where the proof must fail.
+    Each of `proofs` has the `family`, `omega` and `epsilon` of a breather. States are stored on the
+    sites 0..half_width of the infinite chain. As controls, the first state is also tested at each
+    of `control_omegas`, where the proof must fail.
     """
     candidates = [compute_state(gamma, half_width, proof) for proof in proofs]
     radii, refusals = zip(*(try_proof(*candidate) for candidate in candidates), strict=True)
@@ -73,7 +73,7 @@ def prove_breathers(
 def compute_state(
     gamma: float, half_width: int, proof: Mapping
 ) -> tuple[Family, ProofChain, np.ndarray]:
-    """Return the family, the chain and the even state (component, site 0..M) of a proof."""
+    """Return the family, the chain and the even state (component, site 0..M) of a breather."""
     (family,) = (known for known in FAMILIES if known.name == proof["family"])
     chain = ProofChain(float(proof["epsilon"]), gamma, float(proof["omega"]), half_width)
     constants = Constants(epsilon=chain.epsilon, gamma=gamma, omega=chain.omega)
@@ -84,7 +84,10 @@ def compute_state(
 
 
 def try_proof(family: Family, chain: ProofChain, state: np.ndarray) -> tuple[float, str]:
-    """Return the radius within which one true state is proved, or infinity and the reason."""
+    """Return a radius within which one true state exists, and the reason if the proof fails.
+
+    If it fails, the radius is infinite; else the reason is empty.
+    """
     try:
         return existence.prove(chain, family.drive(chain.gamma), state), ""
     except existence.ProofFailedError as error:

@@ -72,7 +72,7 @@ class Settings(Section):
         Raises ConfigurationError for a case to which the proofs do not apply.
         """
         from pendula.problem import (
-            PaperProblem,  # here and below: only a certified curve needs kernels
+            PaperProblem,  # imported here: only a certified curve needs kernels
         )
 
         from .fixed_point import NotEvenError, make_half_chain
