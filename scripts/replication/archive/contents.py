@@ -9,7 +9,7 @@ METADATA = ("ro-crate-metadata.json", "configuration.yaml", MANIFEST)
 
 
 class ArchiveError(Exception):
-    """The project cannot be packed; the message has the reason and the way out."""
+    """The project cannot be packed; the message has the reason and what to do."""
 
 
 def code_files(project: Path) -> list[str]:

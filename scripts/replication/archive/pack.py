@@ -1,8 +1,8 @@
 """Archive of the project and its results for a repository, as a Workflow RO-Crate 1.0.
 
-The bytes of the archive depend only on its members, so that packing the same files again gives the
-same checksum. By default the library rocrate writes the current time and random identifiers, so we
-set the date of the release and the identifier of each entity.
+The same files give the same bytes, and so the same checksum. The library rocrate would write the
+current time and random identifiers. We therefore set the date of the release, and an identifier for
+each entity.
 """
 
 import gzip
@@ -25,14 +25,14 @@ from rocrate.rocrate import ROCrate
 from .contents import MANIFEST, ArchiveError, code_files
 
 PACKED_TIME = 315532800
-"""The time of all files, 1980-01-01: if times differed, Snakemake would make some files again."""
+"""The time of all files, 1980-01-01. With different times Snakemake would remake some files."""
 
 FORMATS = {".nc": "application/netcdf", ".png": "image/png", ".pdf": "application/pdf"}
 FORMATS |= {".html": "text/html", ".md": "text/markdown", ".json": "application/json"}
 
 
 class AliasFreeDumper(yaml.SafeDumper):
-    """A YAML writer without aliases: users can edit each of several equal values on its own."""
+    """A YAML writer without aliases, so that users can edit one of several equal values."""
 
     def ignore_aliases(self, data: object) -> bool:
         return True
@@ -54,7 +54,7 @@ def pack_results(
     checksum: str,
     configuration: dict,
 ) -> None:
-    """Write the archive of the project with `results`, and a file with its checksum.
+    """Write the archive of the project with `results`, and a file with the archive's checksum.
 
     `made_by` lists the code files that made the results with this `configuration`.
     """
@@ -87,7 +87,7 @@ def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, st
     ):
         for name, content in sorted(data.items()):
             runs = name in files and files[name].stat().st_mode & 0o100
-            entry = tarfile.TarInfo(f"{folder}/{name}")  # has no owner
+            entry = tarfile.TarInfo(f"{folder}/{name}")  # without an owner
             entry.size, entry.mtime, entry.mode = (
                 len(content),
                 PACKED_TIME,
@@ -144,7 +144,7 @@ def describe(project: Project, members: dict[str, Path]) -> dict:
 
 
 def _facts_of(name: str, members: dict[str, Path]) -> dict:
-    """Return the metadata of a result: the title of a dataset, the dataset of a figure."""
+    """Return the metadata of a result: for a dataset its title, for a figure its dataset."""
     path, data = members[name], Path(name).with_suffix(".nc").as_posix()
     facts = {"name": path.name, "encodingFormat": FORMATS.get(path.suffix, "text/plain")}
     if path.suffix == ".nc":

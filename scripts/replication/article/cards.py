@@ -1,7 +1,7 @@
 """A card for each number, figure and verdict of an article: its meaning, data, code and command.
 
-The template prints texts with their sources. `Cards` records each printed source, and describes it
-for the page, where a card opens next to its number, and for the appendix of the PDF.
+The template prints texts that have sources. `Cards` records each printed source and describes it.
+In the page, a card opens next to its number. In the PDF, an appendix has the cards.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -21,7 +21,7 @@ from .quoted import LongStudies, LongStudy, copy_of, is_quoted
 from .sources import Code, Printed, Source, code_of
 
 MOST_ROWS = 12
-"""If a table has more rows, its card shows only those that the article prints."""
+"""Largest number of rows of a whole table in a card; of a longer one, only printed rows are shown."""
 DIGITS = 5
 """Significant digits of a number in a card."""
 ERRORS = {
@@ -30,11 +30,11 @@ ERRORS = {
     "_low": "lower limit",
     "_high": "upper limit",
 }
-"""Labels of variables with an error of another variable, by the suffix of their names."""
+"""Labels of errors: variables with such a suffix contain errors of another variable."""
 FEWEST_POINTS, MOST_POINTS = 4, 60
 """Limits on the number of points of a curve in a card."""
 DECADES = 100.0
-"""A curve with a larger ratio of its ends is drawn on a logarithmic scale."""
+"""A positive curve with a larger ratio of maximum to minimum is drawn on a logarithmic scale."""
 WIDE, HIGH = 160.0, 36.0
 """The size of a curve in pixels."""
 SIGNS = {
@@ -42,7 +42,7 @@ SIGNS = {
     Verdict.CAVEAT: "(✓)",
     Verdict.UNDECIDED: "?",
 }
-"""The mark of a verdict in the text; all others have a cross."""
+"""Marks of verdicts in the text; verdicts that are not listed have a cross."""
 CROSS = "✗"
 COUNTS = Source("claims.json", "verdicts")
 """The source of numbers that count claims."""
@@ -98,7 +98,7 @@ class Cards:
         self._claims = {row["name"]: row for row in load(results)}
 
     def note(self, text: Printed) -> str:
-        """Record that a text is printed, and return the id of its card."""
+        """Record a printed text, and return the id of its card."""
         self._printed.setdefault(text.source.card, []).append(text)
         return text.source.card
 
@@ -222,7 +222,7 @@ class Cards:
         )
 
     def _of_dataset(self, source: Source, texts: list[Printed]) -> Card:
-        """Return a card on the attributes and coordinates with which a dataset was computed."""
+        """Return a card with attributes and coordinates of a dataset: the settings of its runs."""
         study = self._long_study(source.dataset)
         if source.dataset not in self.results:
             measured = "Wall times of whole runs in seconds, with the number of cores"
@@ -252,13 +252,13 @@ class Cards:
         )
 
     def _tabulate(self, source: Source) -> Table:
-        """Return the numbers of a variable: all if they are few, else the printed ones."""
+        """Return a table of the numbers of a variable: all if they are few, else the printed ones."""
         data = self.results[source.dataset]
         sources = [text.source for text in self._printed.get(source.card, [])] or [source]
         return tabulate(data, source.variable, [dict(each.labels) for each in sources])
 
     def _variations(self, source: Source, table: Table) -> Table:
-        """Return the numbers of a table as measured again, with a row for each changed choice."""
+        """Return the numbers of a table measured again, with a row for each changed choice."""
         varied = f"{source.variable}_varied"
         if varied not in self.results[source.dataset]:
             return Table()
@@ -299,7 +299,7 @@ def chosen_value(data: xr.Dataset, name: str) -> str:
 
 
 def tabulate(data: xr.Dataset, variable: str, selections: Iterable[Mapping[str, Any]]) -> Table:
-    """Return a variable as a table: for each number a row of its labels, value and errors."""
+    """Return a table of a variable; each row has the labels, value and errors of a number."""
     values = data[variable]
     if values.size <= MOST_ROWS:
         selections = [{}]
@@ -327,7 +327,7 @@ def tabulate(data: xr.Dataset, variable: str, selections: Iterable[Mapping[str, 
 def tabulate_rows(
     values: xr.DataArray, selections: Iterable[Mapping[str, Any]]
 ) -> Iterator[xr.DataArray]:
-    """Yield each number of the selections once; selections above MOST_ROWS are left out."""
+    """Yield each selected number once; selections of more than MOST_ROWS numbers are left out."""
     seen = set()
     for labels in selections:
         selected = values.sel(labels)
@@ -342,7 +342,7 @@ def tabulate_rows(
 
 
 def draw_curve(data: xr.Dataset, variable: str) -> str:
-    """Return the points of a small curve (SVG), empty unless a variable has one dimension."""
+    """Return the points of a small curve in SVG; empty if a variable cannot be drawn as a curve."""
     values = data.get(variable)
     if values is None or values.ndim != 1 or values.dtype.kind not in "fi":
         return ""
@@ -363,7 +363,7 @@ def draw_curve(data: xr.Dataset, variable: str) -> str:
 
 
 def describe_ends(values: xr.DataArray) -> str:
-    """Return a phrase with the range of a variable, empty if its table shows all numbers."""
+    """Return a phrase with the range of a variable; empty if its table shows all numbers."""
     if values.size <= MOST_ROWS or values.dtype.kind not in "fi":
         return ""
     ends = (number(float(end(values.values)), DIGITS) for end in (np.nanmin, np.nanmax))

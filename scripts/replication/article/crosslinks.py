@@ -1,6 +1,6 @@
-"""Links in the article from "Figure 3" and "[1]" to these, and alternative texts of pictures.
+"""Links from mentions such as "Figure 3" or "[1]", and alternative texts of pictures.
 
-They are added to the finished Markdown, so that the template stays readable.
+Both are added to the finished Markdown, which keeps the template readable.
 """
 
 import re
@@ -28,7 +28,7 @@ PLAIN_TEX = {
     "_2": "₂",
     "_n": "ₙ",
 }
-"""Readable letters for the TeX of captions, for screen readers."""
+"""Letters that replace the TeX of captions for screen readers."""
 CAPTION = re.compile(r"^\*\*(Figure|Table) (\d+)\.\*\*", re.MULTILINE)
 PICTURE = re.compile(r"^!\[(\*\*(?:Figure|Table) (\d+)\.\*\*.*)\]\(([^()\s]+)\)$", re.MULTILINE)
 MENTION = re.compile(r"(?<!\*\*)\b(Figure|Table) (\d+)\b(?!\.\*\*)|\[(\d+)\](?![(\[:])")
@@ -37,7 +37,7 @@ HEADING = re.compile(r"^(##+) (.+)$", re.MULTILINE)
 EQUATION = re.compile(r"^\$\$.+\$\$$", re.MULTILINE)
 TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
 REGION = 'tabindex=0 role=region aria-label="{}"'
-"""Makes wide tables focusable, because browsers scroll only focused elements by arrow keys."""
+"""Attributes that let wide tables get the focus, since arrow keys scroll only focused elements."""
 
 
 def link_mentions(text: str) -> str:
@@ -87,7 +87,7 @@ def describe_caption(caption: str) -> str:
 
 
 def _frame_tables(body: str) -> str:
-    """Put each table into a region, and replace formulas in its header by letters.
+    """Put each table into a region, and replace formulas in table headers by letters.
 
     Accessibility checkers regard a header cell with nothing but MathML as empty.
     """

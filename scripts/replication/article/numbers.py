@@ -21,7 +21,7 @@ from .quoted import is_quoted
 from .sources import Printed, Source, printed
 
 MARK = "†"
-"""Printed after each result of a long study, which a full run does not compute again."""
+"""The mark after each result of a long study; a full run does not compute these results."""
 PER_CENT_DIGITS = 2
 """Significant digits of a fraction in per cent."""
 FUNCTIONS = (
@@ -41,7 +41,7 @@ FUNCTIONS = (
 
 
 class Numbers:
-    """Numbers of a run: `of` its datasets, or measured for claims (`n`), also in per cent."""
+    """Numbers of a run as text: from its datasets, or measured for claims; some in per cent."""
 
     def __init__(self, results: Results) -> None:
         self.results, self.rows = results, load(results)
@@ -65,28 +65,28 @@ class Numbers:
         return self._with_limits(name, variable, labels, PER_CENT_DIGITS, percent)
 
     def percent_of(self, name: str, variable: str, **labels: Any) -> Printed:
-        """Return a number with its error in per cent."""
+        """Return a number and its error, both in per cent."""
         data = self.results[name].sel(labels)
         value, error = (100.0 * float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
         return self._mark(f"({with_error(value, error)}){FIRM}%", name, variable, labels)
 
     def span(self, name: str, variable: str, digits: int = 3) -> Printed:
-        """Return the range of a variable over all labels, errors included."""
+        """Return the range of a variable over all labels, widened by the errors."""
         limits = self._limits(name, variable, {})
         return self._mark(enclosing_span(*limits, digits), name, variable, {})
 
     def range_of(
         self, name: str, variable: str, digits: int = 2, definition: str = "", **labels: Any
     ) -> Printed:
-        """Return the range of several numbers with their errors, such as 6.7 to 7.9.
+        """Return the range of several numbers widened by their errors, such as 6.7 to 7.9.
 
-        Variations of `definition` are left out: they define another quantity, printed separately.
+        Variations of the choice `definition` are left out, because they define another quantity.
         """
         limits = self._limits(name, variable, labels, definition)
         return self._mark(enclosing_span(*limits, digits), name, variable, labels)
 
     def share_span(self, name: str, variable: str, **labels: Any) -> Printed:
-        """Return the range of several fractions with their errors in per cent."""
+        """Return the range of several fractions in per cent, widened by their errors."""
         low, high = self._limits(name, variable, labels)
         ends = outward(low, PER_CENT_DIGITS, DOWN), outward(high, PER_CENT_DIGITS, UP)
         return self._mark(" to ".join(map(percent, ends)), name, variable, labels)
@@ -96,16 +96,16 @@ class Numbers:
         return Printed(number(self.measured(claim, key), digits), Source(claim=claim))
 
     def share_of(self, claim: str, key: str) -> Printed:
-        """Return a number that decides a claim in per cent."""
+        """Return, in per cent, a fraction that decides a claim."""
         return Printed(percent(self.measured(claim, key)), Source(claim=claim))
 
     def measured(self, claim: str, key: str) -> float:
-        """Return a number that a claim measured, NaN if it was not decided or is not applicable."""
+        """Return a number that was measured for a claim; NaN if there is none."""
         value = self._claims[claim]["measured"].get(key, "nan")
         return float({"none": "nan", "infinite": "inf"}.get(value, value))
 
     def verdicts(self, figure: int) -> Printed:
-        """Return the number of the paper's claims on a figure with each verdict."""
+        """Return how many of the paper's claims on a figure have each verdict."""
         text = counted_verdicts(on_figure(self.rows, figure))
         return Printed(text, Source(figure=f"fig{figure}"))
 
@@ -141,7 +141,7 @@ class Numbers:
     def _with_limits(
         self, name: str, variable: str, labels: dict, digits: int, write: Callable[[float], str]
     ) -> Printed:
-        """Return a number with its confidence interval, if that is not zero, rounded outward."""
+        """Return a number with its confidence interval rounded outward, unless its width is zero."""
         data = self.results[name].sel(labels)
         value = float(data[variable] if variable in data.variables else data.attrs[variable])
         middle = write(outward(value, digits, DOWN) if variable.endswith("_low") else value)
@@ -153,9 +153,9 @@ class Numbers:
         interval = f" ({' to '.join(ends)})" if set(ends) - {middle} else ""
         if variable in data.data_vars:
             return self._mark(middle + interval, name, variable, labels)
-        return Printed(middle + interval, Source(name, attribute=variable))  # chosen
+        return Printed(middle + interval, Source(name, attribute=variable))  # a setting
 
     def _mark(self, text: str, name: str, variable: str, labels: dict) -> Printed:
-        """Return a printed result, followed by MARK if it is of a long study."""
+        """Return a printed result, followed by MARK if it comes from a long study."""
         variable = variable.removesuffix("_low")
         return printed(f"{text}{MARK if is_quoted(name) else ''}", name, variable, labels)

@@ -16,7 +16,7 @@ from .cards import Card, functions_of
 THIS_FOLDER = Path(__file__).parent
 SCRIPT = "cards.js"
 ANNOTATION = re.compile(r"<annotation .*?</annotation>")
-"""The TeX of a formula; screen readers would read it, and copied text would contain it."""
+"""The TeX in a formula. It is removed from pages: screen readers and copied text would have it."""
 
 PICTURE = re.compile(r'<img src="([^":]*\.png)"([^>]*)>')
 COLOURS = 256
@@ -25,7 +25,7 @@ FIGURE = re.compile(r'<figure id="(figure-\d+)">\s*<a href="([^"]*)\.png">')
 
 
 class LiveParts(NamedTuple):
-    """Parts of a page with live figures: HTML below figures by their ids, data, script, style."""
+    """The parts for live figures: HTML below each figure (by its id), data, script and style."""
 
     below_figures: Mapping[str, str]
     data: str
@@ -39,7 +39,7 @@ def complete_page(
     """Complete a page of Pandoc with cards, scripts, live figures and the pictures in `folder`."""
     cards = list(cards)
     script = "".join(
-        f"{{\n{text}}}\n"  # in a block of its own, so that equal names do not clash
+        f"{{\n{text}}}\n"  # a block for each script, so that equal names do not clash
         for text in (
             (THIS_FOLDER / SCRIPT).read_text(encoding="utf-8"),
             live.script if live else "",
@@ -69,9 +69,9 @@ def complete_page(
 
 
 def places_of(page: Path) -> dict[str, str]:
-    """Return addresses in the page of an article by what they show: claims, variables, figures.
+    """Return addresses in the page of an article of claims, variables and figures.
 
-    The keys are ids of the report; those of figures are the paths of their files.
+    The keys are ids of the report. For figures the keys are the paths of their files.
     """
     html = page.read_text(encoding="utf-8")
     ids = {card: card for card in CARD.findall(html)}
@@ -80,14 +80,14 @@ def places_of(page: Path) -> dict[str, str]:
 
 
 def _enlargeable(folder: Path, picture: str, attributes: str) -> str:
-    """Return a picture with a link to its file, in which browsers can zoom."""
+    """Return a picture with a link to its file, because browsers can zoom in the file."""
     return f'<a href="{picture}"><img src="{embed(folder / picture)}"{attributes}></a>'
 
 
 def embed(picture: Path) -> str:
-    """Return a picture as a data URL, in 256 colours for a third of the bytes.
+    """Return a picture as a data URL, reduced to 256 colours, which needs a third of the bytes.
 
-    Drawings have few colours, and the shades at the edges of lines hardly change.
+    Drawings have few colours, so only the shades at the edges of lines change slightly.
     """
     content = BytesIO()
     with Image.open(picture) as drawing:

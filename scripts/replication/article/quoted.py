@@ -1,6 +1,6 @@
 """Committed results of long studies that an article quotes, copied into its folder.
 
-So every link of the article works if the folder is sent or hosted without the project.
+With the copies, all links of the article work in a folder without the project.
 """
 
 from collections.abc import Iterable, Mapping
@@ -17,7 +17,7 @@ BASELINE = "tests/baseline"
 
 
 class LongStudy(NamedTuple):
-    """The command of a long study, and its function, if its files do not name it."""
+    """The command of a long study, and its function if the files do not record the function."""
 
     command: str
     function: str = ""
@@ -39,7 +39,7 @@ def original_of(copy: str) -> str:
 
 
 def is_quoted(name: str) -> bool:
-    """Return whether a dataset is of a long study, which a full run does not compute again."""
+    """Return whether a dataset comes from a long study, which a full run does not compute."""
     return name.startswith(f"{FOLDER}/")
 
 

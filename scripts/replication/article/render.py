@@ -38,8 +38,8 @@ MARKS = {
     "fails": REFUTED,
     "undecided": (Verdict.UNDECIDED,),
 }
-"""The verdicts for which the template may mark a sentence with this function. A claim of the paper
-that fails or is undecided must be marked."""
+"""Functions of the template that mark a sentence, with the verdicts that each allows. The article
+must mark each claim of the paper that fails or is undecided."""
 TO_CARD = "data and code"
 """The text of the link from a caption to the card of its figure."""
 
@@ -48,9 +48,9 @@ class Article(NamedTuple):
     """The article of one replication.
 
     `folder` contains its source article.md.j2 and the journal's metadata.yaml. `gather` returns the
-    functions and numbers that the source uses, `long_studies` are the studies that it quotes.
-    `navigation` is HTML with the links above the page, `rights` the sentence on licenses at the end
-    of the PDF.
+    functions and numbers that the source uses. `long_studies` are the studies that the source
+    quotes. `navigation` is HTML: the links at the top of the page. `rights` is the sentence on
+    licenses at the end of the PDF.
     """
 
     folder: Path
@@ -129,9 +129,9 @@ class Article(NamedTuple):
     def source(self, results: Results, pictures: str, cards: Cards | None = None) -> str:
         """Return the article in Markdown, or a notice if it would not be true of this run.
 
-        `pictures` is the pattern of figures' paths, such as "figures/{}.png". With `cards` numbers,
-        verdicts and figures link to them, and pictures have captions. Without, there are no such
-        links, and captions are paragraphs.
+        `pictures` is the pattern of figures' paths, such as "figures/{}.png". With `cards`, numbers,
+        verdicts and figures have links to their cards, and pictures have captions. Without `cards`,
+        there are no such links, and captions are paragraphs.
         """
         if results.differs:
             return self._notice([f"{in_short(list(results.differs.values()))}."])
@@ -150,7 +150,7 @@ class Article(NamedTuple):
             **self.gather(results),
         )
         text = re.sub(r"\$\s=\s+", f"${FIRM}={FIRM}", text)
-        text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # no numbered list is meant
+        text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # or Pandoc would make a numbered list
         wrong = list(_untrue(marked, load(results)))
         if wrong and cards:
             cards.clear()
@@ -164,7 +164,7 @@ class Article(NamedTuple):
         return f"# {self.title}\n\n**Abstract.** {summary}\n\n{listed}\n"
 
     def convert(self, text: str, kind: str, *options: str) -> str:
-        """Return Markdown converted to the `kind` "html" or "typst", in the layout of its room."""
+        """Return Markdown converted to the `kind` "html" or "typst", with the template of this kind."""
         layout = LAYOUTS / {"html": "article.html", "typst": "article.typ"}[kind]
         settings = [
             "--wrap=none",
@@ -180,7 +180,7 @@ class Article(NamedTuple):
 
 
 def _write_value(value: Any, cards: Cards | None) -> str:
-    """Return a value of the template as Markdown, linked to its card if there are cards."""
+    """Return a value of the template as Markdown, with a link to its card if there are cards."""
     if isinstance(value, list):
         return "".join(_write_value(entry, cards) for entry in value)
     if not isinstance(value, Printed) or cards is None:
@@ -212,7 +212,7 @@ def _recorder(claims: set[str], cards: Cards | None) -> Callable[..., list[Print
 
 
 def _untrue(marked: Mapping[str, set[str]], rows: list[dict]) -> Iterator[str]:
-    """Yield a sentence for each verdict that contradicts the article or is missing there."""
+    """Yield a sentence for each verdict that contradicts the article, or that it must mark."""
     for row in rows:
         stated = {mark for mark, claims in marked.items() if row["name"] in claims}
         right = {mark for mark, verdicts in MARKS.items() if row["verdict"] in verdicts}

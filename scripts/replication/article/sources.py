@@ -12,11 +12,11 @@ from latticode.kernels.sources import ROOTS
 PROJECT = Path(__file__).resolve().parents[3]
 """The folder of the project."""
 BLOB_DIGITS = 12
-"""Digits of git's id of the content of a file."""
+"""Number of digits of git's id of a file's content."""
 
 
 class Source(NamedTuple):
-    """The source of a text: numbers of a dataset, a claim, or a figure."""
+    """The source of a printed text: numbers of a dataset, a claim, or a figure."""
 
     dataset: str = ""
     variable: str = ""
@@ -69,7 +69,7 @@ class Code(NamedTuple):
 
 @cache
 def code_of(function: str) -> Code:
-    """Return the code of a function, or only its name if it does not exist any more."""
+    """Return the code of a function, or only its name if the function no longer exists."""
     module, _, name = function.rpartition(".")
     path = ROOTS[module.partition(".")[0]] / f"{module.replace('.', '/')}.py"
     definition = _definitions(path).get(name) if path.exists() else None
