@@ -21,7 +21,7 @@ from .quoted import LongStudies, LongStudy, copy_of, is_quoted
 from .sources import Code, Printed, Source, code_of
 
 MOST_ROWS = 12
-"""Largest number of rows of a whole table in a card; of a longer one, only printed rows are shown."""
+"""If a table has more rows, its card shows only the rows that the article prints."""
 DIGITS = 5
 """Significant digits of a number in a card."""
 ERRORS = {
@@ -252,7 +252,7 @@ class Cards:
         )
 
     def _tabulate(self, source: Source) -> Table:
-        """Return a table of the numbers of a variable: all if they are few, else the printed ones."""
+        """Return a table of a variable: all numbers if they are few, else the printed ones."""
         data = self.results[source.dataset]
         sources = [text.source for text in self._printed.get(source.card, [])] or [source]
         return tabulate(data, source.variable, [dict(each.labels) for each in sources])

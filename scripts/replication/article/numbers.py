@@ -141,7 +141,7 @@ class Numbers:
     def _with_limits(
         self, name: str, variable: str, labels: dict, digits: int, write: Callable[[float], str]
     ) -> Printed:
-        """Return a number with its confidence interval rounded outward, unless its width is zero."""
+        """Return a number and, unless its width is zero, its interval rounded outward."""
         data = self.results[name].sel(labels)
         value = float(data[variable] if variable in data.variables else data.attrs[variable])
         middle = write(outward(value, digits, DOWN) if variable.endswith("_low") else value)

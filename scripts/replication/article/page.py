@@ -16,7 +16,7 @@ from .cards import Card, functions_of
 THIS_FOLDER = Path(__file__).parent
 SCRIPT = "cards.js"
 ANNOTATION = re.compile(r"<annotation .*?</annotation>")
-"""The TeX in a formula. It is removed from pages: screen readers and copied text would have it."""
+"""The TeX in a formula; pages omit it, or screen readers would read it."""
 
 PICTURE = re.compile(r'<img src="([^":]*\.png)"([^>]*)>')
 COLOURS = 256

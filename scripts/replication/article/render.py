@@ -129,8 +129,8 @@ class Article(NamedTuple):
     def source(self, results: Results, pictures: str, cards: Cards | None = None) -> str:
         """Return the article in Markdown, or a notice if it would not be true of this run.
 
-        `pictures` is the pattern of figures' paths, such as "figures/{}.png". With `cards`, numbers,
-        verdicts and figures have links to their cards, and pictures have captions. Without `cards`,
+        `pictures` is the pattern of figures' paths, such as "figures/{}.png". If `cards` are given,
+        numbers, verdicts and figures link to their cards, and pictures have captions. Otherwise
         there are no such links, and captions are paragraphs.
         """
         if results.differs:
@@ -164,7 +164,7 @@ class Article(NamedTuple):
         return f"# {self.title}\n\n**Abstract.** {summary}\n\n{listed}\n"
 
     def convert(self, text: str, kind: str, *options: str) -> str:
-        """Return Markdown converted to the `kind` "html" or "typst", with the template of this kind."""
+        """Return Markdown converted to the `kind` "html" or "typst", with its template."""
         layout = LAYOUTS / {"html": "article.html", "typst": "article.typ"}[kind]
         settings = [
             "--wrap=none",

@@ -1,4 +1,4 @@
-"""Accepts a run, or some of its files, as the new baseline: a copy under git."""
+"""Accepts a run, or some of its files, as the new baseline, which is under git."""
 
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
@@ -35,14 +35,14 @@ WAY_OUT = (
 
 
 class AcceptanceError(ValueError):
-    """Nothing was accepted; the message has the reason and the way out."""
+    """Nothing was accepted; the message has the reason and what to do."""
 
     def __init__(self, why: object) -> None:
         super().__init__(f"nothing is accepted: {why}")
 
 
 def check(now: Mapping, accepted: Mapping, owner: str, way_out: str) -> None:
-    """Raise AcceptanceError unless `now` equals `accepted`: two configurations or environments.
+    """Raise AcceptanceError unless the configuration or environment `now` equals the accepted one.
 
     `owner` and `way_out` are texts of the message.
     """
@@ -79,10 +79,11 @@ def accept(
     configuration: Mapping[str, Any],
     words: Sequence[str] = (),
 ) -> str:
-    """Copy the files `names` of a run, or those of `words`, into `folder`, and return a summary.
+    """Copy the files `names` of a run into `folder`, and return a summary.
 
-    Accepted files that are not in `names` are removed. Raises AcceptanceError if a file is empty or
-    damaged, or if two configurations or environments would mix.
+    If `words` are given, only the files that they select are copied. Accepted files that are not in
+    `names` are removed. Raises AcceptanceError if a file is empty or damaged, or if the baseline
+    would have files of two configurations or environments.
     """
     try:
         record, current, names = recorded(folder), environment(), set(names)
@@ -115,7 +116,7 @@ def accept(
 def _require_declarations(
     contents: Mapping[str, bytes | xr.Dataset], configuration: Mapping[str, Any]
 ) -> None:
-    """Raise AcceptanceError for a variable that does not declare whether it rests on chaos."""
+    """Raise AcceptanceError if a variable does not declare whether it rests on chaos."""
     chaos = Chaos({}, cases=cases_of(configuration))
     for name, content in contents.items():
         if isinstance(content, xr.Dataset) and (unknown := chaos.undeclared(name, content)):
@@ -156,6 +157,6 @@ def _take(name: str, content: bytes | xr.Dataset, path: Path, copy: Path) -> str
 def accept_results(
     results: list[str], words: list[str], baseline: str, configuration: dict, made: str
 ) -> None:
-    """Accept into `baseline` the files of the run in the folder `made`, or those of `words`."""
+    """Accept the files of the run in the folder `made`, or those that `words` select."""
     names = [Path(path).relative_to(made).as_posix() for path in results]
     print(accept(names, Path(made), Path(baseline), configuration, words))

@@ -1,8 +1,8 @@
 """The accepted results in tests/baseline, and the comparison of a run with them.
 
-A file with the accepted hash is identical. In the environment that made the baseline any other
-hash is an error, because the same code gives the same bits on all processors of one family. In
-other environments, or with bits=any, the file is compared with the stored copy.
+A file with the accepted hash is identical. Any other hash is an error in the environment that made
+the baseline: there the same code gives the same bits, on all processors of one family. In other
+environments, or with bits=any, the file is compared with the stored copy.
 """
 
 import platform
@@ -54,8 +54,8 @@ def environment() -> dict[str, dict[str, str]]:
 def recorded(folder: Path) -> dict[str, Any]:
     """Return the record of a baseline, empty if there is none.
 
-    Raises DatasetError if it is damaged, or lists a file that no run makes or that lies outside
-    `folder`, since listed files are read, and deleted once they are obsolete.
+    Raises DatasetError if the record is damaged, or lists a file outside `folder` or a file that
+    no run makes. Listed files are read, and deleted once they are obsolete.
     """
     if not (folder / RECORD).exists():
         return {"environment": {}, "configuration": {}, "files": {}}
@@ -68,12 +68,12 @@ def recorded(folder: Path) -> dict[str, Any]:
 
 
 def is_kept(name: str) -> bool:
-    """Return whether the baseline stores a copy of a file: of PDFs and pages it stores a hash."""
+    """Return whether the baseline stores a copy of a file; of PDFs and pages it has only hashes."""
     return not name.endswith((".pdf", ".html"))
 
 
 def fault_of_kept(name: str, accepted: Mapping[str, Any], folder: Path) -> str:
-    """Return what is wrong with a file's copy in the baseline; empty if nothing is."""
+    """Return what is wrong with a file's copy in the baseline, or an empty text."""
     if name not in accepted or not (folder / name).exists():
         return "is missing"
     record = accepted[name]
@@ -92,8 +92,8 @@ def compare(
 ) -> ComparisonResult:
     """Return the result for each file in `names` (paths below `results`) or in the baseline.
 
-    `trust` names the dataset with the horizons of trust. With `any_bits` numbers have a tolerance
-    in the accepted environment too.
+    `trust` names the dataset with the horizons of trust. With `any_bits`, numbers are compared
+    within a tolerance even in the accepted environment.
     """
     try:
         record = recorded(folder)
@@ -122,7 +122,7 @@ def compare(
 
 
 class Comparison:
-    """The comparison of a run with its baseline, with the results so far."""
+    """The comparison of a run with its baseline; it stores the results so far."""
 
     def __init__(
         self, record: Mapping, made: Path, folder: Path, trust: Trust | None = None
@@ -138,7 +138,7 @@ class Comparison:
         self.found: dict[str, FileResult] = {}
 
     def look_at_all(self, names: set[str]) -> list[FileResult]:
-        """Return the results; datasets come first, because texts and pictures depend on them."""
+        """Return the results; datasets are first, because texts and pictures depend on them."""
         for name in sorted(names | self.accepted.keys(), key=place):
             self.look_at(name, name in names)
         return list(self.found.values())
@@ -189,14 +189,14 @@ class Comparison:
     def _without_content(
         self, name: str, new_hashes: list[str], accepted: list[str], follows_chaos: bool
     ) -> tuple[Status, str]:
-        """Return the status of a file of which the baseline has only hashes (see `hash_of`)."""
+        """Return the status of a file for which the baseline has only hashes (see `hash_of`)."""
         reason = "does not have the accepted hash; the baseline has no copy to compare"
         if len(new_hashes) == 1:  # a PDF
             may_be = follows_chaos or not self.same_drawing
         elif new_hashes[1:] == accepted[1:]:
             if not self.same_drawing:
                 return Status.WITHIN, "has code or pictures of other package versions"
-            may_be = follows_chaos and name != "live.html"  # its code depends on no result
+            may_be = follows_chaos and name != "live.html"  # no result affects its code
         else:
             may_be = follows_chaos and new_hashes[-1] == accepted[-1]
         return Status.BEYOND if may_be else Status.DIFFERENT, reason
@@ -207,7 +207,7 @@ class Comparison:
         return result.status if result else Status.MISSING
 
     def strictly(self, result: FileResult, any_bits: bool) -> FileResult:
-        """Return the result, as a failure if the file must have the accepted bits."""
+        """Return the result; it becomes a failure if the file must have the accepted bits."""
         if result.status not in (Status.WITHIN, Status.BEYOND):
             return result
         strict = self.same_data and not any_bits
@@ -227,7 +227,7 @@ def place(name: str) -> tuple[bool, ...]:
 
 
 def unlike_settings(was: Any, now: Any, place: str = "") -> list[str]:
-    """Return a phrase for each difference of two mappings, with its dotted path."""
+    """Return a phrase with the dotted path for each difference of two mappings."""
     if isinstance(was, Mapping) and isinstance(now, Mapping):
         differences = []
         for key in dict.fromkeys([*was, *now]):

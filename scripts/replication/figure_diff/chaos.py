@@ -1,9 +1,9 @@
 """Chaotic numbers, and their allowed errors in a correct run.
 
-The accepted results contain the error of a run with nothing but rounding errors, relative to full
-scale, as a function of time (`Trust`). A correct run may have this error divided by MARGIN. The
-horizon of trust is the time at which this allowed error reaches TOLERANCE; a case without a horizon
-is regular. After the horizon the allowed error grows with time, until any value is allowed.
+In the accepted results, one run of each case has only rounding errors. Its error is stored relative
+to full scale as a function of time (`Trust`). The allowed error is this error divided by MARGIN.
+The horizon of trust is the time at which the allowed error reaches TOLERANCE; a case without a
+horizon is regular. After the horizon the allowed error grows, until any value is allowed.
 """
 
 import re
@@ -20,25 +20,26 @@ from replication.variables import ALONG, ALWAYS, BY_CASE, CHAOS, NO, YES
 from .hashes import are_words
 
 TOLERANCE = 1e-6
-"""Allowed error of a number relative to the largest; single precision alone has 6e-8."""
+"""Allowed error of a number relative to the largest; single precision alone causes 6e-8."""
 
 ROUNDING = 1e-8
 """Smaller numbers may be rounding errors, whose digits are arbitrary."""
 
 MARGIN = 0.001
-"""Other solvers round at least ten times as often as that run, and rounding errors accumulate."""
+"""Factor between the stored and the allowed error. Other solvers round at least ten times as often
+as the run with only rounding errors, and rounding errors accumulate."""
 
 LOCAL, UNKNOWN = 10.0, 0.1
-"""Allowed error of a single site after the horizon, relative to that of a norm; error relative to
-full scale that no longer grows like a small one, so that any value is allowed."""
+"""Factor from the allowed error of a norm to the allowed error of a single site. Error relative to
+full scale from which any value is allowed, because it no longer grows like a small error."""
 
 
 class Trust(NamedTuple):
-    """Where the accepted results record the errors of runs, and the names of dimensions.
+    """The variable with the errors of runs in the accepted results, and the names of dimensions.
 
-    In `dataset` the `variable` (case, time) is the error of runs against references relative to
-    full scale. `labels` select the run with nothing but rounding errors. Along the dimensions
-    `steps` the values of a run change gradually.
+    In `dataset`, `variable` (case, time) is the error of runs relative to full scale. `labels`
+    select the run that has only rounding errors. `steps` are the dimensions along which the values
+    of a run change gradually.
     """
 
     dataset: str
@@ -52,20 +53,20 @@ class Chaos(NamedTuple):
     """The horizons of trust and the allowed errors of the accepted run."""
 
     horizons: Mapping[str, float]
-    """By name: the horizon of trust of each chaotic case, -inf for a sweep over a chaotic case."""
+    """The horizon of trust by chaotic case; -inf for a sweep over a chaotic case."""
     errors: Mapping[str, tuple[np.ndarray, np.ndarray]] = {}
-    """By chaotic case: times, and the allowed error up to each of them."""
+    """Times and the allowed error up to each time, by chaotic case."""
     cases: Mapping[str, Mapping[str, Any]] = {}
-    """By name: the parameters of each case of the configuration, empty for a sweep."""
+    """The parameters by case of the configuration, empty for a sweep."""
     time: str = "time"
 
     def freedom(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
         """Return the allowed error of each value of the variable `key` of the dataset `name`.
 
-        It is relative to the largest value: 0 for a regular number, infinity if nothing is known.
-        The attribute `rests_on_chaos` decides, see `replication.variables`. A number belongs to a
-        case or sweep if all words of its name are in the name of the file or in the labels of the
-        number: the curve `large` in figures/fig3 belongs to fig3_large.
+        The error is relative to the largest value: 0 for a regular number, infinity if any value is
+        allowed. It follows from the attribute `rests_on_chaos` (see `replication.variables`). A
+        number belongs to a case or sweep if each word in the name of the case is in the name of the
+        file or in a label of the number: the curve `large` in figures/fig3 belongs to fig3_large.
         """
         variable = data.variables[key]
         default = data.attrs.get(CHAOS, BY_CASE) if variable.dtype.kind == "f" else NO
@@ -81,7 +82,7 @@ class Chaos(NamedTuple):
     def undeclared(self, name: str, data: xr.Dataset) -> list[str]:
         """Return the variables that are not declared chaotic or regular.
 
-        They lack the attribute, and the dataset names no case of the configuration.
+        They lack the attribute, and their dataset belongs to no case of the configuration.
         """
         dimensions = [_labels(dimension, data) for dimension in data.dims]
         labels = [words for along in dimensions for words in along]
@@ -96,7 +97,7 @@ class Chaos(NamedTuple):
         ]
 
     def _along(self, parameter: str, variable: xr.Variable, data: xr.Dataset) -> np.ndarray:
-        """Return 0 for values of `parameter` at which all cases are regular, else infinity."""
+        """Return 0 for each value of `parameter` at which all cases are regular, else infinity."""
         if parameter not in variable.dims:
             return np.full(variable.shape, np.inf)
         axis = [-1 if dimension == parameter else 1 for dimension in variable.dims]
@@ -135,12 +136,12 @@ class Chaos(NamedTuple):
 
 
 def are_coordinates(key: str, variable: xr.Variable, time: str) -> bool:
-    """Return whether a variable of this name has the positions along a dimension."""
+    """Return whether a variable with the name `key` has the positions along a dimension."""
     return variable.dims in ((key,), (key.removesuffix(f"_{time}"),))
 
 
 def cases_of(configuration: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    """Return the parameters of each case of a configuration by name, empty ones for sweeps."""
+    """Return the parameters by case of a configuration, empty for a sweep."""
     return {
         **{sweep: {} for sweep in configuration.get("sweeps", {})},
         **configuration.get("cases", {}),
@@ -150,7 +151,8 @@ def cases_of(configuration: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
 def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | None) -> Chaos:
     """Return the horizons and allowed errors of the baseline in `folder`.
 
-    Its configuration has the sections `cases`, parameters by name, and `sweeps`, each with a case.
+    The configuration has the section `cases` with parameters by name, and the section `sweeps`, in
+    which each sweep names its case.
     """
     cases, sweeps = cases_of(configuration), configuration.get("sweeps", {})
     if trust is None:
@@ -165,7 +167,7 @@ def known_chaos(folder: Path, configuration: Mapping[str, Any], trust: Trust | N
 
 
 def _growing_errors(folder: Path, trust: Trust) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """Yield each case with its times, and the largest allowed error up to each of them."""
+    """Yield each case with its times, and the largest allowed error up to each time."""
     data = read(folder / trust.dataset)
     difference = data[trust.variable].sel(trust.labels).transpose("case", trust.time)
     grown = np.maximum.accumulate(difference.fillna(0.0).values, axis=1) / MARGIN
