@@ -29,8 +29,8 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
     """Return the finding on the energy drift in the cases with initial data of this size.
 
     The paper gives the order of the drift and the tolerances of the solver. It does not say whether
-    the drift is absolute or relative to H(0), and whether the solver's unknowns are complex or
-    real. A case counts only if all these definitions agree on whether its drift is of the order.
+    the drift is absolute or relative to H(0), or whether the solver's unknowns are complex or real.
+    A case is decided only if all these definitions agree on whether its drift exceeds the order.
     """
     if (end := float(solvers["tau"][-1])) < EARLIEST:
         raise UndecidableError(f"the runs end at tau = {end:g}, before {EARLIEST:g}")
@@ -38,7 +38,7 @@ def drifts(solvers: xr.Dataset, size: str) -> Finding:
     for (unknowns, solver), reading in product(UNKNOWNS.items(), solvers["of"].values):
         read = solvers["largest_drift"].sel(solver=solver, of=reading)
         for case in (name for name in map(str, solvers["case"].values) if name.endswith(size)):
-            # a name omits what holds in the figures: complex unknowns, absolute drift
+            # names omit "complex" and "absolute", which the figures use
             words = (word for word in (unknowns, reading) if word not in ("complex", "absolute"))
             name = "_".join([case, *words])
             measured[name] = float(read.sel(case=case))

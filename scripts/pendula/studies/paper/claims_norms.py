@@ -1,4 +1,4 @@
-"""Section 5, Figs 2 to 4: claims on the norms against time."""
+"""Section 5, Figs 2 to 4: claims on the norms against time. P is |A|^2 + |B|^2 in l2."""
 
 from functools import partial
 
@@ -55,7 +55,7 @@ UNSTABLE = 3.0
     ),
 )
 def fig2_bounded(small: xr.Dataset, large: xr.Dataset, sweep: xr.Dataset) -> Finding:
-    """Compare P of each run with the bound from its energy; the sweep is of the large case."""
+    """Compare P of each run with the bound for its energy; the sweep has the large case's bound."""
     bounds = [
         theorem_1_bound(float(ds["energy"][0]), Constants.of(ds.attrs)) for ds in (small, large)
     ]
@@ -268,7 +268,7 @@ def region_of(run: xr.Dataset) -> str:
     controls=(ClaimControl("a stable run at Omega = -4", "fig3_small"),),
 )
 def fig4_unstable(small: xr.Dataset) -> Finding:
-    """Require that small data grow: large data may grow by cubic terms while zero is stable."""
+    """Require that small data grow. Large data can grow by cubic terms although zero is stable."""
     if not largest(small)[0] ** 2 <= Constants.of(small.attrs).gamma:
         raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]

@@ -1,9 +1,10 @@
 """Section 5: claims on the figures by the paper's second solver.
 
-Single runs of a chaotic case cannot agree for long. If the motion is chaotic, a run of the second
-solver is therefore compared with an ensemble, as one more member. For Figs 2 to 4 we compare the
-mean norm over a long time, which is normally distributed to good approximation. The maxima of
-Fig 6, right, are not, because some runs spread late: we compare them with the range of many runs.
+Single runs of a chaotic case cannot agree for long. In a chaotic case we therefore compare a run of
+the second solver with an ensemble, as one more member. For Figs 2 to 4 we compare the mean norm
+over a long time, which is normally distributed to good approximation. The maxima of Fig 6, right,
+are not normally distributed, because some runs spread late. We compare them with the range of many
+runs.
 """
 
 import numpy as np
@@ -37,7 +38,7 @@ LATE, WINDOW = (30.0, 50.0), "[30, 50]"
 
 FIRST = sweeps("fig5_left", "fig6_left")
 SECOND = tuple(f"{name}.crank_nicolson" for name in FIRST)
-"""The regular sweeps by each solver."""
+"""The regular sweeps by the first solver, and by the second."""
 (RIGHT,) = checks("second_solver")
 """A chaotic sweep by the first solver, and by the second with two different steps."""
 
@@ -48,8 +49,8 @@ SECOND = tuple(f"{name}.crank_nicolson" for name in FIRST)
 def late_distance(solvers: xr.Dataset, members: xr.Dataset, case: str) -> tuple[float, int]:
     """Return the distance of the second solver from the ensemble's mean, and the number of members.
 
-    The late mean of the l2 norm is compared, after the solvers diverge. The distance is divided by
-    the standard deviation between one more member and the ensemble's mean.
+    The distance is between mean l2 norms in the window LATE, after the solvers diverge. Its unit is
+    the standard deviation of one more member from the ensemble's mean.
     """
     run, since = solvers.sel(case=case), LATE[0]
     known = WINDOW in members["window"].values and run["second_divergence"][0] < since
@@ -130,9 +131,9 @@ def largest_difference(first: xr.Dataset, second: xr.Dataset) -> float:
 
 
 def shares_inside(right: xr.Dataset) -> np.ndarray:
-    """Return the share of the second solver's runs within the range of the first, (solver_step,).
+    """Return the share of the second solver's runs within the range of the first's.
 
-    It is the smallest share over all half-widths.
+    It is (solver_step,), and the smallest share over all half-widths.
     """
     if right.sizes["half_width"] < missing.FEWEST or right.sizes["first_member"] < missing.FEWEST:
         raise UndecidableError("the ensembles of the second solver are too small")
@@ -182,7 +183,7 @@ def second_solver_sweeps(
     second_6: xr.Dataset,
     right: xr.Dataset,
 ) -> Finding:
-    """Compare regular sweeps point by point, and a chaotic one by ensembles, with two steps.
+    """Compare regular sweeps point by point, and a chaotic sweep by ensembles at two steps.
 
     The paper gives no step: if the outcome depends on it, the claim is undecided.
     """

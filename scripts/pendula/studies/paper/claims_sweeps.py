@@ -1,7 +1,7 @@
 """Section 5, Figs 5 and 6: claims on norms in a time window as functions of the half-width M.
 
-In a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite, and
-if the front does not reach the ends within the window, a longer chain changes nothing.
+In a fixed window no norm can diverge with M. By (19) the norm on the infinite chain is finite. If
+the front does not reach the ends within the window, a longer chain changes nothing.
 """
 
 import numpy as np
@@ -36,14 +36,14 @@ TEXT_6 = "[10, 70]"
 
 
 def with_a_hump(sweep: xr.Dataset) -> xr.Dataset:
-    """Return, as a control, a sweep or the check at Omega = 8 with an l2 norm that rises first."""
+    """Return, as a control, l2 norms that are 30 % higher at the second to the fifth M."""
     return scale("l2", 1.3, half_width=sweep["half_width"][1:5])(sweep)
 
 
 def falls_to_a_level(
     half_widths: np.ndarray, values: np.ndarray, fall: str
 ) -> tuple[dict[str, float], AllOf]:
-    """Return the measured numbers and the criterion for a fall with M to a level."""
+    """Return measured numbers of `values`, and the criterion that they fall with M to a level."""
     measured = {
         fall: 1.0 - values[-1] / values[0],
         "largest_rise": np.max(values / np.minimum.accumulate(values)) - 1.0,
@@ -64,7 +64,7 @@ def falls_to_a_level(
     ),
 )
 def fig5_decreases(sweep: xr.Dataset) -> Finding:
-    """Require that the maximum falls with M to a level, and does not rise before."""
+    """Require that the maximum falls to a level as M grows, and does not rise in between."""
     m, highest = swept(sweep, "l2", "max", WINDOW)
     _, average = swept(sweep, "l2", "mean", WINDOW)
     measured, criterion = falls_to_a_level(m, highest, "fall_of_maximum")

@@ -12,8 +12,8 @@ from pendula.models import solvers
 from pendula.problem import PaperProblem
 
 CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
-"""A value for every control. Compiled code does not depend on them: another tolerance needs no
-compilation, and reruns only the jobs that use it."""
+"""A value for every control. Compiled code does not depend on these values: a change of a tolerance
+needs no compilation, and reruns only the jobs that use it."""
 
 
 def compile_solver(kernels: str, solver: str) -> None:

@@ -177,7 +177,7 @@ def gather_sweeps(
 ) -> xr.Dataset:
     """Return the norms of the pair in two sweeps: the maximum over a window, the mean over another.
 
-    The paper's text uses the maximum, its captions the average, over different windows. Windows are
+    The paper's text uses maxima and its captions use averages, over different windows. Windows are
     named as in the sweeps, such as "[10, 50]"; `norms` are the norms to draw. If a sweep has an
     ensemble, its mean and standard deviation are added.
     """
@@ -199,7 +199,7 @@ def gather_sweeps(
 def draw_sweeps(data: xr.Dataset) -> Figure:
     """Draw both panels: red dots for l2, blue squares for l-infinity, hollow for averages.
 
-    Each mark of a chaotic sweep is one random sample: the bars next to it show its ensemble.
+    Each mark of a chaotic sweep is one random sample. The bars next to it show its ensemble.
     """
     figure = style.new_figure(style.WIDTH, 2.6)
     row = figure.subplots(1, 2)

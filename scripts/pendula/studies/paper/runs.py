@@ -31,7 +31,7 @@ def run_sweep(
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
 ) -> ManyRuns:
-    """Return the runs on all `half_widths`, and how maxima and means over `windows` follow."""
+    """Return the runs on all `half_widths`, for the dataset of maxima and means over `windows`."""
     runs = runs_of_sweep(problem, half_widths, windows)
 
     def contents(retained: dict[str, np.ndarray]) -> Contents:

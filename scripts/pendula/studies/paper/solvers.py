@@ -1,4 +1,4 @@
-"""The paper's solvers compared: energy drift, second solver, errors against the reference.
+"""Comparison of the paper's solvers: energy drift, second solver, errors against references.
 
 Section 5 states the order of the energy drift of ode45, and that a second solver gives no
 significant differences. Here all solvers integrate each case, and two datasets store the results
@@ -72,7 +72,7 @@ ATTRIBUTES = {
     "distance": REGULAR,
     "late_distance": REGULAR,
 }
-"""Attributes of these variables for the comparison and the ledger."""
+"""Attributes of variables of the two datasets, for the comparison and the ledger."""
 
 
 def measure_solvers(
@@ -84,8 +84,8 @@ def measure_solvers(
 ) -> Iterator[xr.Dataset]:
     """Yield the dataset of energy drifts and of the second solver, then the dataset of all errors.
 
-    `cases` are plain values of problems without a solver; `solvers` are the controls by solver. The
-    paper states no drift for `user_cases`, which differ from its own.
+    `cases` are plain values of problems without a solver, and `solvers` has the controls of each
+    solver. The paper states no drift for `user_cases`, which differ from the paper's cases.
     """
     runs = {name: run_by_all(name, case, solvers) for name, case in cases.items()}
     yield compare_solvers(runs, user_cases)
@@ -93,7 +93,7 @@ def measure_solvers(
 
 
 def run_by_all(name: str, case: Mapping, solvers: Mapping[str, Mapping]) -> dict[str, xr.Dataset]:
-    """Return the runs of a case by each solver, ode45_real, and the second with half its step."""
+    """Return the runs of a case by all `solvers`, ode45_real, and SECOND with half of its step."""
     first, second = solvers[FIRST], solvers[SECOND]
     variants = {
         UNKNOWNS["real"]: {**first, "name": UNKNOWNS["real"]},
@@ -143,7 +143,7 @@ def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
 
 
 def _second_solver_differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Return the second solver's differences from the first, by its step, and its l2 norm."""
+    """Return the differences of the first solver and SECOND by SECOND's step, and SECOND's l2."""
     differences = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
     run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
     largest = [float(over_time.max()) for over_time in differences]
@@ -198,7 +198,7 @@ def _trust_case(
 
 
 def _proven(run: xr.Dataset, reference: xr.Dataset, proved: xr.Dataset | None) -> dict:
-    """Return TRUSTED's numbers on the certified curve, NaN if it is not of the run's problem."""
+    """Return the numbers of the certified curve in TRUSTED, NaN if it is of another problem."""
     if proved is None or not is_of_same_case(run, proved):
         return dict.fromkeys(("l2_bound", "distance", "late_distance"), np.nan)
     right = reference[list(NORMS)].reindex(tau=proved["tau"], method="nearest", tolerance=1e-9)

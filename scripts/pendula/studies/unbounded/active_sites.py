@@ -23,11 +23,11 @@ def run_long(
 ) -> dict[str, np.ndarray]:
     """Return the series of a run of `problem` on an infinite chain.
 
-    At the times `tau` these are l2 and linf of the pair (A, B). At the times `piece_tau` they are
-    the site of the front, the site of the second front at all `levels`, -1 if there is none, and
-    `means` by `region_means` at all `edges`, with the second front at the first level. A single
-    level or edge has no axis. If the data are not even in n, all but the norms refer to the sites
-    0..W.
+    The series at the times `tau` are `l2` and `linf` of the pair (A, B). Those at the times
+    `piece_tau` are `front`, `second_front` and `means`. `front` is the site of the first front, and
+    `second_front` that of the second for all `levels`, -1 if there is none. `means` are those of
+    `region_means` for all `edges`, with the second front at the first level. A single level or edge
+    has no axis. If the data are not even in n, only the norms include the sites with n < 0.
     """
     outputs, states = [], []
     for times, record, _, sites in integrate_intervals(

@@ -1,6 +1,7 @@
 """The sites of both fronts in a state, and the mean powers in the regions behind them.
 
-`sites` are four rows on the sites 0..W, (row, site): Re and Im of S and D (see `sums`).
+`sites` is an array (row, site) from the site 0 to the last one in motion. Its four rows are Re S,
+Im S, Re D and Im D (see `sums`).
 """
 
 import numpy as np
@@ -21,8 +22,8 @@ KINDS = ("P", "|S|^2")
 SHARE, EDGE, AHEAD = 0.9, 40, 10
 """Sites up to the fraction SHARE of the second front's site count as behind it. EDGE sites behind
 the first front and AHEAD sites ahead of the second do not count as between the fronts, because the
-state still relaxes there. Behind the first front this takes some hundred sites, so that long runs
-leave out more than EDGE."""
+state still relaxes there. Behind the first front it relaxes over some hundred sites, so long runs
+leave out more than EDGE sites."""
 
 
 def site_powers(sites: np.ndarray) -> np.ndarray:

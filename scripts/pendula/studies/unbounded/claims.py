@@ -1,8 +1,9 @@
 """Claims on the paper's conjecture: growth in time on infinite chains.
 
 No run reaches infinite time. The claims decide whether l2 has grown by a factor, and with which
-exponent of tau over the last octaves of a run, without ends that a front could reach. An offset of
-l2^2 is fitted as well. All limits are by Student's t over the members of an ensemble.
+exponent of tau it grows over the last octaves of a run. The chains have no ends that a front could
+reach. The fit of the exponent includes an offset of l2^2. All limits are by Student's t over the
+members of an ensemble.
 """
 
 from collections.abc import Callable
@@ -45,7 +46,7 @@ and by 0.32 over three."""
 
 
 def sure(tries: int = 1) -> float:
-    """Return the confidence level of each of `tries` limits if all hold at SURE (Bonferroni)."""
+    """Return the level of each of `tries` limits that makes all hold at SURE (Bonferroni)."""
     return 1.0 - (1.0 - SURE.value) / tries
 
 
@@ -119,7 +120,7 @@ def late_growths(run: xr.Dataset, name: str) -> np.ndarray:
 
 
 def following(law: Callable) -> Callable:
-    """Return a change after which both norms of a run follow law(tau), with the same scatter."""
+    """Return a change of a run: the means of both norms become law(tau), the scatter stays."""
 
     def changed(run: xr.Dataset) -> xr.Dataset:
         curve = law(run["tau"].clip(min=1.0))
@@ -138,7 +139,7 @@ SLOWEST = ClaimControl(
     "the norm follows tau^(1/8), slower than in diffusion",
     following(lambda tau: 20.0 * np.sqrt(np.sqrt(np.sqrt(tau)))),
 )
-"""For tau^(1/4), the limit itself, chance would decide whether an exponent is rejected."""
+"""SLOWEST is for claims on the exponent. SLOWER is at its limit, so chance would decide."""
 
 
 @claim(
@@ -190,8 +191,8 @@ def unbounded_band(run: xr.Dataset) -> Finding:
 def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     """Require that the median member grows, and still grows over the last octaves.
 
-    Initial data of members differ by 1e-6, and some members do not spread. These would decide a
-    mean and its limits, although most members grow.
+    The initial data of members differ by 1e-6, and some members do not spread. These few would
+    decide a mean and its limits, although most members grow.
     """
     near = almost_equal(sensitivity, run.attrs["perturbation"])
     tau, l2 = times_of(run), curves_of(run, "l2")
@@ -222,7 +223,7 @@ def unbounded_large(run: xr.Dataset, sensitivity: xr.Dataset) -> Finding:
     origin=Origin.OWN,
 )
 def unbounded_starts(run: xr.Dataset) -> Finding:
-    """Require that most runs of all members grow, because some perturbed runs do not spread."""
+    """Require that most runs grow; not all, because some perturbed runs do not spread."""
     tau, norms = times_of(run), run["l2"].transpose("tau", "variant", "member").values
     factors = norms[-1] / norms[np.searchsorted(tau, SETTLED)]
     share = share_limits(int((factors > FACTOR.value).sum()), factors.size)
@@ -266,7 +267,7 @@ def unbounded_maximum(run: xr.Dataset) -> Finding:
     """Require that the norm hardly changes while the front moves on.
 
     The largest amplitude of N sites in thermal equilibrium has no bound: an amplitude m has the
-    weight exp(-beta m^4 / 4), so the largest of N grows as the fourth root of ln N.
+    weight exp(-beta m^4 / 4), so the largest of N amplitudes grows as the fourth root of ln N.
     """
     growth = mean_limits(late_growths(run, "linf"), SURE.value)
     measured = {"growth": growth.value, "growth_at_most": growth.high}

@@ -29,7 +29,7 @@ SECTION = 5
 
 RESOLVED = Cutoff(1.0, "the place of a front is known to half a site, over the time of the fit")
 FEW = 3
-"""Fewer values of Omega decide nothing."""
+"""A claim is undecided if it is tested at fewer values of Omega than this."""
 
 OMEGAS = "unbounded/omegas"
 
@@ -104,7 +104,7 @@ def second_front(run: xr.Dataset) -> Finding:
 
 
 def ratios_of(powers: np.ndarray, expected: np.ndarray, tries: int) -> list[ConfidenceInterval]:
-    """Return the known ratios of P (variant, member) to thermal P, with limits."""
+    """Return the ratios of P (variant, member) to thermal P, with limits, where both are known."""
     ratios = [
         ConfidenceInterval(*(bound / state for bound in mean_limits(power, sure(tries))))
         for power, state in zip(powers, expected, strict=True)
@@ -131,8 +131,8 @@ def next_states(thermal: xr.Dataset) -> xr.Dataset:
 def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
     """Require that P behind the second front is near that of the thermal state.
 
-    Between the fronts P relaxes over hundreds of sites, which short runs do not have: they cannot
-    decide there.
+    Between the fronts P relaxes over hundreds of sites. This region is shorter in short runs, so
+    they do not test P there.
     """
     times_of(run)
     omegas, tries = run["omega"].values, run.sizes["variant"]
@@ -158,7 +158,7 @@ def unbounded_equilibrium(run: xr.Dataset, thermal: xr.Dataset) -> Finding:
 
 
 def largest_change(run: xr.Dataset, thermal: xr.Dataset) -> float:
-    """Return the largest relative change of the law's slope if both fronts had one state behind."""
+    """Return the largest relative change of the law's slope with one state behind both fronts."""
     both, alone = (thermal_powers(thermal, run, f"{of}power") for of in ("", "antisymmetric_"))
     first, second = run["predicted_speed"].values, np.nan_to_num(second_speeds(run)[0])
     law = second * both + (first - second) * alone

@@ -126,7 +126,7 @@ FRONTS_CAPTION = (
 def gather_fronts(fronts: xr.Dataset, long: xr.Dataset | None = None) -> xr.Dataset:
     """Return the dataset of `measure_fronts` with the predicted speed of the second front.
 
-    The prediction is from the `long` study, NaN if that is of another chain.
+    The prediction is from the `long` study. It is NaN if that study is of another chain.
     """
     speed = xr.full_like(fronts["linear_speed"], np.nan, float)
     if long is not None and all(long.attrs[name] == fronts.attrs[name] for name in CHAIN):

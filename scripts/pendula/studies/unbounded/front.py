@@ -1,9 +1,10 @@
 """The speed of the front on the infinite chain, by the linearised equations.
 
 D = A - B moves as exp(s t + i k n) with s^2 = 4 gamma^2 - kappa(k)^2 and kappa = 2 epsilon (1 - cos
-k) - Omega. The solution is an integral over k of entire functions. Its path can be moved to Im k =
-decay, so |D_n| <= C exp(t max Re s - decay n). The minimum of max Re s / decay is the speed v of
-linear spreading (van Saarloos, Physics Reports 386 (2003) 29).
+k) - Omega. The solution is an integral over k of entire functions. The path of integration can be
+moved to Im k = decay. So |D_n| is at most a constant times exp(t max Re s - decay n). The minimum
+of max Re s / decay is the speed v of linear spreading (van Saarloos, Physics Reports 386 (2003)
+29).
 
 A pulled front approaches v from below: its site is v tau - delay log tau plus an offset, with
 delay = 3 / (2 decay) (Ebert and van Saarloos, Physica D 146 (2000) 1).
@@ -42,7 +43,7 @@ class LinearFront(NamedTuple):
 
 
 def linear_front(constants: Constants) -> LinearFront:
-    """Return the front from localised data on the linearised infinite chain.
+    """Return the front that localised data excite on the linearised infinite chain.
 
     If the chain at rest is stable (Lemma 1) there is no front.
     """

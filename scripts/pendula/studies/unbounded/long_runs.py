@@ -26,8 +26,8 @@ SCANS = ("omegas", "starts")
 def member(problem: PaperProblem, perturbation: float, seed: int, number: int) -> PaperProblem:
     """Return the problem of an ensemble's member; number 0 has the unperturbed initial data.
 
-    The data of others differ by `perturbation` times normal draws, relative to the data: chaos
-    amplifies this to order one within some ten units of tau. All sites of a component have the same
+    The other members have a relative change of these data, `perturbation` times normal draws. Chaos
+    amplifies it to order one within some ten units of tau. All sites of a component have the same
     draw, so that even data stay even.
     """
     if number == 0:

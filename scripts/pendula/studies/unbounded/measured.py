@@ -38,7 +38,7 @@ def mean_powers(
 ) -> np.ndarray:
     """Return a mean over a region and the last fraction `late` of a run, (variant, member).
 
-    It is over the states in which the region has sites, NaN if there are none.
+    States in which the region has no sites are left out. The mean is NaN if no state is left.
     """
     tau, values = run["piece_tau"], run["region_mean"].sel(region=region, kind=kind)
     at_end = values.isel(piece_tau=np.flatnonzero(tau > (1.0 - late) * tau[-1]))
@@ -79,7 +79,10 @@ def second_speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray
 
 
 def level_speeds(run: xr.Dataset, settled: float = SETTLED) -> tuple[np.ndarray, np.ndarray]:
-    """Return the speed of the last site with |S|^2 above a level, and its error, NaN if none."""
+    """Return the speed of the last site with |S|^2 above a level, and its error.
+
+    Both are NaN if a member has no such site at the end.
+    """
     reached = (run["second_front"].isel(piece_tau=-1) >= 0.0).all("member").values
     slopes = _slopes(run, run["second_front"], settled)
     return tuple(np.where(reached, speeds, np.nan) for speeds in slopes)
@@ -99,7 +102,7 @@ def _slopes(run: xr.Dataset, sites: xr.DataArray, settled: float) -> tuple[np.nd
 
 
 def _known(halves: np.ndarray, otherwise: float = np.nan) -> np.ndarray:
-    """Return halves of confidence intervals; infinite ones, of a single member, are `otherwise`."""
+    """Return halves of confidence intervals; `otherwise` replaces infinite ones of one member."""
     return np.where(np.isfinite(halves), halves, otherwise)
 
 

@@ -74,7 +74,7 @@ def _numbers_by_noise(
         place = tuple(CHOICES[name].index(value) for name, value in choices.items())
         of_choices = numbers[tolerances.index(tolerance)][
             (..., *place)
-        ]  # (omega, member, noise, .)
+        ]  # (omega, member, noise, number)
         limits = mean_limits(np.moveaxis(of_choices, (1, 3, 2), (0, 1, 2)))
         return {name: (limits.value[n], limits.half[n]) for n, name in enumerate(MEANINGS)}
 
@@ -125,7 +125,7 @@ def _numbers_of(
 def places_of(
     problem: PaperProblem, noise: float | str, rest_threshold: float, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the times, the sites of the first front, and those of the second, (time, level).
+    """Return times, sites of the first front (time,), and sites of the second (time, level).
 
     Each member draws its own noise, because its initial data are part of the seed.
     """

@@ -1,8 +1,8 @@
 """The equations (4) in the unknowns S = (A + B) / sqrt 2 and D = (A - B) / sqrt 2.
 
-The drive acts on D alone: the chain that it excites has A = -B, and S is tiny. In the unknowns A
-and B, S is smaller than rounding errors, which are 1e-16 of D. These grow like S, so that S seems
-to fill the chain too early. As an unknown of its own, S keeps all of its digits.
+The drive acts on D alone. The chain that it excites has A = -B, and S is tiny. In the unknowns A
+and B, S is smaller than rounding errors, which are 1e-16 of D. These errors grow as S does, so S
+seems to fill the chain too early. As an unknown of its own, S has all of its digits.
 """
 
 from dataclasses import asdict

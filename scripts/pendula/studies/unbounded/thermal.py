@@ -1,11 +1,11 @@
 """The thermal states exp(-beta H) of the infinite chain, solved by its transfer operator.
 
-Nothing is sampled: an eigenvector of the operator (see `transfer`) gives the means of a site. Their
-error is due to the grid, and a coarser and wider grid measures it.
+Nothing is sampled: an eigenvector of the operator (see `transfer`) gives the means of a site. The
+error of these means is due to the grid. A coarser and wider grid measures this error.
 
-The energy per site is f / (2 beta) - <quartic> for f coordinates per site, because the mean of
-y dH/dy is f / beta, and y dH/dy is 2 H plus twice the quartic term. Two fields have f = 4, and the
-chain with A = -B has f = 2.
+The energy per site is f / (2 beta) - <quartic> for f coordinates y per site, because the mean of
+y dH/dy is f / beta per site, and y dH/dy is 2 H plus twice the quartic term. Two fields have f = 4,
+and the chain with A = -B has f = 2.
 """
 
 from typing import NamedTuple
@@ -81,7 +81,7 @@ def state_of_energy(
 def _excess(
     constants: Constants, beta: float, grid: Grid, energy: float, vector: np.ndarray | None = None
 ) -> tuple[float, transfer.Operator, np.ndarray]:
-    """Return beta (energy - energy at beta), which rises with beta; operator and vector."""
+    """Return beta (energy - energy at beta), which rises with beta, the operator and its vector."""
     operator = transfer.make_operator(constants, beta, grid)
     vector = transfer.leading(operator, vector)
     quartic = float(np.sum(vector * vector * operator.quartic))
@@ -91,7 +91,7 @@ def _excess(
 def _refined(
     constants: Constants, beta: float, grid: Grid, energy: float
 ) -> tuple[float, transfer.Operator, np.ndarray]:
-    """Return the beta at which the excess vanishes, by secants in log beta; operator and vector."""
+    """Return the beta without an excess, by secants in log beta, the operator and its vector."""
     old, (excess, operator, vector) = beta, _excess(constants, beta, grid, energy)
     beta *= 1.01
     for _ in range(SECANTS):

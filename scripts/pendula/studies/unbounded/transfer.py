@@ -1,17 +1,18 @@
 """The transfer operator of a bond of the infinite chain at a given temperature.
 
 Only neighbours are coupled, so the partition function of a ring is the trace of a power of one
-operator, which multiplies by the weight of a site and smooths over its four coordinates. With
-A_n -> (-1)^n A_n and B_n -> (-1)^n B_n its kernel is positive, sqrt(w(y)) exp(-beta epsilon
-|y - y'|^2) sqrt(w(y')), and the largest eigenvalue is simple. The square of its eigenvector psi is
-the distribution of a site of the infinite chain.
+operator. This operator multiplies by the weight w of a site and smooths over the site's four
+coordinates y. With A_n -> (-1)^n A_n and B_n -> (-1)^n B_n the operator's kernel is positive,
+sqrt(w(y)) exp(-beta epsilon |y - y'|^2) sqrt(w(y')), so the largest eigenvalue is simple. The
+square of its eigenvector psi is the distribution of a site of the infinite chain.
 
-The coordinates are y = (s, t, p, q) = (Re, Re, Im, Im) of (A + B, A - B, A + B, A - B) / sqrt 2. In
-them P = |y|^2, the quartic term is (P^2 + 4 (st + pq)^2) / 8 and the drive -2 gamma (t^2 - q^2).
-A bond is a product of four factors, one per coordinate: an integral over a site is four small sums,
-by the midpoint rule. H is invariant under changes of signs that preserve the sign of s t p q. The
-nodes with s, t, p, q > 0 therefore suffice, with two values at each: for (s, t, p, q), and for
-(s, t, p, -q). On the chain with A = -B, s and p have a single node at zero.
+The coordinates are y = (s, t, p, q), with (A + B) / sqrt 2 = s + i p and (A - B) / sqrt 2 =
+t + i q. The power P is |y|^2. The energy has the quartic term (P^2 + 4 (st + pq)^2) / 8 and the
+drive's term -2 gamma (t^2 - q^2). A bond is a product of four factors, one per coordinate. So an
+integral over a site consists of four small sums, by the midpoint rule. H is invariant under changes
+of signs that preserve the sign of s t p q. The nodes with s, t, p, q > 0 therefore suffice, with
+two values at each: for (s, t, p, q), and for (s, t, p, -q). On the chain with A = -B, s and p have
+a single node at zero.
 """
 
 from typing import NamedTuple
@@ -153,7 +154,7 @@ def leading(operator: Operator, vector: np.ndarray | None = None, most: int = 20
 
 
 def reach_of(operator: Operator, vector: np.ndarray) -> np.ndarray:
-    """Return by coordinate the node beyond which its density is below TAIL times its maximum."""
+    """Return, by coordinate, the node beyond which the density is below TAIL times its maximum."""
     chance = (vector * vector).sum(axis=0)
     lengths = []
     for axis, nodes in enumerate(operator.nodes):

@@ -41,7 +41,7 @@ VELOCITIES = 64
 """Number of intervals of velocity from 0 to the speed of the first front."""
 
 NEAR, LATE, SHORTER = (8, 16), (0.5, 0.25), (1.0, 0.5)
-"""Number of sites to each side for the largest |S|, which is used because |S| has zeros; fraction
+"""Number of sites to each side over which the largest |S| is taken, because |S| has zeros; fraction
 of a run, at its end, over which growth is fitted; fraction of the run that is used. The second
 value of each is a variation."""
 
@@ -170,8 +170,8 @@ def numbers_of(
     """Return the numbers of MEANINGS with their errors, from exponents (omega, member, velocity).
 
     Errors are half of the 95 % confidence interval of the mean over the members. If no exponent is
-    above `least` (omega,), |S| grew by less than a factor of e. This may be a power of tau, so no
-    second front is predicted.
+    above `least` (omega,), |S| grew by less than a factor of e. Such growth may be a power of tau,
+    so no second front is predicted.
     """
     fronts = np.array([linear_front(problem.constants).speed for problem in problems])
     means = exponents.mean(axis=1)
@@ -197,8 +197,8 @@ def numbers_of(
 def crossing_of(exponents: np.ndarray) -> float:
     """Return the relative velocity above which exponents (velocity,) are negative.
 
-    It is interpolated. If the last exponent is positive, it is one; if none is, zero. NaN counts as
-    negative.
+    The velocity is interpolated. It is 1 if the last exponent is positive, and 0 if no exponent is.
+    NaN counts as negative.
     """
     positive = np.flatnonzero(exponents > 0.0)
     if not positive.size:

@@ -82,7 +82,7 @@ SHARED_ATTRIBUTES = ("epsilon", "gamma", "members", "solver", "solver_rtol", "so
 
 
 def without_choices(omegas: xr.Dataset, thermal: xr.Dataset) -> dict[str, tuple]:
-    """Return the numbers over Omega without a choice: counts and predictions."""
+    """Return the numbers over Omega that depend on no choice: counts and predictions."""
     last = omegas["front"].isel(piece_tau=-1).max("member").values
     both, alone = (thermal_powers(thermal, omegas, f"{of}power") for of in ("", "antisymmetric_"))
     state = f"{POWER} in the thermal state"
@@ -121,9 +121,9 @@ def predict_distances(noise: xr.Dataset, transverse: xr.Dataset) -> NamedNumber:
 def differences(noise: xr.Dataset, transverse: xr.Dataset) -> dict[str, NamedNumber]:
     """Return the distance with the first size of noise minus the distance with the second.
 
-    The prediction is ln(second / first) / kappa. An unknown constant of both distances, because
-    growth does not start at one site, cancels. The errors of the two measured distances are assumed
-    to be independent.
+    The prediction is ln(second / first) / kappa. Growth does not start at one site, which adds an
+    unknown constant to both distances. This constant cancels. The errors of the two measured
+    distances are assumed to be independent.
     """
     first, second = (noise.isel(noise=n) for n in (0, 1))
     predicted = predict_distances(noise, transverse).number
@@ -310,7 +310,10 @@ def plain_exponents(run: xr.Dataset, octaves: int) -> Estimate:
 
 
 def growths_of_maximum(run: xr.Dataset) -> Estimate:
-    """Return the relative growth of l-infinity's mean from (T/8, T/4] to (T/2, T], T the end."""
+    """Return the relative growth of the mean l-infinity from (T/8, T/4] to (T/2, T].
+
+    T is the end of the run.
+    """
     tau = run["tau"]
     before = run["linf"].sel(tau=(tau > tau[-1] / 8.0) & (tau <= tau[-1] / 4.0)).mean("tau")
     growth = run["linf"].sel(tau=tau > tau[-1] / 2.0).mean("tau") / before - 1.0
