@@ -24,8 +24,8 @@ block and C^-1 at each site beyond.
    a and b at n = M and n = -M. Proof: let |w| <= 1. Beyond the block (A DF(u) w)_n is
    w_n + C^-1 epsilon (w_{n+1} + w_{n-1}). On the block A DF(u) w is N (K w + epsilon e), where e is
    w_{M+1} at n = M, w_{-M-1} at n = -M, and zero at the other sites.
-2. If Z < 1, A is injective. Proof: A DF(u) has an inverse by Neumann's series, so A is onto. Hence
-   so is N, and a square matrix that is onto is injective; C^-1 is injective anyway.
+2. If Z < 1, A is injective. Proof: A DF(u) has an inverse by Neumann's series, so A is onto. Then
+   N is onto too, and a square matrix that is onto is injective. C^-1 is injective anyway.
 3. |A F(u)| <= eta, the largest of |N F(u)|, epsilon |u_M| / d and epsilon |u_{-M}| / d.
    Proof: beyond the block, F(u) is zero except epsilon u_{+-M} at the sites +-(M + 1).
 4. |A (DF(v) - DF(u))| <= lambda r + mu r^2 for |v - u| <= r, with lambda = 3 max_i sum_j
@@ -34,7 +34,7 @@ block and C^-1 at each site beyond.
 
 Theorem. Let T(v) = v - A F(v) and p(r) = eta - (1 - Z) r + lambda r^2 / 2 + mu r^3 / 3. If
 p(r) <= 0 and q(r) = Z + lambda r + mu r^2 < 1 for some r > 0, there is exactly one zero of F within
-r of u. Proof: |DT(v)| <= q(|v - u|) by 1 and 4, so that |T(v) - u| <= eta + the integral of q from
+r of u. Proof: |DT(v)| <= q(|v - u|) by 1 and 4, so |T(v) - u| <= eta + the integral of q from
 0 to r = p(r) + r <= r. T maps the closed ball into itself and contracts it. Its only fixed point is
 a zero of F since A is injective; and every zero of F is a fixed point of T.
 
@@ -188,7 +188,7 @@ def tail_distance(chain: ProofChain, s: float) -> arb:
 def find_radius(estimates: Estimates) -> float:
     """Return a radius r that satisfies the inequalities of the theorem.
 
-    The trial value is slightly above the smaller root of p without its last term; the proof does
+    The trial r is slightly above the smaller root of p without the last term of p. The proof does
     not depend on this choice. Raises ProofFailedError if an inequality fails.
     """
     eta, z, quadratic, cubic = estimates

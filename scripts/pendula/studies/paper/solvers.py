@@ -143,7 +143,7 @@ def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
 
 
 def _second_solver_differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Return the differences of the first solver and SECOND by SECOND's step, and SECOND's l2."""
+    """Return how the norms of SECOND differ from FIRST's, for both steps, and the l2 of SECOND."""
     differences = [difference(runs[name], runs[FIRST]) for name in (SECOND, HALVED)]
     run, steps = runs[SECOND], [runs[name].attrs["solver_step"] for name in (SECOND, HALVED)]
     largest = [float(over_time.max()) for over_time in differences]

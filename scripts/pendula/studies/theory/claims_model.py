@@ -97,7 +97,7 @@ def hamiltonian() -> None:
     kind=Kind.IDENTITY,
 )
 def no_gauge(identities: xr.Dataset) -> Finding:
-    """Require that a shift of all phases, a symmetry without the drive, is none with the drive."""
+    """Require that the drive breaks the symmetry under a shift of all phases."""
     left = identities["twin_terms"].min("boundary")
     measured = {
         f"terms_left_of_{form}": left.sel(identity=f"phases of ({form}) without drive")

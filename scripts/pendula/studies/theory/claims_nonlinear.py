@@ -55,7 +55,7 @@ HALF_OF_THE_RATE = twin(DISTANCE, "a rate for half of the drive")
 
 
 def of_a_neighbour(well_posed: xr.Dataset) -> xr.Dataset:
-    """Return, as a control, the distance of a perturbed solution as that between solvers."""
+    """Return, as a control, a perturbed solution's distance as the distance between solvers."""
     near = well_posed.sel(perturbation_size=well_posed["perturbation_size"].min(), drop=True)
     return well_posed.assign(
         between_solvers=float(well_posed["perturbation_size"].min())
@@ -289,7 +289,7 @@ def bootstrap(check: xr.Dataset) -> Finding:
     kind=Kind.THEOREM,
 )
 def theorem_3() -> None:
-    """H is conserved and, by its lower bound and (27), at least P^2 / (8 N) - c P, c constant."""
+    """H is conserved. By its lower bound and (27) H is at least P^2 / (8 N) - const P."""
 
 
 @claim(

@@ -119,7 +119,7 @@ def newtons_energy(ends: str, x: np.ndarray) -> fmpq_mpoly:
 
 
 def inherited(ends: str, omega: fmpq_mpoly) -> list[fmpq_mpoly]:
-    """Return the averaged energy of (1) plus H, and x'' and y'' of (1) plus its gradient."""
+    """Return the averaged energy of (1) plus H, then x'' and y'' plus the energy's gradient."""
     x = angles()
     turning = newtons_energy(ends, x) - HALF * (1 + MU**2 * OMEGA) * (x**2).sum()
     generic = STATE[:, 0]

@@ -163,7 +163,7 @@ def sign_of_gamma(ends: str, image: Callable) -> Residual:
 
 
 def of_a_wave(ends: str, kappa: fmpq_mpoly) -> Residual:
-    """Return the linear rates of a site of a wave minus its rates by (14).
+    """Return the linear rates at a site of a wave minus the rates by (14).
 
     The linear equation (14) is i A' + kappa A = gamma (conj B - conj A). Each neighbour of the site
     has its amplitudes times cos(theta), and SINE is sin(theta / 2).
@@ -215,8 +215,8 @@ IDENTITIES: Mapping[str, tuple[Callable, Any, Any]] = {
     **derivation.IDENTITIES,
     **inequalities.IDENTITIES,
 }
-"""For each statement a function that returns a residual, its argument for the statement, and its
-argument for the wrong twin. This argument follows the kind of ends."""
+"""For each statement a function of a kind of ends and an argument, which returns the residual; the
+argument for the statement; and the argument for its wrong twin."""
 
 
 def prove_identities() -> xr.Dataset:

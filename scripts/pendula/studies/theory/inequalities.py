@@ -42,7 +42,7 @@ def sums(ends: str, state: np.ndarray = STATE) -> fmpq_mpoly:
 
 
 def along_drive(sign: int) -> fmpq_mpoly:
-    """Return 2 P + `sign` drive() as a sum of squares."""
+    """Return 2 P + `sign` drive(STATE) as a sum of squares."""
     together, (x, y) = STATE[0] + STATE[1], STATE[0] - STATE[1]
     return (together**2).sum() + 2 * ((x if sign > 0 else y) ** 2).sum()
 
@@ -148,7 +148,7 @@ def size_of_energy(ends: str, gammas: int) -> Residual:
 
 
 def quadratic_part(ends: str, gammas: int) -> Residual:
-    """Return the residuals of the lower bound on H in Theorem 3's proof, by the sign of Omega."""
+    """Return the residuals of the lower bound on H in Theorem 3's proof, for each sign of Omega."""
     squares, left = densities(), []
     power, quartic = squares.sum(), (squares**2).sum()
     for size in (OMEGA, -OMEGA):  # |Omega|

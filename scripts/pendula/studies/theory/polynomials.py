@@ -20,7 +20,7 @@ from pendula.models.equations import AMPLITUDE_MODEL
 SITES = 3
 CONSTANTS = ("epsilon", "gamma", "omega")
 FURTHER_SYMBOLS = ("mu", "cosine", "sine", "kappa")
-"""Indeterminates of some identities: mu of (2), cos and sin of omega t, kappa of (14)."""
+"""Indeterminates of some identities: mu of (2), cos and sin of omega t, and kappa of (14)."""
 ROWS = tuple(
     f"{re_im} {field}{n}" for field in "ABab" for re_im in ("Re", "Im") for n in range(SITES)
 )

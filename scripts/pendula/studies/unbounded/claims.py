@@ -139,7 +139,7 @@ SLOWEST = ClaimControl(
     "the norm follows tau^(1/8), slower than in diffusion",
     following(lambda tau: 20.0 * np.sqrt(np.sqrt(np.sqrt(tau)))),
 )
-"""SLOWEST is for claims on the exponent. SLOWER is at its limit, so chance would decide."""
+"""SLOWEST is for claims on the exponent. SLOWER has the limiting one, so chance would decide."""
 
 
 @claim(

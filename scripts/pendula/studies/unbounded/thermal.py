@@ -49,9 +49,9 @@ def state_of_energy(
 ) -> ThermalState:
     """Return the thermal state with this energy per site, on `nodes` half-nodes per coordinate.
 
-    It has both fields, or A = -B if `antisymmetric`. Half of the nodes give a rough beta and the
-    extent of the distribution, three quarters of them the error of P, and all of them the state.
-    Raises NoThermalStateError if no state between HOT and COLD has this energy.
+    The state has both fields, or A = -B if `antisymmetric`. Half of the nodes give a rough beta and
+    the extent of the distribution. Three quarters of the nodes give the error of P, and all nodes
+    give the state. Raises NoThermalStateError if no state between HOT and COLD has this energy.
     """
     few, some = nodes // 2, 3 * nodes // 4
 

@@ -95,7 +95,7 @@ def make_operator(constants: Constants, beta: float, nodes: tuple[np.ndarray, ..
 
 @kernel
 def pass_through(bond: np.ndarray, values: np.ndarray, row: np.ndarray, result: np.ndarray) -> None:
-    """Write the sum over j of bond[i, j] values[j, r] to result[r, i]: the first axis goes last.
+    """Write the sum over j of bond[i, j] values[j, r] to result[r, i]; the first axis becomes last.
 
     `row` is workspace for a row of `values`.
     """
