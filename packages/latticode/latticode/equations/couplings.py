@@ -21,7 +21,7 @@ def entries_of(matrix: Any, sites: range) -> Entries:
 
     `matrix` is an array, nested lists, a matrix of scipy.sparse, a function of the array of sites
     that returns any of these, or `Entries`. Raises ValueError for any other shape or type and for
-    values that are not finite; the message completes "parameter W ...".
+    values that are not finite; callers put "parameter W" before the message.
     """
     if callable(matrix):
         matrix = call_on_sites(matrix, np.array(sites))
@@ -45,7 +45,7 @@ def entries_of(matrix: Any, sites: range) -> Entries:
 
 
 def _nonzero(matrix: Any, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the rows, columns and values of a matrix where it is not zero."""
+    """Return the rows, columns and values of the nonzero entries of a matrix."""
     if hasattr(matrix, "tocoo"):
         _require_sites(matrix.shape, count)
         sparse = matrix.tocsr().tocoo()  # tocsr() adds up duplicate entries
@@ -81,7 +81,7 @@ def at_middle(values: Any, half_width: int) -> Any:
 
 
 def _middle_of(entries: Entries, half_width: int) -> Entries:
-    """Return the entries of a longer chain's matrix with row and column on the sites -M..M."""
+    """Return the entries of a longer chain's matrix that couple two of the sites -M..M."""
     margin, count = entries["sites"] // 2 - half_width, len(chain_sites(half_width))
     rows, columns = (np.array(entries[name], int) - margin for name in ("rows", "columns"))
     inside = (rows >= 0) & (rows < count) & (columns >= 0) & (columns < count)
@@ -94,7 +94,7 @@ def _middle_of(entries: Entries, half_width: int) -> Entries:
 
 
 def largest_row_sum(entries: Entries) -> float:
-    """Return the largest sum of magnitudes in a row, the norm induced by the maximum norm."""
+    """Return the largest row sum of magnitudes; the maximum norm induces this matrix norm."""
     weights = np.abs(np.array(entries["weights"], float))
     sums = np.bincount(np.array(entries["rows"], int), weights, minlength=1)
     return float(sums.max())

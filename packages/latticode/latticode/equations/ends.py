@@ -14,14 +14,14 @@ from latticode.numerics import elementary
 class Ends(NamedTuple):
     """One boundary condition at both ends of a chain.
 
-    The missing neighbour of the first site has `factor` times the value of the site with index
-    sees[0], that of the last site has `factor` times the value of sees[1]. If `sees` is None, the
-    missing neighbours are at rest. Beyond a free end the chain continues as its mirror image, with
-    the mirror half a site beyond the end.
+    `sees` has the indices of two sites. The place before the first site has `factor` times the
+    value at sees[0]; the place after the last site has `factor` times the value at sees[1]. If
+    `sees` is None, both places are at rest. Beyond a free end the chain continues as its mirror
+    image, with the mirror half a site beyond the end.
 
-    Mode k of N sites has the eigenvalue -4 sin^2(half_angle(k, N)) of the lattice Laplacian.
-    mode(k, j, N) returns its values on the sites j; the modes are orthonormal. `label` is printed
-    in the titles of figures.
+    Mode k of a chain of N sites is an eigenvector of the lattice Laplacian; its eigenvalue is
+    -4 sin^2(half_angle(k, N)). mode(k, j, N) returns the values of mode k on the sites j; the modes
+    are orthonormal. `label` is printed in the titles of figures.
     """
 
     sees: tuple[int, int] | None
@@ -32,7 +32,7 @@ class Ends(NamedTuple):
 
 
 def _sine(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
-    # integers reduce angles to one turn, without loss of digits on long chains
+    # reducing angles to one turn in integers loses no digits on long chains
     turns = (k + 1) * (j + 1) % (2 * (sites + 1)) / (2 * (sites + 1))
     return np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns)
 
@@ -51,7 +51,7 @@ def _wave(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
 
 
 def _half_wave(k: Any, j: np.ndarray, sites: int) -> np.ndarray:
-    # half a turn more around the ring changes the sign
+    # an odd number of half turns around the ring changes the sign
     turns = (2 * k + 1) * j % (2 * sites) / (2 * sites)
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
     return np.sqrt(1 / sites) * (cosine + sine)
@@ -96,12 +96,12 @@ def ends_of(boundary: str) -> Ends:
 
 DIRICHLET, FREE, PERIODIC, MIRROR, ANTIPERIODIC = range(5)
 """The ends that kernels implement. The neighbour beyond an end is at rest (DIRICHLET), absent
-(FREE), or the opposite end, with a change of sign if antiperiodic. MIRROR is site 0 of half an even
-chain."""
+(FREE), or the site at the opposite end (PERIODIC), with the opposite sign if ANTIPERIODIC. MIRROR
+is the end at site 0 if only the half 0..M of an even chain is integrated."""
 
 
 def kind_of(boundary: str) -> int:
-    """Return the number of a boundary in kernels; raises ValueError if they do not implement it."""
+    """Return the number of a boundary in kernels; raises ValueError if no kernel implements it."""
     kinds = {
         (None, 1.0): DIRICHLET,
         ((0, -1), 1.0): FREE,
@@ -116,7 +116,7 @@ def kind_of(boundary: str) -> int:
 
 
 def neighbours(values: np.ndarray, boundary: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return the values to the right and to the left of each site (last axis)."""
+    """Return the values of the right and the left neighbours of all sites (last axis)."""
     right, left = np.zeros_like(values), np.zeros_like(values)
     right[..., :-1], left[..., 1:] = values[..., 1:], values[..., :-1]
     ends = ends_of(boundary)

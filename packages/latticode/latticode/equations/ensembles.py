@@ -9,9 +9,9 @@ from .initial_values import InitialValueProblem
 
 
 def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (field, 2r + 1), each amplitude times 1 + size (x + iy), x and y Gaussian.
+    """Return data (field, 2r + 1) with each amplitude multiplied by 1 + size (x + iy).
 
-    Sites n and -n get the same factor: even data stay even.
+    x and y are standard normal. The sites n and -n get the same factor, so even data stay even.
     """
     reach = initial.shape[1] // 2
     drawn = (reach + 1, len(initial))
@@ -22,8 +22,8 @@ def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.nd
 def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
     """Return data (field, 2r + 3), perturbed independently at each site and one site farther out.
 
-    An amplitude is multiplied by 1 + size (x + iy), x and y Gaussian. A zero, the two new sites
-    included, becomes size (x + iy) times the largest amplitude.
+    An amplitude changes by size (x + iy) times its modulus, where x and y are standard normal. A
+    zero amplitude, also at the two new sites, changes by size (x + iy) times the largest modulus.
     """
     # ASSUME: an ordinary solver breaks evenness by rounding in its first steps, when only the
     # excited site and its neighbours move and the remaining chain is exactly at rest.
@@ -33,7 +33,7 @@ def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator)
 
 
 def perturb_each(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (field, N) on the sites 0..N-1, each times an independent 1 + size (x + iy)."""
+    """Return data (field, N) on the sites 0..N-1, each value times its own 1 + size (x + iy)."""
     return product(initial, 1.0 + size * complex_normal(rng, initial.shape))
 
 
@@ -51,8 +51,9 @@ def perturbed(
 
 
 PERTURBATIONS = {"even": perturb, "uneven": perturb_unevenly}
-"""Perturbations by kind of ensemble. The exact solution of even data is even, like all members of
-the even ensemble. An ordinary solver loses evenness by rounding, as uneven members do."""
+"""The perturbation for each kind of ensemble. The exact solution of even data is even, and so are
+all members of an even ensemble. An ordinary solver loses evenness by rounding; members of an uneven
+ensemble imitate this."""
 
 
 def draw_members(

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 CONSTANT, CLOCK, MOTION = range(3)
-"""Levels of a node: it depends on parameters only, also on time, or also on fields."""
+"""Levels of a node. CONSTANT: it depends on parameters only. CLOCK: it depends on the time, but not
+on fields. MOTION: it depends on fields."""
 LEAVES = {
     "number": CONSTANT,
     "parameter": CONSTANT,
@@ -22,18 +23,18 @@ LEAVES = {
     "carried": MOTION,
     "matrix": MOTION,
 }
-"""The operations without operands, with their levels."""
+"""The operations of leaves, each with its level."""
 
 
 class Node:
-    """A real number at each site: an operation with its operands, or a leaf with its name.
+    """A real number at each site n: an operation with its operands, or a leaf with its name.
 
-    Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, re_im,
-    shift), ("matrix", name), and ("clock", name), a function of time that the system stores under
-    this name. Operations are add, sub, neg, mul, div, sin, cos, exp, log, sqrt; ("couple", matrix,
-    a) is the matrix times a over all sites, and ("where", c, a, b) is a where c > 0 and b
-    elsewhere. Power series add the leaf ("carried", i) and halves of squares: see
-    latticode.generation.series_graph.
+    Leaves are ("number", x), ("time",), and ("matrix", name). ("clock", name) is a function of time
+    that the system stores under this name. ("parameter", name, shift) and ("field", component,
+    re_im, shift) are values at the site n + shift. Operations are add, sub, neg, mul, div, sin,
+    cos, exp, log and sqrt. ("couple", matrix, a) is the product of the matrix with a at all sites;
+    ("where", c, a, b) is a where c > 0, and b elsewhere. latticode.generation.series_graph adds the
+    leaf ("carried", i) and the operation half_square, a^2 / 2, for power series.
     """
 
     def __init__(self, operation: str, *operands: Any) -> None:
@@ -73,7 +74,7 @@ def leaf(component: int, re_im: int, by: int = 0) -> Node:
 
 ZERO, UNIT, TWO = number(0.0), number(1.0), number(2.0)
 
-# --- Nodes from nodes ---------------------------------------------------------------------------
+# --- Functions that build nodes -----------------------------------------------------------------
 
 
 def is_number(a: Node) -> bool:
@@ -82,7 +83,7 @@ def is_number(a: Node) -> bool:
 
 
 def is_doubled(a: Node) -> bool:
-    """Return whether a node is a product with 2."""
+    """Return whether a node is a product with the first factor 2."""
     return a.operation == "mul" and a.operands[0] is TWO
 
 
@@ -151,28 +152,28 @@ def reciprocal(a: Node) -> Node:
 
 
 def div(a: Node, b: Node) -> Node:
-    """Return a / b; if b is a constant, as the product of a with 1 / b."""
+    """Return a / b, computed as (1 / b) a if b depends on parameters only."""
     if a is ZERO:
         return a
     return mul(reciprocal(b), a) if b.level == CONSTANT and a is not UNIT else node("div", a, b)
 
 
 def couple(matrix: Node, a: Node) -> Node:
-    """Return the sums over all sites m of the matrix entries (n, m) times a at m."""
+    """Return at each site n the sum over all sites m of the matrix entry (n, m) times a at m."""
     if a is ZERO:
         return a
     return neg(couple(matrix, a.operands[0])) if a.operation == "neg" else node("couple", matrix, a)
 
 
 def where(condition: Node, a: Node, b: Node) -> Node:
-    """Return a where the condition is above zero, b elsewhere."""
+    """Return a where `condition` > 0, and b elsewhere."""
     if is_number(condition):
         return a if condition.operands[0] > 0.0 else b
     return a if a is b else node("where", condition, a, b)
 
 
 BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul, "couple": couple}
-"""The functions that build, and may simplify, a node from its operands, by operation."""
+"""The function that builds a node from its operands, by operation; it may simplify the node."""
 
 # --- Walks over a graph -------------------------------------------------------------------------
 
@@ -206,7 +207,7 @@ def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | N
     """Return the expressions with some nodes replaced.
 
     change(node, operands) is called for each node with its new operands. It returns the new node,
-    or None to keep the operation of the old one.
+    or None to keep the old operation.
     """
     rebuilt_nodes: dict[Node, Node] = {}
     for entry in in_order(nodes):
@@ -242,11 +243,11 @@ ARITHMETIC = {
 
 
 def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions: Any = np) -> list:
-    """Return the values of the nodes, computed from the values value(leaf) of their leaves.
+    """Return the values of the nodes; value(leaf) must return the value of a leaf.
 
     Values may be of any type with arithmetic: arrays, multiprecision numbers, or integers if no
-    constant is a fraction. `functions` has sin, cos, exp, log and sqrt for this type; `where` is
-    NumPy's.
+    constant is a fraction. `functions` has sin, cos, exp, log and sqrt for this type. The
+    operation "where" always uses numpy.where.
     """
     leaves, compute = _as_function(tuple(nodes))
     return compute([*map(value, leaves)], functions)
@@ -256,7 +257,7 @@ def evaluate(nodes: Iterable[Node], value: Callable[[Node], Any], functions: Any
 def _as_function(nodes: tuple[Node, ...]) -> tuple[list[Node], Callable]:
     """Return the leaves of the nodes and the function that computes node values from leaf values.
 
-    It is compiled from source, because walking the graph would dominate repeated evaluations.
+    The function is compiled from source, because walking the graph would dominate repeated calls.
     """
     order = in_order(nodes)
     names = {entry: f"v{i}" for i, entry in enumerate(order)}
@@ -286,7 +287,11 @@ def derivative(nodes: Iterable[Node], change: Callable[[Node], Node]) -> list[No
     derivatives: dict[Node, Node] = {}
 
     def of_sum(build: Callable, a: Node, b: Node) -> Node:
-        """Return the derivative of a + b or a - b; for b = c d it is (a' + c d') + c' d."""
+        """Return the derivative of a + b or a - b.
+
+        For a product b = c d of two different nodes it is computed as (a' + c d') + c' d, or as
+        (a' - c d') - c' d.
+        """
         if b.operation != "mul" or b.operands[0] is b.operands[1]:
             return build(derivatives[a], derivatives[b])
         c, d = b.operands

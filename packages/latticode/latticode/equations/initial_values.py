@@ -30,7 +30,7 @@ class InitialValueProblem:
 
     parameters: values that replace the defaults of the model.
     initial: the fields at the start, complex (component, 2r + 1) on the sites -r..r; all other
-        sites are at rest. With `site_count`, (component, N).
+        sites are at rest. With `site_count` the shape is (component, N).
     half_width: M of a chain with the sites -M..M; None for an infinite chain.
     site_count: N of a chain with the sites 0..N-1, instead of `half_width`.
     start_time, end_time, output_step: times in the unit of the equations.
@@ -82,14 +82,14 @@ class InitialValueProblem:
 
     @classmethod
     def of(cls, values: Mapping) -> Self:
-        """Return the problem with the values that `plain` returned."""
+        """Return the problem from the values that `plain` returned."""
         model = values["model"]
         model = model if isinstance(model, Model) else Model.of_plain(model)
         initial = on_sites(values["initial"], len(model.fields), values.get("site_count"))
         return cls(**{**values, "initial": initial, "model": model})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values: its data as {site: fields}, its model as a graph."""
+        """Return plain values of the problem; data are {site: fields}, the model is a graph."""
         counted = {} if self.site_count is None else {"site_count": self.site_count}
         return {
             "half_width": self.half_width,

@@ -67,9 +67,9 @@ class Model:
     """The traced equations of a lattice.
 
     fields: the names of the fields.
-    parameters: a default for each name: a number, a number for each site, or a function of the
-        array of sites n that returns these (for disorder).
-    i_dt, dt, d2_dt2: the equations, one of the three; see the module.
+    parameters: a default for each name: a number, a number for each site, or a function that
+        returns either for the array of sites n (for disorder).
+    i_dt, dt, d2_dt2: the equations; exactly one of the three functions described in this module.
     conserved: a function (p, *fields) that returns densities by name; runs record their sums over
         the chain.
     text: the source code, which datasets store.
@@ -203,7 +203,7 @@ class Model:
         return "\n    ".join(["; ".join([head, *values]), *text])
 
     def trace(self, function: Callable) -> Node:
-        """Return the node of a real function (p, *fields), which may take velocities as `d2_dt2`.
+        """Return the node of a real function of (p, *fields), which may also take the velocities.
 
         Raises ModelError if it cannot be traced, is complex, or depends on no field.
         """
@@ -223,8 +223,8 @@ class Model:
     def _twice(self, function: Callable, nodes_of: Callable) -> Any:
         """Return nodes_of(result) for a function of the model, traced twice.
 
-        Raises ModelError if the traces differ, because the function draws random numbers or counts
-        its calls. Such values would be fixed at the first call, and not recorded in datasets.
+        Raises ModelError if the traces differ, for example because the function draws random
+        numbers or counts its calls. Datasets would not record such values.
         """
         nodes, retraced = (nodes_of(self._called(function)) for _ in range(2))
         if retraced != nodes:
@@ -251,9 +251,9 @@ class Model:
         return tuple(row for c, value in enumerate(values) for row in (leaf(c, 1), value.re))
 
     def _require_real_fields_to_move(self) -> None:
-        """Raise ModelError if `i_dt` of a real field lacks the factor 1j.
+        """Raise ModelError if `i_dt` lacks the factor 1j in the rate of a real field.
 
-        Without it the real part never changes, and the equations read only the real part.
+        Without this factor the real part never changes, although the equations read only this part.
         """
         read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         for c, field in enumerate(self.fields if self.form == "i_dt" else ()):
@@ -314,7 +314,7 @@ class Model:
     def value_at(self, name: str, value: Any, sites: range) -> Any:
         """Return a parameter on the sites of a chain: a number, a list (site,), or `Entries`.
 
-        Raises ValueError if it does not fit the chain; the message completes "parameter W ...".
+        Raises ValueError if the value does not fit; callers put "parameter W" before the message.
         """
         return entries_of(value, sites) if name in self.matrices else values_at(value, sites)
 
@@ -335,7 +335,7 @@ class Model:
 
     @cached_property
     def even(self) -> bool:
-        """Whether the equations are identical, to the last bit, with left and right exchanged."""
+        """Whether exchanging left and right changes no bit of the rates."""
         # the symmetry of a matrix depends on its values
         return not self.matrices and are_even(self.rates)
 
@@ -359,7 +359,7 @@ class Model:
 
     @cached_property
     def continues_real_equations(self) -> bool:
-        """Whether `i_dt` contains equations of real fields, such as x' = x y."""
+        """Whether `i_dt` only extends equations of real fields, such as x' = x y."""
         return not self.real and continue_real_equations(self.rates)
 
     @cached_property
@@ -375,8 +375,8 @@ class Model:
     def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
         """Return an upper bound of the rate, per unit time, at which fields rotate or grow.
 
-        `peak` is the largest amplitude. At `peak` 0, infinite derivatives such as that of sqrt are
-        ignored.
+        `peak` is the largest amplitude. At `peak` 0, infinite derivatives are ignored, for
+        example the derivative of sqrt.
         """
         defaults = {name: value for name, value in self.parameters.items() if not callable(value)}
         return bound_rate(len(self.rates), self._slopes, defaults | parameters, peak)
@@ -386,7 +386,7 @@ class Model:
         return slopes_of(self.rates)
 
     def tangent(self) -> "Model":
-        """Return the model with the fields of a solution, then those of a tangent vector."""
+        """Return the model with the fields of a tangent vector after the fields of a solution."""
         count = len(self.fields)
 
         def change(entry: Node) -> Node:

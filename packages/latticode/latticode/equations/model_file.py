@@ -21,9 +21,9 @@ BEFORE = (
 
 
 def run_file(path: Path, text: str) -> dict[str, Any]:
-    """Return the namespace of an executed file, which imports the modules in its folder again.
+    """Execute a file and return its namespace.
 
-    Raises ModelError with the line that failed.
+    Modules in its folder are imported anew. Raises ModelError with the line that failed.
     """
     folder, namespace = path.resolve().parent, {"__file__": str(path), "__name__": path.stem}
     known, bytecode = _modules_in(folder), sys.dont_write_bytecode
@@ -46,7 +46,7 @@ def run_file(path: Path, text: str) -> dict[str, Any]:
 
 
 def _modules_in(folder: Path) -> dict[str, Any]:
-    """Return the loaded modules with files in a folder, without __main__."""
+    """Return the loaded modules with files in a folder, except __main__."""
     files = {name: getattr(module, "__file__", None) for name, module in sys.modules.items()}
     inside = [name for name, file in files.items() if file and Path(file).parent == folder]
     return {name: sys.modules[name] for name in inside if name != "__main__"}
@@ -67,7 +67,7 @@ def placed(error: BaseException, place: str, text: str, name: str) -> str:
 
 
 def chain_sites(half_width: int | None, site_count: int | None = None) -> range:
-    """Return the sites of a chain: 0..site_count - 1 if there is a count, else -M..M."""
+    """Return the sites 0..site_count - 1 of a chain if a count is given, else -M..M."""
     return range(-half_width, half_width + 1) if site_count is None else range(site_count)
 
 
@@ -75,8 +75,8 @@ def values_at(value: Any, sites: range) -> float | list[float]:
     """Return a parameter as a number, or as a list with a number for each site of a chain.
 
     `value` is a number, a list or array (site,), or a function of the array of sites that returns
-    one of these. Raises ValueError if the length differs or a number is not finite; the message
-    completes "parameter W ...".
+    one of these. Raises ValueError if the length differs or a number is not finite; callers put
+    "parameter W" before the message.
     """
     if callable(value):
         value = call_on_sites(value, np.array(sites))
@@ -107,7 +107,7 @@ def _as_array(value: Any) -> np.ndarray:
 
 
 def call_on_sites(function: Callable, sites: np.ndarray) -> Any:
-    """Return function(sites); raises ValueError if it fails or a second call differs."""
+    """Return function(sites); raises ValueError if a call fails or two calls differ."""
     with np.errstate(all="ignore"):
         try:
             first, second = function(sites.copy()), function(sites.copy())

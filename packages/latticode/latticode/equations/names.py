@@ -1,4 +1,4 @@
-"""Names of fields and parameters, and the argument `p` by which equations read parameters."""
+"""Names of fields and parameters, and the argument `p` from which equations read parameters."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -28,7 +28,7 @@ RESERVED = {
 }
 """Names forbidden for parameters: keys of a case, and dimensions of its datasets."""
 ALL_FIELDS = "pair"
-"""The name of all fields together in sweeps, which no field may have."""
+"""The name for all fields together in sweeps; no single field may have it."""
 
 
 class Parameters:

@@ -1,6 +1,7 @@
-"""Upper bounds of how fast the fields of a model rotate or grow, for costs and obstacles.
+"""Upper bounds of the rates at which the fields of a model rotate or grow.
 
-Bounds are not results: their last bits may depend on the processor.
+The bounds predict the cost of a run and whether it is feasible. They are not results: their last
+bits may depend on the processor.
 """
 
 from collections.abc import Mapping
@@ -12,7 +13,7 @@ from .couplings import largest_row_sum
 from .graph import Node, derivative, evaluate, leaves_in, number
 
 Slopes = tuple[list[int], tuple[Node, ...]]
-"""The rows that the rates read, and for each of them the derivatives of all rates."""
+"""The rows of the field values that the rates read, and the derivatives of all rates by each."""
 
 
 def slopes_of(rates: tuple[Node, ...]) -> Slopes:
@@ -59,8 +60,8 @@ def _size_of(value: Any) -> float:
 def _largest_eigenvalue(matrix: np.ndarray) -> float:
     """Return an upper bound of the largest eigenvalue of a matrix without negative entries.
 
-    It is the 64th root of the norm of the 64th power. The norm itself would be too coarse: x'' =
-    -k x oscillates at sqrt(k), but the norm of its matrix is k.
+    The bound is the 64th root of the norm of the 64th power. The norm itself would be too coarse:
+    x'' = -k x oscillates at sqrt(k), but the norm of its matrix is k.
     """
     bound, exponent = 1.0, 1.0
     for _ in range(6):

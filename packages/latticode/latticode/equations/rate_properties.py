@@ -25,7 +25,7 @@ Rates = tuple[Node, ...]
 
 
 def are_even(rates: Rates) -> bool:
-    """Return whether rates are identical, to the last bit, with left and right exchanged."""
+    """Return whether exchanging left and right changes no bit of the rates."""
 
     def ordered(entry: Node, operands: list[Node]) -> Node | None:
         return node("add", *sorted(operands, key=id)) if entry.operation == "add" else None
@@ -39,10 +39,10 @@ def are_even(rates: Rates) -> bool:
 
 
 def continue_real_equations(rates: Rates) -> bool:
-    """Return whether rates of complex fields are in fact those of real fields, as in x' = x y.
+    """Return whether complex rates only extend equations of real fields, such as x' = x y.
 
-    Criterion: real data stay real, the equations are nonlinear, and no rate contains a conjugate,
-    because the rates are analytic in the fields (Cauchy-Riemann equations).
+    The criterion: real data stay real, the equations are nonlinear, and the rates are analytic in
+    the fields (Cauchy-Riemann equations), so they contain no conjugate.
     """
     draw = np.random.default_rng(1).uniform(0.5, 1.5, 1000)
     leaves = leaves_in(rates, "field")
@@ -73,8 +73,8 @@ def continue_real_equations(rates: Rates) -> bool:
 def why_no_series(rates: Rates) -> str:
     """Return the reason why solutions have no power series, "" if they have one.
 
-    At x = 0, |x| = sqrt(x * x) of a real field has a kink, but its power series would continue as
-    x or as -x.
+    For a real field x, |x| = sqrt(x * x) has a kink at x = 0. A power series would continue |x|
+    beyond the kink as x or as -x.
     """
     if switches(rates):
         return "has max, abs, sign or where, which have no power series where they switch"

@@ -1,4 +1,4 @@
-"""Symbols for complex numbers, and functions of them, with which a model is traced."""
+"""Symbols for complex numbers and their functions; a trace calls the equations with symbols."""
 
 import builtins
 from functools import reduce
@@ -27,7 +27,7 @@ from .graph import couple as coupled
 from .graph import where as select
 
 HIGHEST_POWER = 16
-"""Integer powers up to this one are products; all others are exp(exponent * log(base))."""
+"""Integer exponents up to this size give products; other powers are exp(exponent * log(base))."""
 KNOWN = "exp", "log", "sqrt", "sin", "cos", "abs2", "conj", "abs", "max", "sign", "where"
 """The functions of fields and parameters that equations may use."""
 ARRAYS = (
@@ -35,7 +35,7 @@ ARRAYS = (
     "and shift(u, m), and a value for each site is a parameter"
 )
 LONGEST_SHIFT = 7
-"""Largest distance in sites to a neighbour: it must be in the same or the next vector of eight."""
+"""Largest distance to a neighbour, which must lie in the same or the next vector of eight sites."""
 BRANCH = (
     "a comparison or a branch uses a symbol, which has no value yet; write max(a, b), "
     "where(x > 0, a, b), abs(x) or sign(x) of latticode"
@@ -205,7 +205,7 @@ class Value:
 
 
 class Condition:
-    """A comparison of two real values, for `where`: true if `difference` > 0, or its negation."""
+    """A comparison of two real values for `where`: `difference` > 0, or its opposite."""
 
     __hash__ = None
 
@@ -249,7 +249,7 @@ def couple(matrix: Value, w: Value) -> Value:
     """Return sum_m W_nm w_m over all sites m.
 
     The matrix W is a parameter, p.W, of N x N real numbers, dense or scipy.sparse. Raises
-    ModelError if it is anything else.
+    ModelError if the argument is not a parameter.
     """
     matrix = Value.of(matrix)
     if matrix.re.operation != "parameter" or matrix.im is not ZERO:
@@ -367,4 +367,4 @@ UFUNCS = {
     "greater_equal": Value.__ge__,
     "less_equal": Value.__le__,
 }
-"""The rules that replace NumPy's functions, by the names of these."""
+"""The rule that replaces each function of NumPy, by the name of the function."""

@@ -7,8 +7,8 @@ the power P of the initial data:
 
 where F are the rates of the model. The unknown nu must vanish, otherwise the state would grow or
 decay. Other models have a steady state, F(phi) = 0. Without coupling the state occupies the site
-with the largest initial data. It is followed as the coupling is turned on in steps, each solved by
-Newton's method (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
+with the largest initial data. The coupling is then turned on in steps, and Newton's method follows
+the state (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
 
 In the frame that rotates with the state, perturbations grow as exp(mu tau) with the eigenvalues mu
 of the derivative of F + i lambda. Floquet multipliers are exp(2 pi mu / abs(lambda)).
@@ -33,14 +33,14 @@ MOST_UNKNOWNS = 1000
 """Largest size of a matrix; the eigenvalues of a larger one take more than a minute."""
 TOLERANCE, ITERATIONS = 1e-13, 30
 """Newton's method stops at rates below TOLERANCE times the largest slope times the largest value,
-or fails after this number of steps."""
+and fails after ITERATIONS steps."""
 FIRST_STEP, SMALLEST_STEP, LARGEST_CHANGE = 1 / 8, 1 / 4096, 0.2
 """First and smallest step of the coupling; largest change of a state in one step, relative to its
 largest value. A larger change may lead to a different family of states."""
 DAMPING = 1e-12
 """Damping of Newton's method (Levenberg), relative to the largest squared slope."""
 NOISE = 1e-5
-"""Accuracy of exponents: double ones, such as those of a phase, lose half of the digits."""
+"""Accuracy of exponents. A double exponent, such as 0 for a phase shift, loses half the digits."""
 
 
 class NoStateError(ArithmeticError):
@@ -56,12 +56,12 @@ class LocalisedState(NamedTuple):
 
     x: np.ndarray
     frequency: float = 0.0
-    growth: float = 0.0  # nu of the equation above
+    growth: float = 0.0  # nu in the equation of the module
     even: bool = False  # whether x has only the sites 0..M
 
     @property
     def parity(self) -> int | None:
-        """EVEN for a state on the sites 0..M, else None: the `parity` of `linearise`."""
+        """The argument `parity` of `linearise`: EVEN for a state on the sites 0..M, else None."""
         return EVEN if self.even else None
 
     def components(self, problem: Problem) -> np.ndarray:
@@ -181,7 +181,7 @@ def find_state(problem: Problem) -> LocalisedState:
 
 
 def uncoupled(problem: Problem, even: bool) -> tuple[LocalisedState, float | None]:
-    """Return the state without coupling at the site with the largest data, and its power or None.
+    """Return the uncoupled state at the site with the largest data, and its power, None if steady.
 
     Newton's method starts from the data at this site, scaled to the power of the whole chain.
     """
@@ -199,7 +199,7 @@ def uncoupled(problem: Problem, even: bool) -> tuple[LocalisedState, float | Non
 
 
 def coupled(problem: Problem, state: LocalisedState, power: float | None) -> LocalisedState:
-    """Return the state at full coupling, followed from `state` at zero; else raise NoStateError."""
+    """Return `state` continued from zero to full coupling; raises NoStateError if this fails."""
     reached, step = 0.0, FIRST_STEP
     while reached < 1.0:
         target = min(1.0, reached + step)

@@ -22,7 +22,7 @@ from latticode.kernels.compiled import inlined_by_numba, kernel
 
 @kernel
 def inner(chain: Any, u: np.ndarray, v: np.ndarray) -> float:
-    """Return the scalar product of two states over the whole chain, even if they store half."""
+    """Return the scalar product of two states over the whole chain, also if they store half."""
     total = 0.0
     for row in range(u.shape[0]):
         for j in range(1, u.shape[1] - 1):
@@ -72,7 +72,7 @@ def orthonormalise(chain: Any, bundle: np.ndarray, lengths: np.ndarray) -> None:
 
 @kernel
 def size_of_solution(chain: Any, bundle: np.ndarray, count: int) -> float:
-    """Return the l2 norm of the solution in a bundle of `count` tangent vectors."""
+    """Return the l2 norm of the solution in a bundle with `count` tangent vectors."""
     y = bundle[: bundle.shape[0] // (1 + count)]
     return sqrt(inner(chain, y, y))
 

@@ -20,7 +20,7 @@ def linearise(
 
     `state` and rates are (row, site), flattened: the rows are the real and imaginary parts of each
     field, or its value and its rate. With a `parity` the state is even and has the sites 0..M; the
-    matrix is then that of EVEN perturbations on the sites 0..M, or of ODD ones on the sites 1..M.
+    matrix then describes EVEN perturbations on the sites 0..M, or ODD ones on the sites 1..M.
     `coupling` is the fraction c of the full coupling: each neighbour's value v is replaced by
     c v + (1 - c) u, where u is the value at the site itself.
     """
@@ -64,7 +64,7 @@ def linearise(
 
 @lru_cache
 def places_seen(reach: int, boundary: str, sites: int, parity: int | None) -> np.ndarray:
-    """Return for each place the index of the site with its value, and two factors, (3, place).
+    """Return (3, place): for each place the index of the site with its value, and two factors.
 
     The places are the sites and `reach` places beyond each end. The factors multiply the value in
     the state and in a perturbation; they are 0 at places that the boundary keeps at rest.

@@ -1,7 +1,7 @@
 """Detection of sites that stay at rest at an unstable point, such as unexcited, uncoupled sites.
 
-Perturbations of such a site grow although nothing moves there. The Lyapunov exponent of the whole
-chain is the largest growth rate, so it may be that of such a site instead of the motion.
+Perturbations of such a site grow although nothing moves there. The Lyapunov exponent of the chain
+is the largest growth rate, so it may describe such a site and not the motion.
 """
 
 import numpy as np
@@ -21,9 +21,9 @@ def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarra
     """Return the sites at rest where perturbations grow, and the largest growth rate.
 
     A site is at rest if it `is_constant` (site,) during the run and its rates vanish at the start.
-    Perturbations of all such sites are linearised with the moving sites fixed. They count if they
-    grow by more than a factor of e during the run. The array of sites is empty if the equations
-    have no derivative at rest.
+    Perturbations of all sites at rest are linearised with the moving sites fixed. Perturbations
+    that grow by less than a factor of e during the run are ignored. The array of sites is empty if
+    the equations have no derivative at rest.
     """
     with np.errstate(all="ignore"):
         rates, matrix = linearise(problem, flat(problem.amplitudes))
@@ -44,9 +44,9 @@ def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarra
 def describe_unstable_rest(problem: Problem, moduli: np.ndarray) -> str:
     """Return a warning about sites that stay at rest at an unstable point; "" if there are none.
 
-    `moduli` (component, site, snapshot) are those of a run; at rest they are constant. Not tested
-    are equations that depend on time, models with a coupling matrix, and chains with more than
-    MOST_UNKNOWNS unknowns.
+    `moduli` (component, site, snapshot) are the snapshots of a run; they are constant at rest. The
+    test skips equations that depend on time, models with a coupling matrix, and chains with more
+    than MOST_UNKNOWNS unknowns.
     """
     unknowns = len(problem.model.rates) * problem.sites
     is_constant = (moduli == moduli[:, :, :1]).all(axis=(0, 2))

@@ -1,7 +1,7 @@
 """Poincare sections: the times and states at which a function of the fields crosses zero.
 
-A crossing is detected as a change of sign between two outputs. It is located by short runs from the
-first output, so that its error is that of the solver and not of an interpolation.
+A crossing is detected as a change of sign between two outputs. Short runs from the first output
+locate the crossing, so its error is the error of the solver and not of an interpolation.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,7 +21,7 @@ DIRECTIONS = {"up": (1.0,), "down": (-1.0,), "both": (1.0, -1.0)}
 OUTPUTS_AT_ONCE = 500
 """Number of outputs with states in memory at the same time."""
 MOST_STEPS = 200
-"""Maximum number of steps of the root search; bisecting every third step needs far fewer."""
+"""Maximum number of steps of the root search, which needs far fewer with its bisections."""
 
 
 class Crossings(NamedTuple):
@@ -35,7 +35,7 @@ def find_crossings(problem: Problem, when: Node, site: int, direction: str) -> C
     """Return the times and states at which an expression of the fields crosses zero at a site.
 
     Two crossings between the same two outputs are missed. `direction` is a key of DIRECTIONS.
-    Raises IntegrationError as `simulate` does.
+    Raises IntegrationError if `simulate` does.
     """
     value = _value_at(problem, when, problem.site_numbers.index(site))
     signs = DIRECTIONS[direction]
@@ -91,7 +91,7 @@ def _complex(state: np.ndarray) -> np.ndarray:
 
 
 def _value_at(problem: Problem, when: Node, column: int) -> Callable[[np.ndarray, float], float]:
-    """Return the function that evaluates `when` at a site, for a state (part, component, site)."""
+    """Return value(state, time) of `when` at a site, for states (part, component, site)."""
     parameters, reach = problem.parameter_values, max(1, when.reach)
     seen, factor, _ = places_seen(reach, problem.boundary, problem.sites, None)
     seen = seen.astype(int)
@@ -119,8 +119,8 @@ def _value_at(problem: Problem, when: Node, column: int) -> Callable[[np.ndarray
 def find_root(value: Callable[[float], float], start: float, end: float) -> float:
     """Return the root of a function that changes sign between two times, to rounding.
 
-    The Illinois method is used: false position, where the value at an end point that stays the same
-    is halved. Every third step is a bisection.
+    This is the Illinois method: false position that halves the value at an end point if this point
+    stays the same. Every third step is a bisection.
     """
     low, high = value(start), value(end)
     for step in range(1, MOST_STEPS):

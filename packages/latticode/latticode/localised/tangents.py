@@ -55,7 +55,7 @@ def kernels_of_tangents(model: Model, site_dependent: frozenset[str]) -> ModuleT
 def random_tangent(
     sites: int, rng: np.random.Generator, even: bool = False, fields: int = 2
 ) -> np.ndarray:
-    """Return complex Gaussian fields (field, site), exactly even in n if `even`."""
+    """Return complex Gaussian fields (field, site); with `even` they are exactly even in n."""
     z = complex_normal(rng, (fields, sites))
     return z + z[:, ::-1] if even else z
 

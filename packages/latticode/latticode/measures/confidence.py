@@ -54,7 +54,7 @@ def mean_limits(values: ArrayLike, confidence: float = CONFIDENCE) -> Confidence
 def difference_limits(
     first: ArrayLike, second: ArrayLike, confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return mean(first) - mean(second), both (member,), with Welch's confidence interval."""
+    """Return mean(first) - mean(second) with Welch's confidence interval; both are (member,)."""
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     variances = [values.var(ddof=1) / len(values) for values in (first, second)]
     difference, error, off = first.mean() - second.mean(), sqrt(sum(variances)), 0.0
@@ -68,8 +68,8 @@ def chance_inside(most: int, draws: int, members: int) -> float:
     """Return the probability that at most `most` of `draws` lie in the range of `members` values.
 
     All values are independent with the same continuous distribution, so all orders of draws and
-    members are equally likely. The result, to three digits, is the share of orders with enough
-    draws below the lowest or above the highest member.
+    members are equally likely. The result, to three digits, is the share of orders with at least
+    `draws` - `most` draws below the lowest or above the highest member.
     """
     total = special.gammaln(np.array([draws + members + 1.0, members + 1.0, draws + 1.0]))
     outside = np.arange(draws - most, draws + 1.0)
@@ -83,7 +83,7 @@ def chance_inside(most: int, draws: int, members: int) -> float:
 def chance_of_counts(least: int, members: int, share: float) -> float:
     """Return the probability of at least `least` successes in `members` trials, to three digits.
 
-    Each succeeds with probability `share`.
+    Each trial succeeds with probability `share`.
     """
     return float(f"{special.bdtrc(least - 1.0, members, share):.3g}")
 
@@ -94,7 +94,7 @@ def chance_below(score: float, freedom: float) -> float:
 
 
 def _freedom(variances: Sequence[float], counts: Sequence[int]) -> float:
-    """Return Welch's degrees of freedom of a difference of means, from the variances of both."""
+    """Return Welch's degrees of freedom of a difference of two means with these variances."""
     pairs = zip(variances, counts, strict=True)
     below = sum(variance * variance / (count - 1) for variance, count in pairs)
     return sum(variances) * sum(variances) / below
@@ -152,7 +152,7 @@ def event_rate(
     """Return the rate of events per unit of time among the members without an event by `start`.
 
     `times` (member,) are the times of the events, infinite if a member has none by `end`. The
-    interval is the exact one of a Poisson count (F. Garwood, Biometrika 28 (1936) 437). The result
+    interval is exact for a Poisson count (F. Garwood, Biometrika 28 (1936) 437). The result
     is NaN if every member had its event by `start`.
     """
     left = np.asarray([time - start for time in times if time > start])
@@ -168,10 +168,10 @@ def event_rate(
 def order_limits(
     groups: Sequence[np.ndarray], confidence: float = CONFIDENCE
 ) -> ConfidenceInterval:
-    """Return the share of pairs in which the value of the earlier group is larger, with interval.
+    """Return the share of pairs with the larger value in the earlier group, with its interval.
 
     A pair has values of two different `groups`; equal values count half, and values may be
-    infinite. The width of the interval is that of Jonckheere's test (Biometrika 41 (1954) 133). If
+    infinite. The interval has the width of Jonckheere's test (Biometrika 41 (1954) 133). If
     all values have the same distribution, the interval contains 1/2 with at least this confidence.
     """
     larger = pairs = 0.0

@@ -39,7 +39,7 @@ ABSENT = "infinite: at no common tau; NaN: unknown"
 def norm_difference(
     linf_a: ArrayLike, l2_a: ArrayLike, linf_b: ArrayLike, l2_b: ArrayLike
 ) -> np.ndarray:
-    """Return the difference of the norms of two runs, (time,), as a fraction of full scale.
+    """Return the difference (time,) of the norms of two runs as a fraction of full scale.
 
     All arguments are (component, time), at the same times. A curve that is zero in both runs has
     the difference 0.
@@ -54,7 +54,7 @@ def _curve_difference(a: ArrayLike, b: ArrayLike) -> np.ndarray:
 
 
 def field_difference(first: ArrayLike, second: ArrayLike, sizes: ArrayLike) -> np.ndarray:
-    """Return the largest difference of two runs at any site, relative to full scale, (time,).
+    """Return the largest difference (time,) of two runs at any site, relative to full scale.
 
     `first` and `second` are (curve, site, time), complex or real, at the same times. The curves are
     the values of all fields, followed by their rates if the equations are of second order. The full
@@ -73,7 +73,7 @@ def field_difference(first: ArrayLike, second: ArrayLike, sizes: ArrayLike) -> n
 def first_above(tau: ArrayLike, values: ArrayLike, level: float) -> np.ndarray | float:
     """Return the first of the times `tau` (time,) at which `values` (..., time) exceed `level`.
 
-    The result (...) is infinite where they never do, and NaN where all values are NaN.
+    The result (...) is infinite where no value exceeds it, and NaN where all values are NaN.
     """
     tau, values = np.asarray(tau, float), np.asarray(values, float)
     above = values > level
@@ -82,7 +82,7 @@ def first_above(tau: ArrayLike, values: ArrayLike, level: float) -> np.ndarray |
 
 
 def difference(first: "xr.Dataset", second: "xr.Dataset") -> "xr.DataArray":
-    """Return the difference of two stored trajectories, (tau), at the times that both have.
+    """Return the difference (tau) of two stored trajectories at the times that both have.
 
     The result has the name and the attributes of a variable of a dataset.
     """
@@ -125,8 +125,8 @@ def is_of_same_case(trajectory: "xr.Dataset", reference: "xr.Dataset") -> bool:
 
 
 def state_error(computed: np.ndarray, exact: np.ndarray) -> float:
-    """Return the largest error at any site of a state, relative to its largest modulus.
+    """Return the largest error of a state at any site, relative to the largest modulus of `exact`.
 
-    Both states have the same shape. Unlike `norm_difference`, this compares site by site.
+    Both states have the same shape. Unlike `norm_difference`, this error compares site by site.
     """
     return float(modulus(computed - exact).max() / modulus(exact).max())

@@ -42,7 +42,7 @@ def bands(norms: np.ndarray, quantiles: Sequence[float]) -> np.ndarray:
 
 
 def moments(values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return mean, standard deviation and standard error over the members of (member, ...)."""
+    """Return mean, standard deviation and standard error of `values` (member, ...) over members."""
     deviation = values.std(axis=0, ddof=1)
     return {
         "mean": values.mean(axis=0),

@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 def power_of(amplitudes: np.ndarray) -> float:
-    """Return P, the sum over all sites of |A|^2 + |B|^2, of amplitudes (2, site)."""
+    """Return the power P of amplitudes (2, site): the sum of |A|^2 + |B|^2 over all sites."""
     return float(np.sum(square_modulus(amplitudes)))
 
 
 def total_power(trajectory: "xr.Dataset") -> np.ndarray:
-    """Return the power P of a stored trajectory, the sum of its squared l2 norms, (time,)."""
+    """Return the power P (time,) of a stored trajectory: the sum of its squared l2 norms."""
     return (trajectory["l2"] ** 2).sum("component").values
 
 

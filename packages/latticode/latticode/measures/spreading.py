@@ -22,8 +22,8 @@ STEPS, SETTLED = 20, 1e-10
 """Maximum number of Gauss-Newton steps for the exponent, and the change at which they stop."""
 
 LEAST, MOST, GRID, NEARLY_ZERO = -1.0, 3.0, 0.05, 1e-4
-"""Lowest and highest exponent, spacing of the grid of the first search, and smallest modulus of an
-exponent: it replaces smaller ones, because the law at 0 is a limit."""
+"""Lowest and highest exponent, and the spacing of the grid for the first search. NEARLY_ZERO
+replaces exponents of smaller modulus, because the law at 0 is a limit."""
 
 
 class Line(NamedTuple):
@@ -58,10 +58,10 @@ def fit_line(
 ) -> LateGrowth:
     """Return the line values = slope x + offset through curves (member, x), from x = `start` on.
 
-    `x` is tau or a function of it: with 2 (v tau - delay log tau) the slope is the power P of a
-    site. The confidence interval is that of the mean over the independent members, and thus valid
-    for curves with long correlation times. A single curve is divided into BLOCKS time intervals
-    instead.
+    `x` is tau or a function of tau. If x is the number of sites between two fronts, 2 (v tau -
+    delay log tau), the slope is the power P of a site. The interval describes the mean over the
+    independent members and is valid for curves with long correlation times. A single curve is
+    divided into BLOCKS time intervals instead.
     """
     is_fitted = x >= start
     lines = [lay_line(x[is_fitted], series[is_fitted]) for series in values]
@@ -101,7 +101,7 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
     for _ in range(STEPS):
         law, change = _law(x, q[..., None])
         slope_of_change = _slope(law, change)
-        residual = _centred(change) - slope_of_change * _centred(law)  # neither a nor b can fit it
+        residual = _centred(change) - slope_of_change * _centred(law)  # a and b cannot fit this
         share = (residual * squares).sum(axis=-1) / (residual * residual).sum(axis=-1)
         slope = _slope(law, squares - share[..., None] * change)[..., 0]
         step = np.divide(share, slope, out=np.zeros_like(share), where=slope != 0.0)
@@ -112,7 +112,7 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
 
 
 def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
-    """Return the grid's exponent with the smallest sum of squared residuals of each curve."""
+    """Return for each curve the exponent on the grid with the least sum of squared residuals."""
     exponents, laws = _laws_of_grid(x)
     curves = squares.reshape(-1, laws.shape[-1])
     explained = [(laws * curve).sum(axis=-1) ** 2 for curve in curves]
@@ -121,7 +121,7 @@ def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def _laws_of_grid(x: bytes) -> tuple[np.ndarray, np.ndarray]:
-    """Return the exponents of the grid, and their centred and normalised laws, (exponent, time).
+    """Return the exponents of the grid, and their laws (exponent, time), centred and normalised.
 
     `x` is log(tau / tau[-1]) as bytes, which the cache can hash.
     """
@@ -135,7 +135,7 @@ def _centred(values: np.ndarray) -> np.ndarray:
 
 
 def _slope(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the least-squares slopes of y against x, (..., 1)."""
+    """Return the slopes (..., 1) of least-squares lines through the points x, y."""
     off = _centred(x)
     return (off * y).sum(axis=-1, keepdims=True) / (off * off).sum(axis=-1, keepdims=True)
 

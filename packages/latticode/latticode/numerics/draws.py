@@ -6,11 +6,11 @@ from .elementary import complex_of, log
 
 
 def normal(rng: np.random.Generator, size: int | tuple[int, ...] | None) -> np.ndarray:
-    """Return standard normal numbers of shape `size`; beyond 3.65 rounded to 40 binary places.
+    """Return standard normal numbers of shape `size`.
 
-    NumPy computes the tail with the C library's log1p, whose last bit depends on the machine. It
-    also uses the C library's exp, but only to accept or reject a few draws, which a last bit hardly
-    ever changes.
+    Moduli above 3.65 are rounded to 40 binary places, because NumPy computes them with the C
+    library's log1p, and the last bit of log1p depends on the machine. NumPy also uses the C
+    library's exp to accept or reject a few draws; a last bit hardly ever changes the decision.
     """
     drawn = rng.normal(size=size)
     return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)
@@ -24,10 +24,10 @@ def complex_normal(rng: np.random.Generator, shape: int | tuple[int, ...]) -> np
 def uniform(
     rng: np.random.Generator, low: float, high: float, size: int | tuple[int, ...] | None = None
 ) -> np.ndarray | float:
-    """Return uniform numbers in [low, high); `rng.uniform` is fused on some processors."""
+    """Return uniform numbers in [low, high); `rng.uniform` fuses operations on some processors."""
     return low + (high - low) * rng.random(size)
 
 
 def exponential(rng: np.random.Generator) -> float:
-    """Return one exponentially distributed number of mean 1."""
+    """Return one exponentially distributed number with mean 1."""
     return float(-log(1.0 - rng.random()))

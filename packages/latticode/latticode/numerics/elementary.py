@@ -34,7 +34,7 @@ ATANH = [2 / (2 * n + 1) for n in range(1, 13)]
 
 
 def _horner(coefficients: Sequence[float], x: Real) -> Real:
-    """Return the polynomial of these coefficients at x, the constant first."""
+    """Return the value of a polynomial at x; `coefficients` begin with the constant term."""
     total = coefficients[-1]
     for coefficient in coefficients[-2::-1]:
         total = total * x + coefficient
@@ -56,7 +56,7 @@ def _product(a: Real, b: Real) -> tuple[Real, Real]:
 
 
 def _halves(a: Real) -> tuple[Real, Real]:
-    """Return a as an exact sum of two numbers with half of the digits."""
+    """Return two numbers with the exact sum a, each with half of the digits of a."""
     long = SPLITTER * a
     high = long - (long - a)
     return high, a - high
@@ -164,7 +164,7 @@ def geometric(start: float, stop: float, count: int) -> np.ndarray:
 def fifth_root(x: float) -> float:
     """Return x^(1/5) of one number x >= 0, with an error below 1 ulp; 0, inf and NaN are unchanged.
 
-    Kernels compile it. It branches on x and therefore takes no arrays.
+    Kernels compile this function. It branches on x and therefore takes no arrays.
     """
     if not 0.0 < x < np.inf:
         return x
@@ -185,7 +185,7 @@ def fifth_root(x: float) -> float:
 
 
 def sine_less_angle(x: Real, low: Real = 0.0) -> Real:
-    """Return sin(x + low) - x for abs(x) <= 1 and `low` below an ulp of x; also for kernels."""
+    """Return sin(x + low) - x for abs(x) <= 1 and `low` below an ulp of x; kernels use it too."""
     z = x * x
     far = S9 + z * (S11 + z * (S13 + z * (S15 + S17 * z)))
     return x * z * (S3 + z * (S5 + z * (S7 + z * far))) + low * (1.0 - 0.5 * z)
@@ -197,7 +197,7 @@ def sine_near_zero(x: Real, low: Real = 0.0) -> Real:
 
 
 def cosine_near_zero(x: Real, low: Real = 0.0) -> Real:
-    """Return cos(x + low) for abs(x) <= 1 and `low` below an ulp of x; also for kernels."""
+    """Return cos(x + low) for abs(x) <= 1 and `low` below an ulp of x; kernels use it too."""
     z = x * x
     far = C10 + z * (C12 + z * (C14 + z * (C16 + C18 * z)))
     curved = z * z * (C4 + z * (C6 + z * (C8 + z * far)))
@@ -261,7 +261,7 @@ def quotient(a: Complex, b: Complex) -> Complex:
 
 
 def square_root(z: Complex) -> Complex:
-    """Return the square root of z with a nonnegative real part; inaccurate near z = 0."""
+    """Return the root of z that has a nonnegative real part; it is inaccurate near z = 0."""
     z = np.asarray(z)
     size = modulus(z)
     small = np.sqrt(0.5 * (size + np.abs(z.real)))

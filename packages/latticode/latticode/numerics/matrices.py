@@ -8,5 +8,5 @@ import numpy as np
 
 
 def times(matrix: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Return the products (..., m) of `matrix` (..., m, n) and `x` (..., n), one of them real."""
+    """Return products (..., m) of `matrix` (..., m, n) and `x` (..., n); one must be real."""
     return np.sum(matrix * x[..., None, :], axis=-1)

@@ -1,4 +1,4 @@
-"""Runs on an infinite chain that integrate only the active sites: -W..W, or 0..W of even data.
+"""Runs on an infinite chain that integrate only the active sites: -W..W, or 0..W for even data.
 
 W grows by a block when a site near an end exceeds `rest_threshold` times the largest amplitude. For
 short runs 1e-20 is small enough. A pulled front is driven by its leading edge and slows down if the
@@ -63,7 +63,7 @@ def integrate_intervals(
 
 
 def widen(state: np.ndarray, rest_threshold: float, even: bool = True) -> np.ndarray:
-    """Return the state, with a block of sites added at each end if one is no longer at rest."""
+    """Return the state; if an end is no longer at rest, a block of sites is added at each end."""
     power = (state[:, 1:-1] * state[:, 1:-1]).sum(axis=0)
     at_ends = power[-GUARD:].max() if even else max(power[:GUARD].max(), power[-GUARD:].max())
     if not at_ends > rest_threshold * rest_threshold * power.max():
@@ -81,10 +81,10 @@ def _is_even(initial: np.ndarray) -> bool:
 
 
 class _GrowingChain:
-    """The kernels of one problem on a growing number of sites.
+    """The kernels of one problem for a growing number of sites.
 
     Work arrays are allocated only when the number of sites changes, because allocating them for
-    every interval would take 10 % of its time.
+    every interval would take 10 % of the run time.
     """
 
     def __init__(self, problem: Problem, even: bool) -> None:

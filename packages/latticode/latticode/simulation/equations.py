@@ -29,8 +29,8 @@ class GaveUpError(IntegrationError):
 class CompiledMethod(NamedTuple):
     """A method compiled with the equations of a model.
 
-    `work` is the number of work arrays if it depends on the model, otherwise 0. `in_tiles` is true
-    if the kernels can divide a chain into tiles.
+    `work` is the number of work arrays, or 0 if this number does not depend on the model.
+    `in_tiles` is true if the kernels can divide a chain into tiles.
     """
 
     method: Method
@@ -99,7 +99,7 @@ class Equations(ABC):
 
     @abstractmethod
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds of the rates at amplitude `peak`, by the key they depend on."""
+        """Return bounds of the rates at amplitude `peak`, each by the key that it depends on."""
 
     @property
     def clock(self) -> float:
@@ -108,7 +108,7 @@ class Equations(ABC):
 
     @property
     def atol_scale(self) -> float:
-        """Absolute tolerance of the kernels for an absolute tolerance of 1 of the problem."""
+        """Absolute tolerance of the kernels that corresponds to the tolerance 1 of the problem."""
         return 1.0
 
     # --- Arguments and results of the kernels

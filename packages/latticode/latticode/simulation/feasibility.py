@@ -32,8 +32,9 @@ def find_fault(
 ) -> Obstacle | None:
     """Return the key to change and the reason why a run of length `span` is rejected, else None.
 
-    `peak` is the largest initial amplitude, `values` are constants by key, and `rates` bounds of
-    relative rates by the key they depend on. `clock` is the solver's time per unit of time.
+    `peak` is the largest initial amplitude. `values` has constants by key. `rates` has bounds of
+    relative rates, each by the key that it depends on. `clock` is the solver's time per unit of
+    `span`.
     """
     obstacle = (
         _find_in_data(values, peak, span, rates)

@@ -8,8 +8,8 @@ are discarded.
 
 Starting a thread takes as long as a short run, so workers are reused. Passing a run to a worker
 takes up to half as long as a run of a short chain. For many runs, pass one function that executes
-them all. Once a function is compiled, the main thread executes it. A second thread then reads the
-file descriptor to which Python writes each signal when it arrives, and sets the flag.
+them all. Once a function is compiled, the main thread executes it. Python then writes each signal
+to a file descriptor when it arrives. A second thread reads the descriptor and sets the flag.
 """
 
 import os
@@ -79,7 +79,7 @@ def _end_of(run: Callable, arguments: tuple) -> tuple[Any, BaseException | None]
 class _Watch:
     """A thread that sets the flag of the main thread's run when an interrupt arrives."""
 
-    CAUGHT_UP = b"\xff"  # no number of a signal
+    CAUGHT_UP = b"\xff"  # differs from the number of every signal
 
     def __init__(self) -> None:
         self.stop: np.ndarray | None = None
@@ -100,7 +100,7 @@ class _Watch:
                 self._caught_up.put(True)
 
     def catch_up(self) -> None:
-        """Wait until all signals written so far are read, so that none stops a later run."""
+        """Wait until all signals written so far are read, so none of them stops a later run."""
         self._written.send(self.CAUGHT_UP)
         self._caught_up.get()
 
@@ -172,7 +172,7 @@ def _run_watched(run: Callable, arguments: tuple) -> Any:
         signal.set_wakeup_fd(watch.descriptor(), warn_on_full_buffer=False)
         return run(*arguments, stop)
     finally:
-        # in this order: the handler above has then set the flag for all signals in the descriptor
+        # in this order, the handler above has set the flag for each signal in the descriptor
         signal.set_wakeup_fd(-1)
         signal.signal(signal.SIGINT, signal.default_int_handler)
         if stop[0]:

@@ -27,7 +27,7 @@ FULL_CHAIN = Reduction(even=False, synchronised=False)
 
 
 def find_reduction(amplitudes: np.ndarray) -> Reduction:
-    """Return the exact symmetries of the amplitudes (component, site)."""
+    """Return the reduction that the exact symmetries of amplitudes (component, site) allow."""
     return Reduction(
         even=amplitudes.shape[1] > 1 and bool((amplitudes == amplitudes[:, ::-1]).all()),
         synchronised=bool((amplitudes[0] == amplitudes[-1]).all()),

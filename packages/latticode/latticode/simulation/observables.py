@@ -19,14 +19,14 @@ class ObservableRecord(NamedTuple):
     # moduli (component, site, snapshot), or states (part, component, site, snapshot)
     snapshots: np.ndarray
     every: int
-    scratch: np.ndarray  # (component, column), two rows at least
+    scratch: np.ndarray  # (component, column), at least two rows
     conserved: np.ndarray  # (quantity, time), empty unless requested
 
 
 def blank_record(
     components: int, sites: int, times: int, every: int, quantities: int = 0, parts: int = 0
 ) -> ObservableRecord:
-    """Return uninitialised arrays for `times` outputs, with a snapshot at every `every`-th of them.
+    """Return uninitialised arrays for `times` outputs, with a snapshot at every `every`-th output.
 
     Snapshots are moduli if `parts` is 0, otherwise states. `quantities` is the number of conserved
     quantities: computing them may take half of the time of an output.
@@ -67,7 +67,7 @@ def sums_over_chain(chain: Any, a: np.ndarray, b: np.ndarray) -> tuple[float, fl
 
 
 def norms_by(square: Callable) -> Callable:
-    """Return the kernel that writes the norms of a state, from square(y, row, j) = |A_n|^2."""
+    """Return the kernel that writes norms; square(y, row, j) returns |A|^2 of a field."""
 
     @in_one_pass
     def write_norms(chain: Any, y: np.ndarray, i: int, record: ObservableRecord) -> None:
@@ -87,7 +87,7 @@ def norms_by(square: Callable) -> Callable:
 
 
 def observer(square: Callable, keep_site: Callable) -> Callable:
-    """Return the kernel that stores norms, and snapshots by keep_site(y, k, j, snapshot, array)."""
+    """Return the kernel that stores norms, and calls `keep_site` for each site of a snapshot."""
     write_norms = norms_by(square)
 
     @in_one_pass

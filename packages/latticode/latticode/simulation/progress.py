@@ -1,7 +1,7 @@
 """A progress bar for work of more than two seconds, in a terminal or a notebook.
 
-A thread checks the progress twice a second. It counts the norms that a run has written, or the runs
-that a survey has stored, so that the work itself takes no longer.
+A thread checks the progress twice a second. It counts what the work stores anyway: the norms of a
+run, or the finished runs of a survey. The work itself does nothing for the bar.
 """
 
 import os
@@ -89,7 +89,7 @@ class _Compilations:
         self.running, self.is_listening = 0, False
 
     def listen(self) -> None:
-        """Register with numba, unless this is done already."""
+        """Register with numba, unless already registered."""
         if not self.is_listening:
             from numba.core import event
 

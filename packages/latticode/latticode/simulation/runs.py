@@ -1,7 +1,7 @@
 """Many runs divided into chunks: one chunk, all chunks joined, and all runs on several cores.
 
 Each run is reduced to its results as soon as it ends, to save memory. With n chunks, chunk k has
-every n-th run from run k on, so that all chunks take about equally long. The results have the same
+every n-th run from run k on, so all chunks take about equally long. The results have the same
 bits for any number of chunks.
 """
 
@@ -96,13 +96,13 @@ def run_all(
             over, _ = wait(futures, return_when=FIRST_EXCEPTION)
         finally:
             ended.set()
-        for future in over:  # raise the error of the chunk that failed, not of those it stopped
+        for future in over:  # raise the error of the chunk that failed first
             future.result()
         return join_chunks([future.result() for future in futures])
 
 
 class ManyRuns(NamedTuple):
-    """A study of many runs: their problems, the results of each, and the result of the study.
+    """A study of many runs: the problems, and functions for results of runs and of the study.
 
     `retain` runs a problem and returns its results by name. `conclude` takes the results of all
     runs, each (run, ...), and returns the result of the study. A workflow can thus divide the runs
@@ -123,7 +123,7 @@ def run_until_interrupted(
 ) -> dict[str, np.ndarray]:
     """Return the results of `run_all` and show its progress.
 
-    After Ctrl-C, unfinished runs have NaN; if none is finished, Interrupted is raised.
+    After Ctrl-C, unfinished runs have NaN. Raises Interrupted if no run is finished.
     """
     try:
         with show_progress("survey", retained, len(problems)):

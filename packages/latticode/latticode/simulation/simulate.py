@@ -120,7 +120,7 @@ def integrate(
 ) -> tuple[Any, np.ndarray, Outcome]:
     """Return observables, final state and outcome of a run of the part `cut` of the chain.
 
-    Raises IntegrationError as `simulate` does.
+    Raises IntegrationError for the reasons given in `simulate`.
     """
     problem = equations.problem
     obstacle = find_obstacle(equations)
@@ -188,8 +188,8 @@ MARGIN = 2.0
 """Assumed bound on the larger error of two methods, divided by their difference. Errors of methods
 of different families hardly cancel."""
 SELF_AGREEMENT = 0.1
-"""A method agrees with itself if a finer tolerance changes its result by less than this fraction of
-the difference of two methods."""
+"""A method has converged if a finer tolerance changes its result by less than this fraction of the
+difference of two methods."""
 
 
 def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) -> Trajectory:
@@ -197,8 +197,8 @@ def _simulate_to_error(problem: Problem, make: Callable[[Problem], Trajectory]) 
 
     A tolerance does not bound the error at the end, least of all in chaotic motion. Two methods of
     different families therefore run the problem at finer and finer tolerances until their
-    difference is within the error. If each converges, but to another result than the other, one is
-    wrong, and a third method decides which.
+    difference is within the error. If both converge, but to different results, one is wrong, and
+    a third method decides which.
 
     `make` runs a problem by a named solver. The controls of the trajectory include its method, the
     requested and the estimated error, and the method that confirmed it. Raises IntegrationError if

@@ -1,4 +1,4 @@
-"""Many runs of one problem: over axes of its values, and for members of an ensemble.
+"""Many runs of one problem, with values that vary along axes, and with members of an ensemble.
 
 An axis names what it changes: a parameter of the model ("omega"), "half_width", "end_time", or the
 initial value of a field at a site ("initial.0.1": site 0, the second field). Names separated by
@@ -131,7 +131,7 @@ def fault_of_axis(
 ) -> str | None:
     """Return why the name of an axis is invalid, None if it is valid.
 
-    `sites` are those with initial values, and `fields` is the number of fields.
+    `sites` are the sites with initial values; `fields` is the number of fields.
     """
     if name in parameters or name in ("half_width", "end_time"):
         return None

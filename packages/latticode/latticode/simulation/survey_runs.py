@@ -21,8 +21,8 @@ def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str
     """Return the results of a survey by name, each (*survey.shape, ...).
 
     A failed run has NaN and the reason in "failure". A run that used another solver than the
-    problem's has the reason in "remark". Prints a line for each of the two. Raises ValueError for
-    an unknown result or axis.
+    problem's has the reason in "remark". Prints one line about all failures, and one about all
+    remarks. Raises ValueError for an unknown result or axis.
     """
     return runs_of_survey(problem, survey).make(run)
 
@@ -103,7 +103,7 @@ def _statistic(
 
 
 def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:
-    """Return the exponent q of a fit power ~ tau^q of the total power in the window."""
+    """Return the exponent q of the fit of a power law tau^q to the total power in the window."""
     start, end = window or (run.tau[1], run.tau[-1])
     inside = within(run.tau, (start, end)) & (run.tau > 0.0)
     power = np.add.reduce(run.l2 * run.l2)[inside]

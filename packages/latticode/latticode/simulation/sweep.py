@@ -14,7 +14,7 @@ from .simulate import Trajectory, simulate
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")
 REACHED = 1e-20
-"""The ends matter if the power at an end site is above this fraction of the largest at a site.
+"""The ends matter if the power at an end site exceeds this fraction of the largest power of a site.
 Otherwise their effect on norms is far below rounding."""
 
 Window = tuple[float, float]
@@ -23,7 +23,7 @@ Window = tuple[float, float]
 def sweep(
     problem: Problem, half_widths: Sequence[int], windows: Sequence[Window], run: Run = run_all
 ) -> dict[str, np.ndarray]:
-    """Return the statistics of `windowed` for chains of each half-width, each (half-width, ...)."""
+    """Return the statistics of `windowed` by name, each (half-width, ...)."""
     return runs_of_sweep(problem, half_widths, windows).make(run)
 
 
@@ -56,9 +56,9 @@ def runs_of_sweep(
 
 
 def windowed(trajectory: Trajectory, windows: Sequence[Window]) -> dict[str, np.ndarray]:
-    """Return the statistics "l2" and "linf", (quantity, statistic, window), and the "work" (3,).
+    """Return the statistics "l2" and "linf" (quantity, statistic, window), and the "work" (3,).
 
-    The work is the numbers of steps, rejected steps and evaluations.
+    The work consists of the numbers of steps, rejected steps and evaluations.
     """
     return {
         "l2": _over_windows(trajectory.tau, pair_l2(trajectory), windows),

@@ -45,8 +45,8 @@ TILES = ", can_be_tiled=can_be_tiled, system_of_tile=system_of_tile"
 def runs_text(methods: Iterable[Method], observe: str, driven: bool, in_tiles: bool = False) -> str:
     """Return the source text of a function `run_<method>` for each method.
 
-    The module must define the function `observe` and the rules of the methods; also `at_time` if
-    its equations are `driven`, and `can_be_tiled` and `system_of_tile` if `in_tiles`.
+    The module with this text must also define `observe` and the rules of the methods. It must
+    define `at_time` if `driven`, and `can_be_tiled` and `system_of_tile` if `in_tiles`.
     """
     texts = []
     for method in methods:
@@ -60,8 +60,7 @@ def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str
     """Return the methods of these names with the kernels of the module `home`, by name.
 
     The module defines `observe`, the rules of the methods, `can_be_tiled`, `system_of_tile`, and
-    `at_time` if `driven`. Its `WORK`, if defined, is the number of work arrays of a power
-    series.
+    `at_time` if `driven`. Its `WORK`, if defined, is the number of work arrays of a power series.
     """
     methods = [NAMED[name] for name in names]
     text = f"from {home} import *\n" + runs_text(methods, "observe", driven, in_tiles=True)
@@ -82,7 +81,7 @@ def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str
 def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
     """Return the generated module of a model with some site-dependent parameters.
 
-    Chains are not divided into tiles, whose margins suffice only for nearest neighbours.
+    Chains are not divided into tiles: the margins of tiles suffice only for nearest neighbours.
     """
     observe = "observe_angles" if model.real else "observe_fields"
     text = module_text(model.rates, model.reach, site_dependent) + OBSERVERS
@@ -107,7 +106,7 @@ def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
 
 
 DENSE = 0.25
-"""Fraction of nonzero entries above which a matrix is multiplied in full, which is faster."""
+"""A matrix with a larger fraction of nonzero entries is multiplied in full, which is faster."""
 
 
 def _couplings(problem: InitialValueProblem, inputs: ModelInputs, sites: int) -> Couplings:
@@ -125,7 +124,7 @@ def _couplings(problem: InitialValueProblem, inputs: ModelInputs, sites: int) ->
 
 
 def _flat_entries(matrices: list, sites: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return weights and columns of all matrices in sequence, and the first entry of each row."""
+    """Return weights and columns of all matrices in sequence, and the first index of each row."""
     starts, before = np.zeros((max(1, len(matrices)), sites + 1), np.int64), 0
     for number, matrix in enumerate(matrices):
         starts[number] = before + np.searchsorted(matrix["rows"], np.arange(sites + 1))
@@ -220,7 +219,7 @@ class TracedEquations(Equations):
         }
 
     def rates(self, peak: float) -> dict[str, float]:
-        """Return bounds of the rates at amplitude `peak`, by the key they depend on."""
+        """Return bounds of the rates at amplitude `peak`, each by the key that it depends on."""
         return rates_of(self.problem.model, self.problem.parameters, peak)
 
     def find_reduction(self) -> Reduction:
