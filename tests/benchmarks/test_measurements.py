@@ -42,7 +42,7 @@ def test_the_page_on_speed_says_in_words_what_was_measured(timings):
     faster = {str(peer) for peer in timings["peer"].values[timings["mean_ratio"].values < 1.0]}
     assert faster and all(peer.startswith("cpp_taylor") for peer in faster)
     comment = (ROOT / "config/config.yaml").read_text(encoding="utf-8").partition("taylor:")[0]
-    assert "at errors of 1e-3 and below" in comment
+    assert "for errors of 1e-3 and below" in comment
     for error in (1e-3, 1e-5, 1e-8, 1e-11):
         means = np.log(least_times(timings, error)).mean(axis=0)  # NaN where a case is missed
         assert timings["solver"].values[np.nanargmin(means)] == "taylor", error

@@ -23,7 +23,7 @@ from oracle import (
     random_chain,
     slope,
 )
-from pendula.models.amplitudes import AmplitudeChain, energy, rates
+from pendula.models.amplitudes import AmplitudeChain, energy, field, rates
 from problems import PAPER, make_problem
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -79,6 +79,16 @@ def test_energy_is_conserved_and_exchange_of_a_and_b_exchanges_the_bits(z, numbe
         energy = straight.conserved["energy"]
         assert np.abs(energy - energy[0]).max() < drift * max(1.0, np.abs(energy[0])), name
         np.testing.assert_array_equal(exchanged.final, straight.final[::-1], err_msg=name)
+
+
+def test_the_function_of_the_field_takes_plain_numbers_and_is_equation_4():
+    system, values = AmplitudeChain(*PAPER, 0, 0), np.random.default_rng(3).normal(size=(2, 2, 3))
+    re, im = field(system, lambda component, part, by: values[component, part, 1 + by])
+    a, b = values[:, 0] + 1j * values[:, 1]
+    coupling = PAPER[0] * (a[2] - 2 * a[1] + a[0]) + PAPER[2] * a[1]
+    drive = PAPER[1] * np.conj(b[1] - a[1])
+    expected = coupling + drive + 0.5 * abs(a[1]) ** 2 * a[1]
+    np.testing.assert_allclose([re, im], [expected.real, expected.imag], rtol=1e-13)
 
 
 def test_ode45_of_real_unknowns_takes_the_published_steps():

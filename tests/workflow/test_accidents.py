@@ -46,6 +46,6 @@ def test_a_dry_run_in_a_read_only_folder_says_what_it_needs(read_only, tmp_path)
 def test_a_run_whose_results_are_read_only_says_so_before_any_job(read_only, tmp_path):
     result = snakemake(ROOT, tmp_path / "here", "fig1")
     assert result.returncode == 1
-    assert f"{read_only} is read-only: make it writable, or name another" in result.stderr
+    assert f"{read_only} is read-only: make it writable, or give another" in result.stderr
     assert "Traceback" not in result.stderr and "Drawing" not in result.stderr
     assert snakemake(ROOT, tmp_path / "here", "--dry-run", "fig1").returncode == 0

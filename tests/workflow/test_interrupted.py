@@ -41,7 +41,7 @@ def kill_in_a_long_chain(folder):
 def test_a_run_that_was_killed_goes_on_to_the_same_files(full_run, tmp_path):
     kill_in_a_long_chain(tmp_path)
     output = tmp_path / "said.txt"
-    wait_for(lambda: "To go on: snakemake --unlock, then the same command" in output.read_text())
+    wait_for(lambda: "To continue, run snakemake --unlock" in output.read_text())
     assert "ConnectionResetError" not in output.read_text()
     assert snakemake(ROOT, tmp_path, "--unlock").returncode == 0  # nothing else could
     result = snakemake(ROOT, tmp_path, *TARGETS)

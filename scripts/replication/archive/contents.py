@@ -38,7 +38,7 @@ def _unpacked(project: Path) -> list[str]:
     if not (project / MANIFEST).is_file():
         raise ArchiveError(
             f"{project} is neither a git clone nor an unpacked archive ({MANIFEST} is missing): "
-            "pack it from one of these, because they list the files of the project"
+            "pack it from a clone or from an unpacked archive, which list the files of the project"
         )
     rows = (project / MANIFEST).read_text("utf-8").splitlines()
     names = [row.split("  ", 1)[1] for row in rows]

@@ -15,7 +15,7 @@ from latticode.equations.model import Model
 from latticode.kernels.cache import keep_source
 
 from . import toolbox
-from .rate_rules import Rule, densities_text, rates_text, rule_text, tangents_text
+from .rate_rules import ExactRule, Rule, densities_text, rates_text, rule_text, tangents_text
 from .series_graph import with_carried
 from .series_rules import SeriesWriter
 from .statements import ModelInputs, Names, affine, inputs_of
@@ -129,9 +129,10 @@ def load_function(nodes: tuple[Node, ...]) -> Callable:
     """Return a Python function (system, seen) that computes the values of nodes.
 
     seen(field, part, by) returns the value of a field at the site n + `by`. It may be a number,
-    an array or an expression. `system` has the parameters as attributes.
+    an array or an expression, so no factor is set to zero. `system` has the parameters as
+    attributes.
     """
-    rule = Rule(Names(inputs_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
+    rule = ExactRule(Names(inputs_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
     values = ", ".join(map(rule.value, nodes))
     namespace: dict[str, Callable] = {}
     lines = ["def function(system, seen):", *rule.code.lines, f"    return {values}"]

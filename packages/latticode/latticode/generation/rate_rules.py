@@ -136,6 +136,13 @@ class Rule:
         return "\n".join(self.code.lines)
 
 
+class ExactRule(Rule):
+    """A rule without thresholds, because values may be expressions of another program."""
+
+    def _factor(self, expression: Node) -> str:
+        return self.value(expression)
+
+
 def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
     """Return the text of the functions that write the rates of a state, one row for each rate."""
     wide, at = reach > 1, bool(names.at_sites)

@@ -29,7 +29,7 @@ def check_not_shown() -> dict:
     checked = table(
         f"Largest l2 on [{WINDOW[0]:g}, {WINDOW[1]:g}] at Omega = {OMEGA:g}, small data",
         {"half_width": HALF_WIDTHS},
-        l2=variable(peaks, ("half_width",), "largest l2 norm of the chain in the window"),
+        l2=variable(peaks, ("half_width",), "l2 norm over the chain, largest in the window"),
     )
     checked["attrs"] |= {**vars(constants), **controls_of(SOLVER), "end_time": WINDOW[1]}
     checked["attrs"] |= {"boundary": ENDS, "initial": write_initial({0: PAIR})}
