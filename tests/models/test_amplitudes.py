@@ -39,9 +39,9 @@ def run(name, z, numbers=PAPER, boundary="dirichlet", reduction=FULL_CHAIN, **ch
     )
 
 
-def assert_same_bits(run, expected, *fields):
-    for field in fields:
-        np.testing.assert_array_equal(getattr(run, field), getattr(expected, field), err_msg=field)
+def assert_same_bits(run, expected, *names):
+    for name in names:
+        np.testing.assert_array_equal(getattr(run, name), getattr(expected, name), err_msg=name)
 
 
 @each_boundary

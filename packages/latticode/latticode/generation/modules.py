@@ -15,7 +15,7 @@ from latticode.equations.model import Model
 from latticode.kernels.cache import keep_source
 
 from . import toolbox
-from .rate_rules import ExactRule, Rule, densities_text, rates_text, rule_text, tangents_text
+from .rate_rules import ExactRule, densities_text, rates_text, rule_text, tangents_text
 from .series_graph import with_carried
 from .series_rules import SeriesWriter
 from .statements import ModelInputs, Names, affine, inputs_of

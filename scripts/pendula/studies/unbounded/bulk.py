@@ -6,7 +6,7 @@ Im S, Re D and Im D (see `sums`).
 
 import numpy as np
 
-POWER = "mean power P = |A_n|^2 + |B_n|^2 of a pair"
+POWER = "power P = |A_n|^2 + |B_n|^2 of a pair, mean"
 PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau; zero without a front"
 """Long names of these quantities in all datasets of this study."""
 
