@@ -1,7 +1,7 @@
 """Compares a dataset with the accepted one: first hashes, then the numbers of unequal variables.
 
-Texts, coordinates, attributes, types and shapes must be equal; the tolerances of numbers are in
-`values`. Numbers that rest on chaos are beyond comparison, but must obey the limits there.
+Texts, coordinates, attributes, types and shapes must be equal. The module `values` has the
+tolerances of numbers. Numbers that rest on chaos cannot be compared, but must be within its limits.
 """
 
 from collections.abc import Iterator, Mapping
@@ -26,7 +26,7 @@ SHOWN_OTHERWISE = ("coordinates",)
 
 
 class VariableDifference(NamedTuple):
-    """A difference; `beyond` counts the numbers that cannot be compared because of chaos."""
+    """A difference of a variable; `beyond` is how many numbers chaos makes incomparable."""
 
     is_fault: bool
     beyond: int
@@ -44,8 +44,8 @@ def compare(
 ) -> tuple[Status, str]:
     """Return the status of the dataset `name` in the file `new`, and the reason.
 
-    `accepted` is its record in the baseline (`hashes.of`), `accepted_copy` its file there. For
-    `scatter` see the module of this name, for `steps` see `values.jumps`.
+    `accepted` is the record of the dataset in the baseline (see `hashes.of`), `accepted_copy` its
+    file in the baseline. For `scatter` see the module of this name; for `steps` see `values.jumps`.
     """
     try:
         content = read(new)
@@ -69,7 +69,7 @@ def compare(
 
 
 def undeclared_words(variables: list[str]) -> str:
-    """Return why undeclared variables cannot be compared, and which attribute to add."""
+    """Return a message: why undeclared variables cannot be compared, and the attribute to add."""
     return (
         f"{variables[0]} does not declare whether it rests on chaos, and its dataset names no case:"
         f' in its code set the attribute {CHAOS} = "{NO}" or "{YES}", see docs/another_paper.md'
@@ -79,8 +79,8 @@ def undeclared_words(variables: list[str]) -> str:
 def fault_of_form(path: Path, content: xr.Dataset) -> str:
     """Return what is wrong with the form of a file: no checksum, or parts that xarray hides.
 
-    Hidden parts are groups, types, unused or unlimited dimensions, and attributes with which xarray
-    decodes values. `content` is the file as xarray shows it.
+    Hidden parts are groups, types, unused or unlimited dimensions, and attributes that xarray uses
+    to decode values. `content` is the file as xarray reads it.
     """
     if not path.read_bytes()[-LENGTH:].startswith(MARK):
         return "has no checksum at its end: another program wrote it"
@@ -111,7 +111,7 @@ def differences(
     chaos: Chaos,
     scatter: Mapping[str, float],
 ) -> Iterator[VariableDifference]:
-    """Yield each difference of two datasets; `accepted` has the texts of `hashes.of`."""
+    """Yield each difference of two datasets; `accepted` is the result of `hashes.of` for `was`."""
     yield from _of_attributes("", was.attrs, now.attrs)
     for key in {**was.variables, **now.variables}:
         before, after = was.variables.get(key), now.variables.get(key)
@@ -142,7 +142,7 @@ def _of_attributes(where: str, was: Mapping, now: Mapping) -> Iterator[VariableD
 
 
 def _of_labels(key: str, now: xr.Variable, time: str) -> VariableDifference | None:
-    """Return the difference of texts or coordinates, which must be equal; None for numbers."""
+    """Return the difference of texts or coordinates; None if they are equal, and for numbers."""
     if hashes.are_words(now):
         return VariableDifference(True, 0, f"the texts of {key} differ")
     if are_coordinates(key, now, time):

@@ -1,9 +1,9 @@
 """Compares pictures with the accepted ones, and with their descriptions in the same folder.
 
 A picture contains the fingerprint of its description (`latticode.drawing.description`), and the
-description the digest of its data, so a picture of other data is detected on any machine. A digest
-of its own content reveals an edited one. With the accepted package versions its bytes must be the
-accepted ones (see `baseline`). With other versions its pixels are compared coarsely.
+description contains the digest of its data. So a picture of other data is detected on any machine.
+A digest of the picture's own content reveals edits. With the accepted package versions the picture
+must have the accepted bytes (see `baseline`). With other versions its pixels are compared coarsely.
 """
 
 import json
@@ -23,8 +23,8 @@ from . import Status
 
 BLOCKS = 24, 16
 TINTED, INKED = 1.2, 6.0
-"""Allowed difference of red minus blue, relative to its size: exchanged colours give 2. Smallest
-darkness of a block on which something is drawn."""
+"""Allowed difference of red minus blue between two pictures, relative to red minus blue; exchanged
+colours give 2. Darkness above which something is drawn on a block."""
 
 STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
 SHOWN_TEXT = re.compile(rb"\bBT\b(.*?)\bET\b", re.DOTALL)
@@ -33,12 +33,12 @@ ESCAPED = re.compile(rb"\\(?:\d{3}|.)", re.DOTALL)
 """The streams of a PDF, the parts of a stream that show text, their texts, and escaped letters."""
 
 WORDS, TEX = ("text", "title", "label", "ticks"), re.compile(r"\\[a-zA-Z]+|[${}\\^_ ]")
-"""Entries of a description that are printed in the figure; commands and signs of TeX in them."""
+"""Entries of a description that are printed in the figure; TeX commands in these entries."""
 
 NAMED_IN_A_LEGEND = ("curves", "areas", "images", "shapes")
 
 MARK = re.compile(rb"(?:Description\0|/Keywords \()([0-9a-f]{64})")
-"""The fingerprint of the description, as a PNG and a PDF contain it."""
+"""The fingerprint of the description in a PNG or a PDF."""
 
 
 def compare_picture(
@@ -70,9 +70,10 @@ def compare_picture(
 def _unlike(accepted_copy: Path, new: Path, same_description: bool) -> str:
     """Return how two pictures differ in their mean colours over large blocks, or an empty text.
 
-    The mean shade differs by up to 3 of 255 in other versions, by 2 for other chaotic curves, and
-    by 8 for other figures. The relative difference of red minus blue is up to 0.33 in other
-    versions and 0.62 for other chaotic curves. With the same description no block becomes empty.
+    On a scale of 255 the mean shade differs by up to 3 with other package versions, by 2 if chaotic
+    curves differ, and by 8 for another figure. The relative difference of red minus blue is up to
+    0.33 with other versions and 0.62 if chaotic curves differ. With the same description no block
+    becomes empty.
     """
     with Image.open(accepted_copy) as was, Image.open(new) as now:
         size_difference = np.subtract(was.size, now.size)
@@ -121,7 +122,7 @@ def damage(path: Path, content: bytes) -> str:
         is_complete = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
         return "" if is_complete else "is not a complete PDF"
     try:
-        Image.open(BytesIO(content)).verify()  # checksums, which `load` does not check
+        Image.open(BytesIO(content)).verify()  # checks checksums, unlike `load`
         Image.open(BytesIO(content)).load()
     except (OSError, SyntaxError, ValueError):
         return "is not a complete PNG"

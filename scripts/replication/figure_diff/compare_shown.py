@@ -1,9 +1,10 @@
 """Compares texts, pages and descriptions of figures with the accepted ones.
 
 If all datasets have the accepted bits, the text must be equal. Otherwise a number may differ by the
-tolerance or by its last digit. Only entries that depend on a dataset beyond comparison may differ
-by more: measured numbers and sentences with them in a ledger, limits and ends of curves in a
-figure. Verdicts, criteria, cut-offs, labels, colours and the data of each curve must be equal.
+tolerance or by its last digit. A larger difference is allowed only in entries that depend on a
+dataset beyond comparison. In a ledger these are measured numbers and sentences with them, in a
+figure the limits of axes and the ends of curves. Verdicts, criteria, cut-offs, labels and colours
+must be equal.
 """
 
 import json
@@ -23,10 +24,10 @@ from .chaos import TOLERANCE
 NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 RULE = re.compile("-{3,}")
-"""The line below the head of a table, as wide as its columns."""
+"""The line below the head of a table; its length depends on the width of the columns."""
 
 OF_THE_MACHINE = {"report.html": re.compile(rb'<section id="run">.*?</section>', re.DOTALL)}
-"""The part of a page about the machine: its processor, versions, and times of jobs."""
+"""The part of a page about the machine: processor, package versions, and times of jobs."""
 
 JOB = re.compile(rb'<tr><th scope="row">[\w/.]+</th><td>[\d.]+</td><td>\d+</td></tr>\n')
 PROCESSOR = re.compile(rb'(<th scope="row">processor</th><td>)[^<]*')
@@ -51,15 +52,15 @@ PLACES = {"limits", "x", "y", "extent", "points", "points_at", "stands_at"}
 """Entries of a description whose numbers depend on the data."""
 
 ENDS = {"x", "y", "shows", "x leaves", "y leaves"}
-"""Entries of a description that a curve has only if it has points."""
+"""Entries of a description that only curves with points have."""
 
 LOOSE, FEW, LARGE = 0.6, 0.01, 10.0
-"""Allowed effects of chaos: relative change of a number in PLACES, of a number of points; factor of
-a measured number. Bands and bars may double their length. The limits of an axis may scale with its
-curves, because one long bar doubles them."""
+"""Allowed effects of chaos: relative change of a number in PLACES, relative change of the number of
+points, and factor of a measured number. Bands and bars may double their length. The limits of an
+axis may scale with its curves, because one long bar doubles the limits."""
 
 IN_TAGS = rb'<script type="application/json".*?</script>|<[^>]*>'
-"""What separates the words of a page: tags, and the data of the live page."""
+"""The separators between the words of a page: tags, and the data of the live page."""
 DIGIT = re.compile(rb"\d")
 
 Known = Mapping[str, Status]
@@ -69,8 +70,8 @@ Known = Mapping[str, Status]
 def comparable(name: str, content: bytes) -> bytes:
     """Return the content of the file `name` without source code and facts about the machine.
 
-    Those facts are the rows of jobs, the processor, and all numbers in the section on the machine.
-    Nothing is left out unless a page has exactly one such section.
+    In the section on the machine, jobs and the processor are left out, and numbers are masked. If a
+    page does not have exactly one such section, its facts about the machine are not left out.
     """
     if name in OF_THE_CODE:
         content = OF_THE_CODE[name].sub(b"", content)
@@ -82,9 +83,10 @@ def comparable(name: str, content: bytes) -> bytes:
 
 
 def hash_of(name: str, content: bytes) -> str:
-    """Return the hash of a file; of a page three: matches of OF_VERSIONS, the remainder, the words.
+    """Return the hash of a file, or three hashes of a page as one text.
 
-    The words are texts without digits, except in the live page.
+    The three are of the matches of OF_VERSIONS, of the remaining page, and of its words. The words
+    are the texts without digits; in the live page they are all texts.
     """
     compared = comparable(name, content)
     if not name.endswith(".html"):
@@ -99,9 +101,10 @@ def hash_of(name: str, content: bytes) -> str:
 
 
 def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> tuple[Status, str]:
-    """Return status and reason of the text in `new` (accepted: `was`), which uses `datasets`.
+    """Return status and reason of the text in `new`; the accepted text is `was`.
 
-    Without `same_drawing`, ticks may differ, because other package versions choose other ones.
+    `datasets` has the status of each dataset that the text uses. Without `same_drawing`, ticks may
+    differ, because they depend on package versions.
     """
     is_json = new.suffix == ".json"
     try:
@@ -134,16 +137,16 @@ def compare(new: Path, was: str, datasets: Known, same_drawing: bool = True) -> 
 
 
 def _paragraphs(text: str) -> list[str]:
-    """Return the paragraphs of a text and the rows of its tables, without padding of columns."""
+    """Return the paragraphs and table rows of a text, without the padding of columns."""
     paragraphs = re.split(r"\n(?=[-|#]|\n)", RULE.sub("---", text))
     return [" ".join(paragraph.split()) for paragraph in paragraphs]
 
 
 def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, Any, Any]]:
-    """Yield the path and both values of each entry that differs."""
+    """Yield the path, the accepted and the new value of each entry that differs."""
     if isinstance(was, dict) and isinstance(now, dict):
         for key in dict.fromkeys([*was, *now]):
-            if key not in ("data", ENTRY):  # checksums, which are checked elsewhere
+            if key not in ("data", ENTRY):  # their checksums are checked elsewhere
                 yield from _differences(was.get(key), now.get(key), (*path, key))
     elif isinstance(was, list) and isinstance(now, list) and len(was) == len(now):
         for place, pair in enumerate(zip(was, now, strict=True)):
@@ -155,7 +158,7 @@ def _differences(was: Any, now: Any, path: tuple = ()) -> Iterator[tuple[tuple, 
 def _judge(path: tuple, was: Any, now: Any, texts: tuple, datasets: Known) -> Status:
     """Return the status of an entry with the value `now` instead of `was`.
 
-    `texts` are the accepted and the new content, `path` leads to the entry in both.
+    `texts` are the accepted and the new content; `path` leads to the entry in both of them.
     """
     entries = {key for key in path if isinstance(key, str)}
     chaotic = _follows_chaos(path, entries, texts[0], datasets)
@@ -191,9 +194,9 @@ def _points_on(path: tuple, text: Any) -> int | None:
 def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bool:
     """Return whether chaos may explain the difference of a limit or an end of a curve."""
     points = [_points_on(path[:-2], text) for text in (before, after)]
-    if points[0] != points[1]:  # its ends are different points
+    if points[0] != points[1]:  # the ends of the curve are other points
         return True
-    if path[-1] == "points":  # a logarithm has gaps, or a state has just formed
+    if path[-1] == "points":  # a logarithmic curve has gaps, or a state has just formed
         return abs(now - was) <= max(2.0, FEW * was)
     panels = [_entry(text, path[:2]) for text in (before, after)]
     if "y" in path and panels[0]["y"].get("scale") == "log":
@@ -211,7 +214,7 @@ def _is_near(path: tuple, was: float, now: float, before: Any, after: Any) -> bo
 
 
 def _reach(panel: Mapping[str, Any]) -> float:
-    """Return how far from zero the curves, bands and bars of a panel reach."""
+    """Return the largest distance from zero of the curves, bands and bars of a panel."""
     drawn = [*panel.get("curves", ()), *panel.get("areas", ())]
     return max((abs(end) for entry in drawn for end in entry.get("y", ())), default=0.0)
 
@@ -225,8 +228,8 @@ def _entry(content: Any, path: tuple) -> Any:
 def _follows_chaos(path: tuple, entries: set[str], content: Any, datasets: Known) -> bool:
     """Return whether an entry depends on a dataset that is beyond comparison.
 
-    In a row of a ledger only the datasets that decide the claim count; for its controls all do,
-    because they use further datasets.
+    A row of a ledger depends on the datasets that decide its claim. Its controls use further
+    datasets, so for them all datasets count.
     """
     names = datasets.keys()
     if path[:1] == ("rows",) and len(path) > 2 and "controls" not in entries:
@@ -242,12 +245,12 @@ def _words(text: str) -> str:
 def _close(was: str, now: str) -> bool:
     """Return whether two numbers agree within the tolerance or one unit of the last digit."""
     last = max(Decimal(number).as_tuple().exponent for number in (was, now))
-    digit = 1.01 * 10.0**last if last < 0 else 0.0  # whole numbers are exact
+    digit = 1.01 * 10.0**last if last < 0 else 0.0  # integers have no last digit
     return abs(float(now) - float(was)) <= max(TOLERANCE * abs(float(was)), digit)
 
 
 def _excerpts(was: str, now: str) -> str:
-    """Return excerpts of both texts around the first letter in which they differ."""
+    """Return excerpts of both texts around their first difference."""
     differing = (i for i, letters in enumerate(zip(was, now, strict=False)) if len({*letters}) > 1)
     first = next(differing, min(len(was), len(now)))
     excerpts = (" ".join(text[max(0, first - 30) : first + 30].split()) for text in (now, was))

@@ -14,7 +14,7 @@ from .chaos import Trust
 
 
 def render(verdict: ComparisonResult, results: Path, folder: Path) -> str:
-    """Return the page; new pictures are read from `results`, accepted ones from `folder`."""
+    """Return the page with new pictures from `results`, and accepted ones from `folder`."""
     unlike = [result for result in verdict.findings if result.status != Status.IDENTICAL]
     pictures = {
         name: {"reference": _address(folder / name), "new": _address(results / name)}
@@ -52,7 +52,8 @@ def compare_results(
 ) -> None:
     """Compare files of a run in the folder `made` with a baseline; write a page and a summary.
 
-    For `trust` see `baseline.compare`. The page is `html`, the summary is the JSON file `verdict`.
+    The page is written to `html`, the summary to the JSON file `verdict`. For `trust` see
+    `baseline.compare`.
     """
     names = [Path(path).relative_to(made).as_posix() for path in results]
     folders = Path(made), Path(baseline)

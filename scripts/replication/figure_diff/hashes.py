@@ -13,18 +13,18 @@ from latticode.datasets import complete_or_absent
 from latticode.datasets.digest import digest_values
 
 DIGITS = 16
-"""Hexadecimal digits of a hash: two different contents share it with a probability of 1e-19."""
+"""Hexadecimal digits of a hash. The chance that two contents have the same hash is 1e-19."""
 
 NO_RESULT = ("version", "history")
 """Attributes that name the version of this project; they are not hashed."""
 
 LEAST = 1e-30
-"""Values are stored in single precision if the largest is between LEAST and 1 / LEAST. The limits
-of the format are 1e-38 and 3e38."""
+"""Values are stored in single precision if their largest modulus is between LEAST and 1 / LEAST.
+Single precision has a range from 1e-38 to 3e38."""
 
 SINGLE = np.finfo(np.float32).precision
-"""Decimal digits of single precision. The attribute `significant_digits` of a variable declares
-that more of its digits are correct."""
+"""Decimal digits of single precision. If more digits of a variable are correct, its attribute
+`significant_digits` declares their number."""
 
 FEW, PACKED = 100, {"zlib": True, "complevel": 9, "shuffle": True}
 
@@ -35,9 +35,9 @@ def of_bytes(content: bytes) -> str:
 
 
 def of(data: xr.Dataset) -> dict[str, Any]:
-    """Return the hash of the attributes, and for each variable a text: kind and two hashes.
+    """Return the hash of the attributes, and a text for each variable.
 
-    The first of the two is of the values, the second of the attributes.
+    The text has the variable's kind, the hash of its values and the hash of its attributes.
     """
     variables = {
         name: f"{kind(each)} {of_values(each)} {_of_attributes(each.attrs)}"
@@ -58,7 +58,7 @@ def kind(variable: xr.Variable) -> str:
 
 
 def of_values(variable: xr.Variable) -> str:
-    """Return the hash of the values and the names of the dimensions."""
+    """Return the hash of the values and dimension names of a variable."""
     return digest_values(variable.dims, variable.values)[:DIGITS]
 
 
@@ -75,7 +75,7 @@ def attribute_texts(attributes: Mapping[str, Any]) -> dict[str, str]:
 def keep(copy_path: Path, path: Path) -> None:
     """Copy the dataset at `path` to `copy_path`, compressed and in single precision.
 
-    A variable that declares more correct digits than single precision has is copied unchanged.
+    A variable is copied unchanged if it declares more digits than single precision has.
     """
     with (
         complete_or_absent(copy_path) as partial,
@@ -100,7 +100,7 @@ def keep(copy_path: Path, path: Path) -> None:
 
 
 def _single(values: np.ndarray) -> np.ndarray:
-    """Return the values in single precision, unchanged if their largest is out of its range."""
+    """Return the values in single precision, or unchanged if the largest is outside its range."""
     size = values.dtype.kind == "f" and (largest(values) or 1.0)
     return values.astype("float32") if LEAST < size < 1 / LEAST else values
 

@@ -1,7 +1,7 @@
-"""Scatter: by how much numbers that rest on chaos differ between correct runs.
+"""Scatter: the size of the differences of chaotic numbers between correct runs.
 
-For each variable it is the largest mean difference of a row (see `values`) relative to the mean
-size of the row. `write_scatter` measures it and stores it in the baseline.
+Each row of a variable (see `values`) has a mean difference and a mean size. The scatter of the
+variable is the largest ratio of the two. `write_scatter` measures and stores it in the baseline.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,13 +17,13 @@ from .chaos import Chaos, Trust, known_chaos
 
 SCATTER, RECORD = "scatter.json", "hashes.json"
 DIGITS = 3
-"""Significant digits that are stored."""
+"""Significant digits of the stored scatter."""
 
 
 def known_scatter(folder: Path) -> dict[str, float]:
-    """Return the recorded scatter of variables by dataset:variable, empty if there is no record.
+    """Return the recorded scatter by dataset:variable, empty if there is no record.
 
-    A damaged record counts as none; the limits are then wider.
+    A damaged record is ignored. Without a record the limits are wider.
     """
     try:
         return load_json(folder / SCATTER)["scatter"]
@@ -32,7 +32,7 @@ def known_scatter(folder: Path) -> dict[str, float]:
 
 
 def measure(folder: Path, runs: Sequence[Path], trust: Trust | None) -> dict[str, float]:
-    """Return the scatter by dataset:variable of correct `runs` about the baseline in `folder`."""
+    """Return the scatter by dataset:variable of correct `runs` around the baseline in `folder`."""
     record = load_json(folder / RECORD)
     chaos, scatter = known_chaos(folder, record["configuration"], trust), {}
     for name in (name for name in record["files"] if name.endswith(".nc")):
@@ -53,7 +53,7 @@ def measure(folder: Path, runs: Sequence[Path], trust: Trust | None) -> dict[str
 def _relative_differences(
     name: str, key: str, was: xr.Dataset, now: xr.Dataset, chaos: Chaos
 ) -> Iterator[float]:
-    """Yield the mean difference of each chaotic row of a variable relative to its mean size."""
+    """Yield, for each chaotic row of a variable, its mean difference over its mean size."""
     if was[key].dtype.kind not in "fi" or values.is_statistic(was.variables[key]):
         return
     rests = chaos.freedom(name, key, was) > 0.0

@@ -1,11 +1,10 @@
 """Compares the numbers of a variable with the accepted ones, row by row.
 
-A row is all numbers with the same text labels. A regular number may differ by TOLERANCE of the
-largest of its row, a rounding error by FACTOR. A proven bound may grow by GROWN but not shrink,
-because a smaller one was not proved. Correct runs differ in the numbers that rest on chaos, but
-within limits: soon after the horizon by the allowed error (`Chaos`), later by a few times the
-scatter of correct runs (`scatter`). Such numbers keep their sign and range, and their steps in time
-are not much larger.
+A row consists of all numbers with the same text labels. A regular number may differ by TOLERANCE
+times the largest number of its row, and a rounding error by the factor FACTOR. A proven bound may
+be larger by GROWN, but not smaller, because a smaller bound was not proved. A number that rests on
+chaos may differ more: soon after the horizon by the allowed error (`Chaos`), later by a few times
+the scatter of correct runs (`scatter`). Its sign, range and steps in time are limited too.
 """
 
 from collections.abc import Iterator
@@ -19,7 +18,7 @@ from . import hashes
 from .chaos import ROUNDING, TOLERANCE
 
 NOISE = 1e-11
-"""Rounding error of a regular run relative to the largest value of the variable."""
+"""Allowed rounding error of a regular run relative to the largest value of the variable."""
 
 UNIT, FACTOR = 1e-15, 100.0
 """Rounding error of 1.0; factor by which two sums of rounding errors may differ."""
@@ -28,19 +27,19 @@ GROWN = 0.01
 """Allowed relative growth of a proven bound; even a tiny bound is not a rounding error."""
 
 TIMES_SCATTER, LEAST, UNKNOWN_SCATTER = 2.5, 0.05, 0.6
-"""Limits of the mean difference of a chaotic row relative to its mean size: TIMES_SCATTER times its
-scatter, but at least LEAST; UNKNOWN_SCATTER if its scatter is not known."""
+"""Limits of the mean difference of a chaotic row relative to its mean size. The limit is
+TIMES_SCATTER times the scatter, but at least LEAST. Without known scatter it is UNKNOWN_SCATTER."""
 
 SCATTER, LONG, SMALL = 4.0, 100, 0.01
-"""Factor by which a statistic may be larger or smaller. Length from which a chaotic row must keep
-its range. Numbers below SMALL times the largest of the variable may have any value."""
+"""Factor by which a statistic may be larger or smaller. Smallest length of a chaotic row with a
+limited range. Numbers below SMALL times the largest of the variable may have any value."""
 
 ROUNDED = 1e-5
-"""Allowed difference of equal numbers relative to the largest: accepted ones have seven digits."""
+"""Rounding error of accepted numbers relative to the largest: they are stored to seven digits."""
 
 STEP, FEWEST = 3.0, 20
-"""Factor by which the largest step in time may grow, if there are FEWEST times or more. It is
-doubled for a statistic, because a single excursion of a chaotic run may be its largest step."""
+"""Factor by which the largest step in time may grow, if there are FEWEST times or more. The factor
+is doubled for a statistic, because one excursion of a chaotic run may be the largest step."""
 
 
 def fault(
@@ -53,8 +52,8 @@ def fault(
 ) -> str:
     """Return what is wrong with the numbers of `now`, or an empty text.
 
-    `freedom` is the allowed error of each number (see `Chaos`). `scatter` is the mean difference of
-    chaotic rows of correct runs relative to their mean size, None if it is not known.
+    `freedom` is the allowed error of each number (see `Chaos`). `scatter` is the scatter of the
+    variable (see the module of this name), or None if it is not known.
     """
     before, after = was.values.astype(float), now.values.astype(float)
     largest, is_exact = hashes.largest(before), now.dtype.kind != "f"
@@ -90,9 +89,9 @@ def jumps(was: xr.Dataset, now: xr.Dataset, steps: tuple[str, ...]) -> Iterator[
 
 
 def rows(variable: xr.Variable, data: xr.Dataset) -> Iterator[tuple]:
-    """Yield the index of each row: of each combination of text labels along the dimensions.
+    """Yield the index of each row: one row for each combination of text labels.
 
-    Labels are the coordinate of a dimension, or any text variable that has only this dimension.
+    A dimension has text labels if a text variable, such as its coordinate, has only this dimension.
     """
     texts = {
         each.dims[0]
@@ -131,7 +130,7 @@ def _of_regular(
 
 
 def _of_proven(old: np.ndarray, new: np.ndarray) -> str:
-    """Return what is wrong with proven bounds: they are smaller, or much larger."""
+    """Return a message if proven bounds are smaller or much larger, else an empty text."""
     grown = (new - old) / np.maximum(abs(old), np.finfo(float).tiny)
     least, most = grown.min(initial=0.0), grown.max(initial=0.0)
     if least < -TOLERANCE:
@@ -148,7 +147,7 @@ def are_roundings(was: float, now: float) -> bool:
 def _soon_after_the_horizon(
     variable: xr.Variable, old: np.ndarray, new: np.ndarray, free: np.ndarray
 ) -> str:
-    """Return a message if numbers differ by more than errors can have grown to by their time."""
+    """Return a message if a number differs by more than its allowed error `free`."""
     known = (free > 0.0) & np.isfinite(free) & np.isfinite(old) & np.isfinite(new)
     if is_statistic(variable) or not known.any():  # `free` limits solutions, not statistics
         return ""
@@ -162,9 +161,10 @@ def _soon_after_the_horizon(
 def _of_chaotic(
     variable: xr.Variable, old: np.ndarray, new: np.ndarray, small: float, most: float
 ) -> str:
-    """Return how chaotic numbers differ in a way in which correct runs never do, or an empty text.
+    """Return a message if chaotic numbers differ more than in correct runs, or an empty text.
 
-    Numbers below `small` may be anything; the mean difference may be `most` times the mean size.
+    Numbers below `small` may have any value. The mean difference may be up to `most` times the mean
+    size.
     """
     if np.isfinite(old).all() and not np.isfinite(new).all():
         return "has NaN or infinity where there was none"
