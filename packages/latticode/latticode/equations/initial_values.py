@@ -1,8 +1,8 @@
 """An initial-value problem: model, parameters, chain, initial data, times and solver.
 
-The configuration turns a case into a `Problem`, the simulation integrates it, and datasets record
-it in their attributes. Jobs of a workflow receive it as a mapping of plain values, which
-`Problem.plain` returns and `Problem.of` reads.
+The configuration turns a case into a `Problem`, the simulation integrates the problem, and datasets
+record it in their attributes. Jobs of a workflow receive the problem as a mapping of plain values,
+which `Problem.plain` returns and `Problem.of` reads.
 """
 
 import json
@@ -31,8 +31,8 @@ class InitialValueProblem:
     parameters: values that replace the defaults of the model.
     initial: the fields at the start, complex (component, 2r + 1) on the sites -r..r; all other
         sites are at rest. With `site_count` the shape is (component, N).
-    half_width: M of a chain with the sites -M..M; None for an infinite chain.
-    site_count: N of a chain with the sites 0..N-1, instead of `half_width`.
+    half_width: the number M for a chain with the sites -M..M; None for an infinite chain.
+    site_count: the number N for a chain with the sites 0..N-1, instead of `half_width`.
     start_time, end_time, output_step: times in the unit of the equations.
     snapshot_every: number of outputs between two snapshots of all fields; 0 for none.
     snapshots_at: indices of outputs; if not empty, only these are snapshots.
@@ -221,7 +221,7 @@ def on_sites(
 ) -> np.ndarray:
     """Return data {site: (A, B)} as amplitudes (field, 2r + 1) on the sites -r..r.
 
-    With a `site_count` N they are (field, N) on the sites 0..N-1.
+    With a `site_count` N the amplitudes are (field, N) on the sites 0..N-1.
     """
     sites = chain_sites(max(map(abs, initial), default=0), site_count)
     amplitudes = np.zeros((fields, len(sites)), complex)

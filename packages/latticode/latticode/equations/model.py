@@ -1,4 +1,4 @@
-"""A model: the equations of a lattice, traced once, from which all kernels are derived.
+"""A model: the equations of a lattice. All kernels are derived from their trace.
 
 A model is a Python file such as this one (see docs/own_models.md):
 
@@ -347,7 +347,7 @@ class Model:
 
     @cached_property
     def without_imaginary_parts(self) -> tuple[str, ...]:
-        """The complex fields with imaginary parts that never change and are never read."""
+        """The complex fields with imaginary parts that never change and that no equation reads."""
         read = {entry.operands[:2] for entry in leaves_in(self.rates, "field")}
         if self.form == "d2_dt2":
             return ()

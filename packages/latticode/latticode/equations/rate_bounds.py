@@ -13,7 +13,7 @@ from .couplings import largest_row_sum
 from .graph import Node, derivative, evaluate, leaves_in, number
 
 Slopes = tuple[list[int], tuple[Node, ...]]
-"""The rows of the field values that the rates read, and the derivatives of all rates by each."""
+"""The row of each field value that is read, and the derivatives of all rates by this value."""
 
 
 def slopes_of(rates: tuple[Node, ...]) -> Slopes:

@@ -316,14 +316,14 @@ def where(condition: Condition, if_true: Value, if_false: Value) -> Value:
 
 
 def max(*values: Value) -> Value:
-    """Return the largest of real values at each site; for plain numbers, Python's max."""
+    """Return the largest of the real values at each site; plain numbers use Python's max."""
     if not any(isinstance(value, Value) for value in values):
         return builtins.max(*values)
     return reduce(lambda first, second: where(Value.of(first) > second, first, second), values)
 
 
 def abs(w: Value) -> Value:
-    """Return the modulus; for a plain number, Python's abs."""
+    """Return the modulus; a plain number uses Python's abs."""
     return builtins.abs(w)
 
 

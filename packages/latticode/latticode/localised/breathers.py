@@ -35,8 +35,8 @@ TOLERANCE, ITERATIONS = 1e-13, 30
 """Newton's method stops at rates below TOLERANCE times the largest slope times the largest value,
 and fails after ITERATIONS steps."""
 FIRST_STEP, SMALLEST_STEP, LARGEST_CHANGE = 1 / 8, 1 / 4096, 0.2
-"""First and smallest step of the coupling; largest change of a state in one step, relative to its
-largest value. A larger change may lead to a different family of states."""
+"""First and smallest step of the coupling; largest change of a state in one step, relative to the
+largest value of the state. A larger change may lead to a different family of states."""
 DAMPING = 1e-12
 """Damping of Newton's method (Levenberg), relative to the largest squared slope."""
 NOISE = 1e-5
@@ -91,7 +91,7 @@ def widened(problem: Problem, state: LocalisedState) -> LocalisedState:
 
 
 def turning(problem: Problem, size: int) -> np.ndarray:
-    """Return the matrix that multiplies all fields of a flat state with `size` entries by i."""
+    """Return the matrix that multiplies all fields by i, for a flat state with `size` entries."""
     fields = len(problem.model.fields)
     one_field = np.kron([[0.0, -1.0], [1.0, 0.0]], np.eye(size // (2 * fields)))
     return np.kron(np.eye(fields), one_field)
@@ -144,10 +144,10 @@ def newton(
 
 
 def least_change(matrix: np.ndarray, rates: np.ndarray) -> np.ndarray:
-    """Return the least-squares solution of matrix @ step = -rates with the smallest norm.
+    """Return the least-squares solution with the smallest norm of matrix @ change = -rates.
 
     The solution is not unique where the phase or the position of the state is free. Damping selects
-    the smallest one (K. Levenberg, Quart. Appl. Math. 2 (1944) 164).
+    the smallest solution (K. Levenberg, Quart. Appl. Math. 2 (1944) 164).
     """
     normal = matrix.T @ matrix
     normal[np.diag_indices_from(normal)] += DAMPING * np.abs(normal).max()

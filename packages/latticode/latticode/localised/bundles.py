@@ -5,7 +5,7 @@ all vectors would align with the fastest growing direction, and their lengths wo
 (Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9).
 
 A bundle is an array (row, column) of stacked states: first the solution, then its tangent vectors.
-Each has the ghost columns of the chain.
+Each state has the ghost columns of the chain.
 """
 
 from collections.abc import Callable

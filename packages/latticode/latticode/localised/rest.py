@@ -12,9 +12,9 @@ from .breathers import MOST_UNKNOWNS, flat
 from .linearised import linearise
 
 MOST_NAMED = 4
-"""Number of sites that a message lists by number."""
+"""Number of sites that a message lists at most."""
 PRESENT = 1e-6
-"""A site is part of a growing mode if its amplitude exceeds this fraction of the mode's largest."""
+"""A site is part of a growing mode if its amplitude exceeds this fraction of the largest."""
 
 
 def growth_at_rest(problem: Problem, is_constant: np.ndarray) -> tuple[np.ndarray, float]:

@@ -21,7 +21,7 @@ DIRECTIONS = {"up": (1.0,), "down": (-1.0,), "both": (1.0, -1.0)}
 OUTPUTS_AT_ONCE = 500
 """Number of outputs with states in memory at the same time."""
 MOST_STEPS = 200
-"""Maximum number of steps of the root search, which needs far fewer with its bisections."""
+"""Maximum number of steps of the root search, which needs far fewer because it bisects."""
 
 
 class Crossings(NamedTuple):

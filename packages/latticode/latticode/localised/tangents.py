@@ -47,7 +47,7 @@ class TangentGrowth(NamedTuple):
 
 @cache
 def kernels_of_tangents(model: Model, site_dependent: frozenset[str]) -> ModuleType:
-    """Return the generated module whose `carry` integrates solutions with tangent vectors."""
+    """Return the generated module; its `carry` integrates a solution with tangent vectors."""
     carry = CARRY.format(home=__name__.rpartition(".")[0], time=", at_time" if model.driven else "")
     return load_text(tangents_module_text(model.tangent(), site_dependent) + carry)
 

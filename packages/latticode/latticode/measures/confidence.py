@@ -107,7 +107,7 @@ def ratio_limits(
 
     `mean` and `error` are the two means and their standard errors, each over `members` members. The
     interval uses Student's t with `members` - 1 degrees of freedom (J. R. Stat. Soc. B 16 (1954)
-    175). It is infinite if mean[0] does not differ significantly from zero.
+    175). The interval is infinite if mean[0] does not differ significantly from zero.
     """
     (below, above), t = mean, student(members - 1, confidence)
     variances = [(t * relative_error) * (t * relative_error) for relative_error in error]

@@ -2,7 +2,7 @@
 
 A run has four curves: the l2 and l-infinity norms of A and of B. The full scale of a curve is its
 largest value in either run over the common time span. The difference of two runs at a time is the
-largest, over the four curves, of abs(difference) / full scale.
+largest of abs(difference) / full scale over the four curves.
 
 - A small component that is entirely wrong counts as much as a large one.
 - Neither the amplitude of the data nor the axes of a figure matter.
@@ -115,7 +115,7 @@ def divergence_time(difference: "xr.DataArray", level: float = VISIBLE) -> "xr.D
 
 
 def known_until(difference: "xr.DataArray") -> "xr.DataArray":
-    """Return the last tau at which a `difference` (..., tau) is known, NaN if it never is."""
+    """Return the last tau at which a `difference` (..., tau) is known, NaN if it is never known."""
     return difference["tau"].where(difference.notnull()).max("tau")
 
 

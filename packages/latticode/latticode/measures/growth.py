@@ -78,5 +78,5 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
 
 
 def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
-    """Return the first tau at which errors of `error` per unit of tau reach VISIBLE, or inf."""
+    """Return the first tau at which errors of `error` per unit of tau reach VISIBLE; else inf."""
     return first_above(tau, log_amplification, log(VISIBLE / error))

@@ -93,8 +93,8 @@ def _of_stretches(
 def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
     """Return the least-squares exponents q of squares = a tau^(2 q) + b, (...).
 
-    `squares` are curves (..., time). The best value of a grid from LEAST to MOST is refined by the
-    Gauss-Newton method. At q = 0 the law is a log tau + b; for q < 0 it tends to the limit b.
+    `squares` are curves (..., time). The Gauss-Newton method refines the best value of a grid from
+    LEAST to MOST. At q = 0 the law is a log tau + b; for q < 0 the law tends to the limit b.
     """
     x = log(tau / tau[-1])
     first = q = _best_of_grid(x.tobytes(), squares)
@@ -152,7 +152,7 @@ def fit_exponent(
 ) -> ConfidenceInterval:
     """Return the exponent q of l2^2 = a tau^(2 q) + b from `start` on, for `l2` (member, tau).
 
-    The confidence interval is that of the mean over the members; it is infinite for one member.
+    The confidence interval of the mean over the members is returned; one member gives infinity.
     """
     is_fitted = tau >= start
     return mean_limits(exponent_with_offset(tau[is_fitted], l2[:, is_fitted] ** 2), confidence)

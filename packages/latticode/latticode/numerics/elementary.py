@@ -151,7 +151,7 @@ def power(x: Real, y: Real) -> Real:
 def geometric(start: float, stop: float, count: int) -> np.ndarray:
     """Return `count` >= 2 numbers in geometric progression from `start` to `stop`, both positive.
 
-    Each is the exact value rounded to a double: they are computed with 40 decimal digits.
+    Each number is the exact value rounded to a double, computed with 40 decimal digits.
     """
     with localcontext() as context:
         context.prec = 40

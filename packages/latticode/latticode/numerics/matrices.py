@@ -1,7 +1,7 @@
 """Products of small matrices that have the same bits on every machine.
 
 BLAS chooses the order of its sums according to the processor. Here the order is fixed. The matrices
-have only tens of rows, for which the speed of BLAS does not matter.
+have only tens of rows, so the speed of BLAS does not matter.
 """
 
 import numpy as np

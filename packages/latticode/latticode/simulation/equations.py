@@ -1,7 +1,7 @@
 """The base class of equations: the kernels of a problem, and the names of its results.
 
 `traced.TracedEquations` derives all of them from the trace of a model. A program with specialised
-kernels defines a subclass of its own, and a subclass of `Problem` whose `equations` return it.
+kernels defines a subclass, and a subclass of `Problem` with these `equations`.
 """
 
 from abc import ABC, abstractmethod

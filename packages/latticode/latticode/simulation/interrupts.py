@@ -219,8 +219,8 @@ def _wait(ends: SimpleQueue) -> tuple[Any, BaseException | None]:
 def _main_thread_is_interrupted() -> bool:
     """Return whether the main thread is handling a KeyboardInterrupt.
 
-    Python raises it only in the main thread. If this thread then leaves a pool of threads, it waits
-    for the pool's runs, which must therefore stop by themselves.
+    Python raises KeyboardInterrupt only in the main thread. If the main thread then leaves a pool
+    of threads, it waits for the runs of the pool. These runs must therefore stop by themselves.
     """
     main = threading.main_thread()
     if main is threading.current_thread():

@@ -23,7 +23,7 @@ class Reduction(NamedTuple):
 
 
 FULL_CHAIN = Reduction(even=False, synchronised=False)
-"""Both components on the whole chain, whatever the symmetries."""
+"""Both components on the whole chain, without use of symmetries."""
 
 
 def find_reduction(amplitudes: np.ndarray) -> Reduction:

@@ -125,7 +125,7 @@ def keep_parts(y: np.ndarray, k: int, j: int, snapshot: int, snapshots: np.ndarr
 
 @inlined_by_llvm
 def square_of_angle(y: np.ndarray, row: int, j: int) -> float:
-    """Return the square of a real field, which is the angle of a pendulum."""
+    """Return the square of a real field, such as the angle of a pendulum."""
     return y[row, j] * y[row, j]
 
 

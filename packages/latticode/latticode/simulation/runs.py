@@ -35,7 +35,7 @@ def run_chunk(
     """Return the results of every `chunks`-th run from number `chunk` on, each (run, ...).
 
     `progress` is called with the numbers of finished runs and of all runs in the chunk. Runs in
-    `retained` are not repeated; the results of all others are added to it. Results of different
+    `retained` are not repeated; the results of all other runs are added. Results of different
     shapes are padded with NaN.
     """
     numbers = range(chunk, len(problems), chunks)

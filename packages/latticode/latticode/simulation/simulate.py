@@ -65,10 +65,10 @@ def simulate(
     """Return the trajectory of a problem, with observables at its output times.
 
     `reduction` is the part of the chain that is integrated, by default the smallest that the exact
-    symmetries allow. With `conserved` the conserved quantities are computed. The solver is one that
-    integrates the model, or {"name": "auto", "error": ...}. If the default solver `taylor` stops
-    early, `dop853` repeats the run. Raises IntegrationError if the run would take too long, the
-    solver stops early, or the result is not finite.
+    symmetries allow. With `conserved` the conserved quantities are computed. The problem's solver
+    is a method that integrates the model, or {"name": "auto", "error": ...}. If the default solver
+    `taylor` stops early, `dop853` repeats the run. Raises IntegrationError if the run would take
+    too long, the solver stops early, or the result is not finite.
     """
     if problem.snapshots_at:
         run = simulate(problem.changed(snapshots_at=()), reduction, conserved)
@@ -183,7 +183,7 @@ def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
 # --- A run to a requested error -------------------------------------------------------------------
 
 SNAPSHOTS = 20
-"""Least number of times at which fields are compared, if the problem has no snapshots."""
+"""Number of times, at least, at which fields are compared if the problem has no snapshots."""
 MARGIN = 2.0
 """Assumed bound on the larger error of two methods, divided by their difference. Errors of methods
 of different families hardly cancel."""
@@ -238,7 +238,7 @@ class _ComparedRuns(NamedTuple):
         return compare(first, second)
 
     def agreeing(self, methods: Sequence[str]) -> Trajectory:
-        """Return a run that a method of another family confirms within the error."""
+        """Return a run that agrees within the error with a run by a method of another family."""
         names = pair_of(methods)
         tolerance, before = first_tolerance(self.error, angle_of(self.problem)), None
         while True:
@@ -291,7 +291,7 @@ class _ComparedRuns(NamedTuple):
 
 
 def angle_of(problem: Problem) -> float:
-    """Return a bound of the phase in radians by which the fields advance in a run."""
+    """Return a bound of the phase advance of the fields during a run, in radians."""
     peak = float(np.abs(np.ascontiguousarray(problem.initial).view(float)).max(initial=0.0))
     return sum(problem.equations.rates(peak).values()) * problem.span
 

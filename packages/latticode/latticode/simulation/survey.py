@@ -2,8 +2,8 @@
 
 An axis names what it changes: a parameter of the model ("omega"), "half_width", "end_time", or the
 initial value of a field at a site ("initial.0.1": site 0, the second field). Names separated by
-commas vary together; each value of such an axis is a tuple. Runs are numbered such that the member
-varies fastest, then the last axis. A run depends only on its number. `survey_runs` executes them.
+commas vary together; each value of such an axis is a tuple. In the order of runs the member varies
+fastest, then the last axis. A run depends only on its number. `survey_runs` executes the runs.
 """
 
 import inspect
@@ -21,7 +21,7 @@ from .problem import Problem
 STATISTICS, NORMS = ("max", "mean", "final"), ("l2", "linf")
 OF_FIELDS = tuple(f"{statistic}_{norm}" for statistic in STATISTICS for norm in NORMS)
 OF_RUNS = ("exponent", "divergence")
-"""Names of results with one number per field, and with one number per run."""
+"""OF_FIELDS: names of results with one number per field. OF_RUNS: one number per run."""
 NAMES = (*OF_FIELDS, *OF_RUNS)
 """Names of all results that a survey can keep."""
 
@@ -36,7 +36,7 @@ class Members(NamedTuple):
 
 
 class Survey(NamedTuple):
-    """The runs of a survey of one problem, and the results kept of each."""
+    """The runs of a survey of one problem, and the results that are kept of each run."""
 
     axes: Mapping[str, Sequence]
     keep: tuple[str | Callable[..., Any], ...] = ("max_l2",)
@@ -129,7 +129,7 @@ def _why_invalid(function: Callable) -> str | None:
 def fault_of_axis(
     name: str, parameters: Collection[str], sites: Collection[int], fields: int
 ) -> str | None:
-    """Return why the name of an axis is invalid, None if it is valid.
+    """Return the reason why the name of an axis is invalid, or None if it is valid.
 
     `sites` are the sites with initial values; `fields` is the number of fields.
     """

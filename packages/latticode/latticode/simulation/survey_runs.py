@@ -1,4 +1,4 @@
-"""Execution of a survey, and the results kept of each run."""
+"""Execution of a survey, and the results that are kept of each run."""
 
 from functools import partial
 from typing import Any
@@ -61,7 +61,7 @@ KINDS = {
     "remark": "used another solver",
     "unfinished": "are unfinished; to continue, pass the result as resume",
 }
-"""Printed description of the runs whose text begins with the key."""
+"""Printed description of runs, by the key with which their text begins."""
 TEXT = "text"
 """Name of the result that has the reason of a failure or remark, else an empty text."""
 

@@ -1,4 +1,4 @@
-"""A case over many half-widths, with the maxima and means of its norms over time windows."""
+"""Runs of a case for many half-widths; maxima and means of the norms over time windows."""
 
 from collections.abc import Sequence
 

@@ -27,7 +27,7 @@ from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .observables import ObservableRecord, blank_record
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
-"""Modes of numpy.pad that give the values beyond the ends, by `Ends.sees`."""
+"""The mode of numpy.pad that appends the values beyond the ends, by `Ends.sees`."""
 HEAD_OF_RUNS = """
 from latticode.integrators.methods import NAMED
 from latticode.kernels.compiled import kernel
@@ -169,7 +169,7 @@ def _values(
 
 
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
-    """Return the values at the sites n + by, periodic on a ring, else constant beyond an end."""
+    """Return the values at the sites n + by: periodic on a ring, otherwise constant beyond ends."""
     places = np.arange(values.size) + by
     if kind_of(boundary) in (PERIODIC, ANTIPERIODIC):
         return values[places % values.size]
@@ -223,7 +223,7 @@ class TracedEquations(Equations):
         return rates_of(self.problem.model, self.problem.parameters, peak)
 
     def find_reduction(self) -> Reduction:
-        """Return half of the chain if data, equations and parameters are even in n, else all.
+        """Return half of the chain if data, equations and parameters are even in n, else the whole.
 
         The half gives the same bits as the whole chain.
         """
