@@ -1,8 +1,8 @@
 """The contestants: all solvers of this project, and the installed integrators by others.
 
-A contestant is prepared for a problem once, which may compile code. It then solves the problem at
-accuracies (tolerances, or steps) from loose to tight, which gives the points of a work-precision
-diagram, and in turns with another contestant at the same error.
+A contestant is prepared once for each problem, which may compile code. It then solves the problem
+at several accuracies (tolerances or steps), from loose to tight. These are the points of a
+work-precision diagram. Peers and our best solver also run in turns at the same error.
 """
 
 from collections.abc import Callable, Mapping
@@ -26,14 +26,14 @@ STEPS = {
 PEERS: dict[str, Peer] = peers_in_python.PEERS | peer_in_cpp.PEERS
 
 PATIENCE = 1.0
-"""Seconds: after a run that took longer, no tighter accuracy is tried."""
+"""Time of a run in s above which no tighter accuracy is tried."""
 LIMIT = 5.0
 """Seconds after which a run is stopped."""
 REPEAT, PAIRS, FEW_PAIRS = 7, 7, 3
 LONG = 0.3
-"""Seconds: a run that takes longer is timed once, and in FEW_PAIRS pairs."""
+"""Time of a run in s above which it is timed only once, and in FEW_PAIRS pairs."""
 BLOCK = 0.02
-"""Least seconds of one side of a pair, for which short runs are repeated."""
+"""Shortest time in s of one side of a pair; shorter runs are repeated."""
 
 
 class Contestant(NamedTuple):
@@ -96,7 +96,7 @@ def find_peers(peers: Mapping[str, Peer]) -> tuple[dict[str, Contestant], str]:
 
 
 def error_of(final: np.ndarray, exact: np.ndarray) -> float:
-    """Return the largest difference of two final states in any number."""
+    """Return the largest difference between the numbers of two final states."""
     return float(np.abs(final - exact).max())
 
 
@@ -139,9 +139,9 @@ def cheapest(points: list[Point], target: float) -> Point | None:
 def compare(
     problem: PaperProblem, target: float, peer: Measured, ours: dict[str, Measured]
 ) -> np.ndarray | None:
-    """Return ratios of the peer's time to our best solver's, None if one misses the target.
+    """Return ratios of the peer's time to our best solver's time.
 
-    Both run in turns, each at an error of at most `target`.
+    Both run in turns with errors of at most `target`; None if one of them cannot reach it.
     """
     reached = {name: cheapest(points, target) for name, (_, points) in ours.items()}
     times = {name: point.seconds for name, point in reached.items() if point}

@@ -29,9 +29,9 @@ def gather_work_precision(measured: xr.Dataset, regime: str) -> xr.Dataset:
 
 @style.styled
 def draw_work_precision(data: xr.Dataset) -> Figure:
-    """Draw time against error at the top, both logarithmic: the lower left corner is best.
+    """Draw time against error at the top, on logarithmic axes: the lower left corner is best.
 
-    Below, each peer has a row with its time relative to our fastest solver's, by case.
+    Below, each peer has a row with the ratios of its time to our fastest solver's, one per case.
     """
     heights = [2.3, ROW * (data.sizes["peer"] + 1)] if "peer" in data.dims else [2.3]
     figure = style.new_figure(style.WIDTH, sum(heights) + 0.6 * len(heights))
@@ -58,7 +58,7 @@ def _draw_case(axes: Axes, case: xr.Dataset) -> None:
         if name in SOLVER_NAMES:
             look = _look(name) | {"lw": 1.2, "zorder": 2}
         else:
-            named = None  # one entry of the legend names them all
+            named = None  # the legend has one entry for all peers
         axes.plot(curve["error"], 1e3 * curve["seconds"], **look)
     look = {"color": "0.45", "lw": 0.8, "dashes": (4, 2), "zorder": 0}
     axes.axvline(float(case["target"]), label="compared within this error", **look)

@@ -1,4 +1,4 @@
-"""The interface of peers, which are integrators by others, and what several of them share."""
+"""The interface of peers, which are integrators by others, and functions that peers share."""
 
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -19,7 +19,7 @@ Solve = Callable[[float], tuple[np.ndarray, float]]
 
 
 class Peer(NamedTuple):
-    """An integrator by others; `why_absent` returns what it lacks here, None if nothing."""
+    """An integrator by others; `why_absent` returns why it cannot run here, or None."""
 
     title: str
     why_absent: Callable[[], str | None]

@@ -1,6 +1,6 @@
 """Speed against error for Newton's equations: all solvers that integrate them, and peers.
 
-They are compared on the paper's regular cases up to one time, at equal error.
+They are compared on the paper's regular cases, up to the same time and at equal errors.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,7 +15,7 @@ from .problems import until
 from .work_precision import POINT_FIELDS, by_pair, by_point, name_contestants
 
 MU, END_TIME, TARGET = 0.1, 1.0, 1e-10
-"""Small parameter, slow time at the end, and error in rad of the comparison."""
+"""Small parameter mu, slow time at the end, and error in rad at which solvers are compared."""
 AGREED = 1e-12
 """Difference in rad below which two methods with small errors count as exact."""
 OURS = {name: SOLVERS[name] for name in ("taylor", "dop853", "ode45", "kahan_li")}
@@ -30,7 +30,7 @@ def as_pendula(problem: PaperProblem) -> PaperProblem:
 def exact_state(problem: PaperProblem) -> np.ndarray:
     """Return the angles and velocities at the end, on which two methods agree within AGREED.
 
-    Raises RuntimeError if they do not.
+    Raises RuntimeError if the methods do not agree.
     """
     tight = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}
     finals = [

@@ -1,8 +1,7 @@
 """The problems on which solvers are compared: the paper's cases, up to times before chaos.
 
 Errors characterise a solver only while the motion is regular, so each kind of motion has its own
-time at which errors are taken. Regimes are plain values: the workflow reads them without importing
-kernels.
+time at which errors are measured. The workflow reads regimes, so this module imports no kernels.
 """
 
 from typing import TYPE_CHECKING, Any, NamedTuple

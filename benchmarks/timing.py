@@ -52,7 +52,7 @@ def in_turns(first: Run, second: Run, turns: int, block: float) -> np.ndarray:
 
 @contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Stop the block by TooLongError after `seconds`; compiled code stops at its next step."""
+    """Raise TooLongError in the block after `seconds`; compiled code stops at its next step."""
 
     def stop(*_: Any) -> None:
         raise TooLongError

@@ -33,8 +33,8 @@ def measure(
 
     `problems` are the cases by name, which end at the time of the errors and have no outputs.
     `references` are their multiprecision solutions at this time, (component, site). `report` is
-    called with the name of each measurement before it starts. The dataset also has the published
-    least times and mean ratios.
+    called with the name of each measurement before it starts. The dataset also has the shortest
+    times and mean ratios that are published.
     """
     points, pairs, best = {}, {}, []
     for case, problem in problems.items():

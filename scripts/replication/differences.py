@@ -13,7 +13,7 @@ def in_short(differences: list[str]) -> str:
 
 
 def rests_on_nothing(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """Return no path, for a project whose datasets depend on no configuration."""
+    """Return no path: the default for projects without a configuration."""
     return ()
 
 
@@ -22,7 +22,7 @@ class Differences(NamedTuple):
 
     `words` describes each difference by dotted path, such as {"cases.fig2_small.omega":
     "fig2_small.omega (1 in place of 8)"}. `rests_on(name, on)` returns the dotted paths of the keys
-    that results/<name>.nc depends on, or only its cases and sweeps `on` unless `on` is empty.
+    that results/<name>.nc depends on. Unless `on` is empty, only cases and sweeps in `on` count.
     """
 
     words: Mapping[str, str] = {}

@@ -8,9 +8,9 @@ from pathlib import Path
 TOOK = "wall time: "
 """The beginning of the last line of a job's log."""
 STEPS = 20
-"""Number of times that a job of many runs logs how many are done."""
+"""Number of lines in which a job of many runs logs how many runs are done."""
 WORTH_SHOWING = 10.0
-"""Remaining time is logged if it is at least this, in s."""
+"""Shortest remaining time that is logged, in s."""
 LAST_LINE = re.compile(rf"{TOOK}([\d.]+) s, largest memory: (\d+) MB")
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 VARIATION = "variation"
-"""The dimension of the values of a number that is measured again with other choices."""
+"""The dimension along which a number is measured again with other choices."""
 
 MISSING = "missing_meaning"
 CHAOS = "rests_on_chaos"
@@ -36,7 +36,7 @@ REGULAR = {CHAOS: NO}
 CHAOTIC = {CHAOS: YES}
 """For values that differ between correct runs."""
 ALL_TIMES = {CHAOS: ALWAYS}
-"""For values that at all times depend on the end of a run, such as a curve over its maximum."""
+"""For values that depend on the end of a run at all times, such as a curve over its maximum."""
 PROVEN = {KIND: BOUND}
 SCATTERED = {KIND: STATISTIC}
 """For an error, a deviation or a correlation of a few runs, which is itself uncertain."""
@@ -52,7 +52,7 @@ def missing(meaning: str) -> dict[str, str]:
 def chaotic_along(dimension: str) -> dict[str, str]:
     """Return the attribute of a variable that rests on chaos only at some values of `dimension`.
 
-    The dimension has values of a case's parameter; the values in question are of chaotic cases.
+    The dimension has the values of a parameter. The variable is chaotic where a case is chaotic.
     """
     return {CHAOS: f"{ALONG}{dimension}"}
 

@@ -96,7 +96,7 @@ def outward(value: float, digits: int, direction: Direction) -> float:
 
 
 def percent(fraction: float, digits: int = 2) -> str:
-    """Return a fraction in per cent, such as 13 %; only exactly 1 is printed as 100 %."""
+    """Return a fraction in per cent, such as 13 %; only the fraction 1 is printed as 100 %."""
     value = 100.0 * float(fraction)
     if abs(value) < 10:
         return f"{number(value, digits)}{FIRM}%"

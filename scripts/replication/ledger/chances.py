@@ -4,9 +4,9 @@ Correct runs differ in last bits or seeds, and so in each chaotic number. A verd
 one run of twenty is worthless. Statistical tests therefore use the level `RARE`, and the numbers of
 other criteria must be far from their limits.
 
-Several correct runs measure this distance. A number changes the verdict if its margin to the limit
-changes sign. The chance of this in one more run follows from Student's t, with the mean and the
-scatter of the margin over the runs. It is zero for a number that is the same in all runs.
+The distance is measured in several correct runs. A number changes the verdict if its margin to the
+limit changes sign. The chance that this happens in one more run follows from Student's t, with the
+mean and the scatter of the margin. The chance is zero for a number that is the same in all runs.
 """
 
 from collections import Counter
@@ -24,13 +24,13 @@ RARE = Cutoff(1e-5, "the chance of an error of the test: no right run of 10,000 
 ALLOWED = 1e-4
 """Largest allowed chance that a correct run changes a verdict, or the outcome of a control."""
 SAME = 1e-12
-"""A smaller relative scatter is only rounding."""
+"""Relative scatter up to which numbers count as the same, because it is only rounding."""
 
 
 class Chance(NamedTuple):
     """The chance that one more correct run changes a verdict, and the number most likely to do so.
 
-    `nearest` is empty if no number can.
+    `nearest` is the name of this number, empty if no number can change the verdict.
     """
 
     value: float
@@ -38,9 +38,9 @@ class Chance(NamedTuple):
 
 
 def chance_to_cross(rooms: Sequence[float]) -> float:
-    """Return the chance that one more sample has the opposite sign of `rooms`, which share a sign.
+    """Return the chance that one more sample has the opposite sign of all samples `rooms`.
 
-    Infinite samples, of a test on means without scatter, are left out.
+    Infinite samples are left out: they come from tests on means without scatter.
     """
     finite = np.abs([room for room in rooms if np.isfinite(room)])
     if len(finite) < 2:
@@ -54,8 +54,8 @@ def chance_to_cross(rooms: Sequence[float]) -> float:
 def chance_to_turn(findings: Sequence[Finding]) -> Chance:
     """Return the chance that one more correct run has another verdict than `findings`.
 
-    A confirmed or undecided claim changes if any of its numbers crosses its limit. A contradicted
-    one changes only if all of its failing numbers do.
+    The verdict on a confirmed or undecided claim changes if any of its numbers crosses its limit.
+    The verdict on a contradicted claim changes only if all of its failing numbers do.
     """
     verdicts = Counter(finding.verdict for finding in findings)
     if len(verdicts) > 1:
@@ -82,9 +82,9 @@ def chance_to_turn(findings: Sequence[Finding]) -> Chance:
 def chance_of_claim(looks: Sequence[Mapping[str, Finding]], moves: Iterable[str]) -> Chance:
     """Return the chance that a correct run changes the verdict on a claim, its caveat included.
 
-    Moved cut-offs count for a confirmed claim, because it gets a caveat if one of them changes the
-    verdict. `looks` has the findings of each run: with the cut-offs as they are under "", and with
-    a moved cut-off under each name in `moves`.
+    A confirmed claim gets a caveat if a moved cut-off changes its verdict, so for it the moved
+    cut-offs count too. `looks` has the findings of each run by name: "" for unmoved cut-offs, and a
+    name in `moves` for a moved cut-off.
     """
     unmoved = chance_to_turn([look[""] for look in looks])
     if any(look[""].verdict != Verdict.CONFIRMED for look in looks):

@@ -1,8 +1,8 @@
 """Functions that turn datasets into wrong cases, for the controls of claims and for tests.
 
-Each returns a function that takes a dataset and returns the changed one. `names` are one or more
-variables. `at` restricts the change by coordinates: each has a label, a list of labels, or a slice
-that includes both ends. A dimension without labels has the labels 0, 1, ...
+Each returns a function from a dataset to the changed dataset. `names` are one or more variables.
+`at` restricts the change to labels of coordinates: one label, a list of labels, or a slice that
+includes both ends. A dimension without labels has the labels 0, 1, ...
 """
 
 from collections.abc import Callable, Mapping
@@ -35,12 +35,12 @@ def put(names: Names, to: float, **at: Any) -> Change:
 
 
 def roll(names: Names, places: Mapping[str, int], **at: Any) -> Change:
-    """Shift values cyclically along dimensions, by numbers of places; labels stay."""
+    """Shift values cyclically by some places along dimensions; labels do not change."""
     return _in_place(names, lambda values: values.roll(places, roll_coords=False), at)
 
 
 def exchange(along: str, *labels: Any, names: Names = ()) -> Change:
-    """Exchange the values at two labels, or reverse all values; of `names`, or of all variables."""
+    """Exchange the values of `names` (default: all variables) at two labels, or reverse them."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
         order = np.arange(data.sizes[along])
@@ -52,7 +52,7 @@ def exchange(along: str, *labels: Any, names: Names = ()) -> Change:
 
 
 def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
-    """Copy the values at one label to the labels `at`; of `names`, or of all variables."""
+    """Copy the values of `names` (default: all variables) at one label to the labels `at`."""
 
     def changed(data: xr.Dataset) -> xr.Dataset:
         is_replaced = _is_at(data, along, at)
@@ -63,7 +63,7 @@ def repeat(along: str, label: Any, at: Any, names: Names = ()) -> Change:
 
 
 def take(**replacements: str) -> Change:
-    """Replace the values of each variable by those of the named one; attributes stay."""
+    """Replace the values of variables by values of other variables; attributes do not change."""
     return lambda data: data.assign(
         {
             name: data[replacement].assign_attrs(data[name].attrs)
@@ -100,7 +100,7 @@ def _in_place(names: Names, change: Callable, at: Mapping) -> Change:
 
 
 def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names: Names) -> xr.Dataset:
-    """Return the variables with values in this order along a coordinate, which stays."""
+    """Return the variables with values in this order along a coordinate; its labels stay."""
     chosen = {name: data.variables[name] for name in _each(names) or data}
     return data.assign(
         {

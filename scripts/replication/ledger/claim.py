@@ -14,14 +14,14 @@ Wrong = str | Callable | tuple[str, Callable]
 class ClaimControl(NamedTuple):
     """A wrong case for which the deciding function must not confirm the claim.
 
-    `fed` maps the name of a needed dataset to its replacement: the name of another dataset, a
-    function that makes the wrong dataset from the right one (see `changes`), or a pair of a name
-    and a function of the right and the named dataset. If the claim needs a single dataset, `fed` is
-    the replacement itself. A name may omit its folder if this is the folder of the claim's dataset.
+    `fed` maps the name of a needed dataset to its replacement. This is the name of another dataset,
+    a function that makes the wrong dataset from the right one (see `changes`), or a pair: a name,
+    and a function of the right and the named dataset. If the claim needs one dataset, `fed` is the
+    replacement itself. A name may omit its folder if this is the folder of the claim's dataset.
 
-    With `confirms` the case is right, and the function must confirm it: otherwise the function of a
-    claim that is not reproduced might never confirm anything. `on` names the paper's cases and
-    sweeps that the control uses from a dataset of many.
+    With `confirms` the case is right and the function must confirm it. This shows that a function
+    which rejects the paper's claim can confirm a right one. `on` names the paper's cases and sweeps
+    that the control uses, if a dataset has others as well.
     """
 
     description: str
@@ -36,7 +36,7 @@ class ClaimControl(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """The further datasets that the control needs."""
+        """The names of the further datasets that the control needs."""
         sources = [wrong if isinstance(wrong, tuple) else (wrong,) for wrong in self.fed.values()]
         return [source[0] for source in sources if isinstance(source[0], str)]
 
@@ -52,10 +52,10 @@ class Origin(StrEnum):
 class Kind(StrEnum):
     """Kinds of claims; identities and theorems have the same verdict in every run."""
 
-    IDENTITY = "identity"  # both sides are one polynomial, or differ by a sum of squares
+    IDENTITY = "identity"  # both sides are equal, or differ by a sum of squares
     THEOREM = "theorem"  # the paper proves it; numbers can only contradict it
     OBSERVATION = "observation"
-    CONCLUSION = "conclusion"  # what the paper infers from a figure about what it does not show
+    CONCLUSION = "conclusion"  # inferred from a figure that does not show it
 
 
 class Claim(NamedTuple):
@@ -99,7 +99,7 @@ def claim(
 ) -> Callable:
     """Return a decorator for the function that decides this claim from the datasets in `needs`.
 
-    The claim gets the name of the function. `rejected` is the verdict if the numbers contradict it.
+    The claim has the function's name. `rejected` is the verdict if the numbers contradict it.
     """
 
     def declare(function: Callable) -> Callable:

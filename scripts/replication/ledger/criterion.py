@@ -1,7 +1,7 @@
 """Criteria on measured numbers with their text, and the verdicts that follow from them.
 
-A criterion is an object: `holds` compares with its limit and `str` prints the same limit, so the
-text in the ledger cannot differ from the constant. NaN satisfies no criterion. A verdict is always
+A criterion has one limit: its method `holds` compares numbers with it, and `str` prints it. So the
+text in the ledger cannot differ from the limit. NaN satisfies no criterion. A verdict is always
 computed from a criterion and numbers.
 """
 
@@ -29,7 +29,7 @@ class Criterion(ABC):
 
     @abstractmethod
     def rooms(self, measured: Measured) -> dict[str, float]:
-        """Return the distance of each number to its limit by name, negative beyond the limit."""
+        """Return by name the distance of each number to its limit; negative beyond the limit."""
 
     def holds(self, measured: Measured) -> bool:
         """Return whether all numbers satisfy the criterion."""
@@ -55,7 +55,7 @@ class Limit(Criterion):
         return [name for name in self.names if not self.is_within(measured[name])]
 
     def room(self, value: float) -> float:
-        """Return the distance of a number to the limit, negative beyond the limit."""
+        """Return the distance of a number to the limit; negative beyond the limit."""
         return self.limit - value if self.sign[0] == "<" else value - self.limit
 
     def rooms(self, measured: Measured) -> dict[str, float]:
@@ -85,8 +85,8 @@ class AtMost(Limit):
 class Distance(AtMost):
     """No distance is above the limit.
 
-    Beyond the limit its `room` is -log(distance / limit), because large distances scatter by a
-    factor.
+    Beyond the limit, `room` is -log(distance / limit), because large distances differ by factors
+    between runs.
     """
 
     def room(self, value: float) -> float:
@@ -106,7 +106,7 @@ class AtLeast(Limit):
 
 
 class WithinFactor(Below):
-    """Each number is between 1 / limit and the limit, which is a factor above one."""
+    """Each number is between 1 / limit and the limit. The limit is above one."""
 
     def is_within(self, value: float) -> bool:
         return 1.0 / self.limit < value < self.limit
@@ -176,9 +176,9 @@ def with_spaces(name: str) -> str:
 class Verdict(StrEnum):
     """Verdicts on a sentence of the paper.
 
-    A sentence that is applied to another model than the paper's can "not carry over", but cannot be
-    "not reproduced". Sentences are about the paper's cases: if another case was run, the verdict is
-    "not applicable". A conclusion from a figure may be true and yet "not follow" from the figure.
+    If a sentence fails for another model than the paper's, it does "not carry over". If a case was
+    run that is not the paper's, the sentence is "not applicable". A conclusion from a figure may be
+    true, and yet "not follow" from the figure.
     """
 
     CONFIRMED = "confirmed"
@@ -228,7 +228,7 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
 def undecided(measured: Measured, because: str, criterion: Criterion | None = None) -> Finding:
     """Return the finding on a claim that the measured numbers cannot decide.
 
-    It stays undecided as long as the numbers remain on the same sides of the limits of `criterion`.
+    The claim stays undecided while no number crosses its limit in `criterion`.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     return Finding(numbers, criterion, Verdict.UNDECIDED, because)

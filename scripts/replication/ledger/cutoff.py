@@ -1,9 +1,9 @@
 """Cut-offs: numbers that decide a verdict, their origins, and the verdicts if one is changed.
 
 The paper writes "grows" or "comparable" without a number. To decide such a sentence we must choose
-a number, and the ledger must report whether the verdict depends on the choice. A cut-off therefore
-records when it is read, and the ledger decides the claim again with each cut-off that its function
-reads, a third smaller and a third larger.
+a number, and the ledger must report whether the verdict depends on the choice. Each cut-off records
+that it is read. The ledger then decides the claim again with each of these cut-offs moved: a third
+smaller, and a third larger.
 """
 
 from collections.abc import Callable, Iterator
@@ -27,7 +27,7 @@ class Cutoff(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The number, or the moved one while the ledger moves it; each access is recorded."""
+        """The number, or the moved number while the ledger moves it; each access is recorded."""
         _read.add(self)
         return self.ideal + _moved.get(self, 1.0) * (self.number - self.ideal)
 

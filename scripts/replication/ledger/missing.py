@@ -1,8 +1,8 @@
 """Missing data, which cannot confirm a claim: unknown numbers, and series of too few samples.
 
-Data with gaps may still refute a claim, because one counterexample is enough. So only confirming
-findings are withdrawn, for all claims by the same rule: reductions that skip NaN would hide that
-half of a dataset is unknown, and two points are always on a line.
+Reductions that skip NaN would hide that half of a dataset is unknown, and two points are always on
+a line. So confirming findings from such data are withdrawn, by one rule for all claims. Data with
+gaps may still refute a claim, because one counterexample is enough.
 """
 
 from collections.abc import Iterable, Mapping

@@ -37,7 +37,7 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
 
 
 def counted(rows: list[dict]) -> list[str]:
-    """Return a line for each origin of claims with their number, in total and by verdict."""
+    """Return a line for each origin: the number of its claims, in total and by verdict."""
     return [
         f"{sum(verdicts.values())} claims {origin}: {_list_counts(verdicts)}"
         for origin, verdicts in tally(rows).items()

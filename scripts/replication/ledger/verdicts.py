@@ -58,10 +58,10 @@ def feed(claim: Claim, control: ClaimControl, sources: Mapping) -> Finding:
 
 
 def look(claim: Claim, sources: Mapping) -> dict[str, Finding]:
-    """Return all findings on a claim by name, with each moved cut-off and each control.
+    """Return all findings on a claim by name: unchanged, with moved cut-offs, and of controls.
 
-    The name is "" if nothing is changed, the value of a moved cut-off with its origin, or the
-    description of a control.
+    The name is "" if nothing is changed. For a moved cut-off it is the value with the origin, for a
+    control its description.
     """
     finding, cutoffs = reading(lambda: decide(claim, sources))
     moves = {
@@ -94,7 +94,7 @@ def confirmed(finding: Finding) -> bool:
 def why_not_applicable(
     differences: Differences, claim: Claim, control: ClaimControl | None = None
 ) -> str:
-    """Return why a claim or its control is not about the paper's cases; empty if it is."""
+    """Return why a claim or its control is not applicable; empty if it is applicable."""
     of_claim = differences.reason(claim.needs, claim.on)
     if of_claim or control is None:
         return of_claim
@@ -160,7 +160,7 @@ def _row(claim: Claim, sources: Mapping, differences: Differences) -> dict:
 def _severe(
     finding: Finding, moved: list[str], controls: list[tuple[ClaimControl, Finding]]
 ) -> Finding:
-    """Return the finding, undecided if a control fails, with a caveat if a cut-off changes it."""
+    """Return the finding: undecided if a control fails, with a caveat if a cut-off changes it."""
     failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
     if failed is not None and finding.verdict != Verdict.UNDECIDED:
         control, fed = failed

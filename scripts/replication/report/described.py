@@ -20,7 +20,7 @@ SHARED = {"Conventions", "version", "history"}
 
 
 class MapLink(NamedTuple):
-    """The axes' symbols of a panel, and the address of its points, with the fields {x} and {y}."""
+    """Symbols of a panel's axes, and an address for its points with the fields {x} and {y}."""
 
     x: str
     y: str

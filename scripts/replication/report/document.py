@@ -20,7 +20,7 @@ from .described import DescribedDataset, DescribedFigure, MapLink, dataset, figu
 from .page import FOLDER, render, script_of_report
 
 FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
-"""Claims with these verdicts are folded: readers look for the others first."""
+"""Claims with these verdicts are folded, because readers look for the other claims first."""
 PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2")
 
 

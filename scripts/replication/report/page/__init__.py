@@ -14,8 +14,8 @@ FOLDER = Path(__file__).parent
 def render(template: str, folder: Path = FOLDER, **values: Any) -> str:
     """Return the page of a template filled with values, with its style and the style's hash.
 
-    The template is in `folder` or in `templates` of this package. Text is escaped. A value that the
-    template uses but that is missing in `values` is an error.
+    The template is in `folder` or in `templates` of this package. Text is escaped. A missing value
+    of the template is an error.
     """
     environment = Environment(
         loader=FileSystemLoader([folder, FOLDER / "templates"]),
