@@ -17,7 +17,7 @@ BASELINE = ROOT / "tests/baseline"
 
 @cache
 def dataset(name: str) -> xr.Dataset:
-    """Return an accepted dataset such as "checks/lyapunov", which nobody may change in place."""
+    """Return an accepted dataset such as "checks/lyapunov"; tests must not change it in place."""
     return read(BASELINE / f"{name}.nc")
 
 
@@ -27,12 +27,12 @@ def datasets(names: Iterable[str]) -> dict[str, xr.Dataset]:
 
 
 def wrong_changes(kind: str) -> list[dict]:
-    """Return the rows of one part of wrong_changes.yaml, which says how they are written."""
+    """Return the rows of one part of wrong_changes.yaml; the file describes its format."""
     return yaml.safe_load((Path(__file__).parent / "wrong_changes.yaml").read_text())[kind]
 
 
 def changed(row: Mapping) -> dict[str, xr.Dataset]:
-    """Return the datasets that a row of wrong_changes.yaml changes, after the change."""
+    """Return the datasets that a row of wrong_changes.yaml names, with its change."""
     sources = row.get("in", ())
     names = [sources] if isinstance(sources, str) else sources
     return {name: _change(dataset(row.get("take", name)), row) for name in names}
@@ -54,7 +54,7 @@ VERBS = {"scale": ("by", scale), "shift": ("by", shift), "set": ("to", put)}
 
 
 def _labels(at: Mapping) -> dict:
-    """Return labels by coordinate, spans {from, to} as slices."""
+    """Return labels by coordinate; a span {from, to} becomes a slice."""
     return {
         along: slice(label.get("from"), label.get("to")) if isinstance(label, dict) else label
         for along, label in at.items()
@@ -62,7 +62,7 @@ def _labels(at: Mapping) -> dict:
 
 
 def leaves(tree, place: str = "") -> dict:
-    """Return what stands in nested lists and dictionaries, by its place."""
+    """Return the leaves of nested lists and dictionaries, by dotted path."""
     if not isinstance(tree, dict | list):
         return {place: tree}
     items = tree.items() if isinstance(tree, dict) else enumerate(tree)
@@ -70,7 +70,7 @@ def leaves(tree, place: str = "") -> dict:
 
 
 def differing(left, right, share: float, amount: float = 0.0) -> dict[str, tuple]:
-    """Return the leaves in which two things differ, numbers by more than a share and an amount."""
+    """Return leaves that differ; numbers may differ by a relative `share` or by an `amount`."""
     left, right = leaves(left), leaves(right)
     pairs = {place: (left.get(place), right.get(place)) for place in left | right}
 
@@ -83,7 +83,7 @@ def differing(left, right, share: float, amount: float = 0.0) -> dict[str, tuple
 
 
 def check_words(row: dict, right: str, wrong: str) -> None:
-    """Check that words are told by the wrong text alone, and others by the right one alone."""
+    """Check that only the wrong text has the words "told", and only the right one "untold"."""
     assert row.keys() & {"told", "untold"}
     for words, text, other_text in (
         (row.get("told"), wrong, right),

@@ -1,4 +1,4 @@
-"""All figures of a run: what draws each, and what gathers it from accepted datasets."""
+"""All figures of a run, with functions that gather their accepted data and draw them."""
 
 from accepted import dataset
 from pendula.studies.breathers import figures as breathers
@@ -11,7 +11,7 @@ from pendula.studies.unbounded import figures as unbounded
 
 
 def norms_of(figure: str) -> tuple[list, list]:
-    """Return both runs of a figure of norms, and what it shows as their true norms."""
+    """Return both runs of a figure of norms, and these runs with its true norms."""
     truth = dataset(f"figures/{figure}")
     runs = [dataset(f"trajectories/{figure}_{size}") for size in paper.SIZES]
     truth = [truth.sel(initial_size=size).dropna("tau", subset=["true_l2"]) for size in paper.SIZES]
@@ -77,4 +77,4 @@ FIGURES = {
         "unbounded/thermal",
     ),
 }
-"""What draws a figure, what gathers what it shows, and from which datasets."""
+"""For each figure: the function that draws it, the one that gathers its data, and datasets."""

@@ -1,8 +1,8 @@
-"""A run whose every bit is hashed; started as a program for each kind of code generation.
+"""Hashes of runs, to compare their bits; a program, run for each kind of code generation.
 
     python bits.py [threads [solvers]]
 
-prints, as JSON, the family of the processor, the hash of each run, and how often each kernel came
+prints as JSON the family of the processor, the hash of each run, and how often each kernel was read
 from the cache.
 """
 
@@ -39,12 +39,12 @@ def digest(trajectories: list[Trajectory]) -> str:
     for trajectory in trajectories:
         energy = trajectory.conserved.get("energy", np.empty(0))
         for values in (trajectory.final, trajectory.linf, trajectory.l2, energy):
-            digest.update((values + 0.0).tobytes())  # so that -0 and 0 are the same number
+            digest.update((values + 0.0).tobytes())  # turns -0 into 0
     return digest.hexdigest()[:16]
 
 
 def of_model(name: str) -> tuple[str, str]:
-    """Return the model and the solver of a run; the amplitudes are not named."""
+    """Return model and solver from the name of a run; the model is amplitudes by default."""
     model, _, solver = name.rpartition(".")
     return model or "amplitudes", solver
 
@@ -73,7 +73,7 @@ def problem(name: str, half_width: int) -> PaperProblem:
 
 
 def hits(model: str, solver: str) -> int:
-    """Return how often a kernel came from the cache."""
+    """Return how often a kernel was read from the cache."""
     return sum(SOLVERS[model][solver].run.stats.cache_hits.values())
 
 

@@ -8,19 +8,19 @@ STATUS = pytest.StashKey[set[str]]()
 
 
 def status_of_git(folder) -> set[str]:
-    """Return the lines of `git status`, none outside of a clone."""
+    """Return the lines of `git status`; no lines if the folder is not a clone."""
     command = ["git", "-C", str(folder), "status", "--porcelain", "--untracked-files=all"]
     return set(subprocess.run(command, capture_output=True, text=True).stdout.splitlines())
 
 
 def pytest_sessionstart(session):
-    """Remember what was changed before the first test, by the person who runs them."""
+    """Store the state of git before the first test: developers may have changed files."""
     if not hasattr(session.config, "workerinput"):  # not in each worker of pytest-xdist
         session.stash[STATUS] = status_of_git(session.config.rootpath)
 
 
 def pytest_sessionfinish(session):
-    """Name what is new, and let the session fail."""
+    """Print the files that tests changed or left, and let the session fail."""
     before = session.stash.get(STATUS, None)
     if before is None:
         return

@@ -1,4 +1,4 @@
-"""What many tests use: the real snakemake, and skips with a way out."""
+"""Functions for many tests: runs of snakemake, and skips that report what to install."""
 
 import json
 import os
@@ -21,11 +21,11 @@ Finished = subprocess.CompletedProcess
 WAY = "; to have it run: "
 
 MY_BASELINE = "my_baseline"
-"""The folder in the shared quick run that is its baseline."""
+"""The folder of the baseline in the shared quick run."""
 
 
 def skip(reason: str, way: str) -> NoReturn:
-    """Skip this test; `reason` says what is missing, `way` what to install or where to run it."""
+    """Skip this test; `reason` is what is missing, `way` what to install or where to run it."""
     pytest.skip(f"{reason}{WAY}{way}", allow_module_level=True)
 
 
@@ -36,13 +36,13 @@ def python_path(project: Path = ROOT) -> str:
 
 
 def package(module: str, install: str) -> ModuleType:
-    """Return a module that some tests need; where it is missing, skip and say what to install."""
+    """Return a module that some tests need; if it is missing, skip and print what to install."""
     reason = f"{module.split('.')[0]} is not installed{WAY}pip install {install}"
     return pytest.importorskip(module, reason=reason, exc_type=ImportError)
 
 
 def chosen(study: str, *over: str):
-    """Return the validated section of a study, with the files of these names laid over it."""
+    """Return the validated section of a study; the files `over` override its values."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", study, *over)]
     raw = gather(files, {})
     sections = {"cases", "sweeps", "solvers", "limits", study}
@@ -52,7 +52,7 @@ def chosen(study: str, *over: str):
 def snakemake(
     project: Path, directory: Path, *arguments: str, settings: dict | None = None, **variables: str
 ) -> Finished:
-    """Run snakemake in `directory`, on the quick configuration or on settings of one's own."""
+    """Run snakemake in `directory` with `settings`, by default the quick configuration."""
     configuration = project / "config/quick.yaml"
     if settings is not None:
         (configuration := directory / "mine.yaml").write_text(yaml.safe_dump(settings))
@@ -72,13 +72,13 @@ def run_ready(command: list[str], folder: Path | None = None, **variables: str) 
 
 @cache
 def _ready() -> subprocess.Popen:
-    """Start that process, once for each worker of pytest; it ends when its input does."""
+    """Start the process that forks, once per worker of pytest; it ends when its input closes."""
     command = [sys.executable, str(ROOT / "tests/ready_snakemake.py")]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 def command_of(project: Path, directory: Path, configuration: Path, *arguments: str) -> list[str]:
-    """Return the command; --configfile takes all that follows it, so it stands last."""
+    """Return the command; --configfile is last, because it takes all arguments after it."""
     options = ["--snakefile", project / "Snakefile", "--directory", directory]
     words = [sys.executable, "-m", "snakemake", *arguments, *options, "--configfile", configuration]
     return [str(word) for word in words]
@@ -98,12 +98,12 @@ def planned(
 
 
 def edit(path: Path, old: str, new: str) -> None:
-    """Replace the one place in a file where `old` stands."""
+    """Replace the only occurrence of `old` in a file."""
     text = path.read_text()
     assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path}"
     path.write_text(text.replace(old, new))
 
 
 def change(path: Path) -> None:
-    """Add a line of code to a module, which must be there: `open("a")` would create it."""
+    """Add a line of code to a module, which must exist: `open("a")` would create it."""
     path.write_text(path.read_text() + "CHANGED = True\n")

@@ -1,4 +1,4 @@
-"""The tags of a page, to look for links, pictures and faults of nesting."""
+"""The tags of a page, for tests of links, pictures and nesting."""
 
 from html.parser import HTMLParser
 
@@ -28,10 +28,10 @@ class Tags(HTMLParser):
             self.faults.append(f"</{tag}> closes another")
 
     def all(self, tag: str) -> list[dict]:
-        """Return the attributes of each tag of a kind."""
+        """Return the attributes of each tag with this name."""
         return [attributes for name, attributes in self.tags if name == tag]
 
     @property
     def ids(self) -> list[str]:
-        """All identifiers, to which links within the page lead."""
+        """All identifiers of the page: the possible targets of its internal links."""
         return [attributes["id"] for _, attributes in self.tags if "id" in attributes]

@@ -32,7 +32,7 @@ def pendula(**changes) -> PaperProblem:
 def final(problem: PaperProblem, solver="taylor", **changes):
     """Return angles and velocities (part, component, site) at the end.
 
-    The solver is one of TIGHT, or where it is None that of the problem.
+    The solver is one of TIGHT, or None for the solver of the problem.
     """
     changes |= {} if solver is None else {"solver": TIGHT[solver]}
     return simulate(problem.changed(**changes)).final
@@ -47,7 +47,7 @@ def coupling(problem: PaperProblem, angles):
 
 
 def slope(problem: PaperProblem):
-    """Return f(t, state) of y' = f for a state (2, 2, N) of angles and velocities, laid flat."""
+    """Return f in y' = f(t, y), where y is a flat state (2, 2, N) of angles and velocities."""
     numbers, square = problem.constants, problem.mu * problem.mu
     omega = np.sqrt(1 + square * numbers.omega)
 
@@ -67,6 +67,6 @@ def start(problem: PaperProblem):
 
 
 def undriven_energy(problem: PaperProblem, angles, velocities) -> float:
-    """Return the energy that (1) conserves where x = y or gamma = 0; both states are (2, N)."""
+    """Return the energy that (1) conserves if x = y or gamma = 0; both states are (2, N)."""
     of_single_pendula = 0.5 * velocities**2 + 2.0 * np.sin(0.5 * angles) ** 2
     return float((of_single_pendula - 0.5 * angles * coupling(problem, angles)).sum())

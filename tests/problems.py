@@ -1,4 +1,4 @@
-"""Problems for tests: the paper's cases, or any numbers and data, with defaults for the rest."""
+"""Problems for tests: the paper's cases, or others with given constants and initial data."""
 
 from latticode.datasets.netcdf import read, write
 from oracle import CASES, SOLVERS
@@ -26,19 +26,19 @@ def problem_of(case: str = "fig4_small", **changes) -> PaperProblem:
 
 
 def constants_of(values=PAPER) -> Constants:
-    """Return named constants of the numbers (epsilon, gamma, Omega) that the oracle takes."""
+    """Return the constants with the values (epsilon, gamma, Omega)."""
     epsilon, gamma, omega = map(float, values)
     return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
 
 
 def problem_from(amplitudes, values, boundary="dirichlet", **changes) -> PaperProblem:
-    """Return the problem of data (2, 2M + 1) on the whole chain under (epsilon, gamma, Omega)."""
+    """Return the problem of a whole chain with these amplitudes (2, 2M + 1) and constants."""
     base = problem_of(half_width=amplitudes.shape[1] // 2, boundary=boundary, **changes)
     return base.changed(constants=constants_of(values), initial=amplitudes)
 
 
 def make_problem(initial, numbers=PAPER, boundary="dirichlet", solver="dop853", **changes):
-    """Return the problem of data (2, 2r + 1) up to tau = 1, on the chain that they fill."""
+    """Return the problem of a chain with the initial data (2, 2M + 1) up to tau = 1."""
     values = {
         "parameters": vars(constants_of(numbers)),
         "half_width": initial.shape[1] // 2,
@@ -50,6 +50,6 @@ def make_problem(initial, numbers=PAPER, boundary="dirichlet", solver="dop853", 
 
 
 def as_the_workflow_writes(case, name, path):
-    """Return the dataset of a pendula.Case as a job of the workflow writes it to `path`."""
+    """Return the dataset of a pendula.Case after a job of the workflow wrote it to `path`."""
     write(path, *run_case(name, PaperProblem.of(case.shown_problem())))
     return read(path)

@@ -1,8 +1,8 @@
 """A process that has imported Snakemake and forks for each run that a test asks for.
 
-Nearly half of a dry run is the import of Snakemake and of the packages that it uses. A run here is
-still a process of its own, with its own folder, screen and exit code, and it imports the project
-anew. `helpers.py` starts this process and asks it, for `python -m doctest` too.
+The import of Snakemake and its packages takes nearly half of the time of a dry run. Each run is a
+separate process with its own folder, output and exit code, and imports the project itself.
+`helpers.py` starts this process and sends it runs, also of `python -m doctest`.
 """
 
 import atexit
@@ -27,27 +27,27 @@ PACKAGES = (
     "scipy.optimize",
     "matplotlib.figure",
 )
-"""What every run or a doctest imports, whatever it is asked for."""
+"""Modules that runs and doctests import."""
 status = 0
 """The exit code of a fork."""
 
 
 def leave() -> None:
-    """End without taking apart all that was imported."""
+    """End the process without the clean-up of imported modules."""
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)
 
 
 def be(folder: str, variables: dict[str, str], screens: list[str], arguments: list[str]) -> None:
-    """Be `python -m <arguments>`, with two files as its screen."""
+    """Run as `python -m <arguments>`; standard output and errors go to the files `screens`."""
     global status
     os.chdir(folder)
     os.environ.clear()
     os.environ.update(variables)
     for number, path in enumerate([os.devnull, *screens]):
         os.dup2(os.open(path, os.O_RDWR), number)
-    # as `python -m` does, so that no test's helper is found by a workflow
+    # like `python -m`, so that a workflow cannot import helpers of tests
     sys.path[:1] = ["", *filter(None, variables.get("PYTHONPATH", "").split(os.pathsep))]
     sys.argv[:] = arguments
     try:
@@ -57,12 +57,12 @@ def be(folder: str, variables: dict[str, str], screens: list[str], arguments: li
 
 
 def main() -> None:
-    """Get ready once, and fork for each line of standard input."""
+    """Import the modules once, and fork for each line of standard input."""
     for name in PACKAGES:
         importlib.import_module(name)
     sys.modules["snakemake.cli"].get_argument_parser()  # finds the plugins, which is slow too
     gc.freeze()
-    gc.disable()  # no run of a test makes garbage that is worth the time
+    gc.disable()  # collection would cost more time than it saves
     for line in iter(sys.stdin.readline, ""):
         if not (child := os.fork()):
             return be(*json.loads(line))
@@ -70,5 +70,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    atexit.register(leave)  # the first that is registered is the last that is done
+    atexit.register(leave)  # registered first, so that it is called last
     main()

@@ -1,6 +1,6 @@
-"""Fixtures of several tests, and how hypothesis draws: the same data every time, no time limit.
+"""Fixtures of several tests, and settings of hypothesis: fixed examples, no time limit.
 
-Tests of figures draw small made-up datasets, which look like those of simulations.
+Tests of figures draw small made-up datasets with the form of simulated ones.
 """
 
 import fcntl
@@ -23,16 +23,16 @@ settings.load_profile("project")
 
 @pytest.fixture(scope="session", autouse=True)
 def _away_from_the_users_results(tmp_path_factory):
-    """Have all tests stand in an empty folder: that of the project may hold a user's results."""
+    """Run each test in an empty folder, because the project's may have results of a user."""
     with chdir(tmp_path_factory.mktemp("empty")):
         yield
 
 
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory):
-    """Return a function: a folder that `make` fills, by one of all workers for the others too.
+    """Return a function for folders that `make` fills; one worker fills each folder for all.
 
-    PENDULA_FULL_RUN names a folder for them that outlives the session, so that another takes over.
+    The folders are in PENDULA_FULL_RUN, if this is set, so that later sessions can use them too.
     """
     parallel = "PYTEST_XDIST_WORKER" in os.environ
     base = tmp_path_factory.getbasetemp()
@@ -82,7 +82,7 @@ def variable(dims, values, name):
 
 @pytest.fixture(scope="session")
 def make_trajectory():
-    """Return a function: a trajectory of 11 times, 5 sites, whose curves grow like `scale`."""
+    """Return a function for trajectories of 11 times and 5 sites; curves grow with `scale`."""
 
     def make(case="fig2_small", omega=8.0, scale=1.0, solver="ode45", end_time=5.0):
         tau = np.linspace(0, end_time, 11)

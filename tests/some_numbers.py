@@ -1,10 +1,10 @@
-"""Datasets whose numbers no solver gives; started as a program on each machine.
+"""Datasets with numbers that no solver computes; a program that is run on each machine.
 
     python tests/some_numbers.py given made
 
-makes them as a full run does, of its sizes, in the functions that the rules call, and writes them
-to the folder `made`. Fronts are measured on the runs in the folder `given`. The numbers of solvers
-are those of bits.py.
+writes them to the folder `made`. It calls the same functions as the rules, with the sizes of a full
+run. Fronts are measured on the runs in the folder `given`. bits.py does the same for the numbers of
+solvers.
 """
 
 import sys
@@ -26,7 +26,7 @@ from pendula.studies.unbounded.thermal import solve_thermal
 from problems import problem_of
 
 MEMBERS = 100
-"""Confidence limits are those of so many members at most; studies of a full run have fewer."""
+"""Largest number of members with confidence limits; studies of a full run have fewer."""
 PLAYED = {
     "packages/latticode/latticode/checks.py": ("own",),
     "packages/latticode/latticode/localised/breathers.py": ("own", "proofs", "steady"),
@@ -35,7 +35,7 @@ PLAYED = {
     "scripts/pendula/studies/breathers/multipliers.py": ("periodic",),
     "scripts/pendula/studies/breathers/periodic.py": ("periodic",),
 }
-"""The datasets that show each module that may call LAPACK, BLAS or the C library."""
+"""Datasets that cover each module that may call LAPACK, BLAS or the C library."""
 NAMES = (*CHECKS, "fronts", "thermal", *{name: 0 for names in PLAYED.values() for name in names})
 
 
@@ -63,7 +63,7 @@ def make(accepted: Path, folder: Path) -> None:
 
 
 def limits_of_all_counts() -> Contents:
-    """Return confidence limits of each number of members, and of each share of the most."""
+    """Return confidence limits for each number of members, and of each share of MEMBERS."""
     counts, scores = np.arange(MEMBERS + 1), np.linspace(0.1, 9.0, MEMBERS)
     limits = {
         "student": [confidence.student(n) for n in counts[1:]],
@@ -79,7 +79,7 @@ def limits_of_all_counts() -> Contents:
 
 
 def sentence_on_rest() -> Contents:
-    """Return what is said of a chain without coupling in which the central pair alone moves."""
+    """Return the sentence on a chain without coupling in which only the central pair moves."""
     problem = problem_of("fig4_small", epsilon=0.0)
     moduli = np.stack([modulus(problem.amplitudes)] * 2, axis=-1)
     moduli[:, problem.half_width, 1] += 1.0
