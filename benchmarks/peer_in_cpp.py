@@ -1,7 +1,7 @@
 """A Taylor method in C++: this project's method written by hand (taylor.cpp).
 
-It shows how close compiled Python comes to C++. It computes four sites at a time, or eight if the
-processor has AVX-512.
+It shows how fast compiled Python is in comparison with C++. It computes four sites at a time, or
+eight if the processor has AVX-512.
 """
 
 import ctypes
@@ -21,7 +21,7 @@ from .timing import timed
 
 
 def lacks_compiler() -> str | None:
-    """Return why C++ cannot be compiled here, or None if it can."""
+    """Return why C++ cannot be compiled on this machine, or None if it can."""
     return None if shutil.which("g++") else "g++ is not on the PATH"
 
 
@@ -37,7 +37,7 @@ def target() -> str:
 
 @cache
 def lacks_avx512() -> str | None:
-    """Return why vectors of eight numbers cannot be used here, or None if they can."""
+    """Return why vectors of eight numbers cannot be used on this machine, or None if they can."""
     if why := lacks_compiler():
         return why
     command = ["g++", target(), "-dM", "-E", "-x", "c++", os.devnull]

@@ -109,7 +109,7 @@ def topics(accepted: Results) -> dict[str, Any]:
 
 
 def right_runs(record: dict) -> dict:
-    """Return the largest chances that a correct run changes a verdict, and those of the tests."""
+    """Return the chances that a correct run changes a verdict: measured ones, and `designed`."""
     rows = sorted(record["rows"], key=lambda row: -row["chance"])
     likely_rows = [row for row in rows if row["chance"] >= SMALLEST_SHOWN]
     return {

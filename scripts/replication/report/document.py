@@ -148,7 +148,7 @@ def _figure_cells(number: int, described: DescribedFigure, rows: list[dict]) -> 
 
 
 def claim_sections(rows: list[dict], figures: range) -> list[PageSection]:
-    """Return an open section for the claims to read first, and folded sections for the others."""
+    """Return an open section with the claims to read first, and folded sections with the others."""
     unfolded = [row for row in rows if row["verdict"] not in FOLDED]
     title = (
         "Claims that are not reproduced, do not carry over, do not follow, or cannot be decided:"
