@@ -186,13 +186,13 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
 # --- A localised state ----------------------------------------------------------------------------
 
 LOCALISED = 0.01
-"""A localised state has values at its farthest sites below this fraction of the largest one."""
+"""At the sites farthest from its centre, a localised state is at most this fraction of its peak."""
 
 
 def check_breather(problem: Problem) -> xr.Dataset:
-    """Return a localised state with its exponents, or an attribute with the reason for none.
+    """Return a localised state with its exponents, or an attribute with the reason for its absence.
 
-    Floquet multipliers are over one period, or for a steady state over one unit of tau.
+    Floquet multipliers are over one period; those of a steady state are over one unit of tau.
     """
     try:
         with np.errstate(all="ignore"):  # Newton's method may diverge; `find_state` detects this

@@ -116,7 +116,7 @@ class Case(cases.CaseSection):
         """Return a new case with other values of `keys`, checked again."""
         values = self.model_dump()
         if end_of_run(keys.get("initial")) is not None:
-            del values["start_time"]  # the new run has its own
+            del values["start_time"]  # the run in `initial` has its own
         for key, replaced in (("sites", "half_width"), ("half_width", "sites")):
             if keys.get(key) is not None and replaced in values:
                 values[replaced] = None
@@ -195,11 +195,11 @@ def _print_remark(solver: Mapping) -> None:
 
 
 OF_A_RUN = ("case", "output_step", "snapshot_every", "solver")
-"""Prefixes of attributes that describe how a case was run and not which problem was solved."""
+"""Prefixes of attributes that describe the solution method, not the problem."""
 
 
 def _require_run_of(case: cases.CaseSection, run: xr.Dataset) -> None:
-    """Raise ConfigurationError unless a run, by any solver, is one of this case."""
+    """Raise ConfigurationError if a run is of another case; its solver may be different."""
     problem = case.kind.of(case.shown_problem())
     expected = {"model": None} | describe_run("", problem, problem.solver)
     compared = [key for key in sorted(expected) if not key.startswith(OF_A_RUN)]
@@ -571,9 +571,9 @@ def draw_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> "Figure":
     """Draw the norms of all fields against time: l-infinity left, l2 right.
 
     `run` is from `simulate` or `read`. With `checks` from `check`, if the second run differs
-    visibly, it is drawn below the first, and a line marks the time.
+    visibly, it is drawn below the first, and a line marks the divergence time.
     """
-    from .drawing import runs  # here, because importing matplotlib takes half a second
+    from .drawing import runs  # imported here, because matplotlib takes half a second
 
     require_norms(run, checks)
     return runs.draw_norms(runs.gather_norms(run, checks))
@@ -591,7 +591,7 @@ def draw_spacetime(run: xr.Dataset) -> "Figure":
 
     The run must have snapshots. Values need the `state`; without it, moduli are drawn.
     """
-    from .drawing import runs  # here, because importing matplotlib takes half a second
+    from .drawing import runs  # imported here, because matplotlib takes half a second
 
     require(run, xr.Dataset, SNAPSHOTS, "modulus")
     return runs.draw_spacetime(runs.gather_spacetime(run))
@@ -607,7 +607,7 @@ def draw_breather(checks: xr.Dataset) -> "Figure":
     or the exponents of perturbations if the state is steady. If there is no localised state, the
     figure has the reason.
     """
-    from .drawing import runs  # here, because importing matplotlib takes half a second
+    from .drawing import runs  # imported here, because matplotlib takes half a second
 
     require(checks, xr.Dataset, CHECKS, "divergence_time")
     return runs.draw_breather(runs.gather_breather(checks))
@@ -619,7 +619,7 @@ def draw_survey(survey: xr.Dataset) -> "Figure":
     For further axes, the first value is shown. For members, the mean and its 95 % confidence
     interval are shown.
     """
-    from .drawing import surveys  # here, because importing matplotlib takes half a second
+    from .drawing import surveys  # imported here, because matplotlib takes half a second
 
     require(survey, xr.Dataset, SURVEY, "component")
     if "failed_runs" not in survey.attrs:
@@ -635,7 +635,7 @@ def draw_sweep(
     Filled dots are maxima over `max_window`, hollow dots means over `mean_window`. Windows have the
     names in the dataset; the default is the first one.
     """
-    from .drawing import runs  # here, because importing matplotlib takes half a second
+    from .drawing import runs  # imported here, because matplotlib takes half a second
 
     return runs.draw_sweep(gathered_sweep(sweep, max_window, mean_window))
 

@@ -500,7 +500,7 @@ class CaseSection(Section):
         """
         span = span or self.span
         controls = self._solver_of_run((solver or self.solver).model_dump())
-        if controls["name"] == "auto":  # judge its first run, which has the loosest tolerance
+        if controls["name"] == "auto":  # its first run has the loosest tolerance
             tolerance = first_tolerance(controls["error"], 0.0)
             name, _ = pair_of(self.solver_names)
             controls = {"name": name, "rtol": tolerance, "atol": tolerance}
@@ -560,4 +560,4 @@ class CaseSection(Section):
 
 
 SMALLEST_ANGLE = 1e-9
-"""In radians: runs whose phases change by less are rejected, because rounding dominates them."""
+"""Radians: a run is rejected if its phases change by less, because rounding would dominate."""

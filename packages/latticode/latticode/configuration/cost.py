@@ -17,7 +17,7 @@ from latticode.integrators.methods import METHODS, methods_taking
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 LONG_RUN = 180.0
-"""In seconds; the cost of a run that is estimated to take longer is printed before it starts."""
+"""Seconds: if a run is estimated to take longer, its cost is printed before it starts."""
 
 
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
@@ -159,7 +159,7 @@ def with_checks(problem: Mapping, measure: Measure = demand) -> RunCost:
 
 
 def of_checked(runs: Iterable[RunCost]) -> RunCost:
-    """Return the cost of runs; memory must suffice to compare two runs as large as the first."""
+    """Return the total cost of runs, with memory to compare two runs as large as the first."""
     first, *_ = runs = list(runs)
     compared = first._replace(seconds=0.0, memory=KEPT_TO_COMPARE * first.memory)
     return total([*runs, compared])
@@ -198,7 +198,7 @@ def find_excess(
 ) -> Obstacle | None:
     """Return (key, message) if a run exceeds the limits on time or memory, else None.
 
-    It is the key for which `cheap_values` would lower the cost most. `estimate_cost` returns the
+    The value of this key in `cheap_values` would lower the cost most. `estimate_cost` returns the
     cost of a problem, and `subject` names the run in the message.
     """
     cost = estimate_cost(problem)

@@ -100,7 +100,7 @@ def parse(text: str) -> tuple[Any, list[str]]:
                 return None, [TOO_MANY]
             return json.loads(text, object_pairs_hook=lambda pairs: _pairs(pairs, faults)), faults
         except (ValueError, RecursionError):
-            pass  # not JSON: YAML may start with a brace too
+            pass  # the text is not JSON; YAML may start with a brace too
     try:
         too_large = _size_fault(text)
         if too_large:
@@ -124,7 +124,7 @@ def _size_fault(text: str) -> str | None:
     depth = scalars = 0
     for event in yaml.parse(text, yaml.CSafeLoader):
         scalars += isinstance(event, yaml.ScalarEvent)
-        if scalars > 2 * MOST_VALUES:  # counts keys too, and repeated values once
+        if scalars > 2 * MOST_VALUES:  # keys are counted too; repeated values are counted once
             return f"line {event.start_mark.line + 1}: {TOO_MANY}"
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
@@ -218,8 +218,8 @@ def _describe_yaml_error(error: yaml.YAMLError, text: str) -> str:
 def merge(below: Mapping, above: Mapping) -> dict:
     """Return the configuration `below`, updated by `above`.
 
-    Mappings are merged key by key. Those under the keys SINGLE_VALUES are replaced, and so are the
-    controls of a solver if the two solvers differ.
+    Mappings are merged key by key. Mappings under the keys SINGLE_VALUES are replaced. The
+    controls of a solver are replaced if the two solvers differ.
     """
     merged = dict(below)
     for key, value in above.items():
@@ -245,7 +245,7 @@ def with_paths(configuration: dict, folder: Path) -> dict:
 
 
 def _located(entry: Any, paths: Mapping[str, tuple[str, ...]], folder: Path) -> Any:
-    """Return a case or a section with `folder` prepended to its paths, also to mine.py:plane."""
+    """Return a case or a section with `folder` prepended to its paths, such as mine.py:plane."""
     for key, endings in paths.items():
         path = entry.get(key) if isinstance(entry, dict) else None
         if isinstance(path, str) and path.partition(":")[0].endswith(endings):
@@ -254,7 +254,7 @@ def _located(entry: Any, paths: Mapping[str, tuple[str, ...]], folder: Path) -> 
 
 
 def gather(files: list[Path], entries: Mapping) -> dict:
-    """Return `files`, then `entries`, merged in this order: each overrides those before it."""
+    """Return `files` and then `entries`, merged: later values override earlier values."""
     merged: dict = {}
     for path in files:
         merged = merge(merged, with_paths(read(path), Path(path).parent))

@@ -29,9 +29,9 @@ from .values import (
 
 MOST_RUNS = 10_000_000
 FARTHEST = 5.0
-"""In standard deviations; normal random numbers are hardly ever larger."""
+"""Largest expected random number, in standard deviations; normal ones are rarely larger."""
 MOST_CHECKED = 1000
-"""Axes of at most this many values are checked in full before the runs, others at both ends."""
+"""Axes up to this length are checked in full before the runs; longer ones only at both ends."""
 
 
 class GridSection(Section):

@@ -44,7 +44,7 @@ def _clear_after_killed(path: Path) -> None:
                 os.kill(int(number), 0)  # signal 0 only checks that the process exists
             except ProcessLookupError:
                 left.unlink()
-            except PermissionError:  # it exists, and belongs to another user
+            except PermissionError:  # the process exists, and belongs to another user
                 continue
 
 

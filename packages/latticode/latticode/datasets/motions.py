@@ -39,7 +39,7 @@ def section_at(
     problem: Problem, when: Node, direction: str, site: int, name: str = "section"
 ) -> xr.Dataset:
     """Return the times (crossing,) and states (part, component, site, crossing) of a section."""
-    if problem.solver["name"] == "auto":  # two methods; a section needs one
+    if problem.solver["name"] == "auto":  # the solver has two methods, but a section needs one
         method = pair_of(problem.equations.methods)[0]
         problem = problem.changed(solver={"name": method, "rtol": 1e-13, "atol": 1e-13})
     crossings = find_crossings(problem, when, site, direction)

@@ -36,7 +36,7 @@ class Variable(NamedTuple):
     values: Any
     long_name: str = ""  # if empty, it is from the registry
     units: str = "1"
-    attributes: Mapping[str, Any] = {}  # further ones, such as `significant_digits`
+    attributes: Mapping[str, Any] = {}  # further attributes, such as `significant_digits`
 
 
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
@@ -71,7 +71,7 @@ def _seal(content: bytes) -> bytes:
 
 def as_xarray(variables: Mapping[str, Variable], attributes: Mapping) -> "Dataset":
     """Return the dataset that `write` and then `read` would give."""
-    import xarray  # here, so that writing does not import it
+    import xarray  # imported here, so that writing does not import xarray
 
     def as_variable(name: str, variable: Variable) -> xarray.Variable:
         values = np.asarray(variable.values)
@@ -153,7 +153,7 @@ def read(path: str | Path) -> "Dataset":
 
     Raises DatasetError if the file is missing, damaged or edited.
     """
-    import xarray  # here, so that writing does not import it
+    import xarray  # imported here, so that writing does not import xarray
 
     if not isinstance(path, str | Path):
         raise DatasetError(f"give the path of a dataset, not a {type(path).__name__}")

@@ -66,7 +66,7 @@ class NamingError(ValueError):
 def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]:
     """Return `long_name` and `units` of a variable; an empty long name is read from the registry.
 
-    Raises NamingError if there is no long name in either, or if the units are not allowed.
+    Raises NamingError if the registry has no long name either, or if the units are not allowed.
     """
     if not (long_name or name in NAMES):
         raise NamingError(f"{name}: has no long_name; give it one by .attrs['long_name'] = ...")
@@ -77,7 +77,7 @@ def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]
 
 
 def complete(attributes: Mapping[str, Any], title: str) -> dict[str, Any]:
-    """Return the attributes of a dataset with those that all files share.
+    """Return the attributes of a dataset, and add the attributes that all files share.
 
     There is no date, host, user or path, so that two runs give the same content.
     """

@@ -14,7 +14,7 @@ from latticode.equations.initial_values import write_initial
 from latticode.simulation.problem import Problem
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
-"""The attributes with the name of the function of a job, and with the datasets that it has read."""
+"""Two attributes: the name of the function of a job, and the datasets that the job has read."""
 OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_every")
 
 
@@ -36,7 +36,7 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
 
 
 def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[str, Any]:
-    """Return the attributes with the same value in all descriptions, except those in `without`."""
+    """Return the attributes that are equal in all descriptions, except the names in `without`."""
     first, *later = descriptions
     return {
         key: value

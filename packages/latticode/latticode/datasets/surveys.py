@@ -34,7 +34,7 @@ TEXTS = {
     "remark": "why a run is not by the solver of the case; empty if it is",
     "unfinished": "why a run was not executed; empty if it was",
 }
-"""Long names of messages on runs; each is empty for most runs."""
+"""Long names of the variables with messages on runs; most runs have empty messages."""
 COUNTS = {
     "failure": "failed_runs",
     "remark": "runs_by_another_solver",

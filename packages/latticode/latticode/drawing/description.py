@@ -6,7 +6,7 @@ it shows. A figure diff can compare it word by word on any machine.
 
 Numbers are rounded to DIGITS digits, which is finer than a pixel and coarser than the differences
 between processors. Positions on the page are omitted, because they depend on the width of letters.
-The position of an annotation is a point of its panel, or an offset from one in points.
+The position of an annotation is a point in its panel, or an offset in points from such a point.
 """
 
 import json

@@ -18,7 +18,7 @@ MARKERS = {"l2": "o", "linf": "s"}  # different shapes distinguish the norms in 
 SIZES = {"max": 3.6, "mean": 2.4}
 BAR = {"color": "black", "marker": ".", "markersize": 2, "lw": 0, "elinewidth": 0.8, "capsize": 1.2}
 OFFSET = 1.1
-"""Factor on the half-width by which error bars of ensembles are moved, so as not to cover dots."""
+"""Error bars are drawn at the half-width times this factor, so that they do not cover dots."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
 
@@ -50,7 +50,7 @@ def draw_moduli(
     """Draw the moduli of each field of one case in a panel of `row`, with one colour scale.
 
     `names` complete the titles of the panels. Pass evenly=False if the snapshots are not equally
-    spaced in time: each is then as wide as its time interval.
+    spaced in time. Each is then as wide as its time interval.
     """
     moduli = case["modulus"]
     peak = float(moduli.max()) or 1.0
@@ -67,8 +67,8 @@ def draw_values(
 ) -> None:
     """Draw the values of each real field of one case: blue is negative, white zero, red positive.
 
-    All fields have one colour scale, symmetric about zero. `names` and `evenly` are those of
-    `draw_moduli`.
+    All fields have one colour scale, symmetric about zero. `names` and `evenly` mean the same
+    as in `draw_moduli`.
     """
     values = case["value"]
     peak = float(np.abs(values).max()) or 1.0

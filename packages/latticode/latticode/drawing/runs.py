@@ -23,7 +23,7 @@ from . import panels, strips, style
 from .strips import NORMS, Strip
 
 FEW = 8
-"""Largest number of half-widths of which each gets a tick."""
+"""Up to this number of half-widths, each has its own tick."""
 COLOURS = ("red", "blue")
 """Colours of the first two fields, as named in captions."""
 RUNS = [Strip("", ""), Strip("second_", "second run, by another method")]
@@ -97,7 +97,7 @@ def name_data_and_ends(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> str:
 
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
-    """Return the norms of a trajectory, and those of the second run if `checks` are passed."""
+    """Return the norms of a trajectory; if `checks` are passed, add the norms of the second run."""
     names = [str(name) for name in run["component"].values]
     coloured = [f"{name} ({colour})" for name, colour in zip(names, COLOURS, strict=False)]
     fields = " and ".join(coloured) if len(names) <= len(COLOURS) else ", ".join(names)
@@ -111,7 +111,7 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
 
 @style.styled
 def draw_norms(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
-    """Draw l-infinity left and l2 right, the first field red and the second blue.
+    """Draw l-infinity at the left and l2 at the right; the first field is red, the second blue.
 
     The second run is drawn only if the two runs diverge, in strips below the first.
     """
@@ -159,7 +159,7 @@ def gather_breather(checks: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_breather(data: xr.Dataset) -> Figure:
-    """Draw the moduli over sites left, and right the multipliers, or exponents if it is steady.
+    """Draw the moduli over sites (left), and the multipliers or, if steady, the exponents (right).
 
     If there is no state, the figure shows the reason.
     """
@@ -190,7 +190,7 @@ def draw_breather(data: xr.Dataset) -> Figure:
 def gather_sweep(
     sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None
 ) -> xr.Dataset:
-    """Return the maximum of the norms of all fields over one window, and their mean over another.
+    """Return the maxima of the norms of all fields over one window, and their means over another.
 
     Both windows default to the first of the sweep.
     """
@@ -205,7 +205,7 @@ def gather_sweep(
 
 @style.styled
 def draw_sweep(data: xr.Dataset, naming: Naming = PLAIN_NAMING) -> Figure:
-    """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
+    """Draw l-infinity (left) as blue squares and l2 (right) as red dots; means are hollow."""
     figure = style.new_figure(style.WIDTH, 2.7)
     row = figure.subplots(1, 2, sharex=True)
     fields = [style.symbol(field) for field in data.attrs["fields"].split(", ")]

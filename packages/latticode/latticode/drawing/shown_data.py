@@ -1,6 +1,6 @@
 """Names of the rows of the data that the curves of a figure show, recognised by their values.
 
-A curve that is reversed, scaled or of the wrong variable thus has no name or a different one. This
+A curve that is reversed, scaled or shows a wrong variable has no name or a different name. This
 works on any machine, for chaotic data too, because data and figure are from the same run.
 """
 
@@ -85,7 +85,7 @@ def _slices(
 
 
 def _label(dimension: str, index: int, data: xr.Dataset) -> str:
-    """Return the coordinate at an index along a dimension, after the dimension if it is a number.
+    """Return the coordinate at an index; if it is a number, the name of the dimension precedes it.
 
     A dimension without coordinates gets the index instead.
     """

@@ -19,11 +19,11 @@ from . import style
 
 NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
 UNDER = {"lw": 2.0, "label": "wide, pale: multiprecision reference"}
-"""Look of curves below others, wide enough to be seen."""
+"""Look of curves that lie below others: they are wide enough to be visible."""
 TALL, LOW = 1.15, 0.66
 """Heights in inches of a single panel and of a strip."""
 HEADROOM = 1.06
-"""Upper end of the y axis over the largest value."""
+"""Ratio of the upper end of the y axis to the largest value."""
 DIVERGED = {"color": "black", "lw": 0.6, "dashes": (4, 2), "zorder": 3}
 
 

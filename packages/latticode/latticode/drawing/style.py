@@ -268,7 +268,7 @@ def save(
     the description contains the digest of the data. A picture of different data is thus detected.
     """
     if note:
-        # without a layout engine the panels make no room, and only the left half below is free
+        # without a layout engine there is no space for the note except below the left half
         has_layout = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
         text = fill(note, NOTE if has_layout else NOTE * 2 // 5)
         figure.supxlabel(text, x=0.5 if has_layout else 0.22, fontsize=7)

@@ -1,4 +1,4 @@
-"""The figure of a survey: results against one axis, over two axes as maps, or of each member."""
+"""The figure of a survey: lines against one axis, maps over two axes, or points of members."""
 
 from textwrap import fill
 
@@ -14,7 +14,7 @@ from . import style
 
 MOST_PANELS = 4
 IN_HEIGHT = 28
-"""Number of letters of a line beside a panel."""
+"""Largest number of letters in a line of an axis label, written along the height of a panel."""
 CAPTION_BY_KIND = {"line": "against {x}", "map": "over {x} and {y}", "points": "of each member"}
 
 
@@ -43,7 +43,7 @@ def _name(survey: xr.Dataset, name: str) -> str:
 
 @style.styled
 def draw_survey(data: xr.Dataset) -> Figure:
-    """Draw the results: against one axis as lines, over two as maps, of members as points."""
+    """Draw lines against one axis, maps over two axes, or points for the members."""
     names = list(data.data_vars)[:MOST_PANELS]
     fields = data.sizes["component"] if data.attrs["kind"] == "map" else 1
     figure = style.new_figure(style.WIDTH, 2.6 * len(names))
