@@ -51,25 +51,25 @@ class Parent:
             )
 
     def send_path(self, path: str) -> None:
-        """Before the first job, send the workflow's PYTHONPATH (empty: nothing to add)."""
+        """Before the first job, send the workflow's PYTHONPATH, or "" if it adds nothing."""
         with suppress(OSError):  # the process has ended, which the first job will report
             self.control.send(json.dumps(path).encode())
 
     def send_request(self, request: dict) -> socket.socket:
-        """Return the socket for the answer to a request; it closes if the process has died."""
+        """Send a request and return the socket for its answer; it closes if the process dies."""
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs, suppress(OSError):
             socket.send_fds(self.control, [json.dumps(request).encode()], [theirs.fileno()])
         return ours
 
     def request_end(self) -> None:
-        """Send the last message: the jobs get SIGINT and 3 seconds, then the process ends."""
+        """Send the last message: jobs get SIGINT and have 3 seconds before the process ends."""
         with suppress(OSError):  # the process has ended, or the message was sent before
             self.control.send(END, socket.MSG_DONTWAIT)
         self.control.close()
 
     def end(self, kill: bool) -> None:
-        """Stop the process and its jobs: at once if `kill`, else as `request_end` does."""
+        """Stop the process and its jobs: at once if `kill`, otherwise by `request_end`."""
         if self.process.returncode is None:
             self.request_end()
             if kill:
@@ -120,7 +120,7 @@ class Forks:
         if self.begun or sys.platform != "linux":
             return
         self.begun = True
-        if self.parent:  # None if an option was mistaken for that of a dry run
+        if self.parent:  # None if another option looked like a dry run
             _, variables = self.parent.start_environment
             path = "" if PATH in variables else os.environ.get(PATH, "")
             if folder_and_variables(without=path and PATH) == self.parent.start_environment:
@@ -157,7 +157,7 @@ class Forks:
         raise ChildProcessError(f"the process that jobs are forked from {end}")
 
     def replace(self, dead: Parent, death: ChildProcessError) -> None:
-        """Replace the process the first time it dies; then raise, because the cause remains."""
+        """Replace the process when it first dies; raise the next time, as the cause remains."""
         with self.lock:
             if self.interrupted:
                 raise death

@@ -1,4 +1,4 @@
-"""The code that uses private parts of Snakemake, because its executor interface is not sufficient.
+"""Code that uses private parts of Snakemake, because the executor interface is not sufficient.
 
 The tests exercise all of it, so they fail if a new Snakemake version changes these parts.
 """
@@ -43,7 +43,7 @@ class Executor(snakemake.executors.local.Executor):
     def run_jobs(self, jobs: list[Any]) -> None:
         """Start jobs without Snakemake's default limit of jobs per second.
 
-        The limit is meant for queues. With it, each check for new jobs schedules another check
+        This limit is for queues. With it, each check for new jobs schedules another check
         one second later: after n jobs there are n checks per second, and one after the last job.
         """
         if self.forks.interrupted:
@@ -95,7 +95,7 @@ class ForkedScript(PythonScript):
     executor: Executor
 
     def execute_script(self, fname: str, edit: bool = False) -> None:
-        """Run the file as a fork, or as Snakemake does if a fork would not be equivalent."""
+        """Run the file as a fork, or in a new process if a fork would not be equivalent."""
         forks, logger = self.executor.forks, self.executor.logger
         try:
             self.check_that_a_fork_is_the_same()

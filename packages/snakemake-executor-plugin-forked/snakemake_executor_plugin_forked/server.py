@@ -1,8 +1,8 @@
 """The process that imports modules and forks a child for each job: `server.py SOCKET MODULE...`.
 
-It imports while idle; a job that arrives earlier imports the missing modules itself. Only the first
-job waits for one module, which otherwise each of the first parallel jobs would import. The other
-modules are imported once a job has ended, because the run may have no further jobs.
+It imports modules while idle; a job that arrives earlier imports the missing modules itself. The
+first job waits for one module, because otherwise each of the first parallel jobs would import it.
+The others are imported once a job has ended, because the run may have no further jobs.
 """
 
 import atexit
@@ -46,7 +46,7 @@ class Server:
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # only scripts get it
 
     def serve(self) -> dict[str, str | dict]:
-        """Fork a child for each request and return the request there; end when Snakemake ends."""
+        """Fork a child for each request, and return it in the child; end with Snakemake."""
         while True:
             if self.can_prepare() and not select.select([self.control], [], [], 0)[0]:
                 self.prepare(self.modules.pop(0))
@@ -82,7 +82,7 @@ class Server:
         return bool(name and is_useful)
 
     def begin(self, path: str) -> None:
-        """Put the folders `path` first on the path; restart if they replace imported modules."""
+        """Put the folders of `path` first in sys.path; restart if they replace imported modules."""
         if path and path != os.environ.get("PYTHONPATH"):
             os.environ["PYTHONPATH"] = path
             folders = [os.path.abspath(folder) for folder in path.split(os.pathsep)]
@@ -95,7 +95,7 @@ class Server:
             self.prepare(self.modules.pop(0))  # otherwise each of the first jobs would import it
 
     def prepare(self, name: str) -> None:
-        """Import a module; of "package.*", put the modules first in the list."""
+        """Import a module; for "package.*", put the package's modules first in the list."""
         try:
             module = importlib.import_module(name.removesuffix(".*"))
             if name.endswith(".*"):
@@ -124,7 +124,7 @@ class Server:
         gc.enable()
         with job:
             try:
-                job.recv(MAX_MESSAGE_BYTES)  # Snakemake starts to measure the job
+                job.recv(MAX_MESSAGE_BYTES)  # wait until Snakemake measures the job
             except ConnectionResetError:  # Snakemake was killed before it read the answer
                 os._exit(1)
         return True

@@ -1,17 +1,17 @@
-"""The layout of a state, values beyond its ends, and the loop over sites, common to all models.
+"""For all models: the layout of a state, values beyond the chain's ends, the loop over sites.
 
-State. A real array `y[row, 1 + site]` with two rows for each component (A and B, or x and y). If
-both components are the same, only the first has rows. Sites are -M..M, or 0..M if the data are even
-in n. The first and last columns are ghosts: they contain the values beyond the ends, so that one
-formula applies to all sites.
+State. A state is a real array `y[row, 1 + site]` with two rows for each component (A and B, or x
+and y). If both components are equal, it contains only the first. Sites are -M..M, or 0..M if the
+data are even in n. The first and last columns are ghosts: they contain the values beyond the ends,
+so that one formula applies to all sites.
 
-Bits. The equations preserve both symmetries, and so do the kernels, to the last bit. Neighbours are
-summed as (right + left) - 2 centre, which rounds alike under reflection, and both components
-undergo the same operations in the same order. Half of an even chain thus gives the bits of the
-whole chain, and one of two equal components gives the bits of both.
+Bits. The equations preserve two symmetries, reflected sites and exchanged components. The kernels
+preserve both to the last bit. Neighbours are summed as (right + left) - 2 centre, which has the
+same rounding after a reflection. Both components undergo the same operations in the same order.
+Half of an even chain thus gives the bits of the whole chain, and one of two equal components gives
+the bits of both.
 
-A `chain` is a named tuple of the model's parameters and of the kinds of its ends, `left` and
-`right`.
+A `chain` is a named tuple with the model's parameters and the kinds of its ends, `left`, `right`.
 """
 
 from collections.abc import Callable
@@ -30,8 +30,8 @@ Array = np.ndarray
 def close(chain: Any, y: Array) -> None:
     """Fill the ghost columns of `y` with the values beyond the ends of the chain.
 
-    Beyond a free end this is the value of the last site, so that its bond vanishes. The mirror of
-    an even chain is at site 0, whose left neighbour has the value of its right neighbour.
+    The ghost beyond a free end has the value of the last site, so the bond between them vanishes.
+    The mirror of an even chain is at site 0: both neighbours of this site have the same value.
     """
     n = y.shape[1] - 2
     for row in range(y.shape[0]):
@@ -55,9 +55,9 @@ def close(chain: Any, y: Array) -> None:
 
 @kernel
 def seen_at(chain: Any, site: int, sites: int) -> int:
-    """Return the site with the value of `site`, which may lie beyond an end; -1 if it is at rest.
+    """Return the site from which `site` gets its value; -1 if `site` is at rest.
 
-    Sites are counted from 0.
+    Sites are counted from 0. `site` may lie beyond an end of the chain.
     """
     if 0 <= site < sites:
         return site
@@ -71,14 +71,14 @@ def seen_at(chain: Any, site: int, sites: int) -> int:
 
 @kernel
 def sign_at(chain: Any, site: int, sites: int) -> float:
-    """Return the factor, 1 or -1, between the values at `site` and at the site `seen_at`."""
+    """Return 1 or -1: the value at `site` is this factor times the value at the site `seen_at`."""
     outside = site < 0 or site >= sites
     return -1.0 if outside and chain.left == ANTIPERIODIC else 1.0
 
 
 @kernel
 def widen(chain: Any, y: Array, wide: Array) -> None:
-    """Write the rows of `y` into `wide`, which has more ghost columns, and fill these too."""
+    """Copy the rows of `y` to `wide`, which has more ghost columns, and fill all of its ghosts."""
     sites = y.shape[1] - 2
     reach = (wide.shape[1] - sites) // 2
     for row in range(y.shape[0]):
@@ -92,7 +92,7 @@ def widen(chain: Any, y: Array, wide: Array) -> None:
 def unfold(chain: Any, y: Array, wide: Array) -> None:
     """Write the rows of `y`, which may be half of an even chain, into `wide`.
 
-    `wide` has all sites of the chain, and ghost columns at both ends, which are filled too.
+    `wide` has all sites of the chain. Its ghost columns at both ends are filled too.
     """
     sites, middle = y.shape[1] - 2, wide.shape[1] // 2
     for row in range(y.shape[0]):
@@ -104,9 +104,9 @@ def unfold(chain: Any, y: Array, wide: Array) -> None:
 
 @inlined_by_llvm
 def sum_from_middle(terms: Array) -> float:
-    """Return the sum of a row (column,) of the whole chain, from its middle outwards.
+    """Return the sum of a row (column,) of the whole chain, added from the middle outwards.
 
-    The terms of n and -n are added first, so that data and their reflection have the same sum.
+    First the terms of n and -n are added, so that data and their reflection have the same sum.
     """
     middle = terms.size // 2
     total = terms[middle]
@@ -130,9 +130,9 @@ def can_be_tiled(chain: Any) -> bool:
 def at_every_site(rule: Callable, rows: int = 2) -> Callable:
     """Return write(chain, states, dy), which applies `rule(chain, states, re, j, dy)` to all sites.
 
-    The rule writes `rows` rows from `re` on; the default is one component. If a row has at least
-    LANES sites, it is processed in vectors. The last vector may overlap the one before and rewrites
-    the same bits, which is faster than single sites.
+    The rule writes `rows` rows from row `re` on, by default the two rows of a component. If a row
+    has at least LANES sites, it is processed in vectors. The last vector may overlap the previous
+    vector and write the same bits again, which is faster than single sites.
     """
 
     @in_one_pass

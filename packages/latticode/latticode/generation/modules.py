@@ -1,7 +1,7 @@
 """Kernels of a traced model, generated as the text of a module: rates and power series.
 
-The text depends only on the model and on which of its parameters have a value for each site. It is
-saved in the kernel cache, and its kernels are in a folder named by a hash of it.
+The text depends only on the model and on which of its parameters have a value for each site. The
+kernel cache contains the text, and the compiled kernels in a folder named by a hash of the text.
 """
 
 import linecache
@@ -51,7 +51,7 @@ CLOCK_SERIES = """\
 @cache
 def inputs_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> ModelInputs:
     """Return the constants, clocks and couplings of the rates and of their series."""
-    # replacing a function by a leaf may move a sign out of a constant: -p.k / (1 + x * x)
+    # if a leaf replaces a function, a sign may move out of a constant: -p.k / (1 + x * x)
     with_leaves, _, carried_rates = with_carried(list(rates), site_dependent)
     carried = (expression for pair in carried_rates for expression in pair)
     return inputs_of([*rates, *with_leaves, *carried], site_dependent)
@@ -102,17 +102,17 @@ def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
 
 
 def conserved_text(model: Model, site_dependent: frozenset[str], observe: str) -> str:
-    """Return the text of `observe`, which calls another `observe` and stores conserved sums."""
+    """Return the text of a function that calls the one named `observe`, then stores the sums."""
     densities = tuple(model.conserved.values())
     names = Names(inputs_of(densities, site_dependent))
     return densities_text(densities, names, model.reach_of_densities, len(model.fields), observe)
 
 
 def load_series(model: Model) -> ModuleType:
-    """Return the module with the series of two exchangeable fields: continue_in_waves, WORK.
+    """Return the module for the series of two exchangeable fields: `continue_in_waves` and `WORK`.
 
-    Its system is a named tuple of the model's parameters and clocks. The coefficients of the clocks
-    must be stored one after another from `spare_start` on.
+    Its system is a named tuple of the model's parameters and clocks. The caller must store the
+    coefficients of the clocks one after another from the index `spare_start` on.
     """
     names = Names(inputs_of_rates(model.rates, frozenset()), by_name=True)
     return load_text(
@@ -121,16 +121,15 @@ def load_series(model: Model) -> ModuleType:
 
 
 def load_rule(rates: tuple[Node, ...], *states: str) -> Callable:
-    """Return the function (system, states, re, j, dy) of `rule_text`, compiled."""
+    """Compile `rule_text` and return its function rates_at_site(system, states, re, j, dy)."""
     return load_text(HEAD + rule_text(rates, states)).rates_at_site
 
 
 def load_function(nodes: tuple[Node, ...]) -> Callable:
     """Return a Python function (system, seen) that computes the values of nodes.
 
-    seen(field, part, by) returns the value of a field at the site n + `by`. It may be a number,
-    an array or an expression, so no factor is set to zero. `system` has the parameters as
-    attributes.
+    seen(field, part, by) returns part 0 or 1 of a field at the site n + `by`, as a number, an array
+    or an expression, so no factor is set to zero. `system` has the parameters as attributes.
     """
     rule = ExactRule(Names(inputs_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
     values = ", ".join(map(rule.value, nodes))
@@ -144,8 +143,8 @@ def load_function(nodes: tuple[Node, ...]) -> Callable:
 def load_text(text: str) -> ModuleType:
     """Return the module with this text, which is saved to a file because its kernels are cached.
 
-    numba loads a cached kernel only if it can import its module, so the name of the module depends
-    only on its text.
+    numba loads a cached kernel only if it can import the kernel's module. The module's name
+    therefore depends only on its text.
     """
     file = keep_source("model.py", text)
     module = ModuleType(f"latticode_model_{file.parent.name}")

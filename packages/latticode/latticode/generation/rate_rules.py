@@ -25,8 +25,8 @@ def rates(system, y, dy):
     {prepare}{couple}
     write_rates(system, ({states},), dy)
 """
-"""The rates of a state. They are inlined, because a call would pass the system, a kilobyte of
-values, in each stage: runs of dop853 on short chains took two to four times as long."""
+"""The rates of a state, inlined: a call in each stage would pass the system, a kilobyte of values.
+With such calls, runs of dop853 on short chains took two to four times as long."""
 TANGENT_RATES = """
 write_tangent_rates = at_every_site(tangent_rates_at_site, {rows})
 @kernel
@@ -42,7 +42,7 @@ def bundle_rates(system, bundle, slopes):
 COUPLED = """
 write_{name} = at_every_site({name}_at_site, {rows})
 """
-"""The factors of matrices, written at all sites before the multiplication."""
+"""The factors that matrices multiply. They are written at all sites before the multiplication."""
 CONSERVED = """
 write_densities = at_every_site(densities_at_site, {rows})
 @kernel
@@ -61,15 +61,15 @@ def observe(system, y, i, record):
 class Rule:
     """Statements that compute nodes from the fields.
 
-    place(component, part, by) is the text of a field at the site n + `by`. In a product or sum of a
-    number and a vector, the number comes first.
+    place(component, part, by) returns the text of part 0 or 1 of a field at the site n + `by`. In a
+    product or sum of a number and a vector, the number comes first.
     """
 
     def __init__(self, names: Names, place: Callable[[int, int, int], str]) -> None:
         self.code, self.names, self.place = FunctionText(1), names, place
 
     def value(self, expression: Node) -> str:
-        """Return the name of a value; the first call writes its statements."""
+        """Return the name of a node's value; the first call for a node writes its statements."""
         return self.code.name(expression, lambda: self._text(expression))
 
     def is_scalar(self, expression: Node) -> bool:
@@ -115,7 +115,7 @@ class Rule:
         raise ModelError(f"{expression.operation} of a field or of time is not supported")
 
     def _factor(self, expression: Node) -> str:
-        """Return the name of a factor of a product, set to zero where it is tiny (see `rest`)."""
+        """Return the name of a product's factor, with zero for tiny numbers (see `rest`)."""
         return self.code.name(
             ("factor", expression), lambda: f"zero_below(TINY, {self.value(expression)})"
         )
@@ -165,8 +165,8 @@ def rates_text(rates: tuple[Node, ...], names: Names, reach: int) -> str:
 def tangents_text(tangent: Model, names: Names) -> str:
     """Return the text of the functions that write the rates of a solution and tangent vectors.
 
-    They are in one array, the bundle: first the rows of the solution, then as many rows for each
-    tangent vector. `tangent` is the model that `Model.tangent` returns; the system is made for it.
+    One array, the bundle, has the rows of the solution, then as many rows for each tangent vector.
+    `tangent` is the model that `Model.tangent` returns. The functions take a system of this model.
     """
     rows = len(tangent.rates) // 2
     wide, at = tangent.reach > 1, bool(names.at_sites)
@@ -195,9 +195,9 @@ def tangents_text(tangent: Model, names: Names) -> str:
 def _coupling(
     name: str, stages: list[list[Node]], states: str, indent: int, names: Names, *arguments: Any
 ) -> tuple[str, str]:
-    """Return the rules that write factors of matrices, and the statements that multiply.
+    """Return the rules that write the factors of matrices, and the statements that multiply them.
 
-    Each stage needs the products of earlier stages.
+    The factors of each stage depend on the products of earlier stages.
     """
     rules, lines = [], []
     for stage, couples in enumerate(stages):
@@ -219,7 +219,7 @@ def _coupling(
 def densities_text(
     densities: tuple[Node, ...], names: Names, reach: int, fields: int, observe: str
 ) -> str:
-    """Return the text of `observe`: it calls another `observe` and stores sums of densities."""
+    """Return the text of a function that calls the one named `observe` and stores density sums."""
     rule = _rule_of_rows("densities", densities, names, reach, ("y",), fields)
     at = ", sums.at" * bool(names.at_sites)
     return rule + CONSERVED.format(rows=len(densities), observe=observe, at=at)
@@ -255,8 +255,8 @@ def _rule_of_rows(
 def rule_text(rates: tuple[Node, ...], states: tuple[str, ...]) -> str:
     """Return the text of the rule that writes the rates of one of two exchangeable fields.
 
-    The four `rates` are those of both fields. Each of the `states` has two fields, or one if both
-    are equal. The parameters are attributes of the system.
+    `rates` contains the four rates of both fields. Each of the `states` contains both fields, or
+    one if they are equal. The parameters are attributes of the system.
     """
     require_exchangeable(rates)
     rows = [["re", "re + 1"], ["other", "other + 1"]]

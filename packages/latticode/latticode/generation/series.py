@@ -1,10 +1,10 @@
-"""Power series of a state: values beyond its ends, and the loop over blocks, common to all models.
+"""For all models: power series beyond the ends of the chain, and the loop over blocks.
 
 A series is stored in blocks of sites, in the memory `m`: see latticode.integrators.taylor.
 
-Bits. They do not depend on a site's position in its block, because all lanes execute the same
-operations. Neighbours are summed as in right-hand sides, so half of an even chain has the bits of
-the whole chain.
+Bits. The bits of a site do not depend on its position in a block, because all lanes execute the
+same operations. Neighbours are summed in the order of the right-hand sides, so half of an even
+chain has the bits of the whole chain.
 """
 
 from collections.abc import Callable
@@ -28,13 +28,13 @@ from latticode.kernels.simd import LANES, fill, keep_lanes, load, store
 from .chain import can_be_tiled, seen_at, sign_at
 
 # --- The ends of the chain: `close` of `chain`, one order at a time ------------------------
-# The padding of a last block has the values of its ghost in every order. These never exceed the
-# values of sites, so whole blocks can be summed or compared without a mask.
+# In every order, the padding of the last block repeats the right ghost. This value never exceeds
+# the values of sites, so whole blocks can be summed or compared without a mask.
 
 
 @inlined_by_llvm
 def place_of(chain: Any, series: PowerSeries, site: int) -> int:
-    """Return the offset in an order of the value of `site`, as `seen_at`; -1 if it is at rest."""
+    """Return the offset, within an order, of the site `seen_at`; -1 if `site` is at rest."""
     at = seen_at(chain, site, (series.blocks - 1) * LANES + series.sites_in_last)
     return at // LANES * BLOCK_SIZE + at % LANES if at >= 0 else -1
 
@@ -48,7 +48,7 @@ def close_ends(reach: int) -> Callable:
         for i in range(reach):
             after_end = place_of(chain, series, before * LANES + sites_in_last + i)
             before_start = place_of(chain, series, -1 - i)
-            sign = sign_at(chain, -1, 1)  # of the values beyond both ends
+            sign = sign_at(chain, -1, 1)  # factor of the values beyond both ends
             for component in range(series.components):
                 ghosts = ghosts_start(series, component)
                 for re_im in range(X, Y + 1, Y - X):
@@ -65,7 +65,7 @@ def close_ends(reach: int) -> Callable:
                             m[ghosts + RIGHT + re_im + sites_in_last + i - LANES] = value
                     if at_left:
                         value = sign * m[start + before_start] if before_start >= 0 else 0.0
-                        if i == 0:  # the whole vector, which is then faster to read
+                        if i == 0:  # fill the whole vector, which is then faster to read
                             store(m, ghosts + LEFT + re_im, fill(value))
                         else:
                             m[ghosts + LEFT + re_im + LANES - 1 - i] = value
@@ -78,7 +78,7 @@ def close_ends(reach: int) -> Callable:
 
 @inlined_by_llvm
 def sides_of(series: PowerSeries, k: int, component: int, block: int) -> tuple[int, int, int]:
-    """Return where order `k` begins in the previous block, in the block and in the next one.
+    """Return where order `k` begins in the previous block, in this block and in the next block.
 
     The first and last blocks have ghosts as neighbours.
     """
@@ -92,17 +92,17 @@ def sides_of(series: PowerSeries, k: int, component: int, block: int) -> tuple[i
 # --- The loop over orders and blocks ------------------------------------------------------------
 
 SHORT = 32
-"""Chains of more blocks are computed in waves, which is faster for them."""
+"""Largest number of blocks that are computed order by order; for more blocks waves are faster."""
 GROUP = 8
-"""Number of blocks computed together; they fit into the cache with the blocks one order behind."""
+"""Number of blocks computed together. They and the blocks one order behind fit into the cache."""
 
 
 def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -> Callable:
-    """Return the function that continues a series, from a rule for one order of some blocks.
+    """Return the function that continues a series by a rule for one order of some blocks.
 
     write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 in the
-    blocks `first` to `last` - 1 of each component. It reads up to `reach` sites beyond them. With
-    `everywhere` each order is written in all blocks at once, because a matrix couples all sites.
+    blocks `first` to `last` - 1 of each component, and reads up to `reach` sites beyond them. If a
+    matrix couples all sites, `everywhere` is set: each order is written in all blocks at once.
     """
     close_order = close_ends(reach)
 
@@ -110,10 +110,10 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
     def continue_series(chain: Any, series: PowerSeries) -> None:
         """Write the coefficients of all orders from those of order 0.
 
-        A short chain is computed order by order. A long one is computed in waves from left to
-        right, whose blocks fit into the cache (wavefront or skewed tiling). Each order lags one
-        block behind the previous one, because it needs that order in the neighbouring blocks. The
-        operations on each block, and thus the bits, are the same.
+        A short chain is computed order by order. A long chain is computed in waves from left to
+        right (wavefront or skewed tiling). The blocks of a wave fit into the cache. Each order lags
+        one block behind the previous order, which it needs in the neighbouring blocks. Both ways
+        execute the same operations on each block, so the bits are the same.
         """
         blocks = series.blocks
         # the first block of a ring needs the last one

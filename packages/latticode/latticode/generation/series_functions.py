@@ -1,4 +1,6 @@
-"""The text of functions of power series: the coefficients of f(s) from those of s.
+"""The text that computes the coefficients of functions of a power series s.
+
+The index of a coefficient is its order. The functions of s have the series e, a, b, q, l and r:
 
     exp       k e_k = sum_{j=1}^k j s_j e_{k-j}
     sine      k a_k = sum_{j=1}^k j s_j b_{k-j}
@@ -26,7 +28,7 @@ STARTS = {
     "log": "logarithm_and_inverse({s})[0]",
     "sqrt": "root_and_inverse({s})[0]",
 }
-"""The coefficients of order 0: the functions themselves."""
+"""The coefficients of order 0: the functions of the argument's coefficient of order 0."""
 TERMS = {
     "sin": ("(1.0 * j) * {s[j]} * {b[k - j]}", "(1.0 * j) * {s[j]} * {a[k - j]}"),
     "exp": ("(1.0 * j) * {s[j]} * {a[k - j]}",),
@@ -42,7 +44,7 @@ VALUES = {
     "log": ("({s[k]} - (1.0 / k) * {0}) / {s[0]}",),
     "sqrt": ("0.5 * ({s[k]} - {0}) / {a[0]}",),
 }
-"""The coefficients of order k > 0 from the sums."""
+"""The coefficients of order k > 0, computed from the sums {0} and {1}."""
 WITHOUT_LAST = ("log", "sqrt")
 """The functions whose sums end at j = k - 1."""
 
@@ -54,7 +56,7 @@ def members(function: Node) -> list[Node]:
 
 
 class _Coefficients:
-    """The texts of a node's coefficients, by order."""
+    """The text of each coefficient of a node, by its order."""
 
     def __init__(self, expression: Node, load: Callable[[Node, str], str]) -> None:
         self.expression, self.load = expression, load
@@ -70,10 +72,10 @@ def write_function(
     store: Callable[[Node, str], str],
     even: bool,
 ) -> None:
-    """Write the statements that store the coefficients of order k of a function and its members.
+    """Write the statements that store the coefficients of order k of the members of a function.
 
-    load(node, order) is the text of a coefficient; store(node, text) is the text of the statement
-    that stores a coefficient of order k. The argument must be known to order k.
+    load(node, order) returns the text of a coefficient. store(node, text) returns the statement
+    that stores a coefficient of order k. The argument must be known up to order k.
     """
     rows = members(function)
     kind = rows[0].operation

@@ -1,7 +1,7 @@
-"""Changes to a model's graph for power series: halves of squares, and functions carried along.
+"""Changes to a model's graph for power series: halved squares, and functions carried along.
 
-A function of the fields at a site satisfies a differential equation with products only: the rate of
-exp(s) is exp(s) s', that of 1 / s is -s' / s^2, and so on. Such a function is therefore carried
+A function of the fields at a site satisfies a differential equation with products only: exp(s) has
+the rate exp(s) s', 1 / s has the rate -s' / s^2, and so on. Such a function is therefore carried
 along like an additional field. At the start of each step it is computed from its argument.
 
 A site beyond an end of the chain has values but no equation, so its rates are unknown. A function
@@ -31,7 +31,7 @@ from .statements import is_clock
 
 
 def with_half_squares(nodes: list[Node]) -> list[Node]:
-    """Return expressions with squares as 2 (a^2 / 2): the sum over orders is half as long."""
+    """Return expressions with 2 (a^2 / 2) for a^2: the sum over orders is half as long."""
 
     def change(expression: Node, operands: list[Node]) -> Node | None:
         if (
@@ -62,7 +62,7 @@ def is_sum_of_products(expression: Node) -> bool:
 
 
 def carried(i: int) -> Node:
-    """Return the leaf of row `i` of the functions carried along."""
+    """Return the leaf for row `i` of the functions carried along."""
     return node("carried", i)
 
 
@@ -97,13 +97,13 @@ KINDS = {
     "log": ("log", 0),
     "sqrt": ("sqrt", 0),
 }
-"""Functions that can be carried along: the kind of each, and its row among those of this kind."""
+"""The kind of each function that can be carried along, and its row within this kind."""
 ROWS = {"turn": 2, "exp": 1, "inverse": 1, "log": 2, "sqrt": 2}
 """The number of rows of each kind."""
 
 
 def is_function(expression: Node) -> bool:
-    """Return whether a node is a function, whose coefficients follow from its argument's."""
+    """Return whether a node is one of the functions in KINDS and depends on fields."""
     return expression.operation in KINDS and expression.level == MOTION
 
 
@@ -122,10 +122,10 @@ def has_rate(argument: Node, rates: list[Node]) -> bool:
 def with_carried(
     rates: list[Node], site_dependent: frozenset[str]
 ) -> tuple[list[Node], list[Carried], list[tuple[Node, Node]]]:
-    """Return the rates with leaves for functions carried along, and these functions.
+    """Return the rates, in which leaves replace functions carried along, and these functions.
 
-    The third value has (argument, rate) for each row of the functions. Functions of neighbours
-    remain in the rates.
+    The third value has a pair (argument, rate) for each row of these functions. Functions of
+    neighbours remain in the rates.
     """
     groups: dict[tuple[str, Node], Carried] = {}
 

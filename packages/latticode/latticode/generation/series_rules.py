@@ -1,11 +1,11 @@
 """The text of rules that continue the power series of a traced model.
 
-A row u with the rate F has u_{k+1} = F_k / (k + 1). The coefficient of order k of a sum is the sum
-of its terms' coefficients; that of a product is a sum over orders (see `series_sums`). All orders
-are stored only for factors of products and for functions of neighbours with their arguments (see
-`series_functions`). For a sum of products, the known terms of the next odd order are summed first
-and stored as one number. The factor 1 / (k + 1) is moved into the constants of a rate's terms if
-this takes no additional multiplication.
+The coefficients u_k of a row with the rate F satisfy u_{k+1} = F_k / (k + 1). A coefficient of a
+sum is the sum of its terms' coefficients. A coefficient of a product is a sum over orders (see
+`series_sums`). All orders are stored only for factors of products, for functions of neighbours and
+for the arguments of these functions (see `series_functions`). The pass for an even order adds up
+the known terms of a sum of products in the next order, and stores them as one number. Constant
+factors of a rate's terms absorb 1 / (k + 1) if this takes no additional multiplication.
 """
 
 from itertools import chain
@@ -30,7 +30,7 @@ from .statements import FunctionText, Names, require_exchangeable, stages_of
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
 SHIFTS = {1: "right_neighbours", LANES - 1: "left_neighbours"}
-"""Functions of two successive blocks, by the lane of the first block at which the result begins."""
+"""Functions of two successive blocks. The key is the lane of the first block that they start at."""
 STARTS = {
     "turn": (("sine", "cosine"), "sine_and_cosine({})"),
     "exp": (("grown",), "exponential({})"),
@@ -38,8 +38,7 @@ STARTS = {
     "log": (("logarithm", "inverse"), "logarithm_and_inverse({})"),
     "sqrt": (("root", "inverse"), "root_and_inverse({})"),
 }
-"""The functions carried along at order 0: the names of their rows, and the text that computes
-them."""
+"""For each kind of function carried along: its rows' names, and the text that computes order 0."""
 RULE = """
 SPARE = {spare} * LANES
 WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
@@ -56,7 +55,7 @@ continue_in_waves = in_waves(write_next_order, {reach}{everywhere})
 class SeriesWriter:
     """The text of the rule that continues the series of a model.
 
-    For `exchangeable` fields the text has the statements of one field, in a loop over both.
+    If the fields are `exchangeable`, it has the statements of one field, in a loop over both.
     """
 
     def __init__(
@@ -85,7 +84,7 @@ class SeriesWriter:
         self.sums = CauchySumWriter(self.products, self.load, self.clocks)
         if exchangeable:
             require_exchangeable(model_rates, self.stored)
-        # indices of sums of products that are not stored, except known terms of the next order
+        # indices of sums of products that store only their known terms of the next order
         self.partial: dict[tuple[int, Node], int] = {}
         # products with matrices, computed after each pass over the blocks except the last
         self.stages = stages_of([*self.rates, *self.flows])
@@ -105,7 +104,7 @@ class SeriesWriter:
         return {expression: i for i, expression in enumerate(needed)}
 
     def _is_stored(self, expression: Node) -> bool:
-        """Return whether all orders are in memory anyway.
+        """Return whether all orders of a node are in memory anyway.
 
         This holds for clocks, fields at the site, and differences of two such fields.
         """
@@ -130,7 +129,7 @@ class SeriesWriter:
     def partial_place(self, expression: Node, even: bool) -> str:
         """Return the text of the index at which the known terms of an odd order are stored.
 
-        If possible, they use memory of the order after it, which is still free.
+        If possible, they are stored in the memory of the following order, which is still free.
         """
         if expression in self.stored:
             return self.place(expression, "k + 1" if even else "k")
@@ -151,10 +150,10 @@ class SeriesWriter:
     # --- The statements of an order
 
     def body(self, even: bool) -> tuple[list[str], list[list[str]]]:
-        """Return the statements of the factors of an order, and those that write order k + 1.
+        """Return the statements that compute constant factors, and those that write order k + 1.
 
-        The latter are one list for each pass over the blocks. There are several passes if matrices
-        couple sites, because a product with a matrix needs the factors of all blocks.
+        The second value has one list for each pass over the blocks. There are several passes if
+        matrices couple sites, because a product with a matrix needs the factors of all blocks.
         """
         written: set[Node] = set()
         passes = []
@@ -189,7 +188,7 @@ class SeriesWriter:
     ) -> None:
         """Write the stored coefficients of order k that the roots need, and the sums of products.
 
-        Without roots all are needed. Coefficients `written` by an earlier pass are loaded.
+        If `roots` is None, all are written. Coefficients `written` by an earlier pass are loaded.
         """
         depth = self._depths()
         needed = set(depth if roots is None else _in_order_up_to_products(roots))
@@ -267,7 +266,7 @@ class SeriesWriter:
         return self._text(code, expression, True)
 
     def _combined(self, code: FunctionText, expression: Node, stage: str) -> str:
-        """Return the text of a sum of products, each by its name for `stage`: now, next or last."""
+        """Return the text of a sum of products; `stage` (now, next or last) selects their names."""
         if is_product(expression):
             return code.known((stage, expression))
         if expression.level == CONSTANT:
@@ -417,7 +416,7 @@ class SeriesWriter:
         return lines
 
     def _begin(self, clocks: int) -> list[str]:
-        """Return the beginning of the loop over blocks, with the starts of block and neighbours."""
+        """Return the first lines of the loop over blocks; they find a block and its neighbours."""
         components = {c: str(c) for c in range(self.components)}
         block = "block"
         if self.exchangeable:

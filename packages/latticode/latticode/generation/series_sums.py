@@ -3,9 +3,9 @@
     (a b)_k = sum_{j=0}^k a_j b_{k-j},
     (a^2 / 2)_k = sum_{0 <= j < k/2} a_j a_{k-j}, plus a_{k/2}^2 / 2 if k is even.
 
-Orders are computed in pairs. The pass for an even order k also sums the known terms of order k + 1,
-those without coefficients of order k + 1. The pass for order k + 1 adds the other terms. All orders
-of a clock are known.
+Orders are computed in pairs. The pass for an even order k also sums the known terms of order k + 1:
+the terms without coefficients of order k + 1. The pass for order k + 1 adds the other terms. For a
+clock, the coefficients of all orders are known.
 """
 
 from collections.abc import Callable, Collection
@@ -16,11 +16,11 @@ from .statements import FunctionText
 
 
 class CauchySumWriter:
-    """Writes the sums of products, and registers names for them in a `FunctionText`.
+    """Writes the sums of products, and registers their names in a `FunctionText`.
 
-    In the pass for an even order k, ("now", product) is the sum of order k, and ("next", product)
-    the known terms of order k + 1. In the pass for that order, ("last", product) is the sum of its
-    other terms. load(node, order) is the text of a coefficient.
+    The pass for an even order k registers ("now", product), the sum of order k, and
+    ("next", product), the known terms of order k + 1. The pass for order k + 1 registers
+    ("last", product), its other terms. load(node, order) returns the text of a coefficient.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class CauchySumWriter:
         )
 
     def _write_squares(self, code: FunctionText, squares: list[tuple[str, Node]]) -> None:
-        """Write the sums q of order k, and the sums qn of order k + 1 without a_0 a_{k+1}."""
+        """Write the sums of a^2 / 2: q of order k, and qn of order k + 1 without a_0 a_{k+1}."""
         for q, a in squares:
             middle = code.name((a, "k // 2"), self.load(a, "k // 2"))
             code(f"{q}, {q}n = 0.5 * {middle} * {middle}, fill(0.0)")
@@ -77,7 +77,7 @@ class CauchySumWriter:
             code(f"{q}n = {q}n + {q}l * {q}h", 1)
 
     def _write_unequal(self, code: FunctionText, products: list[tuple[str, Node, Node]]) -> None:
-        """Write in one loop the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} (order k + 1)."""
+        """Write one loop for the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} (order k + 1)."""
         firsts = {a: f"a{i}" for i, (_, a, _) in enumerate(products)}
         seconds = {b: f"b{i}" for i, (_, _, b) in enumerate(products)}
         for a, name in firsts.items():

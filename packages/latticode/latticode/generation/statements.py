@@ -48,7 +48,7 @@ class FunctionText:
 
 
 class ModelInputs(NamedTuple):
-    """The numbers of a model's kernels that do not depend on fields, and products with matrices."""
+    """The inputs of a model's kernels: numbers independent of fields, and matrix products."""
 
     constants: tuple[Node, ...]  # one number each
     at_sites: tuple[Node, ...]  # a number for each site
@@ -57,7 +57,7 @@ class ModelInputs(NamedTuple):
 
 
 def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInputs:
-    """Return the inputs of expressions. Constants are the largest terms free of time and fields."""
+    """Return the inputs of expressions; constants are the largest parts without time and fields."""
     constants, at_sites, clocks = {}, {}, {}
 
     def visit(expression: Node) -> None:
@@ -84,9 +84,9 @@ def inputs_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> ModelInp
 
 
 def stages_of(nodes: Iterable[Node]) -> list[list[Node]]:
-    """Return the products with a matrix, grouped into stages by how deeply they are nested.
+    """Return the products with a matrix, grouped into stages by their depth of nesting.
 
-    Products of a stage depend only on those of earlier stages.
+    Each product depends only on products of earlier stages.
     """
     depth: dict[Node, int] = {}
     for expression in in_order(nodes):
@@ -107,7 +107,7 @@ def depends_on_site(expression: Node, site_dependent: frozenset[str]) -> bool:
 
 
 def is_clock(expression: Node, site_dependent: frozenset[str]) -> bool:
-    """Return whether a node is a sine or cosine, equal at all sites, of an angle linear in time."""
+    """Return whether a node is a sine or cosine of one angle for all sites, linear in time."""
     if expression.level != CLOCK or expression.operation not in ("sin", "cos"):
         return False
     angle = expression.operands[0]
@@ -148,9 +148,9 @@ class Names:
 
 
 def require_exchangeable(rates: Iterable[Node], stored: Iterable[Node] = ()) -> None:
-    """Raise ModelError unless exchanging two fields, in all states, exchanges their rates.
+    """Raise ModelError unless an exchange of the two fields in all states exchanges their rates.
 
-    One rule then gives the rates of both. Each `stored` node may depend only on the first field.
+    One rule then gives the rates of both fields. `stored` nodes may depend only on the first field.
     """
 
     def exchanged(leaf: Node, _: list[Node]) -> Node | None:

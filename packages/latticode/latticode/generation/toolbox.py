@@ -1,6 +1,6 @@
 """All names that generated modules use: their system, elementary functions, and imports.
 
-A generated module imports everything from this file. A change in it or in its imports thus
+A generated module imports everything from this file. A change in this file or in its imports thus
 recompiles the kernels and reruns the jobs that call them.
 """
 # ruff: noqa: F401
@@ -37,7 +37,7 @@ from .series import in_waves, sides_of
 class DensityWorkspace(NamedTuple):
     """Inputs and work arrays of conserved densities, which are summed over the whole chain.
 
-    Sites beyond ends at rest are included as far as the densities reach: bonds to them count.
+    The sums include sites beyond ends at rest as far as the densities reach: their bonds count.
     """
 
     constants: tuple[float, ...]
@@ -51,7 +51,7 @@ class Couplings(NamedTuple):
 
     Rows are summed from the first column to the last, on every processor. If `dense` has as many
     columns as the chain has sites, it contains all matrices. Otherwise `weights` and `columns`
-    contain the nonzero entries; those of site i begin at index starts[matrix, i].
+    contain the nonzero entries; the entries of site i begin at index starts[matrix, i].
     """
 
     dense: np.ndarray  # (matrix, column, site)
@@ -106,7 +106,7 @@ sine_less_angle, cosine_near_zero = map(
     inlined_by_llvm, (elementary.sine_less_angle, elementary.cosine_near_zero)
 )
 STRAIGHT = 1e-65
-"""For smaller angles sin x = x and cos x = 1 to the last bit; their fourth powers underflow."""
+"""For smaller angles x, sin x = x and cos x = 1 to the last bit, and x^4 underflows."""
 
 
 @inlined_by_llvm
@@ -117,10 +117,10 @@ def _nearest_integer(x: Real) -> Real:
 
 @inlined_by_llvm
 def _reduced(x: Real) -> tuple[Real, Real, Real, Real]:
-    """Return sin r, cos r, o and s of x = r + (o + 2 j) pi / 2, abs(r) <= pi / 4.
+    """Return sin r, cos r, o and s for x = r + (o + 2 j) pi / 2 with abs(r) <= pi / 4.
 
-    o is -1, 0 or 1, and s = (-1)^j. If o = 0, sin x = s sin r, else sin x = s o cos r. Both cases
-    are one formula, (1 - o^2) s sin r + s o cos r, because all lanes execute the same operations.
+    j is an integer, o is -1, 0 or 1, and s = (-1)^j. sin x is s sin r if o = 0, and s o cos r
+    otherwise. As all lanes execute the same operations, sin x = (1 - o^2) s sin r + s o cos r.
     """
     quarters = _nearest_integer((1.0 / HALF_PI[0]) * x)
     near = (x - HALF_PI[0] * quarters) - HALF_PI[1] * quarters
@@ -149,7 +149,7 @@ A1, A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12 = elementary.ATANH
 
 @inlined_by_llvm
 def exponential(x: Real) -> Real:
-    """Return e^x with a relative error of about 1e-16; 0 or infinity out of range."""
+    """Return e^x with a relative error of about 1e-16; 0 or infinity if x is out of range."""
     k = _nearest_integer((1.0 / LN2[0]) * x)
     start, low = x - LN2[0] * k, LN2[1] * k
     r = start - low
@@ -163,7 +163,7 @@ def exponential(x: Real) -> Real:
 
 @inlined_by_llvm
 def logarithm_and_inverse(x: Real) -> tuple[Real, Real]:
-    """Return log(x), with an error of about 1e-16 for normal x > 0, NaN for x <= 0; and 1 / x."""
+    """Return log(x), with error about 1e-16 for normal x > 0 and NaN for x <= 0, and 1 / x."""
     k = whole_exponent(x)
     half = _nearest_integer(0.5 * k)
     f = -(1.0 - (x * power_of_two(-half)) * power_of_two(-(k - half)))

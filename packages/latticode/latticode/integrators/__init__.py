@@ -3,10 +3,10 @@
     build(rates, observe) -> solve
     solve(system, y, times, controls, work, record, stop) -> Outcome
 
-`rates(system, y, dy)` is the right-hand side. `crank_nicolson.build_conserving` takes its mean over
-a step instead, and `taylor.build` the rule of a power series. `observe(system, y, i, record)`
-stores the observables of output i. `y` (row, column) is the initial state and is overwritten by the
-final one; two rows hold the real and imaginary parts of a field, with a ghost column at each end.
+`rates(system, y, dy)` is the right-hand side. Instead, `crank_nicolson.build_conserving` takes its
+mean over a step, and `taylor.build` the rule of a power series. `observe(system, y, i, record)`
+stores the observables of output i. `y` (row, column) is the initial state, and the final state
+overwrites it. Each field has two rows, its real and imaginary parts, with a ghost at each end.
 `work` holds WORK arrays of the size of `y`. `times` are the start and the output times. Nothing is
 allocated in the step loop. `stop` is an array of one boolean, which another thread may set: the
 loop reads it at every step and then ends (see latticode.simulation.interrupts).
@@ -45,4 +45,4 @@ class Outcome(NamedTuple):
     time: float
     steps: int  # accepted steps
     rejected: int  # rejected steps; for a fixed-point iteration the number of halvings
-    evaluations: int  # of the right-hand side; for Taylor of the orders of the series
+    evaluations: int  # of the right-hand side; for Taylor, of orders of the series

@@ -5,8 +5,8 @@ Camb. Phil. Soc. 43 (1947) 50). It does not conserve the quartic energy (8).
 
 `build_conserving` conserves the energy up to the tolerance of the iteration:
 new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
-(J. Comput. Phys. 44 (1981) 277). Comparing the two separates the effects of energy drift and phase
-error.
+(J. Comput. Phys. 44 (1981) 277). A comparison of both schemes separates the effects of energy drift
+and phase error.
 
 Both are of second order and symmetric in time.
 """
@@ -49,8 +49,8 @@ def build(rates: Callable, observe: Callable) -> Callable:
     def begin(system: Any, old: Array, h: float, follows: bool, base: Array) -> tuple:
         """Return base = old + h/2 F(old), the factor h/2, and the number of evaluations.
 
-        After a step of the same length old = base + h/2 F(old) with the previous base. The new
-        base is then 2 old - base, without an evaluation.
+        After a step of the same length, the previous base satisfies old = base + h/2 F(old). The
+        new base is then 2 old - base, without an evaluation.
         """
         if follows:
             reflect(old, base)

@@ -58,7 +58,7 @@ ROWS = table(
 
 @kernel
 def combine(stage: int, y: Array, h: float, k: Array, w: Array) -> None:
-    """Write the argument of a stage from 2 to 16 into `w`; that of stage 13 is the solution.
+    """Write the argument of a stage (2 to 16) into `w`; the argument of stage 13 is the solution.
 
     `y` and `w` are flat; `k` (stage, number) holds the slopes of the earlier stages.
     """
@@ -77,7 +77,7 @@ def weighted_norm(
     `spare` is scratch memory of the size of these columns.
     """
     (rtol, atol), squares, size = tolerances, spare.reshape(-1), np.uint64(0)
-    # unsigned indices spare the test for negative ones, which count from the end
+    # unsigned indices need no test for negative ones, which would count from the end
     first, count = np.uint64(columns[0]), np.uint64(columns[1] - columns[0])
     for re in range(0, v.shape[0], 2):
         for i in range(count):
@@ -111,8 +111,8 @@ def error_estimates(
 def step_error(h: float, fifth: float, third: float) -> float:
     """Return the error of a step in units of the tolerance, infinity if it is not finite.
 
-    It is h e5^2 / sqrt(e5^2 + 0.01 e3^2), as in section II.10, proportional to the eighth power of
-    the step.
+    It is h e5^2 / sqrt(e5^2 + 0.01 e3^2) with e5 = `fifth` and e3 = `third` (section II.10). It is
+    proportional to the eighth power of the step.
     """
     if not fifth + third < np.inf:
         return np.inf

@@ -1,12 +1,12 @@
 """Choice of two methods from different families, and the difference of their runs of a problem.
 
 A method agrees with itself at another tolerance even if it is wrong. A run is therefore checked by
-another method with error control, of the highest order available: power series (`taylor`) by
-Runge-Kutta (`dop853`), and all others by one of these two. Errors in the rules for power series
-are detected this way, because Runge-Kutta evaluates the equations directly.
+another method with error control, of the highest order available. Runge-Kutta (`dop853`) checks
+power series (`taylor`), and one of these two checks all other methods. This detects errors in the
+rules for power series, because Runge-Kutta evaluates the equations directly.
 
-Equations without a power series leave `dop853` and `ode45`, two embedded Runge-Kutta pairs with
-different coefficients, orders, error estimates and interpolants. The implicit `crank_nicolson`
+For equations without a power series the two methods are `dop853` and `ode45`, Runge-Kutta pairs
+with different coefficients, error estimates and interpolants. The implicit `crank_nicolson`
 would differ more from both. But at order two it needs 10^5 steps per unit of time for an error of
 1e-9, and it cannot integrate driven equations. `kahan_li` applies to few equations.
 """
@@ -51,7 +51,7 @@ def pair_of(names: Collection[str]) -> tuple[str, ...]:
 
 
 def third_of(pair: Collection[str], names: Collection[str]) -> str | None:
-    """Return the method of `names` that decides between a pair, None if there is none."""
+    """Return the method that decides if a pair disagrees, None if `names` has no third one."""
     return next((name for name in judges_among(names) if name not in pair), None)
 
 

@@ -1,4 +1,4 @@
-"""Implicit steps by fixed-point iteration, as the schemes of `crank_nicolson` need them.
+"""Implicit steps by fixed-point iteration, for the schemes of `crank_nicolson`.
 
 A step solves new = base + factor G(new) for the new state. This module shares no step control or
 error estimate with the explicit methods.
@@ -96,8 +96,8 @@ def build(begin: Callable, slope: Callable, observe: Callable) -> Callable:
     """Return the solver with the step new = base + factor G(new), defined by two functions.
 
     begin(system, old, h, follows, scratch) returns `base`, `factor` and the number of evaluations
-    of the right-hand side that it made. `base` may be in `scratch`, which still has its content
-    from the previous step if this step `follows` one of the same length.
+    of the right-hand side that it made. `base` may be in `scratch`. If the step `follows` a step of
+    the same length, `scratch` still has the content from that step.
     slope(system, old, new, scratch, dy) writes G(new) into dy; its `scratch` is another array.
 
     The time between two outputs is divided into equal steps, none longer than `step`.
@@ -123,8 +123,8 @@ def build(begin: Callable, slope: Callable, observe: Callable) -> Callable:
     def halve(system, old, new, h, threshold, scratch, enough, most, stop):
         """Divide `h` into shorter steps, halved until the iteration converges.
 
-        Return whether it did, the number of halvings, and of evaluations. There may be a million
-        short steps, so the flag `stop` is read at each.
+        Return whether it converged, and the numbers of halvings and evaluations. There may be a
+        million short steps, so each of them reads the flag `stop`.
         """
         fraction, covered = 0.5, 0.0
         halvings, evaluations = 1, 0

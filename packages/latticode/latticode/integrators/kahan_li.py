@@ -2,7 +2,7 @@
 
 Source: W. Kahan and R.-C. Li, Mathematics of Computation 66 (1997) 1089. The coefficients are in E.
 Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2nd edition (Springer, 2006),
-section V.3.2. The equations are x' = v, v' = f(x, t), and rows of a state are pairs of x and v.
+section V.3.2. The equations are x' = v, v' = f(x, t), and the rows of a state are x, v in turn.
 Each Stoermer-Verlet substep is a drift by half its length, a kick by its whole length, and a drift
 by half its length. The kick evaluates f at the time reached by the drifts. Drifts and kicks are
 symplectic, so the error of a conserved energy does not grow.

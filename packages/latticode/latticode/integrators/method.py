@@ -18,7 +18,7 @@ from latticode.equations.model import Model
 COARSEST = 0.1
 """Largest tolerance of a step. Error estimates hold only for small errors."""
 SMALLEST_ERROR = 1e-150
-"""Smallest tolerance of methods that square errors: the squares of smaller ones underflow."""
+"""Smallest tolerance of methods that square errors: the square of a smaller error underflows."""
 
 Obstacle = tuple[str, str]
 """A key of a case and the reason why its value prevents the integration."""

@@ -59,7 +59,7 @@ NODES = np.array([np.nan, 0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 
 @kernel
 def combine(stage: int, y: Array, h: float, k: Array, w: Array) -> None:
-    """Write the argument of a stage from 2 to 7 into `w`; that of stage 7 is the solution.
+    """Write the argument of a stage (2 to 7) into `w`; the argument of stage 7 is the solution.
 
     `y` and `w` are flat; `k` (stage, number) holds the slopes of the earlier stages.
     """
@@ -91,7 +91,7 @@ def relative_error(y: Array, w: Array, k: Array, threshold: float, scratch: Arra
 def relative_error_of_reals(
     y: Array, w: Array, k: Array, threshold: float, scratch: Array
 ) -> float:
-    """Return the largest relative error, divided by h, of real and imaginary parts as unknowns."""
+    """Return the largest relative error of a real or imaginary part, divided by h."""
     for row in range(y.shape[0]):
         for j in range(1, y.shape[1] - 1):
             error = E1 * k[0, row, j] + E3 * k[2, row, j] + E4 * k[3, row, j]
@@ -158,7 +158,7 @@ def build(
 ) -> Callable:
     """Return the solver of y' = rates; the package describes its arguments.
 
-    With `of_reals` each row of the state is a real unknown, otherwise two rows are a complex one.
+    With `of_reals` each row is a real unknown, otherwise each pair of rows is a complex unknown.
     """
     driven = at_time is not at_any_time
     measure = relative_error_of_reals if of_reals else relative_error

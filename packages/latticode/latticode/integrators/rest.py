@@ -9,8 +9,8 @@ Products of such factors are too small to change the last bit of a linear term. 
 change neighbouring sites by less than a last bit. Like any such change, this may eventually change
 the rounding at a larger neighbour.
 
-Numbers are compared instead of switching the processor to flush subnormals: WebAssembly has no such
-mode, and aarch64 and x86 flush at different stages. The results must have the same bits everywhere.
+The processor's mode that flushes subnormals is not used: WebAssembly has no such mode, and aarch64
+and x86 flush at different stages. The results must have the same bits everywhere.
 """
 
 import numpy as np
@@ -22,14 +22,14 @@ OF_SERIES, OF_STAGES = 1e-130, 1e-250
 """Thresholds for states of power series and of Runge-Kutta stages. Series multiply coefficients
 without a check. The rates in stages compare factors with TINY, so smaller numbers are harmless."""
 RESOLVED = 1e-60
-"""Threshold relative to the largest number of a state, used if it is below these thresholds."""
+"""This factor times the largest number of a state is the threshold if the product is smaller."""
 
 
 @kernel
 def rest_level(y: np.ndarray, level: float) -> float:
     """Return the threshold below which numbers become zero in a run from the state `y`.
 
-    It is `level`, or RESOLVED times the largest number in `y` if that is smaller.
+    It is `level`, or RESOLVED times the largest number in `y` if this product is smaller.
     """
     largest = 0.0
     for row in range(y.shape[0]):

@@ -5,11 +5,11 @@ The equations provide a rule that writes the coefficients of orders 1 to ORDER f
 and the loop. No step is ever rejected, and outputs between steps are sums of the same series.
 
 Layout: LANES sites form a block, a `Vector` (see latticode.kernels.simd). For each order, a block
-holds the real parts of its sites, their imaginary parts, and one number per site for the rule,
-which stores |A|^2 / 2 there. All coefficients of a block are adjacent, so that each is at a fixed
-distance from the start of the block and a short chain fits into the L1 cache. After the blocks come
-the ghosts, the values beyond the two ends of each component at the current order. Last comes
-additional memory for the rule (`work_arrays`, `spare_start`).
+contains the real parts of its sites, their imaginary parts, and one number per site for the rule,
+for example |A|^2 / 2. All coefficients of a block are adjacent, so that each is at a fixed distance
+from the start of the block and a short chain fits into the L1 cache. The ghosts follow the blocks:
+the values beyond the two ends of each component at the current order. Additional memory for the
+rule is at the end (`work_arrays`, `spare_start`).
 
 Step control: Jorba and Zou, Experimental Mathematics 14 (2005) 99. The last two coefficients give
 the step at which their terms equal the tolerance. They are measured by the largest modulus of a
@@ -216,8 +216,8 @@ def step_of_earlier_orders(series: PowerSeries, tolerance: float) -> float:
     """Return the step if the last two coefficients vanish, as in a series in t^4.
 
     It follows from the highest order above ORDER / 2 with a nonzero coefficient, and is infinite if
-    there is none. All these orders use the eighth root: if the tolerance is below the coefficient,
-    it gives a shorter step than the root of that order.
+    there is none. The step is the eighth root of tolerance / coefficient, or the sixteenth root if
+    that ratio is at least 1. It is never longer than the root of the order itself.
     """
     for k in range(ORDER - 2, ORDER // 2, -1):
         coefficient = largest_modulus(series, k)

@@ -1,4 +1,4 @@
-"""Overlapped tiling of a long chain, so that all stages of a step of a tile stay in the cache.
+"""Overlapped tiling of a long chain: all stages of a tile's step stay in the cache.
 
 The sixteen stages of a long chain do not fit into the cache, and memory would limit the speed. Each
 stage of an explicit method depends on one more neighbour to each side. A tile is therefore copied
@@ -13,7 +13,7 @@ from latticode.kernels.compiled import kernel
 MARGIN = 15
 """Number of sites in the margin on each side, one for each stage after the first."""
 LONGEST = 512
-"""Most sites of a tile without margins; its work arrays then fit into 512 kB of cache."""
+"""Largest number of sites of a tile without margins; its work arrays fit into 512 kB of cache."""
 
 
 @kernel
@@ -38,7 +38,7 @@ def tile_place(tile: int, count: int, sites: int) -> tuple[int, int, int]:
 
 @kernel
 def copy_columns(source: np.ndarray, at: int, target: np.ndarray, to: int, count: int) -> None:
-    """Copy columns; unsigned indices spare the test for negative ones, which count from the end."""
+    """Copy columns; unsigned indices need no test for negative ones, which count from the end."""
     at, to = np.uint64(at), np.uint64(to)
     for row in range(source.shape[0]):
         for j in range(np.uint64(count)):

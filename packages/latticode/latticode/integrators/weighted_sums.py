@@ -17,7 +17,7 @@ from latticode.kernels.simd import LANES, load, store
 Array = np.ndarray
 
 STRIP = 4 * LANES
-"""How many entries of a vector are summed in parallel."""
+"""Number of neighbouring sums that are computed in parallel."""
 
 
 class WeightTable(NamedTuple):

@@ -105,7 +105,7 @@ def _write(file: Path, content: bytes) -> None:
 def folder_of(function: Callable, root: Path | None) -> Path | None:
     """Return the cache folder of a function's module; None without a cache.
 
-    The name contains a hash of the module's text, its imports and the compiler.
+    The folder's name contains a hash of the module's text, its imports and the compiler.
     """
     module = Path(function.__code__.co_filename).resolve()
     return root and root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
@@ -158,7 +158,7 @@ class KernelFiles:
     def _remove_unused(self) -> None:
         """Remove machine code compiled from earlier versions of this module and unused for 30 days.
 
-        The user's folder may contain other files, so only names of this cache are removed.
+        The user's folder may contain other files, so only files named by this cache are removed.
         """
         former = self.folder.name.rpartition("-")[0]
         ours = f"{former}-{'[0-9a-f]' * DIGITS}"
@@ -177,7 +177,7 @@ def _digest(*texts: Any) -> str:
 
 def _compiler() -> list[str]:
     """Return the versions and settings of the compiler, on which machine code depends."""
-    import llvmlite  # imported here: a workflow needs only the name of the cache folder
+    import llvmlite  # imported here: a workflow that calls only `kept_in` does not load numba
     import numba
 
     settings = sorted(f"{k}={v}" for k, v in os.environ.items() if k.startswith("NUMBA_"))

@@ -86,8 +86,8 @@ def inlined_by_llvm(function: Callable) -> Callable:
 
 
 in_one_pass = in_one_pass or inlined_by_llvm
-"""Returns a function that is translated to LLVM's code without numba's compiler, for which
-generated functions are long; see the module `one_pass`."""
+"""Returns a function that is translated to LLVM's code without numba's compiler, which would take
+long for generated functions; see the module `one_pass`."""
 
 
 def _compiled(function: Callable, root: Path | None = None, **options: Any) -> Callable:

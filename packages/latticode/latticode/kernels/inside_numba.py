@@ -54,7 +54,7 @@ OPTIONS = {
     "_nrt": False,
 }
 """Options of all compiled functions. A function with other options must not call one that returns
-an array: it would decrement a reference count that was never incremented."""
+an array: the caller would decrement a reference count that was never incremented."""
 UNCALLED = {"no_cpython_wrapper": True}
 """Omits the code with which Python would call a function."""
 

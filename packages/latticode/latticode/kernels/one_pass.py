@@ -1,14 +1,14 @@
-"""Generated functions as LLVM's code in one pass over their statements, in a tenth of numba's time.
+"""Translates generated functions to LLVM's code in one pass, in a tenth of numba's time.
 
 numba infers the types of a function by iteration and rewrites its statements many times, which
-takes milliseconds a statement. In a function that is translated here, a name has the type of the
-value assigned to it, so that one pass suffices. Each operation is numba's own for these types, so
-that the bits are those of a function compiled by numba.
+takes milliseconds per statement. Here, a name has the type of the value that is assigned to it, so
+one pass suffices. Each operation is numba's own for these types, so results have the same bits as
+with numba's compiler.
 
 The language: assignments, `if`, `for ... in range(...)`, and expressions of numbers, vectors,
 arrays and tuples. A `return` is the last statement. `and` and `or` evaluate both sides.
-A translated function becomes a part of its caller, as if its statements stood there, and so does
-each function inlined by LLVM that it calls. Where numba's code calls it, it returns nothing.
+The statements of a translated function are inserted into its caller, and so are those of functions
+`inlined_by_llvm` that it calls. If code compiled by numba calls it, it returns nothing.
 """
 
 import ast
@@ -47,7 +47,7 @@ TYPES = {bool: types.boolean, int: types.int64, float: types.float64}
 
 @dataclass(frozen=True)
 class Value:
-    """A value that a run computes."""
+    """A value that is computed at run time."""
 
     type: types.Type
     value: ir.Value
@@ -55,7 +55,7 @@ class Value:
 
 @dataclass(frozen=True)
 class Variable:
-    """The place of a value that changes."""
+    """The memory of a name that is assigned more than once."""
 
     type: types.Type
     address: ir.Value
@@ -99,7 +99,7 @@ def in_one_pass(function: Callable) -> Callable:
 
 
 _TRANSLATED: dict[Callable, Callable] = {}
-"""Functions by what `in_one_pass` returned for them."""
+"""The original functions; each key is the function that `in_one_pass` returned."""
 
 
 class _Translation:
@@ -194,7 +194,7 @@ class _Translation:
     # --- Expressions
 
     def _value(self, expression: ast.expr) -> Any:
-        """Return a `Value`, or what is known before the run: a number, a function, a tuple."""
+        """Return a `Value`, or a number, function or tuple that is known before the run."""
         match expression:
             case ast.Constant(value=value):
                 return value
@@ -274,7 +274,7 @@ class _Translation:
         return tuple(map(Value, value.type, items))
 
     def _computed(self, value: Any) -> Value:
-        """Return a `Value` of something that may be known before the run."""
+        """Return a `Value`, also for a number or tuple that is known before the run."""
         if isinstance(value, Value):
             return value
         if isinstance(value, tuple):
@@ -310,6 +310,6 @@ class _Translation:
 
 
 def _inlined_by_llvm(function: Callable) -> Callable | None:
-    """Return the Python function of one that LLVM inlines."""
+    """Return the Python function of a compiled one that LLVM inlines, None for other functions."""
     options = getattr(function, "targetoptions", {})
     return function.py_func if options.get("forceinline") else None

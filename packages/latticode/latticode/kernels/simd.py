@@ -26,7 +26,7 @@ shorter vectors, LLVM splits each operation into several.
 
 Why magnitudes are compared as integers. Without their sign bits, doubles read as integers are in
 the order of their values, and NaN comes after infinity. A maximum of such integers never loses a
-NaN, as a floating-point maximum may. LLVM may reorder and thus vectorise it.
+NaN; a floating-point maximum may. LLVM may reorder and thus vectorise the integer comparisons.
 
 Dependencies: `numba.extending`, `numba.types`, and the functions of `numba.core.cgutils` that
 numba's guide to extensions uses. Arrays must be contiguous with the last index fastest, and bounds
@@ -109,7 +109,7 @@ def repeat(builder: Builder, number: Value) -> Value:
 
 
 def as_vectors(builder: Builder, signature: Any, arguments: Values) -> list[Value]:
-    """Return vectors unchanged, and numbers in all lanes of vectors."""
+    """Return the arguments as vectors; a number is repeated in all lanes."""
     typed = zip(signature.args, arguments, strict=True)
     return [value if kind == vector else repeat(builder, value) for kind, value in typed]
 

@@ -3,7 +3,7 @@
 numba translates a kernel to LLVM's intermediate representation, and LLVM translates that to
 WebAssembly. Its arithmetic follows IEEE 754 without fused operations, so results are bit-identical.
 
-Size of pointers. They have 8 bytes in numba's code and 4 in WebAssembly. Structures on the stack
+Pointers have 8 bytes in numba's code and 4 in WebAssembly. Structures on the stack
 keep their size with 8-byte pointers, because the code may clear them or address their bytes. The
 optimiser runs before the pointers are converted.
 

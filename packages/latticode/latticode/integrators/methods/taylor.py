@@ -10,7 +10,7 @@ from latticode.integrators.method import COARSEST, AdaptiveCost, Control, Method
 from latticode.numerics.elementary import log
 
 LARGEST_EXPONENT = 270.0
-"""Decimal exponent that the last coefficients of a series may reach in either direction."""
+"""Largest decimal exponent, positive or negative, of the last coefficients of a series."""
 
 
 class Taylor(Method):
@@ -32,7 +32,7 @@ class Taylor(Method):
     ) -> Obstacle | None:
         """Return an obstacle if the last coefficients leave the range of doubles, else None.
 
-        At rest they may vanish.
+        At rest the last coefficients may vanish.
         """
         if peak == 0.0 or rate * span < 1e-6:
             return None
