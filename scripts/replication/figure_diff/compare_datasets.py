@@ -111,7 +111,7 @@ def differences(
     chaos: Chaos,
     scatter: Mapping[str, float],
 ) -> Iterator[VariableDifference]:
-    """Yield each difference of two datasets; `accepted` is the result of `hashes.of` for `was`."""
+    """Yield each difference of two datasets; `accepted` has the texts of `hashes.of` by name."""
     yield from _of_attributes("", was.attrs, now.attrs)
     for key in {**was.variables, **now.variables}:
         before, after = was.variables.get(key), now.variables.get(key)
