@@ -117,7 +117,7 @@ def _unbounded(cases: Iterable[str]) -> tuple[str, ...]:
 
 
 def _sections(folder: str, stem: str) -> list[str]:
-    """Return the sections that a dataset of a study depends on, the study's own last."""
+    """Return the sections that a dataset of a study depends on. The study's own is the last."""
     if stem in ("solvers", "trust"):
         return ["solvers"]
     if stem == "second_solver":
@@ -132,7 +132,7 @@ def _sections(folder: str, stem: str) -> list[str]:
 
 
 def _at(path: str) -> Any:
-    """Return the value at a dotted path of the paper's configuration, {} if there is none."""
+    """Return the value at a dotted path of the paper's configuration, or {} if there is none."""
     value = paper()
     for key in path.split("."):
         value = value.get(key, {})

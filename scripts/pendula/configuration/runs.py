@@ -16,7 +16,7 @@ from .cost import estimate
 
 
 class Runs(NamedTuple):
-    """Problems as plain values, and the keys of a study under which their errors are reported.
+    """Problems as plain values, and the keys of the study that their errors are reported under.
 
     `many` is the key of the number or duration of the runs. If the unperturbed data cannot be
     integrated, the error is reported under `tolerance`; if only perturbed data cannot, under

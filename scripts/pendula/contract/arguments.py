@@ -145,7 +145,7 @@ def _load(value: Any, container: str, make: Callable) -> Any:
 
 
 def _paths_in(value: Any) -> list[str]:
-    """Return the paths in an argument; none if it consists of plain values."""
+    """Return the paths in an argument, or no paths if it consists of plain values."""
     entries = value if isinstance(value, list) else [value]
     return entries if all(isinstance(entry, str) for entry in entries) else []
 

@@ -60,7 +60,7 @@ class _Output:
         self.shown = time.monotonic()
 
     def log(self, text: str) -> bool:
-        """Write only to the log; return whether this succeeded."""
+        """Write only to the log, and return whether this succeeded."""
         if self.file is None:
             return False
         try:

@@ -32,7 +32,7 @@ def compare_results(
     html: str,
     verdict: str,
 ) -> None:
-    """Compare the files of a run, in the folder `made`, with a baseline; write page and verdict."""
+    """Compare a run's files in the folder `made` with a baseline, and write page and verdict."""
     comparison_page.compare_results(
         results, made, baseline, configuration, any_bits, html, verdict, TRUST
     )

@@ -104,7 +104,7 @@ def mean_rates(
 def fill_site_terms(chain: AmplitudeChain, y: np.ndarray, out: np.ndarray) -> None:
     """Write into out[j] the terms of (8) on the site in column j.
 
-    They are |A|^4 / 4 + Omega |A|^2, the same of B, and the drive -gamma Re (A - B)^2.
+    They are |A|^4 / 4 + Omega |A|^2, the same terms of B, and the drive -gamma Re (A - B)^2.
     """
     for j in range(1, y.shape[1] - 1):
         square = modulus2(y, 0, j)

@@ -27,7 +27,7 @@ from .equations import Constants
 
 
 def with_positive_coupling(constants: Constants) -> Constants:
-    """Return the constants of the staggered chain where epsilon is negative."""
+    """Return the constants, or those of the staggered chain if epsilon is negative."""
     if constants.epsilon >= 0:
         return constants
     omega = constants.omega - 4.0 * constants.epsilon
@@ -41,7 +41,7 @@ def extent(constants: Constants) -> float:
 
 
 def theorem_1_bound(energy: float, constants: Constants) -> float:
-    """Return C of Theorem 1; infinite outside its range of parameters."""
+    """Return C of Theorem 1, or infinity outside its range of parameters."""
     k = with_positive_coupling(constants)
     gap = k.omega - 2.0 * abs(k.gamma) - 4.0 * k.epsilon
     return float(energy) / gap if gap > 0 else np.inf
@@ -54,15 +54,15 @@ def theorem_2_gap(constants: Constants) -> float:
 
 
 def theorem_2_constants(constants: Constants) -> tuple[float, float]:
-    """Return (delta_0, C_0) of Theorem 2, (0, inf) outside its range of parameters."""
+    """Return (delta_0, C_0) of Theorem 2, or (0, inf) outside its range of parameters."""
     a, c = theorem_2_gap(constants), extent(constants)
     return (a * a / c, 2.0 * c / a) if a > 0 else (0.0, np.inf)
 
 
 def theorem_2_bound(energy: float, start: float, constants: Constants) -> float:
-    """Return the bound of Theorem 2 on P, the smaller root of f(P) = -H, where P(0) = `start`.
+    """Return the bound of Theorem 2 on P, where `start` is P(0).
 
-    It is infinite if P(0) or H is beyond the barrier.
+    It is the smaller root of f(P) = -H. It is infinite if P(0) or H is beyond the barrier.
     """
     a = theorem_2_gap(constants)
     if not (start < 2.0 * a and -energy < a * a):
@@ -73,16 +73,16 @@ def theorem_2_bound(energy: float, start: float, constants: Constants) -> float:
 
 
 def widened_barrier(constants: Constants) -> tuple[float, float]:
-    """Return (P, -H) at the maximum of a P - P^3 / (64 epsilon); (0, 0) outside Theorem 2."""
+    """Return (P, -H) at the maximum of a P - P^3 / (64 epsilon), or (0, 0) outside Theorem 2."""
     epsilon, a = with_positive_coupling(constants).epsilon, theorem_2_gap(constants)
     top = float(np.sqrt(64.0 * epsilon * a / 3.0))
     return top, 2.0 * a * top / 3.0
 
 
 def widened_bound(energy: float, start: float, constants: Constants) -> float:
-    """Return a bound on P for more initial data than Theorem 2: a P - P^3 / (64 epsilon) <= -H.
+    """Return a bound on P that covers more initial data than Theorem 2.
 
-    It is the smaller root of the equality, found by bisection, and infinite beyond the barrier.
+    It is the smaller root of a P - P^3 / (64 epsilon) = -H, and infinite beyond the barrier.
 
     On Z, and on a chain with sites at rest beyond its ends, max |A_n|^2 <= |A| |grad A| in l2. The
     bonds, which (25) drops, then bound the quartic term: for each component with p = |A|^2 and
@@ -113,7 +113,7 @@ def theorem_3_bound(energy: float, sites: int, constants: Constants) -> float:
 def find_bounds(
     energy: float, start: float, sites: int, constants: Constants, boundary: str
 ) -> dict[str, float]:
-    """Return each bound on P for this H and P(0) = `start`; infinite if it does not apply."""
+    """Return each bound on P for this H and P(0) = `start`, or infinity if it does not apply."""
     at_rest = kind_of(boundary) == DIRICHLET
     return {
         "theorem_1": theorem_1_bound(energy, constants),

@@ -1,10 +1,10 @@
 """The chain without the cubic terms of (4): its modes, its exact flow, and Lemma 1.
 
 The lattice Laplacian has real orthonormal modes with the eigenvalues -lambda_k, and the modes
-decouple: the sum S = A + B obeys i S' = -kappa S, the difference D = A - B obeys
+decouple: the sum S = A + B obeys i S' = -kappa S, and the difference D = A - B obeys
 i D' = -kappa D - 2 gamma conj(D), where kappa = epsilon lambda_k - Omega as in (14). This gives
 Lemma 1: the dispersion relation (15), the threshold gamma_0 (12), and thresholds of finite chains.
-Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N sites it takes N values.
+Rates are per unit of tau. lambda covers [0, 4] on the infinite chain and has N values on N sites.
 """
 
 from functools import lru_cache
@@ -80,12 +80,12 @@ def flow(
 
 
 def growth_rate(kappa: Reals, gamma: Reals) -> Reals:
-    """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 if the mode is stable."""
+    """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, or 0 if the mode is stable."""
     return np.sqrt(np.maximum(0.0, (2.0 * np.abs(gamma) - kappa) * (2.0 * np.abs(gamma) + kappa)))
 
 
 def gamma_0(omega: Reals, epsilon: float) -> Reals:
-    """Return the threshold (12) of the infinite chain, zero for Omega in [0, 4 epsilon].
+    """Return the threshold (12) of the infinite chain. It is zero for Omega in [0, 4 epsilon].
 
     With epsilon < 0, which the paper does not treat, the band is [4 epsilon, 0].
     """

@@ -88,7 +88,7 @@ def _answer_chaos(checks: xr.Dataset) -> tuple[str, str]:
 
 
 def _answer_lemma_1(checks: xr.Dataset) -> Answers:
-    """Return whether the chain at rest is stable and, if epsilon < 0, which chain is meant."""
+    """Return whether the chain at rest is stable. If epsilon < 0, name the chain that is meant."""
     stable = {True: "unstable", False: "no growing mode"}
     rows = [
         ("Lemma 1, infinite chain at rest", stable[bool(checks["infinite_rate"] > 0)]),

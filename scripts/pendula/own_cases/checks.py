@@ -64,7 +64,7 @@ TITLE_OF_PENDULA = "A case of the pendula compared with the expansion (3)"
 
 
 def find_time_over_the_top(run: xr.Dataset) -> float:
-    """Return the first tau of the outputs at which an angle exceeds pi, infinite if none does."""
+    """Return the tau of the first output at which an angle exceeds pi, or infinity."""
     beyond = (run["linf"] > np.pi).any("component").values
     return float(run["tau"][beyond.argmax()]) if beyond.any() else np.inf
 

@@ -1,4 +1,4 @@
-"""Figures of a user's cases and sweeps: those of any run, with the paper's symbols."""
+"""Figures of a user's cases and sweeps: the figures of any run, with the paper's symbols."""
 
 import numpy as np
 import xarray as xr

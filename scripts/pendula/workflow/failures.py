@@ -112,7 +112,7 @@ def _matches(path: str, pattern: str) -> list[str]:
 
 
 def _text_of(path: str) -> str:
-    """Return the text of a file, empty if there is none."""
+    """Return the text of a file, or an empty text if there is no file."""
     if not os.path.exists(path):
         return ""
     return Path(path).read_text(encoding="utf-8", errors="replace")

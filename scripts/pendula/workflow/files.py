@@ -57,7 +57,7 @@ CHUNK = r"(\.parts/\d+-of-\d+)?"
 
 
 def chunks_of(gather: Any, pattern: str, process: str = "runs") -> Callable:
-    """Return an input function: the chunks of a study's runs, none if one job makes all runs.
+    """Return an input function for the chunks of a study's runs. One job for all runs has none.
 
     `pattern` is the path of the dataset below results/ without its ending, `process` the name of a
     `scattergather` process; both may have wildcards. `gather` is Snakemake's object.
@@ -86,7 +86,7 @@ CHUNKS_OF_A_SURVEY = 8
 def chunks_of_surveys(surveys: Mapping[str, Any], overwritten: Mapping[str, int]) -> dict[str, int]:
     """Return the number of chunks of each survey, by the name of its scattergather process.
 
-    It is the survey's `chunks`, else that of `--set-scatter runs=`, but at most its runs.
+    It is its `chunks`, or else N in `--set-scatter runs=N`, but at most the number of runs.
     """
     default = overwritten.get("runs", CHUNKS_OF_A_SURVEY)
     return {
@@ -101,7 +101,7 @@ def process_of_survey(name: str) -> str:
 
 
 def runs_by(settings: PaperConfiguration, solver: str) -> list[str]:
-    """Return the trajectories of all the paper's cases by a solver; for most it is the default."""
+    """Return the paths of the trajectories of all the paper's cases by a solver."""
 
     def run_by(case: str) -> str:
         is_own_solver = settings.problem(case)["solver"] == settings.problem(case, solver)["solver"]

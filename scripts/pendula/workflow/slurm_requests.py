@@ -30,12 +30,12 @@ def requests_above_limits(requests: Iterable[Request], sinfo_output: str) -> lis
 
 
 def partitions_of_slurm() -> str:
-    """Return the output of sinfo, empty if it fails, since sbatch then reports the reason."""
+    """Return the output of sinfo. If it fails, return an empty text: sbatch reports the reason."""
     return subprocess.run(SINFO, capture_output=True, text=True, check=False).stdout
 
 
 def _limits_in(sinfo_output: str) -> dict[str, float]:
-    """Return the minutes that each partition allows, the default one also under an empty name."""
+    """Return the minutes that each partition allows. The default one also has an empty name."""
     limits = {}
     for line in sinfo_output.splitlines():
         name, _, limit = line.strip().partition("|")

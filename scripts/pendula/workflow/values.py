@@ -7,7 +7,7 @@ from latticode.configuration.values import Section, Steps
 
 
 def values_of(section: Section, *names: str) -> dict[str, Any]:
-    """Return the named settings as plain values; without names, all but those of `long`."""
+    """Return the named settings as plain values. Without names, return all except `long`."""
     values_by_name = section.model_dump()
     chosen = names or [name for name in values_by_name if name != "long"]
     settings = {name: getattr(section, name) for name in chosen}
@@ -18,7 +18,7 @@ def values_of(section: Section, *names: str) -> dict[str, Any]:
 
 
 def section_of_size(section: Section, wildcards: Any) -> Section:
-    """Return the settings of the longer study if the wildcard `size` is set, else of the other."""
+    """Return the settings of the longer study if the wildcard `size` is set, or the usual ones."""
     return section.long if wildcards.size else getattr(section, "short", section)
 
 

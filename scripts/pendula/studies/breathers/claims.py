@@ -115,7 +115,7 @@ def periodic_stable(periodic: xr.Dataset) -> Finding:
     origin=Origin.OPEN,
 )
 def solitons_unstable(periodic: xr.Dataset) -> Finding:
-    """Decide by the growth rate on the longer chain; near Omega it depends on the length."""
+    """Decide by the growth rate on the longer chain: near Omega the rate depends on the length."""
     away = periodic.where(periodic["soliton_frequency"] >= FAR_FROM_THE_WAVES, drop=True)
     short, long = (away["soliton_growth"].isel(soliton_half_width=i) for i in (0, -1))
     measured = {

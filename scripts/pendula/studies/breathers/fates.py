@@ -7,9 +7,9 @@ The final state of a run on an even chain distinguishes the four fates without a
 
 - three neighbouring pairs, or three and their mirror images, have more than half of P: if these are
   the central ones, the motion is localised and *stays*, otherwise it *moves*;
-- no three do, and P is at most what linear waves can reach: it *disperses*;
-- no three do, and P is larger: it *spreads*, and the drive feeds the chaotic state that fills the
-  chain.
+- no three pairs do, and P is at most what linear waves can reach: the motion *disperses*;
+- no three pairs do, and P is larger: the motion *spreads*, and the drive feeds the chaotic state
+  that fills the chain.
 
 One pair would not be enough, because breathers of small P and moving localised states are wider. On
 61 pairs, dispersed waves and chaotic states have less than a third of P on any three pairs.
@@ -43,7 +43,7 @@ ROUNDING = 1e-6
 
 
 def largest_linear_gain(constants: Constants) -> float:
-    """Return the largest factor by which linear waves can multiply P; 1 if zero is unstable."""
+    """Return the largest factor by which linear waves can multiply P, or 1 if zero is unstable."""
     ends = np.array([constants.omega - 4.0 * constants.epsilon, constants.omega])
     least = 0.0 if ends[0] * ends[1] <= 0.0 else np.abs(ends).min()
     drive = 2.0 * abs(constants.gamma)
@@ -63,7 +63,7 @@ def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
     """Return the share of P on three neighbouring pairs and their mirror images, (distance,).
 
     `power` is P by distance. The first entry is the share of the three central pairs, the second
-    that of the five central pairs.
+    is the share of the five central pairs.
     """
     held = power.copy()
     held[1:] += power[:-1]

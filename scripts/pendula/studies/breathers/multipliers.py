@@ -60,7 +60,7 @@ def half_traces(breather: Breather, parity: str) -> np.ndarray:
 
 
 def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
-    """Return real, then imaginary unit perturbations on the sites `first`..M; of A if symmetric."""
+    """Return unit perturbations on `first`..M, real ones first; only those of A if symmetric."""
     units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - is_symmetric, first:]
     units = units.reshape(-1, 2, sites)
     directions = np.zeros((2, len(units), 4, sites))
@@ -69,7 +69,7 @@ def _directions(sites: int, first: int, is_symmetric: bool) -> np.ndarray:
 
 
 def growth_rate_of_traces(frequency: float, nu: np.ndarray) -> float:
-    """Return the growth rate of the fastest perturbation, per unit of tau, 0 if none grows.
+    """Return the growth rate of the fastest perturbation, per unit of tau, or 0 if none grows.
 
     A negative frequency means the time-reversed motion, which has the same growth rate.
     """

@@ -2,14 +2,14 @@
 
     A_n(tau) = sum over odd m of a_{n,m} exp(-i m lambda tau) with real coefficients,
 
-and B_n likewise. The equations (4) are reversible: if A(tau) is a solution, so is conj A(-tau).
-They are odd: if A is a solution, so is -A. Real coefficients make A and B real at tau = 0, and odd
-harmonics change sign after half a period T / 2 = pi / lambda; together they make A and B imaginary
-at T / 4. Conversely, a solution that is real at 0 and imaginary at T / 4 is reflected at both
-times, and so has the period T and both symmetries. A breather is therefore computed by shooting
-over a quarter of its period: Newton's method solves Re A(T / 4) = Re B(T / 4) = 0 for the real
-unknowns A(0), B(0), and needs only perturbations of these. P is even in time about both instants,
-and decreases monotonically from the first to the second.
+and the same form for B_n. The equations (4) are reversible: if A(tau) is a solution, so is conj
+A(-tau). They are odd: if A is a solution, so is -A. Real coefficients make A and B real at tau = 0,
+and odd harmonics change sign after half a period T / 2 = pi / lambda; together they make A and B
+imaginary at T / 4. Conversely, a solution that is real at 0 and imaginary at T / 4 is reflected at
+both times, and so has the period T and both symmetries. A breather is therefore computed by
+shooting over a quarter of its period: Newton's method solves Re A(T / 4) = Re B(T / 4) = 0 for the
+real unknowns A(0), B(0), and needs only perturbations of these. P is even in time about both
+instants, and decreases monotonically from the first to the second.
 
 Module `multipliers` computes their stability.
 
@@ -157,7 +157,7 @@ def quarter_later(breather: Breather, steps: int, changes: np.ndarray | None = N
 
 
 def _derivative_of_miss(guess: Breather, symmetry: int) -> np.ndarray:
-    """Return the derivative of the miss by the data; if A = B or A = -B, only by those of A."""
+    """Return the derivative of the miss by the data, or by the data of A if A = B or A = -B."""
     sites = guess.data.shape[1]
     unit = np.eye(sites)
     both = np.eye(2 * sites).reshape(-1, 2, sites)

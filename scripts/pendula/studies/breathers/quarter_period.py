@@ -25,7 +25,7 @@ ROWS = 4
 
 @kernel
 def parity_rates(chain: AmplitudeChain, bundle: np.ndarray, even: int, slopes: np.ndarray) -> None:
-    """Write the rates of a solution, then of `even` even perturbations, then of the odd ones.
+    """Write the rates of a solution, of its `even` even perturbations, and of its odd ones.
 
     All are on the sites 0..M. Site -1 mirrors site 1, with the same sign in an even state and the
     opposite sign in an odd state, which stays zero at site 0.

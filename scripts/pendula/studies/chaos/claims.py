@@ -345,7 +345,7 @@ def transition_amplitude(lifetimes: xr.Dataset) -> Finding:
 
 
 def excited_centre(lifetimes: xr.Dataset, share: ConfidenceInterval) -> str:
-    """Return the caveat that the centre stays excited from some amplitudes, empty if from none."""
+    """Return the caveat that the centre stays excited from some amplitudes, or an empty text."""
     a0, pairs = lifetimes["start_amplitude"].values, 2 * int(lifetimes.attrs["half_width"]) + 1
     excited = a0[share.low > FACTOR.value / pairs]
     if not excited.size:

@@ -1,7 +1,7 @@
 """The paper's claims on Figs 5 and 6, right, decided by ensembles at each half-width M.
 
 A single sweep is one random sample at each M: chaos amplifies rounding errors, and its points
-scatter. Means over ensembles scatter less, and Student's t estimates by how much.
+scatter. Means over ensembles scatter less, and Student's t gives their confidence intervals.
 
 In a fixed time window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
 and the norm on a chain equals it if the front does not reach the ends within the window. A sweep
@@ -78,7 +78,7 @@ class Means(NamedTuple):
     def over(
         self, below: slice, above: slice, confidence: float | None = None
     ) -> ConfidenceInterval:
-        """Return the ratio of the means over half-widths, `above` to `below`, with limits."""
+        """Return a ratio of means over half-widths, `above` divided by `below`, with limits."""
         value = [self.mean[half_widths].mean() for half_widths in (below, above)]
         errors = [self.error[half_widths] for half_widths in (below, above)]
         error = [np.sqrt((each**2).sum()) / len(each) for each in errors]

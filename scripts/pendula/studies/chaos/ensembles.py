@@ -36,7 +36,7 @@ def draw_swept(
     """Return the members of a sweep, ordered by half-width.
 
     Each half-width has its own draws. With equal draws the motion would be the same on all chains
-    whose ends the front does not reach, and their means would not be independent.
+    with ends that the front does not reach, and the means would not be independent.
     """
     chains = [(problem.changed(half_width=width), [seed, width]) for width in half_widths]
     return [m for chain, seeds in chains for m in draw_members(chain, size, members, seeds)]
@@ -132,7 +132,7 @@ def measure_second_solver(
 def _second_solver_dataset(
     values: Sequence[np.ndarray], half_widths: Sequence[int], second: Sequence[Mapping]
 ) -> xr.Dataset:
-    """Return the dataset of the maxima of l2; `values` has those of the first solver first."""
+    """Return the dataset of the maxima of l2. In `values` the first solver's maxima come first."""
     of_first, *of_second = (maxima.reshape(len(half_widths), -1) for maxima in values)
     long_name = f"{NAMES['l2']} of the pair, largest over the window"
     steps = [problem["solver"]["step"] for problem in second]

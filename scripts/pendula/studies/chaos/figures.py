@@ -34,7 +34,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
     """Return times and shares of the runs, and their medians or means with confidence limits.
 
     Times later than the end of the runs are drawn at the end. Such medians and upper limits have
-    rows of their own, so that the figure always has the same curves.
+    their own rows, so the figure always has the same curves.
     """
     names, end = [*CLOCKS, "centre_share"], float(lifetimes.attrs["end_time"])
     drawn, limits = lifetimes[names].clip(max=end, keep_attrs=True), limits_of(lifetimes)
@@ -62,7 +62,7 @@ def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_lifetimes(data: xr.Dataset) -> Figure:
-    """Draw both times against A_0 on the left, the centre's share of P on the right."""
+    """Draw both times against A_0 on the left, and the centre's share of P on the right."""
     figure = style.new_figure(style.WIDTH, 2.5)
     left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     for name, label in (("transition", "chain"), ("life", "central pair")):

@@ -43,7 +43,7 @@ def largest_exponents(
 ) -> Contents:
     """Return the dataset of the mean growth rates over `span` along members of each case.
 
-    `problems`, by case, are integrated to the end of the span at the tolerance of their solver.
+    `problems` maps each case to a problem. Runs end with the span and have its solver's tolerance.
     """
     start, end_time = span
     runs = [follow_members(problem, end_time, members, size, seed) for problem in problems.values()]

@@ -68,7 +68,8 @@ def measure_members(
 ) -> ManyRuns:
     """Return the runs of all members of each case, for the dataset of bands and of REDUCED.
 
-    `problems`, by case, store all moduli. The dataset has the sites of the longest chain.
+    `problems` maps each case to its problem, which stores all moduli. The dataset has the sites of
+    the longest chain.
     """
     reach = max(problem.half_width for problem in problems.values())
     drawn = [m for problem in problems.values() for m in draw_members(problem, size, members, seed)]

@@ -111,7 +111,7 @@ def miss_of_short_chain(solver: dict, half_width: int) -> float:
 def run_anyway(
     solver: dict, amplitude: float = 1.0, tau: float = 1.0, omega: float = -4.0
 ) -> float:
-    """Start a run that must be rejected; returning 0.0 means that it finished instead."""
+    """Start a run that must be rejected. If it finishes instead, return 0.0."""
     data = random_data(5, 1.0)
     data[1, 2] = amplitude
     integrate(solver, data, tau, omega=omega)

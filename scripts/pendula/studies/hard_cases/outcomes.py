@@ -28,9 +28,10 @@ ATTRIBUTES = {
 
 
 def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the row of the dataset for one solver on a case, plain values of a `HardCase`.
+    """Return the row of the dataset for one solver on a case.
 
-    Its `expected` is the largest allowed error, or a text in the message of the rejection.
+    `case` holds plain values of a `HardCase`. Its `expected` is the largest allowed
+    error, or a text in the message of the rejection.
     """
     error, refusal, expected = np.nan, "", case["expected"]
     try:
@@ -52,7 +53,7 @@ def run_hard_case(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[st
 
 
 def run_hard_cases(cases: list[dict]) -> Contents:
-    """Return the dataset of all solvers on `cases`, plain values; print unexpected outcomes."""
+    """Return the dataset of every case and solver, and print unexpected outcomes."""
     results = [run_hard_case(case, solver) for case in cases for solver in case["solvers"]]
     for row in results:
         if not row["sound"]:

@@ -24,7 +24,7 @@ CONTROLS = {
 }
 """The controls that each solver requires."""
 FARTHEST_POWER, SHORT_CHAIN = 500, 30
-"""The power beyond which (2^power)^2 overflows, and the half-width of the short chain."""
+"""The largest allowed power, for a finite (2^power)^2, and the short chain's half-width."""
 
 
 class AnySolver(Section):

@@ -47,7 +47,7 @@ def sort_by_falling_mu(data: xr.Dataset, fewest: int = 2) -> xr.Dataset:
 
 
 def order_of(values: xr.DataArray) -> np.ndarray:
-    """Return the order in mu of `values` (..., mu), from the two smallest mu, which are last."""
+    """Return the order in mu of `values` (..., mu), computed from the last two, the smallest mu."""
     coarse, fine = values.isel(mu=-2), values.isel(mu=-1)
     ratio = float(coarse["mu"] / fine["mu"])
     return log(coarse.values / fine.values) / log(ratio)

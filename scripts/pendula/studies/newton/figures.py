@@ -20,7 +20,7 @@ CAPTION = (
 
 
 def gather_over_the_top(over_the_top: xr.Dataset) -> xr.Dataset:
-    """Return the share of members over the top, and its limits, (mu, tau)."""
+    """Return the share of members over the top and its confidence limits, each (mu, tau)."""
     omega = over_the_top.attrs["omega"]
     caption = CAPTION.format(omega=float(omega))
     shares = over_the_top[["passed", "passed_low", "passed_high"]].drop_attrs(deep=False)

@@ -34,10 +34,11 @@ def _fraction(square: np.ndarray, gaps: list[np.ndarray]) -> tuple[np.ndarray, n
 
 
 def first_tongue(offset: ArrayLike) -> np.ndarray:
-    """Return the least q at which the first tongue reaches a = 1 + `offset`, -1 < offset <= 1.
+    """Return the least q at which the first tongue reaches a = 1 + `offset`.
 
-    It solves q = |offset| +- q^2 / (8 - offset - ...), on a_1 for positive offsets and on b_1 for
-    negative ones. The fraction is convex in q, so that Newton's method converges monotonically.
+    Offsets are in (-1, 1]. The equation is q = |offset| +- q^2 / (8 - offset - ...), on a_1 for
+    positive offsets and on b_1 for negative ones. The fraction is convex in q, so
+    Newton's method converges monotonically.
     """
     offset = np.asarray(offset, dtype=float)
     size, side = np.abs(offset), np.sign(offset)

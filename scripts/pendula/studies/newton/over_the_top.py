@@ -40,9 +40,9 @@ OUTPUTS_PER_PERIOD = 8
 
 
 def measure_passage(problem: PaperProblem) -> dict[str, float]:
-    """Return the time of the first passage over the top, infinite if there is none, and P per site.
+    """Return the time of the first passage over the top, and P per site.
 
-    P is the mean over the late half of the run.
+    The time is infinite if there is no passage. P is the mean over the late half of the run.
     """
     mu = problem.mu
     period = np.pi * mu * mu / frequency(problem.constants.omega, mu)  # in tau

@@ -20,7 +20,7 @@ from pendula.models.pendula import leading_angles
 from pendula.problem import PENDULA, PaperProblem
 
 SLOW_TIMES = {"mu^2 t / 2": 1, "mu^2 t": 2}
-"""Outputs of the amplitudes per output of the pendula, by slow time; mu^2 t is wrong, a control."""
+"""Outputs of the amplitudes per output of the pendula. The slow time mu^2 t is a wrong control."""
 
 
 def integrate_amplitudes(problem: PaperProblem) -> np.ndarray:

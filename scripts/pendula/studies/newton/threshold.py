@@ -33,7 +33,7 @@ def pendula_threshold(omega: ArrayLike, mu: ArrayLike, epsilon: float) -> np.nda
 
 
 def solve_thresholds(epsilon: float, omegas: Sequence[float], mus: Sequence[float]) -> Contents:
-    """Return the dataset of thresholds (omega, mu) of the pendula and those of Lemma 1 (omega,)."""
+    """Return the dataset of thresholds: of the pendula (omega, mu), and of Lemma 1 (omega,)."""
     omega, mu = np.array(omegas, dtype=float), np.array(mus, dtype=float)
     thresholds = pendula_threshold(omega[:, None], mu, epsilon)
     variables = {

@@ -24,5 +24,5 @@ class Settings(Section):
         return settings.problem(case, end_time=max([settings.cases[case].end_time, *ends]))
 
     def faults(self, settings: PaperConfiguration) -> Faults:
-        """Yield (key, message) for each of `bits` that is no case of the configuration."""
+        """Yield (key, message) for each key of `bits` that is no case of the configuration."""
         yield from settings.absent("cases", "bits", list(self.bits))
