@@ -58,7 +58,7 @@ def late(trajectory: xr.Dataset, start: float = SETTLED) -> xr.Dataset:
 def swept(
     sweep: xr.Dataset, norm: str, statistic: str, window: str, quantity: str = "pair"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the half-widths of a sweep and a statistic of a norm at each.
+    """Return the half-widths of a sweep, and a statistic of a norm at each half-width.
 
     Raises UndecidableError if the sweep lacks the window or has fewer than FEWEST half-widths.
     """

@@ -73,7 +73,7 @@ class PaperProblem(problem.Problem):
         return super().of({**plain_values, "model": model, "parameters": parameters})
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values; those of (4) have no key `model`."""
+        """Return the problem as plain values. For equations (4) they have no key `model`."""
         values = super().plain()
         if self.model.name in MODELS:
             values |= {"model": self.model.name} | values.pop("parameters")
@@ -106,7 +106,7 @@ class PaperProblem(problem.Problem):
 
     @property
     def mu(self) -> float | None:
-        """The small parameter mu of pendula, None for amplitudes."""
+        """The small parameter mu of pendula, or None for amplitudes."""
         return self.parameters.get("mu")
 
 

@@ -28,7 +28,7 @@ class VariedNumber(NamedTuple):
 
     value: np.ndarray
     statistical_error: np.ndarray  # of the shape of `value`
-    choices: Mapping[str, Any]  # those of the printed number, by name
+    choices: Mapping[str, Any]  # the choices of the printed number, by name
     variations: Mapping[str, np.ndarray]  # the number again, by "choice = value"
     limits: ConfidenceInterval | None = None  # for an interval that may be asymmetric
 
@@ -151,7 +151,7 @@ def _variables_of(printed: NamedNumber, labels: Sequence[str]) -> list[xr.Variab
 
 
 def _limits(name: str, printed: NamedNumber) -> dict[str, xr.Variable]:
-    """Return the ends of a number's confidence interval by name, none if it has no interval."""
+    """Return the ends of a number's confidence interval by name, if it has an interval."""
     dims, number, meaning = printed
     if number.limits is None:
         return {}
@@ -191,7 +191,7 @@ def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
 
 
 def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield the name and dataset of each number with variations; of arrays, of each entry."""
+    """Yield the name and dataset of each number with variations, or of each entry of an array."""
     for name in numbers_in(data):
         dims = data[name].dims
         for place in np.ndindex(data[name].shape):

@@ -87,7 +87,7 @@ def gather(results: Results) -> dict[str, Any]:
 
 
 def times_as_long(speed: xr.Dataset, *peers: str) -> Printed:
-    """Return the time of the fastest of `peers` over that of our solver, as a range over cases."""
+    """Return the time of the fastest of `peers` divided by our solver's, as a range over cases."""
     ratios = speed["ratio"].sel(peer=list(peers)).min("peer")
     text = f"{enclosing_span(float(ratios.min()), float(ratios.max()), 2)}{MARK}"
     return printed(text, SPEED, "ratio", {"peer": list(peers)})

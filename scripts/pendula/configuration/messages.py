@@ -98,7 +98,7 @@ def _too_coarse_steps(settings: PaperConfiguration, names: list[str]) -> Iterato
     """Yield an error for a tolerance of ode45 at which runs of the paper's cases may blow up.
 
     The relative error of a step is up to `rtol`. Once these errors add up to the size of the data,
-    ode45 may gain energy until its step is too small. In one run this sum was 1.75 times the data.
+    ode45 may gain energy until its step is too small. A run with a sum of 1.75 times the data did.
     """
     runs = {}
     for case in names:

@@ -1,4 +1,4 @@
-"""Five experiments for a class, two minutes each, with a question and the expected observation."""
+"""Five experiments of two minutes for a class, each with a question and what the run shows."""
 
 from typing import NamedTuple
 

@@ -34,7 +34,7 @@ DATA = '<script type="application/json" id="data"'
 LEVELS = 255
 """The integer for the largest growth rate on the page."""
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
-"""Constants of the hash FNV-1a with 32 bits (Fowler, Noll and Vo), here of words instead of bytes.
+"""Constants of the 32-bit hash FNV-1a (Fowler, Noll and Vo), applied to words instead of bytes.
 Any change of one word changes the hash."""
 
 
