@@ -23,8 +23,8 @@ LONG_RUN = 180.0
 OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
 """Cost of an output: interpolation of the state, norms and energy."""
 OUTPUT_BYTES, MODULUS_BYTES, STATE_BYTES, SITE_BYTES = 200.0, 40.0, 60.0, 200.0
-"""Bytes per output, per stored modulus, per modulus stored with the real and imaginary parts of its
-field, and per site of the full chain in complex numbers."""
+"""Bytes per output; per modulus stored alone; per modulus stored with both parts of its field; and
+per site of the full chain in complex numbers."""
 
 
 def span_of(problem: Mapping) -> float:
@@ -143,8 +143,8 @@ def runs_of_checks(problem: Mapping) -> list[Mapping]:
 KEPT_TO_COMPARE = 2.5
 """Memory of two runs whose fields are compared, divided by the memory of one run."""
 LOCALISED = {"seconds": 3e-5, "bytes": 80.0}
-"""Cost of a localised state and its exponents, per entry of its matrix: Newton's method solves with
-this matrix while the coupling is turned on, then its eigenvalues are computed."""
+"""Cost of a localised state and its exponents, per entry of a matrix. Newton's method solves with
+this matrix while the coupling is turned on; then the eigenvalues of the matrix are computed."""
 MOST_UNKNOWNS = 1000
 """The most real unknowns of a localised state that the checks look for."""
 

@@ -86,7 +86,7 @@ def read_entries(entries: Iterable[str]) -> dict:
 
 
 def _of_entry(name: str, text: str) -> str:
-    """Return the message of an error in the value of an entry, preceded by the path of its key."""
+    """Return the message of an error in the value of an entry, after the path of the key."""
     place, _, fault = text.removeprefix("line 1: ").rpartition(": ")
     return f"{name}.{place}: {fault}" if place else f"{name}: {fault}"
 

@@ -1,4 +1,4 @@
-"""Initial data in all accepted forms: by site, an array, a function, a run, or a file of these.
+"""Initial data in all accepted forms: by site, an array, a function, a run, or a file with one.
 
 All of them become {site: [a complex number for each field]}. For second-order equations, the real
 part is the value and the imaginary part the velocity.
@@ -111,7 +111,7 @@ def final_of(run: "Dataset") -> Any:
 
 
 def _labelled(array: "DataArray") -> LabelledFields:
-    """Return a DataArray over `site`, and maybe `component` and `part`, as `LabelledFields`."""
+    """Return a DataArray over `site`, optionally `component` and `part`, as `LabelledFields`."""
     known = ("component", "part", "site")
     if more := [str(name) for name in array.dims if name not in known]:
         raise fault(f"has the dimension {more[0]}; select one value, as by .sel({more[0]}=...)")

@@ -67,8 +67,8 @@ def tabulate(
 ) -> dict:
     """Return the table of `rows`, one row for each point of `coords`, the last coordinate fastest.
 
-    A row has numbers by name; those in `descriptions` (see `columns`) are stored. `more` are
-    variables of other dimensions.
+    A row has numbers by name. Only numbers named in `descriptions` (see `columns`) are stored.
+    `more` are variables of other dimensions.
     """
     rows, shape = list(rows), tuple(len(points) for points in coords.values())
     numbers = {name: np.reshape([row[name] for row in rows], shape) for name in descriptions}

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from xarray import DataArray, Dataset
 
 AS_COLUMNS = "component", "conserved_quantity", "quantity", "statistic", "window"
-"""Dimensions that become columns, one for each value; the other dimensions become rows."""
+"""Each value of these dimensions becomes a column; the other dimensions become rows."""
 
 
 def write_csv(path: str | Path, dataset: "Dataset") -> None:

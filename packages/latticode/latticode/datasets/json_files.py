@@ -1,4 +1,4 @@
-"""JSON results with a checksum, so that a changed byte is an error and not a wrong number.
+"""JSON results with a checksum: a changed byte causes an error, not a wrong number.
 
 A dataset has its checksum after the last byte of HDF5 (see `netcdf`). In JSON, which allows nothing
 after its end, the checksum is the last entry of the object: the SHA-256 of all bytes before it.

@@ -34,7 +34,7 @@ class Variable(NamedTuple):
 
     dimensions: tuple[str, ...]
     values: Any
-    long_name: str = ""  # if empty, it is from the registry
+    long_name: str = ""  # if empty, the registry has the long name
     units: str = "1"
     attributes: Mapping[str, Any] = {}  # further attributes, such as `significant_digits`
 
@@ -92,7 +92,7 @@ def _attributes(name: str, variable: Variable) -> dict[str, Any]:
 def save(path: str | Path, dataset: "Dataset") -> None:
     """Write a dataset as netCDF, or as a CSV table if the path ends in .csv.
 
-    Raises DatasetError for any other suffix than .nc or .csv, for complex values, and if the file
+    Raises DatasetError if the suffix is not .nc or .csv, if values are complex, or if the file
     cannot be written.
     """
     if not hasattr(dataset, "data_vars"):
@@ -149,7 +149,7 @@ def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> Non
 
 
 def read(path: str | Path) -> "Dataset":
-    """Return the dataset in a file; it is in memory, and the file is closed.
+    """Read the dataset in a file into memory, close the file, and return the dataset.
 
     Raises DatasetError if the file is missing, damaged or edited.
     """

@@ -14,7 +14,7 @@ from latticode.equations.initial_values import write_initial
 from latticode.simulation.problem import Problem
 
 COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
-"""Two attributes: the name of the function of a job, and the datasets that the job has read."""
+"""Names of two attributes: the function of a job, and the datasets that the job has read."""
 OF_A_PROBLEM = ("half_width", "boundary", "end_time", "output_step", "snapshot_every")
 
 
@@ -51,9 +51,9 @@ def stated(
     """Return the arguments of the function of a job as attributes, which are numbers and strings.
 
     A mapping of single values becomes one attribute per entry; other mappings and lists become
-    JSON. Several problems become one attribute for each value that they share, and one in JSON for
-    all values that differ. Values that the `variables` of the dataset contain are left out. `read`
-    has the names of the datasets that the `function` has read.
+    JSON. Several problems become one attribute for each value that they share, and one attribute
+    in JSON for all values that differ. Values that the `variables` of the dataset contain are
+    left out. `read` has the names of the datasets that the `function` has read.
     """
     variables, attributes = set(variables), {}
     for name, value in arguments.items():

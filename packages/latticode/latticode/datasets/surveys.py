@@ -129,7 +129,7 @@ def runs_in(survey: "Dataset", names: Iterable[str], shape: Sequence[int]) -> Re
 
 
 def _without_index(axis: str) -> str:
-    """Return the name of an axis as the name of a variable, without dots and minus signs."""
+    """Return the name of an axis without dots and minus signs, so that it can name a variable."""
     return axis.replace(".-", "_minus_").replace(".", "_")
 
 

@@ -136,7 +136,7 @@ def _curve(line: Line2D, rows: Rows) -> dict[str, Any]:
 
 
 def _cut(line: Line2D, x: np.ndarray, y: np.ndarray) -> dict[str, str]:
-    """Return the sides where a curve leaves the limits of each axis: below, above, or both."""
+    """Return, for each axis, whether a curve leaves its limits below, above, or both."""
     if line.get_transform() != line.axes.transData:
         return {}
     sides = {}
@@ -197,7 +197,7 @@ def _named(artist: Artist) -> dict[str, str]:
 
 
 def _look(artist: Artist) -> dict[str, Any]:
-    """Return colours, line styles and markers."""
+    """Return the colours of an artist, and the line style and marker if it is a curve."""
     if isinstance(artist, Line2D):
         look = {"colour": _colours([artist.get_color()], artist), "line": artist.get_linestyle()}
         if look["line"] != "None":

@@ -1,4 +1,4 @@
-"""DejaVu Sans without some OpenType tables, with which PDF files are written faster.
+"""DejaVu Sans without some OpenType tables: PDF files are written faster with these fonts.
 
 For each PDF, matplotlib reduces a font to the letters that the figure uses. About half of this time
 goes into tables of ligatures and accents, which the PDF does not need.
@@ -17,7 +17,7 @@ from latticode.datasets import DatasetError, not_written
 FAMILY, SLANTS = "DejaVu Sans", ("normal", "oblique")
 LEFT_OUT = ("GDEF", "GPOS", "GSUB")
 """OpenType tables of classes, positions and substitutions of letters. Kerning does not need them,
-because the older table "kern" has it too."""
+because the older table "kern" contains it too."""
 
 
 @contextmanager
@@ -45,7 +45,7 @@ def light_fonts() -> Iterator[None]:
 def _temporary_folder() -> Iterator[Path]:
     try:
         temporary = TemporaryDirectory()
-    except OSError as error:  # its text lists all folders that were tried
+    except OSError as error:  # the message lists all folders that were tried
         text = f"{error.strerror}: free space in one of them, or set TMPDIR to another folder"
         raise DatasetError(text) from error
     with temporary as folder:

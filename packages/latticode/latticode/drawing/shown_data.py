@@ -1,4 +1,4 @@
-"""Names of the rows of the data that the curves of a figure show, recognised by their values.
+"""Names of the rows of data that curves of a figure show; a row is recognised by its values.
 
 A curve that is reversed, scaled or shows a wrong variable has no name or a different name. This
 works on any machine, for chaotic data too, because data and figure are from the same run.

@@ -31,7 +31,7 @@ class Strip(NamedTuple):
     """One strip of a case: it shows the variables whose names are `prefix` followed by a norm.
 
     The curves with the prefix `under` are drawn below them. Variables (quantile, ...) are drawn as
-    bands between three quantiles, with a line at the middle one.
+    a band between the outer two of three quantiles, with a line at the middle quantile.
     """
 
     prefix: str
@@ -116,7 +116,7 @@ def name_legend(
 ) -> None:
     """Put one legend above all panels: the components, the reference, and the dashed line.
 
-    The reference is listed if `under`, and the dashed line if `mark`, its label, is not empty.
+    The reference is listed if `under` is true; the dashed line if its label `mark` is not empty.
     """
     fields = range(len(components))
     lines = [Line2D([], [], color=style.colour_of(i), lw=1.6) for i in fields]

@@ -76,8 +76,8 @@ def colour_of(field: int) -> str:
 def symbol(name: str, site: str = "") -> str:
     """Return the name of a field in TeX, without dollar signs, with `site` as an index.
 
-    Text after an underscore becomes an index too. A long name, and one with other characters than
-    letters and digits or with two underscores in a row, is set as text.
+    Text after an underscore becomes an index too. A name is set as text if it is long, if it has
+    characters other than letters and digits, or if it has two underscores in a row.
 
     >>> symbol("u"), symbol("u", "n"), symbol("psi_1", "n"), symbol("u__1", "n")
     ('u', 'u_n', 'psi_{1,n}', '\\\\text{u__1}_n')
@@ -133,7 +133,7 @@ def _style() -> Iterator[None]:
 
 
 styled = _style()
-"""Decorator of functions that draw: they use this style, and the caller's style is unchanged."""
+"""Decorator for functions that draw: they use this style and leave the caller's unchanged."""
 
 
 class ShownFigure(Figure):
