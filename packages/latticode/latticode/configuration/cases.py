@@ -294,7 +294,7 @@ class CaseSection(Section):
     def faults_of_half_widths(self, half_widths: list[int]) -> Iterator[tuple[str, str]]:
         """Yield (key, error) for each parameter whose values do not fit all chains of a sweep.
 
-        Shorter chains use the values of the longest chain at the same sites. So a function must
+        Shorter chains use the values that the longest chain has at their sites. So a function must
         return the same value at a site for every chain.
         """
         longest, without_values = max(half_widths), []
@@ -335,7 +335,7 @@ class CaseSection(Section):
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
-        """Return why amplitudes up to `peak` cannot be integrated (or None), and a rate bound."""
+        """Return why amplitudes up to `peak` cannot be integrated, or None; and a rate bound."""
         values = self._values(self.chain)
         obstacle = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
         return obstacle, self.model.rate(values, peak)

@@ -218,7 +218,7 @@ class Configuration(Section):
         return [(key, cost.name_excess(total, limits))]
 
     def cost_of_sweep(self, name: str) -> RunCost:
-        """Return the cost of a sweep that executes its runs one after another."""
+        """Return the cost of all runs of a sweep, one after another."""
         return self._sum_of(name, ({"half_width": m} for m in self.sweeps[name].half_widths))
 
     def _sum_of(self, name: str, changes: Iterable[Mapping]) -> RunCost:
@@ -256,7 +256,7 @@ class Configuration(Section):
         }
 
     def cost_of_survey(self, name: str, chunks: int = 1) -> RunCost:
-        """Return the cost of a chunk of a survey; each run is as costly as the costlier corner."""
+        """Return the cost of a chunk of a survey; all runs cost as much as the costlier corner."""
         survey, base = self.surveys[name], self.cases[self.surveys[name].case]
         runs = -(-prod(survey.plan.shape) // chunks)
         dearest = max(
