@@ -132,7 +132,7 @@ def energy_with_scratch(chain: AmplitudeChain, y: np.ndarray, scratch: np.ndarra
     """Return H of equation (8) for the full chain; `y` may hold half of it, or one component.
 
     A Dirichlet end has a bond with a site at rest, |A_M|^2 (|A_{-M}|^2 on the other side). A free
-    end has no bond, a ring has one bond that joins its ends. The sums run from the centre outwards
+    end has no bond. A ring has one bond that joins its ends. The sums run from the centre outwards
     in pairs of sites, because half a chain then gives the same bits as the full one.
     `scratch` has two rows of as many columns as `y`.
     """

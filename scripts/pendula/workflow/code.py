@@ -42,6 +42,6 @@ def code_of_jobs() -> list[str]:
 def committed(path: str) -> dict[str, str]:
     """Return the parameter that stands for a file of the project: its relative path and digest.
 
-    As an input, its path would differ between copies of the project and rerun the job.
+    As an input, its path would differ between copies of the project, and the job would rerun.
     """
     return {COMMITTED: path, "sha256": digest_of(PROJECT / path)}

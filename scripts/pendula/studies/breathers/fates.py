@@ -39,7 +39,7 @@ FATES = ("disperses", "stays", "moves", "spreads")
 DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))
 MAJORITY = 0.5
 ROUNDING = 1e-6
-"""Largest relative error of a run in P, where P is conserved."""
+"""Largest relative error in P of a run that conserves P."""
 
 
 def largest_linear_gain(constants: Constants) -> float:

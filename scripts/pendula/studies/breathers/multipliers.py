@@ -12,7 +12,7 @@ at T / 4 gives the map over T / 2,
 
 and the solution changes its sign over T / 2, so the multipliers mu over half a period are the
 eigenvalues of minus this map. It is a product of two reflections, so mu and 1 / mu come in pairs.
-Their half-traces nu = (mu + 1 / mu) / 2 are the eigenvalues of -a, half as many; a breather is
+Their half-traces nu = (mu + 1 / mu) / 2, half as many, are the eigenvalues of -a. A breather is
 stable if all nu lie in [-1, 1]. The multipliers over a whole period are the squares of mu. The
 shift along the solution has nu = 1. There mu has a Jordan block, and an error d of the map would
 change it by sqrt(d); nu is simple and known, and is set to 1.

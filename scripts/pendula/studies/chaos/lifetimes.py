@@ -2,7 +2,7 @@
 
 Zero is unstable, so the chain around the centre is always set in motion. The *transition* of the
 chain is over when P first reaches half of its final value, its mean over a time window. The *life*
-of the centre ends when the central pair first holds at most a multiple of P / N, the mean power of
+of the centre ends when the central pair first has at most a multiple of P / N, the mean power of
 a pair. From a large amplitude the centre outlives the transition, and stays excited inside a
 chaotic chain. Lives longer than the run are censored.
 """
@@ -35,7 +35,7 @@ each interval, and the run stops once its life has ended."""
 def follow(
     problem: PaperProblem, window: Sequence[float], level: float, multiple: float = 1.0
 ) -> dict[str, float]:
-    """Return NUMBERS of a run until its centre holds at most `multiple` P / N, or to its end.
+    """Return NUMBERS of a run until its centre has at most `multiple` P / N, or to its end.
 
     The transition is over when P reaches `level` times its final value. `window` must end before
     the run.
@@ -83,7 +83,7 @@ def measure_later_life(
 
 
 def centre_is_average(modulus: np.ndarray, multiple: float = 1.0) -> np.ndarray:
-    """Return whether the central pair holds at most `multiple` P / N, (time,).
+    """Return whether the central pair has at most `multiple` P / N, (time,).
 
     `modulus` is (component, site, time), with an odd number N of sites.
     """

@@ -1,6 +1,6 @@
 """First passages of pendula over the top at Omega = 0, and their chaotic state before that.
 
-A pendulum is over the top once |x| > pi. The amplitude equations cannot describe this: their
+A pendulum is over the top once |x| > pi. The amplitude equations cannot describe this: the
 potential rises without bound, while a pendulum rotates and the strings wind up. The first passage
 is detected at one of OUTPUTS_PER_PERIOD outputs per period: a pendulum beyond the top stays there
 for longer than the time between two outputs. No passage occurs before the chaotic state has filled

@@ -25,7 +25,7 @@ from .mathieu import band_threshold, squared_frequency
 def pendula_threshold(omega: ArrayLike, mu: ArrayLike, epsilon: float) -> np.ndarray:
     """Return gamma_0(mu) of the infinite chain of pendula, whose waves have s from 0 to 4.
 
-    It is zero if a wave is at the first resonance of the drive; no wave may be near the second.
+    It is zero if a wave is at the first resonance of the drive. No wave may be near the second.
     """
     square = squared_frequency(omega, mu) / (mu * mu)
     q = band_threshold(-omega / square, (4.0 * epsilon - omega) / square)
