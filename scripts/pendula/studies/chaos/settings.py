@@ -77,7 +77,7 @@ Members = section_of(
 
 
 def second_solver_steps(step: float, output_step: float) -> list[float]:
-    """Return the step of the second solver and a coarse one, sorted, or only one if both are equal.
+    """Return the step of the second solver and a coarse one, in order, or one if they are equal.
 
     The coarse step is half of the output step, so it divides the output step.
     """
@@ -223,7 +223,7 @@ class Settings(Section):
         return Runs(*keys, runs, lifetimes.members, "lifetimes.size", lifetimes.size)
 
     def _spectra(self, settings: PaperConfiguration) -> list[RunCost]:
-        """Return the costs of spectra, with a tangent vector for every two numbers of a state."""
+        """Return the costs of spectra: of half as many tangent vectors as a state has numbers."""
         spectrum, costs = self.lyapunov.spectrum, []
         for case in spectrum.cases:
             cost = estimate(settings.problem(case, half_width=spectrum.half_width))
