@@ -1,4 +1,4 @@
-"""The cost of a run against the length of the chain: time per site and unit of tau."""
+"""The cost of a run against the length of the chain: time per site and step."""
 
 import numpy as np
 from latticode.datasets.netcdf import Variable
@@ -8,24 +8,31 @@ from pendula.problem import Constants, PaperProblem
 from .contestants import controls
 from .timing import repeat, timed
 
-SITES = (3, 5, 11, 31, 61, 201, 1001, 10_001, 100_001)
+SITES = (3, 11, 61, 121, 241, 401, 1001, 10_001, 100_001, 1_000_001)
 SOLVERS = ("dop853", "taylor")
 TOLERANCE = 1e-10
 WORK = 40_000
 """Number of sites times end time of a run: short chains run long enough to be timed."""
+SHORTEST = 0.5
+"""Least end time of a run: several steps of each solver."""
 REPEAT = 5
 
 CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 
 
 def measure() -> dict[str, Variable]:
-    """Return the variables of the dataset: the median time, (sites, solver)."""
-    seconds = np.array([[time_chain(sites, name) for name in SOLVERS] for sites in SITES])
-    label = "time a site and unit of slow time"
+    """Return the variables of the dataset: the median time over (start, sites, solver)."""
+    seconds = np.array(
+        [
+            [[time_chain(chain(sites, name)) for name in SOLVERS] for sites in SITES]
+            for chain in STARTS.values()
+        ]
+    )
     return {
+        "start": Variable(("start",), np.array(list(STARTS)), "which sites move from the start"),
         "sites": Variable(("sites",), np.array(SITES)),
         "solver": Variable(("solver",), np.array(SOLVERS)),
-        "seconds": Variable(("sites", "solver"), seconds, label, "s"),
+        "seconds": Variable(("start", "sites", "solver"), seconds, "time per site and step", "s"),
     }
 
 
@@ -33,7 +40,7 @@ def noisy_chain(sites: int, name: str) -> PaperProblem:
     """Return a problem with even amplitudes of order one: every site moves from the start."""
     rng = np.random.default_rng(0)
     half = rng.normal(size=(2, sites // 2 + 1)) + 1j * rng.normal(size=(2, sites // 2 + 1))
-    end = min(50.0, max(1.0, WORK / sites))
+    end = min(50.0, max(SHORTEST, WORK / sites))
     return PaperProblem(
         parameters=vars(CONSTANTS),
         half_width=sites // 2,
@@ -45,8 +52,18 @@ def noisy_chain(sites: int, name: str) -> PaperProblem:
     )
 
 
-def time_chain(sites: int, name: str) -> float:
-    """Return the time in s per site and unit of tau."""
+def quiet_chain(sites: int, name: str) -> PaperProblem:
+    """Return the problem with one excited pair: amplitudes ahead of its motion are tiny."""
     problem = noisy_chain(sites, name)
-    simulate(problem)  # compiles
-    return repeat(lambda: timed(lambda: simulate(problem))[1], REPEAT) / sites / problem.end_time
+    initial = np.zeros_like(problem.initial)
+    initial[:, sites // 2] = 1.0, 0.1
+    return problem.changed(initial=initial)
+
+
+STARTS = {"all": noisy_chain, "one": quiet_chain}
+
+
+def time_chain(problem: PaperProblem) -> float:
+    """Return the time in s per site and step."""
+    steps = simulate(problem).outcome.steps  # the first run also compiles
+    return repeat(lambda: timed(lambda: simulate(problem))[1], REPEAT) / problem.sites / steps

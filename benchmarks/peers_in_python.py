@@ -7,15 +7,16 @@ packages are optional, because they are imported only when a problem is prepared
 also integrate Newton's equations.
 """
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
+from time import process_time
 from typing import Any
 
 import numba
 import numpy as np
 from numba import types
 from pendula.models.pendula import frequency
-from pendula.problem import AMPLITUDES, PENDULA, PaperProblem
+from pendula.problem import AMPLITUDES, Constants, PaperProblem
 from scipy.integrate import solve_ivp
 
 from .peer import FLAT_RATES, HALF, Peer, Solve, begin, final_of, flat_rates, needs, with_ghosts
@@ -91,14 +92,14 @@ def neighbours(u: np.ndarray, j: int) -> Any:
     return sum([*after, u[j - 1] if j > 0 else u[1]])
 
 
-def equations(problem: PaperProblem, n: int) -> list:
+def equations(constants: Constants, n: int) -> list:
     """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B on the n sites of half a chain.
 
     The rates of Re A and Im A share |A|^2, those of Re B and Im B share |B|^2.
     """
     import heyoka
 
-    epsilon, gamma, omega = problem.constants
+    epsilon, gamma, omega = constants
     names = [f"{row}_{site}" for row in ("x", "y", "u", "v") for site in range(n)]
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
     squares = rows[0::2] ** 2 + rows[1::2] ** 2
@@ -146,8 +147,12 @@ def prepare_heyoka(problem: PaperProblem) -> Solve:
     import heyoka
 
     start, compiled = start[:, 1:-1], {}
-    make_system = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model.name]
-    system = make_system(problem, start.shape[1])
+    sites = start.shape[1]
+    system = (
+        equations(problem.constants, sites)
+        if problem.model.name == AMPLITUDES
+        else equations_of_pendula(problem, sites)
+    )
 
     def solve(rtol: float) -> tuple[np.ndarray, float]:
         if rtol not in compiled:
@@ -163,6 +168,34 @@ def prepare_heyoka(problem: PaperProblem) -> Solve:
         return final_of(problem, with_ghosts(integrator.state), HALF), seconds
 
     return solve
+
+
+def survey_by_heyoka(problem: PaperProblem, omega: np.ndarray, amplitude: np.ndarray) -> float:
+    """Return the processor time in s of runs over Omega and A_0 of the central pair, in batches.
+
+    A batch has as many runs as a vector of the processor has numbers, and one step size for each.
+    No norms are computed. The number of runs is a multiple of the size of a batch.
+    """
+    import heyoka
+
+    sites, size = problem.sites // 2 + 1, heyoka.recommended_simd_size()
+    integrator = heyoka.taylor_adaptive_batch(
+        equations(replace(problem.constants, omega=heyoka.par[0]), sites),
+        np.zeros((4 * sites, size)),
+        tol=problem.solver["rtol"],
+        compact_mode=True,
+    )
+    start = process_time()
+    for runs in np.arange(omega.size).reshape(-1, size):
+        integrator.state[:] = 0.0
+        integrator.state[0], integrator.state[2 * sites] = (
+            amplitude[runs],
+            problem.initial[1, 0].real,
+        )
+        integrator.pars[0] = omega[runs]
+        integrator.set_time(0.0)
+        integrator.propagate_until(np.full(size, problem.end_time))
+    return process_time() - start
 
 
 HEYOKA = Peer("heyoka, half chain", needs("heyoka", "heyoka"), prepare_heyoka)

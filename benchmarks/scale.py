@@ -21,26 +21,48 @@ from latticode.simulation.simulate import simulate
 from latticode.simulation.survey import Survey
 from latticode.simulation.survey_runs import run_survey
 from pendula.notebook import Case
+from pendula.problem import PaperProblem
 
 from .cost import noisy_chain
+from .peers_in_python import survey_by_heyoka
 
 WRITTEN = Path(__file__).with_name("scale.json")
-MAP = {"omega": np.linspace(-6, 6, 1000), "initial.0.0": np.linspace(0.1, 2.0, 100)}
 HALF_CHAIN, END_TIME = 500_000, 10.0
+RUNS, PEER_RUNS = 100_000, 1024
 
 
-def survey() -> dict[str, float]:
+def survey(runs: int = RUNS) -> dict[str, float]:
     """Return the cost of a map of the paper's chain over Omega and A_0."""
-    case = Case(omega=-4, half_width=30, end_time=50)
-    problem, plan = case.kind.of(case.problem()), Survey(MAP, ("max_l2", "mean_l2"), (10.0, 50.0))
+    problem, axes = chain_of_survey(), axes_of_map(runs)
     simulate(problem)  # compiles
-    results, seconds = timed(lambda: run_survey(problem, plan))
-    runs = results["max_l2"][..., 0].size
+    plan = Survey(axes, ("max_l2", "mean_l2"), (10.0, 50.0))
+    _, seconds = timed(lambda: run_survey(problem, plan))
     return {
         "runs": runs,
         "half_width": 30,
         "end_time": 50,
         "milliseconds_a_run": 1e3 * seconds / runs,
+    }
+
+
+def survey_by_peer() -> dict[str, float]:
+    """Return the time of heyoka in batches, without norms, over ours for a map of fewer runs."""
+    omega, amplitude = map(np.ravel, np.meshgrid(*axes_of_map(PEER_RUNS).values()))
+    milliseconds = 1e3 * survey_by_heyoka(chain_of_survey(), omega, amplitude) / PEER_RUNS
+    ours = survey(PEER_RUNS)["milliseconds_a_run"]
+    return {"runs": PEER_RUNS, "milliseconds_a_run": milliseconds, "ratio": milliseconds / ours}
+
+
+def chain_of_survey() -> PaperProblem:
+    case = Case(omega=-4, half_width=30, end_time=50)
+    return case.kind.of(case.problem())
+
+
+def axes_of_map(runs: int) -> dict[str, np.ndarray]:
+    """Return the axes of a map of `runs` runs: 32 amplitudes for each Omega."""
+    return {
+        "omega": np.linspace(-6, 6, runs // 32),
+        "initial.0.0": np.linspace(0.1, 2.0, 32),
     }
 
 
@@ -56,7 +78,12 @@ def chain(solver: str) -> dict[str, float]:
     }
 
 
-JOBS = {"survey": (survey,), "dop853": (chain, "dop853"), "taylor": (chain, "taylor")}
+JOBS = {
+    "survey": (survey,),
+    "heyoka": (survey_by_peer,),
+    "dop853": (chain, "dop853"),
+    "taylor": (chain, "taylor"),
+}
 
 
 def timed(action: Callable[[], Any]) -> tuple[Any, float]:

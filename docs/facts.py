@@ -267,11 +267,12 @@ def speed(data: xr.Dataset) -> dict:
 
 
 def speeds(accepted: Results) -> dict:
-    """Return times per site in µs for several lengths, and peers on Newton's equations."""
+    """Return the time per site and step in ns by length, and peers on Newton's equations."""
     pendula, cost = accepted["speed/pendula"], accepted["speed/cost"]["seconds"]
     titles, ratios = pendula["title"].to_series(), pendula["ratio"].transpose("peer", "case")
     return {
         "processor": accepted["speed/work_precision"].attrs["processor"],
+        "cost_processor": accepted["speed/cost"].attrs["processor"],
         "target": pendula.attrs["compared_at"],
         "peers": [
             [
@@ -283,10 +284,11 @@ def speeds(accepted: Results) -> dict:
         ],
         "sites": [
             [
-                str(sites),
+                f"{sites:,}",
                 *(
-                    number(1e6 * cost.sel(sites=sites, solver=entry))
-                    for entry in ("dop853", "taylor")
+                    number(1e9 * cost.sel(sites=sites, solver=solver, start=start))
+                    for solver in ("dop853", "taylor")
+                    for start in ("all", "one")
                 ),
             ]
             for sites in cost["sites"].values
@@ -306,6 +308,8 @@ def scale(measured: dict) -> dict:
         "milliseconds": number(survey["milliseconds_a_run"], 2),
         "minutes": number(survey["runs"] * survey["milliseconds_a_run"] / 6e4, 2),
         "megabytes": f"{survey['megabytes']:.0f}",
+        "heyoka_processor": measured["heyoka"]["machine"]["processor"],
+        "heyoka": number(measured["heyoka"]["ratio"], 2),
         "sites": f"{chains[0]['sites']:,}",
         "chain_end": number(chains[0]["end_time"]),
         "chains": [

@@ -1,9 +1,12 @@
 """Small measurements are whole, and the words on the kept ones follow from them."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from helpers import ROOT
 from latticode.datasets.netcdf import as_xarray, read
+from latticode.simulation.simulate import simulate
 from problems import problem_of
 from waiting import HANGS
 
@@ -13,13 +16,19 @@ from benchmarks.contestants import OURS
 FOLDER = ROOT / "tests/baseline/speed"
 
 
-def test_a_time_is_that_of_a_site_and_a_unit_of_slow_time(monkeypatch):
+def test_a_time_is_that_of_a_site_and_a_step(monkeypatch):
     monkeypatch.setattr(cost, "SITES", (5, 101))
     monkeypatch.setattr(cost, "WORK", 101)
     monkeypatch.setattr(cost, "timed", lambda action: (None, 5.0))
-    seconds = as_xarray(cost.measure(), {})["seconds"].sel(solver="taylor").values
-    ends = [cost.noisy_chain(sites, "taylor").end_time for sites in (5, 101)]
-    np.testing.assert_allclose(seconds, [5.0 / 5 / ends[0], 5.0 / 101 / ends[1]])
+    seconds = as_xarray(cost.measure(), {})["seconds"]
+    for start, sites, solver in product(cost.STARTS, (5, 101), cost.SOLVERS):
+        steps = simulate(cost.STARTS[start](sites, solver)).outcome.steps
+        assert seconds.sel(start=start, sites=sites, solver=solver) == 5.0 / sites / steps
+
+
+def test_one_pair_moves_at_the_start_of_a_quiet_chain():
+    moving = [np.abs(chain(11, "taylor").initial) > 0 for chain in cost.STARTS.values()]
+    assert moving[0].all() and moving[1].sum() == 2 and moving[1][:, 5].all()
 
 
 # --- The kept measurements ------------------------------------------------------------------------
