@@ -1,12 +1,12 @@
-"""Translates generated functions to LLVM's code in one pass, in a tenth of numba's time.
+"""Translates generated functions to LLVM's code in one pass over their statements.
 
-numba infers the types of a function by iteration and rewrites its statements many times, which
-takes milliseconds per statement. Here, a name has the type of the value that is assigned to it, so
-one pass suffices. Each operation is numba's own for these types, so results have the same bits as
-with numba's compiler.
+numba infers the types of a function by iteration and rewrites its statements many times. Here, a
+name has the type of the value that is assigned to it, so one pass suffices. Each operation is
+numba's own for these types, so results have the same bits as with numba's compiler.
 
 The language: assignments, `if`, `for ... in range(...)`, and expressions of numbers, vectors,
 arrays and tuples. A `return` is the last statement. `and` and `or` evaluate both sides.
+A name keeps its type, and a step of `range` that a run computes is positive.
 The statements of a translated function are inserted into its caller, and so are those of functions
 `inlined_by_llvm` that it calls. If code compiled by numba calls it, it returns nothing.
 """
@@ -168,7 +168,9 @@ class _Translation:
 
     def _change(self, name: str, value: Value) -> None:
         place = self.names.get(name)
-        if not isinstance(place, Variable) or place.type != value.type:
+        if isinstance(place, Variable) and place.type != value.type:
+            raise NotImplementedError(f"{name} changes from {place.type} to {value.type}")
+        if not isinstance(place, Variable):
             address = cgutils.alloca_once(self.builder, value.value.type)
             place = self.names[name] = Variable(value.type, address)
         self.builder.store(value.value, place.address)

@@ -55,3 +55,15 @@ def test_a_statement_outside_the_language_is_rejected_by_its_text():
 
     with pytest.raises((NotImplementedError, NumbaError), match="while is_even"):
         filled(endless, 1.0, False)
+
+
+def test_a_name_that_changes_its_type_is_rejected():
+    @in_one_pass
+    def mixed(values, out, offset, is_even):
+        total = 0
+        if is_even:
+            total = offset
+        out[0] = total
+
+    with pytest.raises((NotImplementedError, NumbaError), match="total changes from int64"):
+        filled(mixed, 1.0, False)
