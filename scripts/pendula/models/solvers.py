@@ -3,10 +3,12 @@
 from latticode.simulation.traced import load_runs
 
 from . import amplitudes, pendula
-from .equations import AMPLITUDES, METHODS_OF, PENDULA
+from .equations import AMPLITUDE_MODEL, AMPLITUDES, KERNEL_MODEL, METHODS_OF, PENDULA
 
 SOLVERS = {
-    AMPLITUDES: load_runs(amplitudes.__name__, [*METHODS_OF[AMPLITUDES], "ode45_real"]),
-    PENDULA: load_runs(pendula.__name__, METHODS_OF[PENDULA], driven=True),
+    AMPLITUDES: load_runs(
+        amplitudes.__name__, AMPLITUDE_MODEL, [*METHODS_OF[AMPLITUDES], "ode45_real"]
+    ),
+    PENDULA: load_runs(pendula.__name__, KERNEL_MODEL, METHODS_OF[PENDULA]),
 }
 """The compiled methods of each model; for (4) also ode45 with the error norm of real unknowns."""

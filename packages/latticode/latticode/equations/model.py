@@ -40,7 +40,13 @@ from .graph import (
 from .model_file import BEFORE, SEED, placed, run_file, same, values_at
 from .names import Parameters, require_names
 from .rate_bounds import Slopes, bound_rate, slopes_of
-from .rate_properties import are_even, continue_real_equations, vanishes, why_no_series
+from .rate_properties import (
+    are_even,
+    continue_real_equations,
+    stay_at_rest,
+    vanishes,
+    why_no_series,
+)
 from .symbols import ModelError, Value, abs2, conj, cos, exp, lap, log, shift, sin, sqrt
 
 __all__ = [
@@ -366,6 +372,11 @@ class Model:
     def driven(self) -> bool:
         """Whether the equations depend on the time."""
         return bool(leaves_in(self.rates, "time"))
+
+    @cached_property
+    def stays_at_rest(self) -> bool:
+        """Whether a chain with all fields zero stays so."""
+        return stay_at_rest(self.rates)
 
     @cached_property
     def why_no_series(self) -> str:

@@ -70,6 +70,12 @@ def continue_real_equations(rates: Rates) -> bool:
     return bool(leaves_in(real, "field")) and all(map(vanishes, [*real_rates, *odd]))
 
 
+def stay_at_rest(rates: Rates) -> bool:
+    """Return whether the rates of a chain at rest, with all fields zero, are zero at all times."""
+    at_rest = rebuilt(rates, lambda entry, _: ZERO if entry.operation == "field" else None)
+    return all(map(vanishes, at_rest))
+
+
 def why_no_series(rates: Rates) -> str:
     """Return the reason why solutions have no power series, "" if they have one.
 

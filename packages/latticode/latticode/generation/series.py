@@ -11,7 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 from latticode.integrators.taylor import (
-    BLOCK_SIZE,
+    ALL_WAVES,
+    GROUP,
     LEFT,
     ORDER,
     ORDER_STRIDE,
@@ -33,10 +34,10 @@ from .chain import can_be_tiled, seen_at, sign_at
 
 
 @inlined_by_llvm
-def place_of(chain: Any, series: PowerSeries, site: int) -> int:
-    """Return the offset, within an order, of the site `seen_at`; -1 if `site` is at rest."""
-    at = seen_at(chain, site, (series.blocks - 1) * LANES + series.sites_in_last)
-    return at // LANES * BLOCK_SIZE + at % LANES if at >= 0 else -1
+def value_at(series: PowerSeries, component: int, site: int, offset: int) -> float:
+    """Return the number at an offset within the block of a site; 0 if `site` is negative."""
+    place = block_start(series, component, site // LANES) + site % LANES
+    return series.memory[place + offset] if site >= 0 else 0.0
 
 
 def close_ends(reach: int) -> Callable:
@@ -45,17 +46,18 @@ def close_ends(reach: int) -> Callable:
     @in_one_pass
     def close(chain: Any, series: PowerSeries, k: int, at_left: bool, at_right: bool) -> None:
         m, sites_in_last, before = series.memory, series.sites_in_last, series.blocks - 1
+        sites = before * LANES + sites_in_last
+        sign = sign_at(chain, -1, 1)  # factor of the values beyond both ends
         for i in range(reach):
-            after_end = place_of(chain, series, before * LANES + sites_in_last + i)
-            before_start = place_of(chain, series, -1 - i)
-            sign = sign_at(chain, -1, 1)  # factor of the values beyond both ends
+            after_end = seen_at(chain, sites + i, sites)
+            before_start = seen_at(chain, -1 - i, sites)
             for component in range(series.components):
                 ghosts = ghosts_start(series, component)
                 for re_im in range(X, Y + 1, Y - X):
-                    start = block_start(series, component, 0) + k * ORDER_STRIDE + re_im
-                    last = start + before * BLOCK_SIZE
+                    offset = k * ORDER_STRIDE + re_im
+                    last = block_start(series, component, before) + offset
                     if at_right:
-                        value = sign * m[start + after_end] if after_end >= 0 else 0.0
+                        value = sign * value_at(series, component, after_end, offset)
                         if i == 0:
                             store(m, last, keep_lanes(load(m, last), sites_in_last, value))
                             store(m, ghosts + RIGHT + re_im, fill(value))
@@ -64,7 +66,7 @@ def close_ends(reach: int) -> Callable:
                         else:
                             m[ghosts + RIGHT + re_im + sites_in_last + i - LANES] = value
                     if at_left:
-                        value = sign * m[start + before_start] if before_start >= 0 else 0.0
+                        value = sign * value_at(series, component, before_start, offset)
                         if i == 0:  # fill the whole vector, which is then faster to read
                             store(m, ghosts + LEFT + re_im, fill(value))
                         else:
@@ -82,10 +84,12 @@ def sides_of(series: PowerSeries, k: int, component: int, block: int) -> tuple[i
 
     The first and last blocks have ghosts as neighbours.
     """
-    u = block_start(series, component, block) + k * ORDER_STRIDE
-    ghosts = ghosts_start(series, component)
-    left = u - BLOCK_SIZE if block > 0 else ghosts + LEFT
-    right = u + BLOCK_SIZE if block < series.blocks - 1 else ghosts + RIGHT
+    order, ghosts = k * ORDER_STRIDE, ghosts_start(series, component)
+    u = block_start(series, component, block) + order
+    left = block_start(series, component, block - 1) + order if block > 0 else ghosts + LEFT
+    right = ghosts + RIGHT
+    if block < series.blocks - 1:
+        right = block_start(series, component, block + 1) + order
     return left, u, right
 
 
@@ -93,8 +97,6 @@ def sides_of(series: PowerSeries, k: int, component: int, block: int) -> tuple[i
 
 SHORT = 32
 """Largest number of blocks that are computed order by order; for more blocks waves are faster."""
-GROUP = 8
-"""Number of blocks computed together. They and the blocks one order behind fit into the cache."""
 
 
 def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -> Callable:
@@ -113,16 +115,21 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
         A short chain is computed order by order. A long chain is computed in waves from left to
         right (wavefront or skewed tiling). The blocks of a wave fit into the cache. Each order lags
         one block behind the previous order, which it needs in the neighbouring blocks. Both ways
-        execute the same operations on each block, so the bits are the same.
+        execute the same operations on each block, so the bits are the same. Blocks outside
+        series.first..series.stop - 1 are skipped, and so are all waves but `series.wave`, unless it
+        is ALL_WAVES.
         """
         blocks = series.blocks
         # the first block of a ring needs the last one
         at_once = everywhere or blocks <= SHORT or not can_be_tiled(chain)
         group, lag = (blocks, 0) if at_once else (GROUP, 1)
-        for start in range(0, blocks + lag * ORDER, group):
+        begin, end = max(series.wave, 0), blocks + lag * ORDER
+        if series.wave != ALL_WAVES:
+            end = begin + 1
+        for start in range(begin, end, group):
             for k in range(ORDER + 1):
-                first = max(start - lag * k, 0)
-                last = min(start - lag * k + group, blocks)
+                first = max(start - lag * k, series.first)
+                last = min(start - lag * k + group, series.stop)
                 if first < last:
                     if k > 0:
                         write_next_order(chain, series, k - 1, first, last)

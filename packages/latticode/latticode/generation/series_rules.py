@@ -418,10 +418,10 @@ class SeriesWriter:
     def _begin(self, clocks: int) -> list[str]:
         """Return the first lines of the loop over blocks; they find a block and its neighbours."""
         components = {c: str(c) for c in range(self.components)}
-        block = "block"
+        block = "(block & series.mask)"
         if self.exchangeable:
             components = {0: "component", 1: "series.components - 1 - component"}
-            block = "(component * series.blocks + block)"
+            block = "(component * series.held + (block & series.mask))"
         return [
             "        for block in range(first, last):",
             f"            s = d + {clocks} + {block} * SPARE",

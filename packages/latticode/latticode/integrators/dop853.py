@@ -26,7 +26,7 @@ from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outc
 from .autonomous import at_any_time
 from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
 from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
-from .tiles import count_tiles, read_tile, tile_length, tile_place, write_tile
+from .tiles import count_tiles, is_zero, read_tile, tile_length, tile_place, write_tile
 from .weighted_sums import table, write_sum
 
 Array = np.ndarray
@@ -265,6 +265,12 @@ def build(
             read_tile(slope, left, k[0])
             if not alone:
                 read_tile(y, left, start)
+                if not driven and is_zero(start) and is_zero(k[0]):
+                    write_tile(start, left, first, stop, w)
+                    write_tile(start, left, first, stop, new_slope)
+                    for m in range(c.shape[0] if due else 0):
+                        write_tile(start, left, first, stop, c[m])
+                    continue
             take_stages(tile_system, 2, 13, t, start, h, threshold, k, end)
             own_columns = (1 + first - left, 1 + stop - left)
             near = error_estimates(start, end, k, scratch, spare, tolerances, own_columns)

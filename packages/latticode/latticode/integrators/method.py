@@ -143,6 +143,13 @@ class Method:
         """
         return sys.modules[type(self).__module__]
 
+    def long_chains(self) -> ModuleType | None:
+        """Return the module with the variant of this method for long chains, None if none exists.
+
+        It has `build`, `work_arrays`, and the number of sites that a chain is LONGER_THAN.
+        """
+        return None
+
     def build(self, rule: Callable, observe: Callable, **more: Any) -> Callable:
         """Return the function `solve` for a model's `rule` and `observe`.
 

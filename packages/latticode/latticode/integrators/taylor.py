@@ -54,6 +54,10 @@ LEFT, RIGHT = 0, ORDER_STRIDE
 """Offsets of the left and right ghosts of a component, each with the layout of one order."""
 GHOSTS_SIZE = 2 * ORDER_STRIDE
 _SMALLEST_COMPONENT = 2 * 3  # numbers of a component: two rows of one site and two ghosts
+GROUP = 8
+"""Number of blocks computed together in a long chain (see generation.series)."""
+ALL_WAVES = -1
+"""The value of `wave` if all waves are computed."""
 
 
 def work_arrays(more: int) -> int:
@@ -76,26 +80,32 @@ class PowerSeries(NamedTuple):
     components: int
     blocks: int  # of one component
     sites_in_last: int  # lanes with sites in a component's last block; the others are padding
+    held: int  # blocks of one component for which there is memory
+    mask: int  # block & mask is the place of a block in memory: all bits, or `held` - 1
+    first: int  # the first block that moves, and the block after the last one
+    stop: int
+    wave: int  # the block at which a single wave starts, or ALL_WAVES (see generation.series)
 
 
 @kernel
 def lay_out(work: Array, y: Array) -> PowerSeries:
     """Return a series for states of the shape of `y`, in the memory of `work`."""
-    sites = y.shape[1] - 2
+    sites, memory = y.shape[1] - 2, work.reshape(-1)
     blocks = (sites + LANES - 1) // LANES
-    return PowerSeries(work.reshape(-1), y.shape[0] // 2, blocks, sites - (blocks - 1) * LANES)
+    in_last = sites - (blocks - 1) * LANES
+    return PowerSeries(memory, y.shape[0] // 2, blocks, in_last, blocks, -1, 0, blocks, ALL_WAVES)
 
 
 @inlined_by_llvm
 def block_start(series: PowerSeries, component: int, block: int) -> int:
     """Return the index in memory at which a block begins."""
-    return (component * series.blocks + block) * BLOCK_SIZE
+    return (component * series.held + (block & series.mask)) * BLOCK_SIZE
 
 
 @inlined_by_llvm
 def ghosts_start(series: PowerSeries, component: int) -> int:
     """Return the index in memory at which the ghosts of a component begin."""
-    return series.components * series.blocks * BLOCK_SIZE + component * GHOSTS_SIZE
+    return series.components * series.held * BLOCK_SIZE + component * GHOSTS_SIZE
 
 
 @inlined_by_llvm
@@ -169,6 +179,8 @@ def evaluate(series: PowerSeries, h: float, y: Array) -> None:
 
 SQUARES = 1e-280
 """Squares below this value lose digits or vanish."""
+LOWEST = ORDER // 2 + 1
+"""Lowest order from which the step may follow."""
 
 
 @kernel
@@ -185,6 +197,12 @@ def largest_modulus(series: PowerSeries, k: int) -> float:
         x, y = load(m, u + X), load(m, u + Y)
         square = larger_magnitude(square, x * x + y * y)
         magnitude = larger_magnitude(magnitude, larger_magnitude(x, y))
+    return root_of_largest(square, magnitude)
+
+
+@inlined_by_llvm
+def root_of_largest(square: Any, magnitude: Any) -> float:
+    """Return the largest modulus, from the largest squares and parts in each lane."""
     largest_square, largest_part = largest_lane(square), largest_lane(magnitude)
     return largest_part if largest_square < SQUARES else sqrt(largest_square)
 
@@ -215,16 +233,24 @@ def fifteenth_root(x: float) -> float:
 def step_of_earlier_orders(series: PowerSeries, tolerance: float) -> float:
     """Return the step if the last two coefficients vanish, as in a series in t^4.
 
-    It follows from the highest order above ORDER / 2 with a nonzero coefficient, and is infinite if
-    there is none. The step is the eighth root of tolerance / coefficient, or the sixteenth root if
-    that ratio is at least 1. It is never longer than the root of the order itself.
+    It follows from the highest order from LOWEST on with a nonzero coefficient, and is infinite if
+    there is none.
     """
-    for k in range(ORDER - 2, ORDER // 2, -1):
+    for k in range(ORDER - 2, LOWEST - 1, -1):
         coefficient = largest_modulus(series, k)
         if coefficient > 0.0:
-            root = sixteenth_root(tolerance / coefficient)
-            return root * root if root < 1.0 else root
+            return step_of_order(coefficient, tolerance)
     return np.inf
+
+
+@kernel
+def step_of_order(coefficient: float, tolerance: float) -> float:
+    """Return the eighth root of tolerance / coefficient, the sixteenth if the ratio is at least 1.
+
+    It is never longer than the root of any order from LOWEST on.
+    """
+    root = sixteenth_root(tolerance / coefficient)
+    return root * root if root < 1.0 else root
 
 
 @kernel
@@ -237,6 +263,12 @@ def allowed_step(series: PowerSeries, rtol: float, atol: float) -> float:
     tolerance = atol + rtol * size
     if last == 0.0 and last_but_one == 0.0:
         return step_of_earlier_orders(series, tolerance)
+    return step_of_last_orders(last_but_one, last, tolerance)
+
+
+@kernel
+def step_of_last_orders(last_but_one: float, last: float, tolerance: float) -> float:
+    """Return the step at which the terms of the last two orders are at most the tolerance."""
     return min(sixteenth_root(tolerance / last), fifteenth_root(tolerance / last_but_one))
 
 

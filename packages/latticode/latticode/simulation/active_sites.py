@@ -101,7 +101,8 @@ class _GrowingChain:
         equations = TracedEquations(self.problem)
         record = equations.record(components, sites, len(times), every=1, conserved=False)
         controls = compiled.controls_of(self.problem.solver)
-        outcome = interruptible(compiled.run, system, state, times, controls, work, record)
+        run = compiled.run_for(system, state)
+        outcome = interruptible(run, system, state, times, controls, work, record)
         if outcome.status != DONE:
             reason = f"at t = {outcome.time:.6g}: {FAULTS[outcome.status]}"
             raise IntegrationError(f"{compiled.method.name} stopped {reason}")

@@ -30,18 +30,36 @@ class CompiledMethod(NamedTuple):
     """A method compiled with the equations of a model.
 
     `work` is the number of work arrays, or 0 if this number does not depend on the model.
-    `in_tiles` is true if the kernels can divide a chain into tiles.
+    `in_tiles` is true if the kernels can divide a chain into tiles. `load_long` returns the variant
+    for long chains; it is None if there is none.
     """
 
     method: Method
     run: Callable
     work: int = 0
     in_tiles: bool = False
+    load_long: Callable[[], Callable] | None = None
+
+    def is_long(self, system: Any, y: np.ndarray) -> bool:
+        """Return whether the variant for long chains integrates a state `y` of a `system`."""
+        sites, long_chains = y.shape[1] - 2, self.method.long_chains()
+        if self.load_long is None or long_chains is None or sites <= long_chains.LONGER_THAN:
+            return False
+        return can_be_tiled.py_func(system)
+
+    def run_for(self, system: Any, y: np.ndarray) -> Callable:
+        """Return the compiled run for a state `y` of a `system`."""
+        if self.load_long and self.is_long(system, y):
+            return self.load_long()
+        return self.run
 
     def work_for(self, system: Any, y: np.ndarray) -> np.ndarray:
         """Return the work arrays, (array, row, column), for a state `y` of a `system`."""
-        tiled = self.in_tiles and self.method.takes_tiles and can_be_tiled.py_func(system)
-        count = self.work or self.method.work_arrays(y.shape[1] - 2, tiled)
+        sites, can_be_divided = y.shape[1] - 2, can_be_tiled.py_func(system)
+        tiled = self.in_tiles and self.method.takes_tiles and can_be_divided
+        count = self.work or self.method.work_arrays(sites, tiled)
+        if self.is_long(system, y):
+            count = self.method.long_chains().work_arrays(count, sites)
         return aligned((count, *y.shape))
 
     def controls_of(self, solver: Mapping[str, Any], atol_scale: float = 1.0) -> tuple[float, ...]:

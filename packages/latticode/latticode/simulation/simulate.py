@@ -139,7 +139,7 @@ def integrate(
     follow(record.linf[0], name)
     controls = compiled.controls_of(problem.solver, equations.atol_scale)
     work = compiled.work_for(system, y)
-    outcome = interruptible(compiled.run, system, y, times, controls, work, record)
+    outcome = interruptible(compiled.run_for(system, y), system, y, times, controls, work, record)
     if outcome.status != DONE:
         raise _gave_up(problem, equations.time_of_problem(outcome.time), outcome)
     must_be_finite = [record.linf, record.l2, y[:, 1:-1]]

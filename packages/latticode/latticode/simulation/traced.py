@@ -1,8 +1,8 @@
 """Equations of a traced model: its kernels, their parameters, and the results of a run."""
 
 import json
-from collections.abc import Iterable
-from functools import cache, cached_property
+from collections.abc import Callable, Iterable
+from functools import cache, cached_property, partial
 from types import ModuleType
 from typing import Any
 
@@ -38,6 +38,13 @@ solve_{name} = NAMED["{name}"].build({rule}, {observe}{more})
 def run_{name}(system, y, times, controls, work, record, stop):
     return solve_{name}(system, y, times, controls, work, record, stop)
 """
+RUN_LONG = """
+solve_long = NAMED["{name}"].long_chains().build(
+    {rule}, {observe}, {reach}, stays_at_rest={stays_at_rest}{more})
+@kernel
+def run_long(system, y, times, controls, work, record, stop):
+    return solve_long(system, y, times, controls, work, record, stop)
+"""
 OBSERVERS = "from latticode.simulation.observables import observe_angles, observe_fields\n"
 TILES = ", can_be_tiled=can_be_tiled, system_of_tile=system_of_tile"
 
@@ -56,25 +63,54 @@ def runs_text(methods: Iterable[Method], observe: str, driven: bool, in_tiles: b
     return HEAD_OF_RUNS + "".join(texts)
 
 
-def load_runs(home: str, names: Iterable[str], driven: bool = False) -> dict[str, CompiledMethod]:
+@cache
+def load_long_run(home: str, model: Model, observe: str, method: Method) -> Callable:
+    """Return the method's variant for long chains, with the kernels of the module `home`."""
+    properties = {"reach": model.reach, "stays_at_rest": model.stays_at_rest}
+    names = {"name": method.name, "rule": method.rule, "observe": observe}
+    text = RUN_LONG.format(**names, **properties, more=", at_time=at_time" * model.driven)
+    return load_text(f"from {home} import *\n" + HEAD_OF_RUNS + text).run_long
+
+
+def compiled_method(
+    runs: ModuleType, model: Model, observe: str, method: Method, in_tiles: bool
+) -> CompiledMethod:
+    """Return a method with the kernels of the module `runs`."""
+    by_series = method.rule == "continue_series"
+    load_long = partial(load_long_run, runs.__name__, model, observe, method)
+    return CompiledMethod(
+        method,
+        getattr(runs, f"run_{method.name}"),
+        getattr(runs, "WORK", 0) if by_series else 0,
+        in_tiles,
+        load_long if by_series and not model.matrices else None,
+    )
+
+
+def load_runs(home: str, model: Model, names: Iterable[str]) -> dict[str, CompiledMethod]:
     """Return the methods of these names with the kernels of the module `home`, by name.
 
     The module defines `observe`, the rules of the methods, `can_be_tiled`, `system_of_tile`, and
-    `at_time` if `driven`. Its `WORK`, if defined, is the number of work arrays of a power series.
+    `at_time` if the model is driven. Its `WORK`, if defined, is the number of work arrays of a
+    power series.
     """
     methods = [NAMED[name] for name in names]
-    text = f"from {home} import *\n" + runs_text(methods, "observe", driven, in_tiles=True)
+    text = f"from {home} import *\n" + runs_text(methods, "observe", model.driven, in_tiles=True)
     runs = load_text(text)
-    work = getattr(runs, "WORK", 0)
     return {
-        method.name: CompiledMethod(
-            method,
-            getattr(runs, f"run_{method.name}"),
-            work if method.rule == "continue_series" else 0,
-            in_tiles=True,
-        )
+        method.name: compiled_method(runs, model, "observe", method, in_tiles=True)
         for method in methods
     }
+
+
+def norms_of(model: Model) -> str:
+    """Return the name of the function that stores the norms of a model's fields."""
+    return "observe_angles" if model.real else "observe_fields"
+
+
+def observer_of(model: Model) -> str:
+    """Return the name of the function that stores all observables of a model."""
+    return "observe" if model.conserved else norms_of(model)
 
 
 @cache
@@ -83,10 +119,10 @@ def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
 
     Chains are not divided into tiles: the margins of tiles suffice only for nearest neighbours.
     """
-    observe = "observe_angles" if model.real else "observe_fields"
+    observe = observer_of(model)
     text = module_text(model.rates, model.reach, site_dependent) + OBSERVERS
     if model.conserved:
-        text, observe = text + conserved_text(model, site_dependent, observe), "observe"
+        text += conserved_text(model, site_dependent, norms_of(model))
     methods = [METHODS[name] for name in methods_taking(model)]
     return load_text(text + runs_text(methods, observe, model.driven))
 
@@ -239,9 +275,8 @@ class TracedEquations(Equations):
     def compiled(self, name: str) -> CompiledMethod:
         """Return the method of this name with the generated kernels of the model."""
         kernels = kernels_of(self.problem.model, self.problem.site_dependent)
-        method = METHODS[name]
-        work = kernels.WORK if method.rule == "continue_series" else 0
-        return CompiledMethod(method, getattr(kernels, f"run_{name}"), work)
+        model = self.problem.model
+        return compiled_method(kernels, model, observer_of(model), METHODS[name], in_tiles=False)
 
     def system(self, cut: Reduction) -> System:
         """Return the argument `system` of the kernels, at time 0."""

@@ -50,3 +50,9 @@ class Taylor(Method):
         from latticode.integrators import taylor
 
         return taylor
+
+    def long_chains(self) -> ModuleType:
+        """Return the variant that needs memory for the series of a few blocks only."""
+        from latticode.integrators import long_taylor
+
+        return long_taylor
