@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 from latticode import simulate
+from latticode.integrators import long_taylor
 from random_models import ENDS, drawn
 
 SOLVERS = {
@@ -14,7 +15,7 @@ SOLVERS = {
     "kahan_li": ({"step": 0.01}, 1e-10),
 }
 """Of each solver its controls, and the error that these allow where small changes do not grow."""
-TURNS = [("dop853", "auto"), ("ode45", "kahan_li"), ("auto", "crank_nicolson")]
+TURNS = [("dop853", "auto"), ("ode45", "kahan_li", "long_taylor"), ("auto", "crank_nicolson")]
 """The solvers beside the default one that take turns from model to model."""
 
 
@@ -40,6 +41,12 @@ def error(model, end, name):
             for step in (0.025, 0.0125)
         )
         return np.abs(4 * fine - coarse).max() / (0.2 * np.abs(coarse).max() + 1e-9)
+    if name == "long_taylor":
+        limit, long_taylor.LONGER_THAN = long_taylor.LONGER_THAN, 0
+        try:
+            return error(model, end, "taylor")
+        finally:
+            long_taylor.LONGER_THAN = limit
     if name == "auto":
         state, attributes = final(model.case, name=name, error=1e-9)
         return np.abs(state - end).max() / (attributes["solver_estimated_error"] + 1e-11)
@@ -57,7 +64,7 @@ def judge(model, names):
     faults = []
     for boundary, name in product(ENDS, names):
         between = replace(model, boundary=boundary)
-        if name not in between.case.solver_names:
+        if name.removeprefix("long_") not in between.case.solver_names:
             continue
         if name != names[0] and boundary != model.boundary:
             continue

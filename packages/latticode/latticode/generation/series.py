@@ -119,13 +119,12 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
         series.first..series.stop - 1 are skipped, and so are all waves but `series.wave`, unless it
         is ALL_WAVES.
         """
-        blocks = series.blocks
+        blocks, in_one_wave = series.blocks, series.wave != ALL_WAVES
         # the first block of a ring needs the last one
         at_once = everywhere or blocks <= SHORT or not can_be_tiled(chain)
-        group, lag = (blocks, 0) if at_once else (GROUP, 1)
-        begin, end = max(series.wave, 0), blocks + lag * ORDER
-        if series.wave != ALL_WAVES:
-            end = begin + 1
+        group, lag = (blocks, 0) if at_once and not in_one_wave else (GROUP, 1)
+        begin = max(series.wave, 0)
+        end = begin + 1 if in_one_wave else blocks + lag * ORDER
         for start in range(begin, end, group):
             for k in range(ORDER + 1):
                 first = max(start - lag * k, series.first)

@@ -12,7 +12,13 @@ from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import Node, evaluate
 from latticode.equations.initial_values import InitialValueProblem
 from latticode.equations.model import Model
-from latticode.generation.modules import conserved_text, inputs_of_rates, load_text, module_text
+from latticode.generation.modules import (
+    HEAD,
+    conserved_text,
+    inputs_of_rates,
+    load_text,
+    module_text,
+)
 from latticode.generation.statements import ModelInputs, inputs_of
 from latticode.generation.toolbox import Couplings, DensityWorkspace, System
 from latticode.integrators.method import Method
@@ -63,13 +69,15 @@ def runs_text(methods: Iterable[Method], observe: str, driven: bool, in_tiles: b
     return HEAD_OF_RUNS + "".join(texts)
 
 
-@cache
 def load_long_run(home: str, model: Model, observe: str, method: Method) -> Callable:
     """Return the method's variant for long chains, with the kernels of the module `home`."""
     properties = {"reach": model.reach, "stays_at_rest": model.stays_at_rest}
     names = {"name": method.name, "rule": method.rule, "observe": observe}
     text = RUN_LONG.format(**names, **properties, more=", at_time=at_time" * model.driven)
-    return load_text(f"from {home} import *\n" + HEAD_OF_RUNS + text).run_long
+    # kernels are recompiled if an import changes; the imports of a generated `home` are repeated,
+    # because only those of files of the library are followed
+    head = f"{HEAD}{OBSERVERS}from {home} import *\n"
+    return load_text(head + HEAD_OF_RUNS + text).run_long
 
 
 def compiled_method(

@@ -97,6 +97,16 @@ def test_a_site_at_the_end_of_the_margin_is_felt_by_the_last_stage(distance):
     assert (moduli[:, [first, last], 1:] > 0.0).all()
 
 
+def test_tiles_at_rest_give_the_bits_of_one_piece():
+    amplitudes = np.zeros((2, 5 * tiles.LONGEST), complex)
+    amplitudes[:, tiles.LONGEST - 40] = 1.0, 0.5j
+    moduli, counts = compared(amplitudes, "dirichlet", False)
+    assert counts.steps > 20
+    moving = np.flatnonzero(moduli[..., -1].any(axis=0))
+    assert moving[-1] > tiles.LONGEST  # it entered a tile that was at rest
+    assert moving[-1] < 3 * tiles.LONGEST
+
+
 @given(sites=st.integers(1, 5 * tiles.LONGEST))
 def test_every_site_is_owned_once_and_well_inside(sites):
     count = tiles.count_tiles(sites)
