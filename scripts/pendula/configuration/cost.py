@@ -26,7 +26,8 @@ OF_PENDULA = CHEAP_VALUES | {"mu": {"mu": 0.1}}
 def demand(problem: Mapping) -> Demand:
     """Return the values that determine the cost of a problem of (4), or of (1) if `mu` is given."""
     mu = problem.get("mu")
-    return Demand(fastest_rate(problem), integrated_pairs(problem), clock_of(mu) if mu else 1.0)
+    rate, pairs, clock = fastest_rate(problem), integrated_pairs(problem), clock_of(mu) if mu else 1
+    return Demand(rate, pairs, clock, in_parts=not cost.is_ring(problem))
 
 
 estimate = partial(cost.estimate, measure=demand)

@@ -10,6 +10,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from math import inf
 from typing import NamedTuple
 
+from latticode.equations.ends import ANTIPERIODIC, PERIODIC, kind_of
 from latticode.equations.model import Model
 from latticode.integrators.families import first_tolerance, other_family, pair_of
 from latticode.integrators.method import Demand, Obstacle
@@ -75,7 +76,13 @@ def demand(problem: Mapping) -> Demand:
     even = same_equations and all(initial.get(-site) == values for site, values in initial.items())
     even = even and problem.get("site_count") is None
     sites = problem["half_width"] + 1 if even else _sites_of(problem)
-    return Demand(model.rate(problem["parameters"], peak), 0.5 * len(model.fields) * sites)
+    rate, pairs = model.rate(problem["parameters"], peak), 0.5 * len(model.fields) * sites
+    return Demand(rate, pairs, in_parts=not (is_ring(problem) or model.matrices))
+
+
+def is_ring(problem: Mapping) -> bool:
+    """Return whether the ends of a problem's chain are joined."""
+    return kind_of(problem["boundary"]) in (PERIODIC, ANTIPERIODIC)
 
 
 def _sites_of(problem: Mapping) -> float:
@@ -102,8 +109,8 @@ def estimate(problem: Mapping, measure: Measure = demand) -> RunCost:
         bytes_of_value = STATE_BYTES if problem.get("keep") == "state" else MODULUS_BYTES
         snapshots = bytes_of_value * fields * sites * (outputs / every) if every else 0.0
         seconds = sum(_solver_seconds(method, problem, needs, outputs) for method in solvers)
-        pair_bytes = METHODS[solvers[0]["name"]].cost.pair_bytes
-        memory = pair_bytes * needs.pairs + SITE_BYTES * sites
+        work = METHODS[solvers[0]["name"]].cost.memory(needs)
+        memory = work + SITE_BYTES * sites
         return RunCost(seconds, memory + OUTPUT_BYTES * outputs + snapshots)
     except (OverflowError, ZeroDivisionError):
         return RunCost(inf, inf)

@@ -10,6 +10,7 @@ is therefore imported only in `build` or in the module that `kernels` returns.
 
 import sys
 from collections.abc import Callable, Mapping
+from math import inf
 from types import ModuleType
 from typing import Any, ClassVar, NamedTuple, Protocol
 
@@ -40,12 +41,11 @@ class Demand(NamedTuple):
     rate: float  # fastest phase rate, in radians per unit of time
     pairs: float  # number of row pairs (fields times sites) that are integrated
     clock: float = 1.0  # units of the kernels' time per unit of the problem's time
+    in_parts: bool = False  # whether a long chain may be integrated a few blocks at a time
 
 
 class Cost(Protocol):
     """An estimate of the cost of a run, within a factor of 3 of measured times."""
-
-    pair_bytes: float
 
     def steps(
         self, controls: Mapping[str, Any], demand: Demand, span: float, output_step: float
@@ -54,6 +54,9 @@ class Cost(Protocol):
 
     def seconds(self, steps: float, evaluations: float, pairs: float) -> float:
         """Return the seconds for these numbers of steps, evaluations and row pairs."""
+
+    def memory(self, demand: Demand) -> float:
+        """Return the bytes of the state and the work arrays."""
 
 
 class AdaptiveCost(NamedTuple):
@@ -64,6 +67,8 @@ class AdaptiveCost(NamedTuple):
     step_seconds: float  # per step, for any chain
     pair_seconds: float  # per step and row pair
     pair_bytes: float  # of the state and the work arrays, per row pair
+    cached_pairs: float = inf  # row pairs that fit into the cache; if the chain is integrated in
+    further_pair_bytes: float = 0.0  # parts, each row pair in addition to them needs these bytes
 
     def steps(
         self, controls: Mapping[str, Any], demand: Demand, span: float, output_step: float
@@ -75,6 +80,11 @@ class AdaptiveCost(NamedTuple):
     def seconds(self, steps: float, evaluations: float, pairs: float) -> float:
         """Return the seconds that the steps take."""
         return steps * (self.step_seconds + self.pair_seconds * pairs)
+
+    def memory(self, demand: Demand) -> float:
+        """Return the bytes of the state and the work arrays."""
+        cached = min(demand.pairs, self.cached_pairs) if demand.in_parts else demand.pairs
+        return self.pair_bytes * cached + self.further_pair_bytes * (demand.pairs - cached)
 
 
 class FixedStepCost(NamedTuple):
@@ -94,6 +104,10 @@ class FixedStepCost(NamedTuple):
     def seconds(self, steps: float, evaluations: float, pairs: float) -> float:
         """Return the seconds that the steps take."""
         return steps * (self.step_seconds + self.pair_seconds * pairs)
+
+    def memory(self, demand: Demand) -> float:
+        """Return the bytes of the state and the work arrays."""
+        return self.pair_bytes * demand.pairs
 
 
 class Method:

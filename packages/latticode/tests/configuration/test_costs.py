@@ -77,6 +77,20 @@ def test_a_limit_is_raised_by_the_argument_that_its_message_names():
     assert survey(small, {"c": [1.0]}, gigabytes=20).attrs["failed_runs"] == 0
 
 
+def test_a_long_chain_needs_less_memory_than_a_ring():
+    """The series of a few blocks suffice, but not for a ring (tests of long_taylor)."""
+    for half_width, share in ((1_000, 1.0), (10**6, 0.5)):
+        memory = [
+            cost(case.shown_problem()).memory
+            for boundary in ("free", "periodic")
+            for case in [
+                case_of(CUBIC, half_width=half_width, initial={1: [1.0]}, boundary=boundary)
+            ]
+            for cost in [case.cost]
+        ]
+        assert memory[0] / memory[1] == pytest.approx(share, rel=0.15)
+
+
 def test_checks_cost_in_proportion_to_the_time_and_hold_two_runs_and_a_matrix():
     short, long = (case_of(CUBIC, end_time=end, output_step=0.5) for end in (1000, 8000))
     alone, checked = (

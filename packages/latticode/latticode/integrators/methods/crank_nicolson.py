@@ -32,6 +32,10 @@ class IteratedCost(NamedTuple):
         by_evaluation = self.evaluation_seconds + self.evaluation_pair_seconds * pairs
         return steps * by_step + evaluations * by_evaluation
 
+    def memory(self, demand: Demand) -> float:
+        """Return the bytes of the state and the work arrays."""
+        return self.pair_bytes * demand.pairs
+
 
 def _iterations(angle: float, controls: Mapping[str, Any]) -> float:
     """Return the number of iterations of a step, which starts from a guess of order six."""

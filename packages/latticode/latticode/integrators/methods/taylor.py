@@ -19,7 +19,15 @@ class Taylor(Method):
     name, label, order = "taylor", "Taylor", 16
     rule = "continue_series"
     controls = {"rtol": Control(1e-14, at_least=1e-16, at_most=COARSEST), "atol": Control(1e-14)}
-    cost = AdaptiveCost(0.16, 15, step_seconds=6e-7, pair_seconds=1.5e-7, pair_bytes=1400)
+    cost = AdaptiveCost(
+        0.16,
+        15,
+        step_seconds=6e-7,
+        pair_seconds=1.5e-7,
+        pair_bytes=1400,
+        cached_pairs=8192,
+        further_pair_bytes=400,
+    )
     tightest = 1e-14
     look = ("#7b4fa3", "D")
 
