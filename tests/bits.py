@@ -26,11 +26,13 @@ CONTROLS = {
     "delfour_fortin_payre": ITERATED,
     **{f"pendula.{name}": {"rtol": value, "atol": value} for name, value in TIGHT.items()},
     "pendula.kahan_li": {"step": 0.25},
+    "long.taylor": {"rtol": TIGHT["taylor"], "atol": TIGHT["taylor"]},
 }
 RUNS = [(name, even) for name in CONTROLS for even in (True, False)]
-HALF_WIDTHS = (30, 200)
-"""The motion reaches the ends of the short chain. In the long chain most sites are still at rest,
-and numbers near the smallest ones are set to zero (`integrators/rest.py`)."""
+HALF_WIDTHS, LONG = (30, 200), (8200,)
+"""The motion reaches the ends of the shortest chain. In the next one most sites are still at rest,
+and numbers near the smallest ones are set to zero (`integrators/rest.py`). Even half of the LONG
+chain is integrated by `long_taylor`."""
 
 
 def digest(trajectories: list[Trajectory]) -> str:
@@ -46,13 +48,14 @@ def digest(trajectories: list[Trajectory]) -> str:
 def of_model(name: str) -> tuple[str, str]:
     """Return model and solver from the name of a run; the model is amplitudes by default."""
     model, _, solver = name.rpartition(".")
-    return model or "amplitudes", solver
+    return model if model == "pendula" else "amplitudes", solver
 
 
 def run(name: str, even: bool) -> str:
     """Return the hash of Fig 4, large data, to tau = 3, by half of each chain or the whole."""
     reduction = Reduction(even=even, synchronised=False)
-    return digest([simulate(problem(name, half_width), reduction) for half_width in HALF_WIDTHS])
+    half_widths = LONG if name.startswith("long.") else HALF_WIDTHS
+    return digest([simulate(problem(name, half_width), reduction) for half_width in half_widths])
 
 
 def problem(name: str, half_width: int) -> PaperProblem:
@@ -72,16 +75,19 @@ def problem(name: str, half_width: int) -> PaperProblem:
     return PaperProblem.of(entries)
 
 
-def hits(model: str, solver: str) -> int:
-    """Return how often a kernel was read from the cache."""
-    return sum(SOLVERS[model][solver].run.stats.cache_hits.values())
+def hits(name: str) -> int:
+    """Return how often the kernel of a run was read from the cache."""
+    model, solver = of_model(name)
+    method = SOLVERS[model][solver]
+    kernel = method.load_long() if name.startswith("long.") else method.run
+    return sum(kernel.stats.cache_hits.values())
 
 
 def main(threads: int, names: list[str]) -> dict:
     runs = [(name, even) for name, even in RUNS if name in names] * threads
     with ThreadPoolExecutor(threads) as pool:
         hashes = list(pool.map(lambda task: run(*task), runs))
-    cached = {name: hits(*of_model(name)) for name in names}
+    cached = {name: hits(name) for name in names}
     digests = {name: set() for name in names}
     for (name, _), value in zip(runs, hashes, strict=True):
         digests[name].add(value)
