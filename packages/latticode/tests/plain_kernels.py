@@ -43,6 +43,7 @@ def largest_in_rows(scratch, rows):
 VECTORS = {
     "LANES": LANES,
     "fill": lambda number: np.full(LANES, float(number)),
+    "fill_from": lambda array, index: np.full(LANES, array.reshape(-1)[index]),
     "load": lambda array, index: array.reshape(-1)[index : index + LANES].copy(),
     "store": store,
     "define_shift": define_shift,

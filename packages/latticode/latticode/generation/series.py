@@ -24,7 +24,7 @@ from latticode.integrators.taylor import (
     ghosts_start,
 )
 from latticode.kernels.compiled import in_one_pass, inlined_by_llvm
-from latticode.kernels.simd import LANES, fill, keep_lanes, load, store
+from latticode.kernels.simd import LANES, fill, fill_from, keep_lanes, load, store
 
 from .chain import can_be_tiled, seen_at, sign_at
 
@@ -34,43 +34,55 @@ from .chain import can_be_tiled, seen_at, sign_at
 
 
 @inlined_by_llvm
-def value_at(series: PowerSeries, component: int, site: int, offset: int) -> float:
-    """Return the number at an offset within the block of a site; 0 if `site` is negative."""
-    place = block_start(series, component, site // LANES) + site % LANES
-    return series.memory[place + offset] if site >= 0 else 0.0
+def sites_beyond(chain: Any, series: PowerSeries) -> tuple[tuple, tuple, float]:
+    """Return from which sites those beyond the right end and the left end get their values.
+
+    Each end has the site that the first one sees, -1 if it is at rest, and the step to the site
+    that the next one sees. The last number is the factor of the values.
+    """
+    sites = (series.blocks - 1) * LANES + series.sites_in_last
+    right, left = seen_at(chain, sites, sites), seen_at(chain, -1, sites)
+    right_step = seen_at(chain, sites + 1, sites) - right
+    left_step = seen_at(chain, -2, sites) - left
+    return (right, right_step), (left, left_step), sign_at(chain, -1, 1)
+
+
+@inlined_by_llvm
+def value_beyond(
+    series: PowerSeries, component: int, offset: int, end: tuple[int, int], i: int, sign: float
+) -> Any:
+    """Return a vector of the value at the `i`-th site beyond an end, at an offset in its block."""
+    site = end[0] + i * end[1]
+    place = block_start(series, component, site // LANES) + site % LANES + offset
+    return sign * fill_from(series.memory, place) if end[0] >= 0 else fill(0.0)
 
 
 def close_ends(reach: int) -> Callable:
     """Return the function that fills ghosts and padding of order k, for rates of this reach."""
 
     @in_one_pass
-    def close(chain: Any, series: PowerSeries, k: int, at_left: bool, at_right: bool) -> None:
-        m, sites_in_last, before = series.memory, series.sites_in_last, series.blocks - 1
-        sites = before * LANES + sites_in_last
-        sign = sign_at(chain, -1, 1)  # factor of the values beyond both ends
-        for i in range(reach):
-            after_end = seen_at(chain, sites + i, sites)
-            before_start = seen_at(chain, -1 - i, sites)
-            for component in range(series.components):
-                ghosts = ghosts_start(series, component)
-                for re_im in range(X, Y + 1, Y - X):
-                    offset = k * ORDER_STRIDE + re_im
-                    last = block_start(series, component, before) + offset
-                    if at_right:
-                        value = sign * value_at(series, component, after_end, offset)
-                        if i == 0:
-                            store(m, last, keep_lanes(load(m, last), sites_in_last, value))
-                            store(m, ghosts + RIGHT + re_im, fill(value))
-                        elif sites_in_last + i < LANES:
-                            m[last + sites_in_last + i] = value
-                        else:
-                            m[ghosts + RIGHT + re_im + sites_in_last + i - LANES] = value
-                    if at_left:
-                        value = sign * value_at(series, component, before_start, offset)
-                        if i == 0:  # fill the whole vector, which is then faster to read
-                            store(m, ghosts + LEFT + re_im, fill(value))
-                        else:
-                            m[ghosts + LEFT + re_im + LANES - 1 - i] = value
+    def close(beyond: tuple, series: PowerSeries, k: int, at_left: bool, at_right: bool) -> None:
+        m, in_last, before = series.memory, series.sites_in_last, series.blocks - 1
+        right_end, left_end, sign = beyond
+        for component in range(series.components):
+            for re_im in range(X, Y + 1, Y - X):
+                ghosts = ghosts_start(series, component) + re_im
+                offset = k * ORDER_STRIDE + re_im
+                last = block_start(series, component, before) + offset
+                padded, right, left = load(m, last), fill(0.0), fill(0.0)
+                for i in range(reach):
+                    value = value_beyond(series, component, offset, right_end, i, sign)
+                    padded = keep_lanes(padded, in_last + i, value)
+                    right = keep_lanes(right, in_last + i - LANES, value)
+                    value = value_beyond(series, component, offset, left_end, i, sign)
+                    left = keep_lanes(value, LANES - i, left)
+                # Loads precede all stores. Otherwise, LLVM would store only the changed lanes, and
+                # the next order would wait until that store has reached the cache.
+                if at_left:
+                    store(m, ghosts + LEFT, left)
+                if at_right:
+                    store(m, ghosts + RIGHT, right)
+                    store(m, last, padded)
 
     return close
 
@@ -123,15 +135,17 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
         # the first block of a ring needs the last one
         at_once = everywhere or blocks <= SHORT or not can_be_tiled(chain)
         group, lag = (blocks, 0) if at_once and not in_one_wave else (GROUP, 1)
-        begin = max(series.wave, 0)
+        beyond, begin = sites_beyond(chain, series), max(series.wave, 0)
         end = begin + 1 if in_one_wave else blocks + lag * ORDER
         for start in range(begin, end, group):
+            left, right = start, start + group
             for k in range(ORDER + 1):
-                first = max(start - lag * k, series.first)
-                last = min(start - lag * k + group, series.stop)
+                first, last = max(left, series.first), min(right, series.stop)
                 if first < last:
                     if k > 0:
                         write_next_order(chain, series, k - 1, first, last)
-                    close_order(chain, series, k, first == 0, last == blocks)
+                    if first == 0 or last == blocks:
+                        close_order(beyond, series, k, first == 0, last == blocks)
+                left, right = left - lag, right - lag
 
     return continue_series

@@ -14,6 +14,7 @@ from latticode.kernels.compiled import uncached
 from latticode.kernels.simd import (
     LANES,
     fill,
+    fill_from,
     keep_lanes,
     larger_magnitude,
     largest_in_rows,
@@ -127,13 +128,23 @@ def test_shifts_show_each_site_its_neighbour():
 
 @uncached
 def keep_some(out, a, count):
-    store(out, 0, keep_lanes(load(a, 0), count, 9.0))
+    store(out, 0, keep_lanes(load(a, 0), count, fill(9.0)))
 
 
 @pytest.mark.parametrize("count", range(LANES + 1))
 def test_keep_lanes_replaces_what_follows_the_count(count):
     expected = np.where(np.arange(LANES) < count, FIRST, 9.0)
     np.testing.assert_array_equal(rows_of(keep_some, 1, FIRST, count)[0], expected)
+
+
+@uncached
+def fill_from_place(out, a, place):
+    store(out, 0, fill_from(a, place))
+
+
+@pytest.mark.parametrize("place", range(LANES))
+def test_fill_from_repeats_one_number_of_an_array(place):
+    np.testing.assert_array_equal(rows_of(fill_from_place, 1, FIRST, place)[0], FIRST[place])
 
 
 # --- Magnitudes ---
