@@ -6,8 +6,11 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: waiting threads take a core
 
-FIRST = ("docs/test_commands.py", "workflow/")
+FIRST = ("tests/docs/test_commands.py", "tests/workflow/")
 """These tests take seconds each. If they came last, one worker would wait for another."""
+LAST = ("tests/configuration/", "packages/")
+"""Tests without the kernels of the shared run: a second worker begins with them, and so does not
+compile these kernels at the same time as that run."""
 
 
 def pytest_configure(config):
@@ -24,13 +27,14 @@ def pytest_collection_modifyitems(items):
     A worker begins with its own share of that order. All that read the shared quick run are in the
     first share, so that no other worker waits while one makes it.
     """
-    first = tuple(str(Path(__file__).parent / name) for name in FIRST)
+    root = Path(__file__).parents[1]
+    first, last = (tuple(str(root / name) for name in names) for names in (FIRST, LAST))
 
-    def place(item) -> tuple:
-        reads = "full_run" in getattr(item, "fixturenames", ())
-        return not (reads or str(item.path).startswith(first)), not reads, item.path
+    def rank(item) -> tuple:
+        reads, path = "full_run" in getattr(item, "fixturenames", ()), str(item.path)
+        return reads or path.startswith(first), reads, not path.startswith(last), path
 
-    items.sort(key=place)
+    items.sort(key=rank, reverse=True)
 
 
 def pytest_collection_finish():

@@ -95,6 +95,7 @@ class Cards:
     def __init__(self, results: Results, long_studies: LongStudies) -> None:
         self.results, self.long_studies = results, long_studies
         self._printed: dict[str, list[Printed]] = {}
+        self._small_tables: dict[str, Table] = {}
         self._claims = {row["name"]: row for row in load(results)}
 
     def note(self, text: Printed) -> str:
@@ -254,6 +255,10 @@ class Cards:
     def _tabulate(self, source: Source) -> Table:
         """Return a table of a variable: all numbers if they are few, else the printed ones."""
         data = self.results[source.dataset]
+        if data[source.variable].size <= MOST_ROWS:
+            if source.card not in self._small_tables:
+                self._small_tables[source.card] = tabulate(data, source.variable, [{}])
+            return self._small_tables[source.card]
         sources = [text.source for text in self._printed.get(source.card, [])] or [source]
         return tabulate(data, source.variable, [dict(each.labels) for each in sources])
 
@@ -263,10 +268,9 @@ class Cards:
         if varied not in self.results[source.dataset]:
             return Table()
         varied_values = self.results[source.dataset][varied]
-        columns = [varied_values.sel(key) for key in table.keys]
+        columns = [varied_values.sel(key).values.tolist() for key in table.keys]
         rows = []
-        for choice in varied_values[VARIATION].values:
-            values = [float(column.sel({VARIATION: choice})) for column in columns]
+        for choice, *values in zip(varied_values[VARIATION].values, *columns, strict=True):
             if np.isfinite(values).any():
                 texts = ("" if np.isnan(value) else number(value, DIGITS) for value in values)
                 rows.append((symbols(str(choice)), *texts))

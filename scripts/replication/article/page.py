@@ -3,6 +3,7 @@
 import base64
 import re
 from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
@@ -62,7 +63,10 @@ def complete_page(
         "(hash of the script)": page.digest(script),
     }
     html = ANNOTATION.sub("", html)
-    html = PICTURE.sub(lambda picture: _enlargeable(folder, *picture.groups()), html)
+    pictures = [picture for picture, _ in PICTURE.findall(html)]
+    with ThreadPoolExecutor() as pool:  # Pillow releases Python's lock
+        images = dict(zip(pictures, pool.map(embed, map(folder.joinpath, pictures)), strict=True))
+    html = PICTURE.sub(lambda picture: _enlargeable(images, *picture.groups()), html)
     for place, content in replacements.items():
         html = html.replace(place, content)
     return html
@@ -79,9 +83,9 @@ def places_of(page: Path) -> dict[str, str]:
     return {name: f"{page.name}#{place}" for name, place in ids.items()}
 
 
-def _enlargeable(folder: Path, picture: str, attributes: str) -> str:
+def _enlargeable(images: Mapping[str, str], picture: str, attributes: str) -> str:
     """Return a picture with a link to its file, because browsers can zoom in the file."""
-    return f'<a href="{picture}"><img src="{embed(folder / picture)}"{attributes}></a>'
+    return f'<a href="{picture}"><img src="{images[picture]}"{attributes}></a>'
 
 
 def embed(picture: Path) -> str:

@@ -7,6 +7,7 @@ which typesets the PDF with its own fonts.
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -31,8 +32,9 @@ from .sources import Printed, Source
 
 LAYOUTS = Path(__file__).parent
 MARKDOWN = "markdown-auto_identifiers"
-VECTORS = "/figures/{}.pdf"
-"""Pattern of the paths of figures in the PDF's source."""
+PICTURES = "figures/{}.png"
+"""Pattern of the paths of figures in the page's source."""
+PICTURE_LINK = re.compile(r"\]\((figures/[^)]+)\.png\)")
 MARKS = {
     "holds": (Verdict.CONFIRMED, Verdict.CAVEAT),
     "fails": REFUTED,
@@ -65,30 +67,41 @@ class Article(NamedTuple):
         self, results: Results, html: str, pdf: str, metadata: str, live: LiveParts | None = None
     ) -> None:
         """Write the page with its `live` figures, the PDF, and the journal's metadata."""
-        contents = {
-            html: self.page(results, live).encode(),
-            pdf: self.pdf(results, VECTORS),
-            metadata: self.describe(self.source(results, VECTORS)).encode(),
-        }
+        text, cards = self._link(results, PICTURES)
+        folder, vectors = _folder(results), PICTURE_LINK.sub(r"](/\1.pdf)", text)
+        with ThreadPoolExecutor(1) as pool:  # Typst and Pillow release Python's lock
+            document = pool.submit(self.typeset, vectors, folder, cards)
+            contents = {
+                html: self._lay_out(text, folder, cards, live).encode(),
+                metadata: self.describe(self.source(results, PICTURES)).encode(),
+                pdf: document.result(),
+            }
         for path, content in contents.items():
             with complete_or_absent(path) as partial:
                 Path(partial).write_bytes(content)
 
+    def _link(self, results: Results, pictures: str) -> tuple[str, list[Card]]:
+        """Return the article in Markdown with links to cards, and these cards."""
+        cards = Cards(results, self.long_studies)
+        text = self.source(results, pictures, cards)
+        return text, cards.describe()
+
     def page(self, results: Results, live: LiveParts | None = None) -> str:
         """Return the article as an HTML page with its pictures and a card for each number."""
-        cards = Cards(results, self.long_studies)
-        text = self.source(results, "figures/{}.png", cards)
+        text, cards = self._link(results, PICTURES)
+        return self._lay_out(text, _folder(results), cards, live)
+
+    def _lay_out(self, text: str, folder: Path, cards: list[Card], live: LiveParts | None) -> str:
         html = self.convert(text, "html", "--mathml", "--standalone")
-        return complete_page(html, _folder(results), cards.describe(), live)
+        return complete_page(html, folder, cards, live)
 
     def pdf(self, results: Results, pictures: str) -> bytes:
         """Return the article as PDF, with an appendix on the origin of its numbers.
 
-        `pictures` is the pattern of figures' paths, such as VECTORS, from the folder of results.
+        `pictures` is the pattern of figures' paths, such as PICTURES, from the folder of results.
         """
-        cards = Cards(results, self.long_studies)
-        text = self.source(results, pictures, cards)
-        return self.typeset(text, _folder(results), cards.describe())
+        text, cards = self._link(results, pictures)
+        return self.typeset(text, _folder(results), cards)
 
     def typeset(self, text: str, folder: Path, cards: Iterable[Card]) -> bytes:
         """Return the PDF of an article in Markdown; `folder` is the root of its pictures' paths.
