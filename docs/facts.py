@@ -166,14 +166,16 @@ def variations(accepted: Results) -> dict:
     studies = []
     for name, title in LONG_STUDIES.items():
         data = accepted[f"quoted/{name}"]
-        numbers = [number_and_variations(data, number) for number in numbers_in(data)]
+        places = {name_of_number: [] for name_of_number in numbers_in(data)}
+        for name_of_number, at_place in single_numbers(data):
+            places[name_of_number].append(at_place)
+        numbers = [number_and_variations(data, *entry) for entry in places.items()]
         studies += [{"title": title, "numbers": numbers}] * bool(numbers)
     return {"targets": "unbounded transition fates sensitivity over_the_top", "studies": studies}
 
 
-def number_and_variations(data: xr.Dataset, name: str) -> dict:
-    """Return the meaning of a number, its choices, and a table of its values at all labels."""
-    places = [at_place for varied, at_place in single_numbers(data) if varied == name]
+def number_and_variations(data: xr.Dataset, name: str, places: list[xr.Dataset]) -> dict:
+    """Return the meaning of a number, its choices, and a table of its values at `places`."""
     labels = [variations_of(at_place, name) for at_place in places]
     changed = [
         label

@@ -191,10 +191,13 @@ def variations_of(data: xr.Dataset, number: str) -> dict[str, float]:
 
 
 def single_numbers(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield the name and dataset of each number with variations, or of each entry of an array."""
+    """Yield the name and dataset of each number with variations, or of each entry of an array.
+
+    The dataset holds the variables of this number alone.
+    """
     for name in numbers_in(data):
-        dims = data[name].dims
-        for place in np.ndindex(data[name].shape):
-            single = data.isel(dict(zip(dims, place, strict=True)))
-            if np.isfinite(single[name]) and variations_of(single, name):
+        number = data[[variable for variable in names_of(name) if variable in data]]
+        for place in np.argwhere(np.isfinite(data[name].values)):
+            single = number.isel(dict(zip(data[name].dims, place, strict=True)))
+            if variations_of(single, name):
                 yield name, single

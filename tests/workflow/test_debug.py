@@ -2,9 +2,10 @@
 
 import pytest
 import xarray as xr
-from helpers import ROOT
+from helpers import ROOT, run_ready
 from latticode.datasets.netcdf import as_xarray
 from matplotlib.figure import Figure
+from pendula.workflow import debug
 from pendula.workflow.debug import job
 
 QUICK = ("--configfile", str(ROOT / "config/quick.yaml"))
@@ -16,6 +17,12 @@ def in_run(full_run, monkeypatch):
     return full_run
 
 
+@pytest.fixture
+def fork(monkeypatch):
+    """Let Snakemake plan a job in a fork; the test of a dataset starts it as a user does."""
+    monkeypatch.setattr(debug.subprocess, "run", lambda command, **_: run_ready(command))
+
+
 def test_a_dataset_comes_out_as_the_job_writes_it(in_run):
     threshold = job("results/pendula/threshold.nc", *QUICK)
     data = as_xarray(*threshold.call())
@@ -25,7 +32,7 @@ def test_a_dataset_comes_out_as_the_job_writes_it(in_run):
     assert threshold.rule == "find_threshold" and "epsilon" in threshold.arguments
 
 
-def test_all_runs_of_a_study_and_a_figure_are_made_in_the_session(in_run):
+def test_all_runs_of_a_study_and_a_figure_are_made_in_the_session(in_run, fork):
     fates = job("results/breathers/fates.nc", *QUICK)
     variables, _ = fates.call()
     with xr.open_dataset(in_run / "results/breathers/fates.nc") as written:
@@ -33,7 +40,7 @@ def test_all_runs_of_a_study_and_a_figure_are_made_in_the_session(in_run):
     assert isinstance(job("results/figures/fates.png", *QUICK).call(), Figure)
 
 
-def test_what_is_absent_is_named_with_the_command_that_makes_it(tmp_path, monkeypatch):
+def test_what_is_absent_is_named_with_the_command_that_makes_it(tmp_path, monkeypatch, fork):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(
         FileNotFoundError, match=r"type `snakemake results/breathers/fates\.nc` first"
