@@ -76,7 +76,7 @@ def copy(source, target):
 
 def install():
     """Put these into the place of the library's decorators and vectors."""
-    decorators = ("kernel", "uncached", "inlined_by_numba", "inlined_by_llvm", "in_one_pass")
+    decorators = ("kernel", "uncached", "inlined_by_llvm", "in_one_pass")
     modules = {"simd": VECTORS, "compiled": {**dict.fromkeys(decorators, plain), "copy": copy}}
     for name, contents in modules.items():
         module = ModuleType(f"latticode.kernels.{name}")

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, inlined_by_numba, kernel, uncached
+from latticode.kernels.compiled import copy, in_one_pass, kernel, uncached
 from latticode.kernels.simd import largest_magnitude
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
@@ -286,7 +286,7 @@ def build(
                     write_tile(curve[m], left, first, stop, c[m])
         return error
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop) -> Outcome:
         t, end = times[0], times[-1]
         state, w, slope, new_slope, out = y, work[0], work[1], work[2], work[3]

@@ -14,7 +14,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, inlined_by_numba, kernel, uncached
+from latticode.kernels.compiled import copy, in_one_pass, kernel, uncached
 from latticode.kernels.simd import largest_in_rows, zero_below
 
 from . import DONE, INTERRUPTED, NO_CONTRACTION, NOT_FINITE, Outcome
@@ -145,7 +145,7 @@ def build(begin: Callable, slope: Callable, observe: Callable) -> Callable:
                     return False, halvings, evaluations
         return True, halvings, evaluations
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop) -> Outcome:
         step, tolerance, most = controls
         new, scratch, past, threshold = work[0], work[1:4], work[4:], rest_level(y, OF_STAGES)

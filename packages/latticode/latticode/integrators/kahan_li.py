@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from latticode.kernels.compiled import inlined_by_numba, kernel
+from latticode.kernels.compiled import in_one_pass, kernel
 from latticode.kernels.simd import zero_below
 
 from . import DONE, INTERRUPTED, Outcome
@@ -64,7 +64,7 @@ def build(rates: Callable, observe: Callable, at_time: Callable = at_any_time) -
     The time between two outputs is divided into equal steps, none longer than `step`.
     """
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop) -> Outcome:
         (step,) = controls
         slope, steps, threshold = work[0], 0, rest_level(y, OF_STAGES)

@@ -16,7 +16,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, inlined_by_llvm, inlined_by_numba, kernel, uncached
+from latticode.kernels.compiled import copy, in_one_pass, inlined_by_llvm, kernel, uncached
 from latticode.kernels.simd import (
     LANES,
     fill,
@@ -269,7 +269,7 @@ def build(
                     write_block(series, block, times[j] - t, 0.0, at_times[j], spare)
                 write_block(series, block, h, threshold, following, spare)
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop) -> Outcome:
         rtol, atol = controls
         t, end = times[0], times[-1]

@@ -23,7 +23,7 @@ from math import sqrt
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, inlined_by_numba, kernel, uncached
+from latticode.kernels.compiled import copy, in_one_pass, kernel, uncached
 from latticode.kernels.simd import largest_in_rows
 from latticode.numerics import elementary
 
@@ -164,7 +164,7 @@ def build(
     measure = relative_error_of_reals if of_reals else relative_error
     rate_of = relative_rate_of_reals if of_reals else relative_rate
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop) -> Outcome:
         rtol, atol = controls
         threshold = atol / rtol

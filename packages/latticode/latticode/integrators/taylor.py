@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, inlined_by_numba, kernel
+from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, kernel
 from latticode.kernels.simd import (
     LANES,
     fill,
@@ -282,7 +282,7 @@ def build(
     """
     driven = at_time is not at_any_time
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop) -> Outcome:
         rtol, atol = controls
         t, end = times[0], times[-1]

@@ -1,7 +1,7 @@
 """Decorators that compile functions and cache their machine code.
 
 A `kernel` is compiled for numbers, arrays and named tuples, and cached on disk. It may call other
-kernels, and functions without a cache entry: `uncached`, `inlined_by_numba` and `inlined_by_llvm`.
+kernels, and functions without a cache entry: `uncached`, `inlined_by_llvm` and `in_one_pass`.
 All of these become subroutines of the kernel, and none allocates memory.
 
 Two compilers. `inside_numba` compiles and caches kernels faster than numba does, but depends on
@@ -75,19 +75,14 @@ def uncached(function: Callable) -> Callable:
     return _compiled(function)
 
 
-def inlined_by_numba(function: Callable) -> Callable:
-    """Return a function that numba inlines into its only caller, which saves one compilation."""
-    return _compiled(function, inline="always")
-
-
 def inlined_by_llvm(function: Callable) -> Callable:
     """Return a function that LLVM inlines, because a call would move vectors to memory."""
     return _compiled(function, forceinline=True)
 
 
 in_one_pass = in_one_pass or inlined_by_llvm
-"""Returns a function that is translated to LLVM's code without numba's compiler, which would take
-long for generated functions; see the module `one_pass`."""
+"""Returns a function that is translated to LLVM's code with all compiled functions that it calls,
+because numba's compiler would take longer; see the module `one_pass`."""
 
 
 def _compiled(function: Callable, root: Path | None = None, **options: Any) -> Callable:

@@ -8,7 +8,8 @@ Why a kernel is optimised as one unit. numba optimises each function together wi
 that it calls, and generates machine code for it. An inner function is thus optimised again in each
 of its callers, although only the machine code of the outermost function is executed. Here, a
 function called by a kernel is a subroutine: it is compiled to linkable code only, and the kernel is
-optimised once, together with all its subroutines. This takes half the time.
+optimised once, together with all its subroutines. This takes half the time. Most of a kernel is
+translated by `one_pass`, so only its outermost function passes through numba's compiler.
 
 Why references are not counted. No kernel allocates memory, but numba would count references to
 every row of an array, which took half of the run on a short chain. A kernel that allocates memory
@@ -22,8 +23,9 @@ This module uses these private parts of numba:
 - of a dispatcher: `get_call_template` returns the types to callers, `get_overload` the key of the
   code, and `add_overload` registers a result; `load_overload`, `save_overload` and `cache_path` are
   called on its `_cache`;
-- of a `CodeLibrary`: `_optimize_final_module` optimises and `_finalize_final_module` generates
-  machine code;
+- of a `CodeLibrary`: `_optimize_functions` and `_optimize_final_module` optimise, and
+  `_finalize_final_module` generates machine code; `_module_pass_manager` of its `_codegen` returns
+  LLVM's passes;
 - of a result: `_reduce` and `_rebuild` convert it to an object that can be pickled, and back;
 - the flag `no_compile` switches off machine code, and `_nrt` the counting of references.
 
@@ -39,9 +41,10 @@ from typing import Any
 
 from llvmlite import binding
 from numba import types
+from numba.core.callconv import create_error_model
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, CompileResult
-from numba.core.registry import CPUDispatcher
+from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.serialize import dumps
 
 from .cache import KernelFiles
@@ -59,7 +62,24 @@ UNCALLED = {"no_cpython_wrapper": True}
 """Omits the code with which Python would call a function."""
 
 
-class SubroutineLibrary(JITCodeLibrary):
+def context_of_kernels() -> Any:
+    """Return numba's target context with the options of all compiled functions."""
+    context = cpu_target.target_context
+    return context.subtarget(error_model=create_error_model(OPTIONS["error_model"], context))
+
+
+class KernelLibrary(JITCodeLibrary):
+    """Code of a kernel, optimised once; numba does so three times, to count fewer references."""
+
+    def _optimize_functions(self, ll_module: Any) -> None:
+        ll_module.data_layout = self._codegen._data_layout
+
+    def _optimize_final_module(self) -> None:
+        passes, builder = self._codegen._module_pass_manager()
+        passes.run(self._final_module, builder)
+
+
+class SubroutineLibrary(KernelLibrary):
     """Linkable code of a subroutine; it is optimised as part of the kernels that call it."""
 
     def _optimize_final_module(self) -> None:
@@ -83,12 +103,25 @@ class SubroutineLibrary(JITCodeLibrary):
         return library
 
 
-class SubroutineCompiler(Compiler):
-    """numba's compiler without its last stage: it stops at linkable code."""
+class KernelCompiler(Compiler):
+    """numba's compiler with another library."""
+
+    LIBRARY = KernelLibrary
 
     def __init__(self, typing_context: Any, target_context: Any, library: Any, *more: Any) -> None:
-        library = library or SubroutineLibrary(target_context.codegen(), "part")
+        if not library:
+            library = self.LIBRARY(target_context.codegen(), "kernel")
+            library.enable_object_caching()
         super().__init__(typing_context, target_context, library, *more)
+
+
+class SubroutineCompiler(KernelCompiler):
+    """numba's compiler without its last stage: it stops at linkable code."""
+
+    LIBRARY = SubroutineLibrary
+
+    def __init__(self, *more: Any) -> None:
+        super().__init__(*more)
         self.state.flags.no_compile = True
 
 
@@ -218,7 +251,7 @@ class Kernel(CachedFunction):
 
 def make_kernel(function: Callable, root: Path | None = None, **options: Any) -> Kernel:
     """Return the compiled function; its code is cached below the folder `root`, if given."""
-    kernel = Kernel(function, {}, {**OPTIONS, **options})
+    kernel = Kernel(function, {}, {**OPTIONS, **options}, KernelCompiler)
     if root:
         kernel.keep_in(root)
     return kernel

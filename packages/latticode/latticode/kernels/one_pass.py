@@ -4,26 +4,31 @@ numba infers the types of a function by iteration and rewrites its statements ma
 name has the type of the value that is assigned to it, so one pass suffices. Each operation is
 numba's own for these types, so results have the same bits as with numba's compiler.
 
-The language: assignments, `if`, `for ... in range(...)`, and expressions of numbers, vectors,
-arrays and tuples. A `return` is the last statement. `and` and `or` evaluate both sides.
-A name keeps its type, and a step of `range` that a run computes is positive.
+The language: assignments, `if`, `while`, `for ... in range(...)` or over a tuple, `break`,
+`continue`, `return`, and expressions of numbers, vectors, arrays and tuples. A name that branches
+or loops assign keeps its type, and a step of `range` that a run computes is positive.
 The statements of a translated function are inserted into its caller, and so are those of functions
-`inlined_by_llvm` that it calls. If code compiled by numba calls it, it returns nothing.
+`inlined_by_llvm` that it calls. Each other compiled function that it calls becomes one function of
+LLVM for all its callers.
 """
 
 import ast
 import inspect
 import linecache
 import operator
-from collections.abc import Callable, Iterable, Mapping
+import secrets
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial, reduce
 from typing import Any
 
+import numba
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
+
+from .inside_numba import Kernel, SubroutineLibrary, context_of_kernels
 
 OPERATORS = {
     ast.Add: operator.add,
@@ -32,6 +37,7 @@ OPERATORS = {
     ast.Div: operator.truediv,
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
+    ast.Pow: operator.pow,
     ast.BitAnd: operator.and_,
     ast.USub: operator.neg,
     ast.Not: operator.not_,
@@ -43,7 +49,7 @@ OPERATORS = {
     ast.NotEq: operator.ne,
 }
 EXTREMES = {min: operator.lt, max: operator.gt}
-TYPES = {bool: types.boolean, int: types.int64, float: types.float64}
+CONVERSIONS = {int: types.int64, float: types.float64}
 
 
 @dataclass(frozen=True)
@@ -83,12 +89,20 @@ def in_one_pass(function: Callable) -> Callable:
     """Return a function whose statements become a part of the kernels that call it."""
 
     def typed(typing_context, *arguments):
-        def generate(context, builder, signature, values):
-            translation = _Translation(function, context, builder, {})
-            translation.run(map(Value, signature.args, values))
-            return context.get_dummy_value()
+        context, kinds = context_of_kernels(), tuple(map(types.unliteral, arguments))
+        name = f"{function.__qualname__}_{secrets.token_hex(8)}"
+        library = SubroutineLibrary(context.codegen(), name)
+        module = context.create_module(name)
+        with context.push_code_library(library):
+            written = _Function(function, kinds, name, context, module, {})
+        library.add_ir_module(module)
+        library.finalize()
 
-        return types.void(*map(types.unliteral, arguments)), generate
+        def generate(context, builder, signature, values):
+            context.add_linking_libs([library])
+            return written.call(builder, values).value
+
+        return written.result(*kinds), generate
 
     parameters = inspect.signature(function).parameters.values()
     context = inspect.Parameter("typing_context", inspect.Parameter.POSITIONAL_OR_KEYWORD)
@@ -101,6 +115,47 @@ def in_one_pass(function: Callable) -> Callable:
 
 _TRANSLATED: dict[Callable, Callable] = {}
 """The original functions; each key is the function that `in_one_pass` returned."""
+
+
+class _Function:
+    """A function of LLVM, which writes its result to the address in its first argument."""
+
+    def __init__(
+        self,
+        function: Callable,
+        kinds: tuple[types.Type, ...],
+        name: str,
+        context: Any,
+        module: ir.Module,
+        known: dict,
+    ) -> None:
+        """Write the function, for arguments of these types, into the module."""
+        self.name, self.context, self.kinds = name, context, (types.voidptr, *kinds)
+        convention = context.call_conv
+        self.type = convention.get_function_type(types.none, self.kinds)
+        place = ir.Function(module, self.type, name)
+        builder = ir.IRBuilder(place.append_basic_block("entry"))
+        convention.init_call_helper(builder)
+        address, *values = convention.decode_arguments(builder, self.kinds, place)
+        translation = _Translation(function, context, builder, known)
+        returned = translation.computed(translation.run(map(Value, kinds, values)))
+        self.result = returned.type
+        if self.result != types.none:
+            target = builder.bitcast(address, returned.value.type.as_pointer())
+            builder.store(returned.value, target)
+        convention.return_value(builder, context.get_dummy_value())
+
+    def call(self, builder: ir.IRBuilder, values: Sequence[ir.Value]) -> Value:
+        """Write a call, and return its result."""
+        function = cgutils.get_or_insert_function(builder.module, self.type, self.name)
+        result = cgutils.alloca_once(builder, self.context.get_value_type(self.result))
+        address = builder.bitcast(result, cgutils.voidptr_t)
+        status, _ = self.context.call_conv.call_function(
+            builder, function, types.none, self.kinds, (address, *values)
+        )
+        with cgutils.if_unlikely(builder, status.is_error):
+            self.context.call_conv.return_status_propagate(builder, status)
+        return Value(self.result, builder.load(result))
 
 
 class _Translation:
@@ -117,37 +172,74 @@ class _Translation:
             **inspect.getclosurevars(function).nonlocals,
         }
         self.names: dict[str, Any] = {}
-        assigned = [
-            node.id
-            for node in ast.walk(self.definition)
-            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-        ]
-        self.changing = {name for name in assigned if assigned.count(name) > 1}
+        self.loops: list[tuple[ir.Block, ir.Block]] = []
+        self.result: Variable | None = None
+        self.end: ir.Block | None = None
+        parameters = [parameter.arg for parameter in self.definition.args.args]
+        assigned = [*parameters, *_assigned_in(self.definition)]
+        nested = (node for node in self.definition.body if hasattr(node, "body"))
+        in_branches = {name for node in nested for name in _assigned_in(node)}
+        self.changing = {name for name in in_branches if assigned.count(name) > 1}
 
     def run(self, arguments: Iterable[Any]) -> Any:
         """Write the function's statements, and return what it returns."""
-        parameters = [parameter.arg for parameter in self.definition.args.args]
-        self.names.update(zip(parameters, arguments, strict=True))
+        parameters = self.definition.args.args
+        for parameter, argument in zip(parameters, arguments, strict=True):
+            self._assign(ast.Name(parameter.arg), argument)
         *statements, last = self.definition.body
-        self._write(statements)
-        if isinstance(last, ast.Return):
+        returns = [node for node in ast.walk(self.definition) if isinstance(node, ast.Return)]
+        if returns == [last]:
+            self._write(statements)
             return self._value(last.value)
-        return self._write([last])
+        if not returns:
+            return self._write(self.definition.body)
+        self.end = self.builder.append_basic_block("return")
+        self._write(self.definition.body)
+        self._go_to(self.end)
+        self.builder.position_at_end(self.end)
+        if self.result:
+            return Value(self.result.type, self.builder.load(self.result.address))
+        return None
 
     # --- Statements
 
     def _write(self, statements: list[ast.stmt]) -> None:
         for statement in statements:
+            if self.builder.block.is_terminated:
+                return
             match statement:
-                case ast.Assign(targets=[target], value=value):
-                    self._assign(target, self._value(value))
-                case ast.AugAssign(target=target, op=op, value=value):
-                    before = self._value(ast.Name(target.id, ast.Load()))
+                case ast.Assign(targets=targets, value=value):
+                    result = self._value(value)
+                    for target in targets:
+                        self._assign(target, result)
+                case ast.AugAssign(target=ast.Name(id=name) as target, op=op, value=value):
+                    before = self._value(ast.Name(name, ast.Load()))
                     self._assign(target, self._operate(op, before, self._value(value)))
+                case ast.AugAssign(target=ast.Subscript() as place, op=op, value=value):
+                    array, index = self._value(place.value), self._value(place.slice)
+                    result = self._operate(op, self._item(array, index), self._value(value))
+                    self._call(operator.setitem, array, index, result)
                 case ast.If(test=test, body=body, orelse=otherwise):
-                    self._write_branches(self._value(test), body, otherwise)
-                case ast.For(target=target, iter=ast.Call(args=bounds), body=body):
-                    self._write_loop(target, [self._value(bound) for bound in bounds], body)
+                    self._write_branches(self._test(test), body, otherwise)
+                case ast.While(test=test, body=body, orelse=[]):
+                    self._write_while(test, body)
+                case ast.For(
+                    target=target,
+                    iter=ast.Call(func=ast.Name("range"), args=bounds),
+                    body=body,
+                    orelse=[],
+                ):
+                    self._write_range(target, [self._value(bound) for bound in bounds], body)
+                case ast.For(target=target, iter=ast.Tuple(elts=items), body=body, orelse=[]):
+                    for item in items:
+                        self._assign(target, self._value(item))
+                        self._write(body)
+                case ast.Return(value=value):
+                    self._return(value and self._value(value))
+                case ast.Break():
+                    self._go_to(self.loops[-1][1])
+                case ast.Continue():
+                    self._go_to(self.loops[-1][0])
                 case ast.Expr(value=value):
                     self._value(value)
                 case ast.Pass():
@@ -163,18 +255,34 @@ class _Translation:
             case ast.Subscript(value=array, slice=index):
                 self._call(operator.setitem, self._value(array), self._value(index), value)
             case ast.Name(id=name) if name in self.changing:
-                self._change(name, self._computed(value))
+                self.names[name] = self._stored(self.names.get(name), value, name)
             case ast.Name(id=name):
                 self.names[name] = value
 
-    def _change(self, name: str, value: Value) -> None:
-        place = self.names.get(name)
-        if isinstance(place, Variable) and place.type != value.type:
-            raise NotImplementedError(f"{name} changes from {place.type} to {value.type}")
-        if not isinstance(place, Variable):
+    def _stored(self, place: Variable | None, value: Any, name: str) -> Variable:
+        """Store a value in memory of its type, which is new if `place` is None."""
+        value = self.computed(value)
+        if place is None:
             address = cgutils.alloca_once(self.builder, value.value.type)
-            place = self.names[name] = Variable(value.type, address)
+            place = Variable(value.type, address)
+        elif place.type != value.type:
+            raise NotImplementedError(f"{name} changes from {place.type} to {value.type}")
         self.builder.store(value.value, place.address)
+        return place
+
+    def _return(self, value: Any) -> None:
+        if value is not None:
+            self.result = self._stored(self.result, value, "the result")
+        self._go_to(self.end)
+
+    def _go_to(self, block: ir.Block, test: Any = True, otherwise: ir.Block | None = None) -> None:
+        """Write a jump to a block, or to another one where a test fails."""
+        if self.builder.block.is_terminated:
+            return
+        if isinstance(test, Value):
+            self.builder.cbranch(test.value, block, otherwise)
+        else:
+            self.builder.branch(block if test else otherwise)
 
     def _write_branches(self, test: Any, body: list[ast.stmt], otherwise: list[ast.stmt]) -> None:
         if not isinstance(test, Value):
@@ -186,13 +294,44 @@ class _Translation:
             with else_:
                 self._write(otherwise)
 
-    def _write_loop(self, target: ast.Name, bounds: list[Any], body: list[ast.stmt]) -> None:
+    def _write_loop(self, body: list[ast.stmt], following: ir.Block, after: ir.Block) -> None:
+        """Write the body of a loop; `following` is the block before the next pass."""
+        self.loops.append((following, after))
+        self._write(body)
+        self._go_to(following)
+        self.loops.pop()
+
+    def _write_while(self, test: ast.expr, body: list[ast.stmt]) -> None:
+        condition, inside, after = map(self.builder.append_basic_block, ("test", "loop", "after"))
+        self.builder.branch(condition)
+        self.builder.position_at_end(condition)
+        self._go_to(inside, self._test(test), after)
+        self.builder.position_at_end(inside)
+        self._write_loop(body, condition, after)
+        self.builder.position_at_end(after)
+
+    def _write_range(self, target: ast.Name, bounds: list[Any], body: list[ast.stmt]) -> None:
         start, stop, step = {1: [0, *bounds, 1], 2: [*bounds, 1], 3: bounds}[len(bounds)]
-        limits = [self._computed(bound).value for bound in (start, stop, step)]
         falls = isinstance(step, int) and step < 0
-        with cgutils.for_range_slice(self.builder, *limits, inc=not falls) as (index, _):
-            self._assign(target, Value(types.int64, index))
-            self._write(body)
+        is_unsigned = any(getattr(bound, "type", None) == types.uint64 for bound in bounds)
+        kind = types.uint64 if is_unsigned else types.int64
+        start, stop, step = (self._converted(bound, kind).value for bound in (start, stop, step))
+        before = self.builder.block
+        names = "test", "loop", "next", "after"
+        condition, inside, following, after = map(self.builder.append_basic_block, names)
+        self.builder.branch(condition)
+        self.builder.position_at_end(condition)
+        index = self.builder.phi(start.type)
+        compare = self.builder.icmp_unsigned if is_unsigned else self.builder.icmp_signed
+        self.builder.cbranch(compare(">" if falls else "<", index, stop), inside, after)
+        self.builder.position_at_end(inside)
+        self._assign(target, Value(kind, index))
+        self._write_loop(body, following, after)
+        self.builder.position_at_end(following)
+        index.add_incoming(start, before)
+        index.add_incoming(self.builder.add(index, step), following)
+        self.builder.branch(condition)
+        self.builder.position_at_end(after)
 
     # --- Expressions
 
@@ -207,7 +346,7 @@ class _Translation:
                     return Value(found.type, self.builder.load(found.address))
                 return found
             case ast.Tuple(elts=items):
-                return tuple(map(self._value, items))
+                return tuple(self._values(items))
             case ast.Attribute(value=owner, attr=name):
                 return self._attribute(self._value(owner), name)
             case ast.Subscript(value=items, slice=index):
@@ -216,21 +355,38 @@ class _Translation:
                 return self._operate(op, self._value(first), self._value(second))
             case ast.UnaryOp(op=op, operand=operand):
                 return self._operate(op, self._value(operand))
+            case ast.Compare(left=value, ops=[ast.In()], comparators=[ast.Tuple(elts=items)]):
+                equal = [ast.Compare(value, [ast.Eq()], [item]) for item in items]
+                return self._join(ast.Or(), equal)
             case ast.Compare(left=first, ops=[op], comparators=[second]):
                 return self._operate(op, self._value(first), self._value(second))
+            case ast.Compare(left=first, ops=[op, *ops], comparators=[second, *others]):
+                pair = ast.Compare(first, [op], [second]), ast.Compare(second, ops, others)
+                return self._join(ast.And(), [*pair])
             case ast.BoolOp(op=op, values=conditions):
-                join = self.builder.and_ if isinstance(op, ast.And) else self.builder.or_
-                total, *others = (self._computed(self._value(a)).value for a in conditions)
-                for condition in others:
-                    total = join(total, condition)
-                return Value(types.boolean, total)
+                return self._join(op, conditions)
             case ast.IfExp(test=test, body=first, orelse=second):
-                return self._choose(self._value(test), first, second)
+                return self._choose(self._test(test), first, second)
             case ast.Slice(lower=lower, upper=upper):
-                return self._call(slice, self._value(lower), self._value(upper))
+                bounds = (bound and self._value(bound) for bound in (lower, upper))
+                return self._call(slice, *bounds)
             case ast.Call(func=function, args=arguments):
-                return self._call(self._value(function), *map(self._value, arguments))
+                return self._call(self._value(function), *self._values(arguments))
         raise NotImplementedError(ast.unparse(expression))
+
+    def _values(self, expressions: list[ast.expr]) -> Iterator[Any]:
+        for expression in expressions:
+            if isinstance(expression, ast.Starred):
+                yield from self._items(self._value(expression.value))
+            else:
+                yield self._value(expression)
+
+    def _test(self, expression: ast.expr) -> Any:
+        """Return a truth value."""
+        value = self._value(expression)
+        if isinstance(value, Value) and value.type != types.boolean:
+            return self._call(operator.ne, value, 0)
+        return value
 
     def _operate(self, op: ast.AST, *operands: Any) -> Any:
         function = OPERATORS[type(op)]
@@ -238,18 +394,28 @@ class _Translation:
             return function(*operands)
         return self._call(function, *operands)
 
+    def _join(self, op: ast.boolop, conditions: list[ast.expr]) -> Any:
+        """Return whether all or any of some conditions hold; evaluate only those that matter."""
+        first, *others = conditions
+        value, decides = self._value(first), isinstance(op, ast.Or)
+        if not others:
+            return value
+        if not isinstance(value, Value):
+            return value if bool(value) == decides else self._join(op, others)
+        place = self._stored(None, value, "a condition")
+        with self.builder.if_then(self.builder.not_(value.value) if decides else value.value):
+            self._stored(place, self._join(op, others), "a condition")
+        return Value(place.type, self.builder.load(place.address))
+
     def _choose(self, test: Any, first: ast.expr, second: ast.expr) -> Any:
         if not isinstance(test, Value):
             return self._value(first if test else second)
-        ends = []
+        place = None
         with self.builder.if_else(test.value) as branches:
             for branch, expression in zip(branches, (first, second), strict=True):
                 with branch:
-                    ends.append((self._computed(self._value(expression)), self.builder.block))
-        result = self.builder.phi(ends[0][0].value.type)
-        for value, block in ends:
-            result.add_incoming(value.value, block)
-        return Value(ends[0][0].type, result)
+                    place = self._stored(place, self._value(expression), "a value")
+        return Value(place.type, self.builder.load(place.address))
 
     def _attribute(self, owner: Any, name: str) -> Any:
         if not isinstance(owner, Value):
@@ -258,15 +424,21 @@ class _Translation:
             return self._items(owner)[owner.type.fields.index(name)]
         if name == "ndim":
             return owner.type.ndim
-        kind = self.context.typing_context.resolve_getattr(owner.type, name)
-        read = self.context.get_getattr(owner.type, name)
+        if (owner.type, name) not in self.known:
+            kind = self.context.typing_context.resolve_getattr(owner.type, name)
+            self.known[owner.type, name] = kind, self.context.get_getattr(owner.type, name)
+        kind, read = self.known[owner.type, name]
+        if isinstance(kind, types.BoundFunction):
+            receiver = self.context.cast(self.builder, owner.value, owner.type, kind.this)
+            return Value(kind, receiver)
         return Value(kind, read(self.context, self.builder, owner.type, owner.value, name))
 
     def _item(self, items: Any, index: Any) -> Any:
-        if isinstance(index, int) and (
-            isinstance(items, tuple) or isinstance(items.type, types.BaseTuple)
-        ):
-            return self._items(items)[index]
+        if isinstance(index, int):
+            if not isinstance(items, Value):
+                return items[index]
+            if isinstance(items.type, types.BaseTuple):
+                return self._items(items)[index]
         return self._call(operator.getitem, items, index)
 
     def _items(self, value: Any) -> tuple:
@@ -276,43 +448,76 @@ class _Translation:
         items = cgutils.unpack_tuple(self.builder, value.value)
         return tuple(map(Value, value.type, items))
 
-    def _computed(self, value: Any) -> Value:
-        """Return a `Value`, also for a number or tuple that is known before the run."""
+    def computed(self, value: Any) -> Value:
+        """Return a `Value`, also for what is known before the run."""
         if isinstance(value, Value):
             return value
-        if isinstance(value, tuple):
-            items = [self._computed(item) for item in value]
+        if isinstance(value, tuple) and not hasattr(value, "_fields"):
+            items = [self.computed(item) for item in value]
             kind = types.BaseTuple.from_types([item.type for item in items])
             values = [item.value for item in items]
             return Value(kind, self.context.make_tuple(self.builder, kind, values))
-        kind = TYPES[type(value)]
-        return Value(kind, self.context.get_constant(kind, value))
+        kind = numba.typeof(value)
+        if isinstance(kind, types.Opaque):
+            return Value(kind, self.context.get_dummy_value())
+        return Value(kind, self.context.get_constant_generic(self.builder, kind, value))
 
-    def _call(self, function: Callable, *arguments: Any) -> Any:
-        if written := _TRANSLATED.get(function) or _inlined_by_llvm(function):
+    def _converted(self, value: Any, kind: types.Type) -> Value:
+        value = self.computed(value)
+        return Value(kind, self.context.cast(self.builder, value.value, value.type, kind))
+
+    def _call(self, function: Any, *arguments: Any) -> Any:
+        is_kernel = isinstance(function, Kernel)
+        written = function.py_func if is_kernel else _TRANSLATED.get(function)
+        if written and not (is_kernel and "forceinline" not in function.targetoptions):
             expansion = _Translation(written, self.context, self.builder, self.known)
             return expansion.run(arguments)
-        arguments = [self._computed(argument) for argument in arguments]
+        arguments = [self.computed(argument) for argument in arguments]
         kinds = tuple(argument.type for argument in arguments)
-        if function in EXTREMES and kinds == (types.int64, types.int64):
-            is_first = self._call(EXTREMES[function], *arguments)
-            first, second = (argument.value for argument in arguments)
-            return Value(types.int64, self.builder.select(is_first.value, first, second))
-        if (function, kinds) not in self.known:
-            typing = self.context.typing_context
-            function_type = typing.resolve_value_type(function)
-            signature = typing.resolve_function_type(function_type, kinds, {})
-            write = self.context.get_function(function_type, signature)
-            self.known[function, kinds] = signature, write
-        signature, write = self.known[function, kinds]
+        values = [argument.value for argument in arguments]
+        if is_kernel:
+            return self._function(written, kinds).call(self.builder, values)
+        if function in CONVERSIONS and len(arguments) == 1:
+            return self._converted(*arguments, CONVERSIONS[function])
+        if function in EXTREMES and {*kinds} <= {types.int64, types.float64}:
+            kind = types.float64 if types.float64 in kinds else types.int64
+            numbers = [self._converted(argument, kind) for argument in arguments]
+            return reduce(partial(self._extreme, EXTREMES[function]), numbers)
+        signature, write = self._looked_up(function, kinds)
         values = [
-            self.context.cast(self.builder, argument.value, argument.type, kind)
-            for argument, kind in zip(arguments, signature.args, strict=True)
+            self.context.cast(self.builder, value, kind, wanted)
+            for value, kind, wanted in zip(values, kinds, signature.args, strict=True)
         ]
-        return Value(signature.return_type, write(self.builder, values))
+        receiver = [function.value] if isinstance(function, Value) else []
+        return Value(signature.return_type, write(self.builder, [*receiver, *values]))
+
+    def _extreme(self, is_beyond: Callable, first: Value, second: Value) -> Value:
+        test = self._call(is_beyond, second, first).value
+        return Value(first.type, self.builder.select(test, second.value, first.value))
+
+    def _looked_up(self, function: Any, kinds: tuple[types.Type, ...]) -> tuple[Any, Callable]:
+        """Return numba's signature and code of a function or method for these types."""
+        typing = self.context.typing_context
+        is_method = isinstance(function, Value)
+        called = function.type if is_method else typing.resolve_value_type(function)
+        if (called, kinds) not in self.known:
+            signature = typing.resolve_function_type(called, kinds, {})
+            self.known[called, kinds] = signature, self.context.get_function(called, signature)
+        return self.known[called, kinds]
+
+    def _function(self, written: Callable, kinds: tuple[types.Type, ...]) -> _Function:
+        if (written, kinds) not in self.known:
+            module = self.builder.module
+            name = module.get_unique_name(written.__qualname__)
+            function = _Function(written, kinds, name, self.context, module, self.known)
+            module.get_global(name).linkage = "internal"
+            self.known[written, kinds] = function
+        return self.known[written, kinds]
 
 
-def _inlined_by_llvm(function: Callable) -> Callable | None:
-    """Return the Python function of a compiled one that LLVM inlines, None for other functions."""
-    options = getattr(function, "targetoptions", {})
-    return function.py_func if options.get("forceinline") else None
+def _assigned_in(node: ast.AST) -> list[str]:
+    return [
+        name.id
+        for name in ast.walk(node)
+        if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
+    ]

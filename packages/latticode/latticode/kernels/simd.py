@@ -47,8 +47,8 @@ from numba.core import cgutils
 from numba.extending import (
     intrinsic,
     lower_builtin,
+    make_attribute_wrapper,
     models,
-    overload_attribute,
     register_model,
     type_callable,
 )
@@ -381,26 +381,43 @@ def largest_lane(typing_context: Any, value: Type) -> Generated:
     return types.float64(value), generate
 
 
+@intrinsic
+def magnitude_bits(typing_context: Any, number: Type) -> Generated:
+    """Return the bits of a double without its sign, as an integer."""
+
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
+        return builder.and_(builder.bitcast(arguments[0], INT64), INT64(MAGNITUDE))
+
+    return types.int64(types.float64), generate
+
+
+@intrinsic
+def from_bits(typing_context: Any, bits: Type) -> Generated:
+    """Return the double with these bits."""
+
+    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
+        return builder.bitcast(arguments[0], ir.DoubleType())
+
+    return types.float64(types.int64), generate
+
+
 @kernel
 def largest_magnitude(values: np.ndarray) -> float:
     """Return the largest absolute value of a contiguous array; NaN is larger than infinity.
 
-    The first element is overwritten. LLVM vectorises this loop, because integer comparisons may be
-    reordered.
+    LLVM vectorises this loop, because integer comparisons may be reordered.
     """
-    bits = values.view(np.int64)
     top = np.int64(0)
-    for i in range(bits.size):
-        top = max(top, bits[i] & MAGNITUDE)
-    bits[0] = top
-    return values[0]
+    for i in range(values.size):
+        top = max(top, magnitude_bits(values[i]))
+    return from_bits(top)
 
 
 @kernel
 def largest_in_rows(scratch: np.ndarray, rows: int) -> float:
     """Return the largest absolute value in the first rows of a state, without ghost columns.
 
-    The ghost columns are set to zero, and the first element is overwritten.
+    The ghost columns are set to zero.
     """
     columns = scratch.shape[1]
     for row in range(rows):
@@ -450,18 +467,7 @@ def vector_views(typing_context: Any, states: Type) -> Generated:
     return types.UniTuple(view_type, len(states))(states), generate
 
 
-@intrinsic
-def shape_of(typing_context: Any, view: Type) -> Generated:
-    def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
-        return cgutils.create_struct_proxy(view_type)(context, builder, arguments[0]).shape
-
-    return INDEX(view), generate
-
-
-@overload_attribute(VectorView, "shape")
-def shape(view) -> Callable:  # numba compares this signature with that of the lambda
-    """Define `view.shape` as the shape of the state."""
-    return lambda view: shape_of(view)
+make_attribute_wrapper(VectorView, "shape", "shape")
 
 
 @type_callable(operator.getitem)

@@ -17,7 +17,7 @@ import numpy as np
 from latticode.equations.ends import MIRROR
 from latticode.integrators import DONE, dop853
 from latticode.integrators.autonomous import at_any_time
-from latticode.kernels.compiled import inlined_by_numba, kernel
+from latticode.kernels.compiled import in_one_pass, kernel
 
 
 @kernel
@@ -92,7 +92,7 @@ def build(bundle_rates: Callable, at_time: Callable = at_any_time) -> Callable:
     solve = dop853.build(bundle_rates, observe_nothing, at_time=at_time)
     driven = at_time is not at_any_time
 
-    @inlined_by_numba
+    @in_one_pass
     def carry(
         chain: Any,
         bundle: np.ndarray,

@@ -20,7 +20,7 @@ def build(rates, observe, at_time=None):
     import numpy as np
     from latticode.integrators import DONE, INTERRUPTED, Outcome
     from latticode.integrators.autonomous import at_any_time
-    from latticode.kernels.compiled import inlined_by_numba, uncached
+    from latticode.kernels.compiled import in_one_pass, uncached
 
     at_time = at_time or at_any_time
 
@@ -39,7 +39,7 @@ def build(rates, observe, at_time=None):
                 error = max(error, abs(h * (middle[row, j] - first[row, j])) / scale)
         return error
 
-    @inlined_by_numba
+    @in_one_pass
     def solve(system, y, times, controls, work, record, stop):
         rtol, atol = controls
         first, middle, w = work[0], work[1], work[2]
