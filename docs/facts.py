@@ -24,6 +24,7 @@ from replication.ledger.chances import ALLOWED, RARE
 from replication.results import Results
 from replication.words import markdown, number, plainly, symbols, with_error
 
+from benchmarks import first_calls as first
 from benchmarks import reproduction
 from benchmarks import scale as scale_of
 
@@ -103,6 +104,7 @@ def topics(accepted: Results) -> dict[str, Any]:
         "speed": speed(accepted["speed/work_precision"]),
         "speeds": speeds(accepted),
         "scale": scale(json.loads(scale_of.WRITTEN.read_text(encoding="utf-8"))),
+        "first_calls": first_calls(json.loads(first.WRITTEN.read_text(encoding="utf-8"))),
         "full_run": full_run(json.loads(reproduction_times.read_text(encoding="utf-8"))),
         "variations": variations(accepted),
     }
@@ -321,6 +323,23 @@ def scale(measured: dict) -> dict:
                 f"{chain['megabytes']:.0f}",
             ]
             for name, chain in zip(solvers, chains, strict=True)
+        ],
+    }
+
+
+def first_calls(measured: dict) -> dict:
+    """Return the parts of the processor time of first calls in s, and the least of them."""
+    columns = ("import", "equations", "compiler", "LLVM", "total")
+    floor = measured["seconds"]["two fields"]
+    return {
+        "processor": measured["machine"]["processor"],
+        "import": number(floor["import"], 2),
+        "llvm": number(floor["LLVM"], 2),
+        "floor": number(floor["import"] + floor["LLVM"], 2),
+        "total": number(floor["total"], 2),
+        "rows": [
+            [name, *(number(seconds.get(column, 0.0), 2) for column in columns)]
+            for name, seconds in measured["seconds"].items()
         ],
     }
 
