@@ -19,11 +19,10 @@ from typing import Any
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, in_one_pass, kernel, uncached
+from latticode.kernels.compiled import at_any_time, copy, in_one_pass, kernel, uncached
 from latticode.kernels.simd import largest_magnitude
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .autonomous import at_any_time
 from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
 from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
 from .tiles import count_tiles, is_zero, read_tile, tile_length, tile_place, write_tile

@@ -12,11 +12,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from latticode.kernels.compiled import in_one_pass, kernel
+from latticode.kernels.compiled import at_any_time, in_one_pass, kernel
 from latticode.kernels.simd import zero_below
 
 from . import DONE, INTERRUPTED, Outcome
-from .autonomous import at_any_time
 from .rest import OF_STAGES, rest_level
 
 Array = np.ndarray

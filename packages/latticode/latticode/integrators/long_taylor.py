@@ -16,7 +16,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, in_one_pass, inlined_by_llvm, kernel, uncached
+from latticode.kernels.compiled import (
+    at_any_time,
+    copy,
+    in_one_pass,
+    inlined_by_llvm,
+    kernel,
+    uncached,
+)
 from latticode.kernels.simd import (
     LANES,
     fill,
@@ -28,7 +35,6 @@ from latticode.kernels.simd import (
 )
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .autonomous import at_any_time
 from .rest import OF_SERIES, rest_level
 from .taylor import (
     BLOCK_SIZE,

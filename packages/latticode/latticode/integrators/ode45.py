@@ -23,12 +23,11 @@ from math import sqrt
 
 import numpy as np
 
-from latticode.kernels.compiled import copy, in_one_pass, kernel, uncached
+from latticode.kernels.compiled import at_any_time, copy, in_one_pass, kernel, uncached
 from latticode.kernels.simd import largest_in_rows
 from latticode.numerics import elementary
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .autonomous import at_any_time
 from .rest import OF_STAGES, rest_level, set_to_rest, square_modulus
 from .weighted_sums import table, write_sum
 

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.kernels.compiled import in_one_pass, inlined_by_llvm, kernel
+from latticode.kernels.compiled import at_any_time, in_one_pass, inlined_by_llvm, kernel
 from latticode.kernels.simd import (
     LANES,
     fill,
@@ -35,7 +35,6 @@ from latticode.kernels.simd import (
 )
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .autonomous import at_any_time
 from .rest import OF_SERIES, rest_level
 
 Array = np.ndarray

@@ -97,3 +97,9 @@ def copy(source: np.ndarray, target: np.ndarray) -> None:
     for row in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[row, j] = source[row, j]
+
+
+@kernel
+def at_any_time(system: Any, t: float) -> Any:
+    """Return the system itself: the `at_time` of equations that do not depend on time."""
+    return system

@@ -16,8 +16,7 @@ import numpy as np
 
 from latticode.equations.ends import MIRROR
 from latticode.integrators import DONE, dop853
-from latticode.integrators.autonomous import at_any_time
-from latticode.kernels.compiled import in_one_pass, kernel
+from latticode.kernels.compiled import at_any_time, in_one_pass, kernel
 
 
 @kernel
