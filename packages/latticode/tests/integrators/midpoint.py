@@ -19,8 +19,7 @@ def build(rates, observe, at_time=None):
     """Return the solver of y' = rates; each step ends at an output or before it."""
     import numpy as np
     from latticode.integrators import DONE, INTERRUPTED, Outcome
-    from latticode.kernels.compiled import at_any_time
-    from latticode.kernels.compiled import in_one_pass, uncached
+    from latticode.kernels.compiled import at_any_time, in_one_pass, uncached
 
     at_time = at_time or at_any_time
 
