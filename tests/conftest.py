@@ -8,7 +8,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: waiting thread
 
 FIRST = ("tests/docs/test_commands.py", "tests/workflow/")
 """These tests take seconds each. If they came last, one worker would wait for another."""
-LAST = ("tests/configuration/", "packages/")
+LAST = ("tests/configuration/", "tests/replication/", "packages/")
 """Tests without the kernels of the shared run: a second worker begins with them, and so does not
 compile these kernels at the same time as that run."""
 
