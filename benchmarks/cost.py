@@ -1,33 +1,38 @@
 """The cost of a run against the length of the chain: time per site and step."""
 
+from itertools import product
+
 import numpy as np
 from latticode.datasets.netcdf import Variable
 from latticode.simulation.simulate import simulate
 from pendula.problem import Constants, PaperProblem
 
 from .contestants import controls
-from .timing import repeat, timed
+from .timing import timed
 
 SITES = (3, 11, 61, 121, 241, 401, 1001, 10_001, 100_001, 1_000_001)
 SOLVERS = ("dop853", "taylor")
 TOLERANCE = 1e-10
 WORK = 40_000
 """Number of sites times end time of a run: short chains run long enough to be timed."""
-SHORTEST = 0.5
-"""Least end time of a run: several steps of each solver."""
-REPEAT = 5
+SHORTEST = 1.5
+"""Least end time of a run: so many steps that its preparation hardly counts."""
+ROUNDS = 7
+"""Rounds over all chains: processors change their speed within seconds, and a median over rounds
+does not depend on when that happens."""
 
 CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 
 
 def measure() -> dict[str, Variable]:
     """Return the variables of the dataset: the median time over (start, sites, solver)."""
-    seconds = np.array(
-        [
-            [[time_chain(chain(sites, name)) for name in SOLVERS] for sites in SITES]
-            for chain in STARTS.values()
-        ]
-    )
+    chains = product(STARTS.values(), SITES, SOLVERS)
+    problems = [start(sites, solver) for start, sites, solver in chains]
+    steps = [simulate(problem).outcome.steps for problem in problems]  # compiles
+    rounds = [[timed(lambda p=p: simulate(p))[1] for p in problems] for _ in range(ROUNDS)]
+    counts = np.array(steps) * [problem.sites for problem in problems]
+    seconds = np.median(rounds, axis=0) / counts
+    seconds = seconds.reshape(len(STARTS), len(SITES), len(SOLVERS))
     return {
         "start": Variable(("start",), np.array(list(STARTS)), "which sites move from the start"),
         "sites": Variable(("sites",), np.array(SITES)),
@@ -61,9 +66,3 @@ def quiet_chain(sites: int, name: str) -> PaperProblem:
 
 
 STARTS = {"all": noisy_chain, "one": quiet_chain}
-
-
-def time_chain(problem: PaperProblem) -> float:
-    """Return the time in s per site and step."""
-    steps = simulate(problem).outcome.steps  # the first run also compiles
-    return repeat(lambda: timed(lambda: simulate(problem))[1], REPEAT) / problem.sites / steps

@@ -314,6 +314,7 @@ def scale(measured: dict) -> dict:
         "megabytes": f"{survey['megabytes']:.0f}",
         "heyoka_processor": measured["heyoka"]["machine"]["processor"],
         "heyoka": number(measured["heyoka"]["ratio"], 2),
+        "chain_processor": chains[0]["machine"]["processor"],
         "sites": f"{chains[0]['sites']:,}",
         "chain_end": number(chains[0]["end_time"]),
         "chains": [
