@@ -26,7 +26,7 @@ class Taylor(Method):
         pair_seconds=1.5e-7,
         pair_bytes=1400,
         cached_pairs=8192,
-        further_pair_bytes=400,
+        further_pair_bytes=600,
     )
     tightest = 1e-14
     look = ("#7b4fa3", "D")
