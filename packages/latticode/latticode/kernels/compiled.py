@@ -56,8 +56,8 @@ if version("numba").rpartition(".")[0] in TESTED:
 else:
     make_kernel, in_one_pass = _with_numba_alone, None
     warnings.warn(
-        f"kernels take twice as long to compile with numba {version('numba')}; results are the"
-        f" same. The faster compiler was tested with numba {', '.join(TESTED)}",
+        f"kernels take several times as long to compile with numba {version('numba')}; results are"
+        f" the same. The faster compiler was tested with numba {', '.join(TESTED)}",
         stacklevel=2,
     )
 

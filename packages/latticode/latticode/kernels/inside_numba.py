@@ -1,8 +1,8 @@
 """Faster compilation with private parts of numba: kernels optimised once, cached by content.
 
 `compiled` uses this module for the versions of numba with which it was tested. With any other
-version it uses numba's public compiler: results are bit-identical, but compilation and runs on
-short chains take up to twice as long.
+version it uses numba's public compiler: results are bit-identical, but compilation takes several
+times as long, and runs on short chains up to twice as long.
 
 Why a kernel is optimised as one unit. numba optimises each function together with all functions
 that it calls, and generates machine code for it. An inner function is thus optimised again in each
