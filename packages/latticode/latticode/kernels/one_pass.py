@@ -449,7 +449,7 @@ class _Translation:
         return tuple(map(Value, value.type, items))
 
     def computed(self, value: Any) -> Value:
-        """Return a `Value`, also for what is known before the run."""
+        """Return a `Value`; a number or tuple known before the run becomes a constant."""
         if isinstance(value, Value):
             return value
         if isinstance(value, tuple) and not hasattr(value, "_fields"):
