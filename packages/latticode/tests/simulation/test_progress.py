@@ -12,7 +12,7 @@ import time
 import numpy as np
 import pytest
 from latticode import Case, ConfigurationError, Model, abs2, lap, simulate, survey
-from latticode.simulation import progress
+from latticode.simulation import interrupts, progress
 from latticode.simulation.interrupts import Interrupted
 
 DNLS = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
@@ -101,18 +101,29 @@ VALUES = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
 
 def interrupted_survey(after, cores=1):
     """Return what a survey returns that Ctrl-C interrupts in the run number `after`, and calls."""
-    calls = []
+    calls, ended = [], threading.Event()
 
     def peak(problem, run):
         calls.append(problem.parameters["c"])
-        time.sleep(0.05)  # or other threads would be done before this one is heard
         if len(calls) == after:
             signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
-            time.sleep(0.5)
+        if len(calls) >= after and not ended.is_set():
+            wait_for_the_interrupt()
         return np.array([run.linf.max(), run.l2.max()])
 
     keep = [peak, "final_l2"]
-    return survey(CASE, {"c": VALUES}, keep=keep, cores=cores), keep, calls
+    unfinished = survey(CASE, {"c": VALUES}, keep=keep, cores=cores)
+    ended.set()
+    return unfinished, keep, calls
+
+
+def wait_for_the_interrupt():
+    """Hold a run until the main thread is interrupted, which takes seconds on a busy machine."""
+    start = time.monotonic()
+    while not interrupts._main_thread_is_interrupted():
+        assert time.monotonic() - start < 60
+        time.sleep(0.01)
+    time.sleep(0.5)  # the main thread must also set the flag that the other runs read
 
 
 @pytest.fixture
