@@ -130,13 +130,16 @@ class _Function:
         known: dict,
     ) -> None:
         """Write the function, for arguments of these types, into the module."""
-        self.name, self.context, self.kinds = name, context, (types.voidptr, *kinds)
+        self.name, self.context = name, context
         convention = context.call_conv
-        self.type = convention.get_function_type(types.none, self.kinds)
+        plain = convention.get_function_type(types.none, [types.voidptr])
+        # numba would pass each length and stride of each array as an argument
+        values = map(context.get_value_type, kinds)
+        self.type = ir.FunctionType(plain.return_type, [*plain.args, *values])
         place = ir.Function(module, self.type, name)
         builder = ir.IRBuilder(place.append_basic_block("entry"))
         convention.init_call_helper(builder)
-        address, *values = convention.decode_arguments(builder, self.kinds, place)
+        _, _, address, *values = place.args
         translation = _Translation(function, context, builder, known)
         returned = translation.computed(translation.run(map(Value, kinds, values)))
         self.result = returned.type
@@ -150,11 +153,11 @@ class _Function:
         function = cgutils.get_or_insert_function(builder.module, self.type, self.name)
         result = cgutils.alloca_once(builder, self.context.get_value_type(self.result))
         address = builder.bitcast(result, cgutils.voidptr_t)
-        status, _ = self.context.call_conv.call_function(
-            builder, function, types.none, self.kinds, (address, *values)
-        )
-        with cgutils.if_unlikely(builder, status.is_error):
-            self.context.call_conv.return_status_propagate(builder, status)
+        nothing = cgutils.alloca_once(builder, self.type.args[0].pointee)
+        error = builder.function.args[1]
+        code = builder.call(function, (nothing, error, address, *values))
+        with cgutils.if_unlikely(builder, builder.icmp_signed("!=", code, code.type(0))):
+            builder.ret(code)
         return Value(self.result, builder.load(result))
 
 
@@ -218,7 +221,7 @@ class _Translation:
                 case ast.AugAssign(target=ast.Subscript() as place, op=op, value=value):
                     array, index = self._value(place.value), self._value(place.slice)
                     result = self._operate(op, self._item(array, index), self._value(value))
-                    self._call(operator.setitem, array, index, result)
+                    self._set_item(array, index, result)
                 case ast.If(test=test, body=body, orelse=otherwise):
                     self._write_branches(self._test(test), body, otherwise)
                 case ast.While(test=test, body=body, orelse=[]):
@@ -253,7 +256,7 @@ class _Translation:
                 for place, item in zip(targets, self._items(value), strict=True):
                     self._assign(place, item)
             case ast.Subscript(value=array, slice=index):
-                self._call(operator.setitem, self._value(array), self._value(index), value)
+                self._set_item(self._value(array), self._value(index), value)
             case ast.Name(id=name) if name in self.changing:
                 self.names[name] = self._stored(self.names.get(name), value, name)
             case ast.Name(id=name):
@@ -370,6 +373,11 @@ class _Translation:
             case ast.Slice(lower=lower, upper=upper):
                 bounds = (bound and self._value(bound) for bound in (lower, upper))
                 return self._call(slice, *bounds)
+            case ast.Call(
+                func=ast.Attribute(value=array, attr="reshape"),
+                args=[ast.UnaryOp(op=ast.USub(), operand=ast.Constant(1))],
+            ):
+                return self._flat(self._value(array))
             case ast.Call(func=function, args=arguments):
                 return self._call(self._value(function), *self._values(arguments))
         raise NotImplementedError(ast.unparse(expression))
@@ -421,9 +429,12 @@ class _Translation:
         if not isinstance(owner, Value):
             return getattr(owner, name)
         if isinstance(owner.type, types.BaseNamedTuple):
-            return self._items(owner)[owner.type.fields.index(name)]
+            return self._item(owner, owner.type.fields.index(name))
         if name == "ndim":
             return owner.type.ndim
+        if name == "shape" and isinstance(owner.type, types.Array):
+            lengths = self._field(owner, name)
+            return Value(types.UniTuple(types.intp, owner.type.ndim), lengths)
         if (owner.type, name) not in self.known:
             kind = self.context.typing_context.resolve_getattr(owner.type, name)
             self.known[owner.type, name] = kind, self.context.get_getattr(owner.type, name)
@@ -438,8 +449,84 @@ class _Translation:
             if not isinstance(items, Value):
                 return items[index]
             if isinstance(items.type, types.BaseTuple):
-                return self._items(items)[index]
-        return self._call(operator.getitem, items, index)
+                kind = items.type.types[index]
+                return Value(kind, self.builder.extract_value(items.value, index % len(items.type)))
+        indices = self._indices(items, index)
+        if not indices:
+            return self._call(operator.getitem, items, index)
+        address, kind = self._address(items, indices), items.type
+        if len(indices) == kind.ndim:
+            return Value(kind.dtype, self.context.unpack_value(self.builder, kind.dtype, address))
+        lengths, strides = (
+            cgutils.unpack_tuple(self.builder, self._field(items, name))[len(indices) :]
+            for name in ("shape", "strides")
+        )
+        return self._view(items, address, lengths, strides)
+
+    def _set_item(self, items: Value, index: Any, value: Any) -> None:
+        indices = self._indices(items, index)
+        if len(indices) < items.type.ndim if isinstance(items.type, types.Array) else True:
+            self._call(operator.setitem, items, index, value)
+            return
+        number = self._converted(value, items.type.dtype)
+        address = self._address(items, indices)
+        self.context.pack_value(self.builder, number.type, number.value, address)
+
+    # numba's own code for elements and rows of arrays has several times as many instructions
+
+    def _field(self, array: Value, name: str) -> ir.Value:
+        """Return a field of an array."""
+        position = self.context.data_model_manager.lookup(array.type).get_field_position(name)
+        return self.builder.extract_value(array.value, position)
+
+    def _indices(self, items: Any, index: Any) -> tuple:
+        """Return the integers that choose an element or row of a contiguous array, else nothing."""
+        if not _is_contiguous(items):
+            return ()
+        indices = self._items(index) if _is_tuple(index) else (index,)
+        return indices if all(map(_is_integer, indices)) else ()
+
+    def _address(self, array: Value, indices: tuple) -> ir.Value:
+        """Return the address of the first element that the indices choose."""
+        build, place = self.builder, None
+        for axis, length in enumerate(cgutils.unpack_tuple(build, self._field(array, "shape"))):
+            place = place and build.mul(place, length)
+            if axis < len(indices):
+                index = self._counted(indices[axis], length)
+                place = build.add(place, index) if place else index
+        return build.gep(self._field(array, "data"), [place])
+
+    def _counted(self, index: Any, length: ir.Value) -> ir.Value:
+        """Return an index that is not negative; a negative one counts from the end."""
+        place = self._converted(index, types.intp).value
+        if isinstance(index, int):
+            return place if index >= 0 else self.builder.add(place, length)
+        if not index.type.signed:
+            return place
+        is_negative = self.builder.icmp_signed("<", place, place.type(0))
+        return self.builder.select(is_negative, self.builder.add(place, length), place)
+
+    def _flat(self, array: Value) -> Value:
+        """Return a contiguous array as one of a single dimension."""
+        if array.type.layout != "C":
+            raise NotImplementedError(f"reshape(-1) of {array.type}")
+        data, length, stride = (self._field(array, name) for name in ("data", "nitems", "itemsize"))
+        return self._view(array, data, [length], [stride])
+
+    def _view(
+        self, array: Value, data: ir.Value, lengths: list[ir.Value], strides: list[ir.Value]
+    ) -> Value:
+        """Return an array with this shape in the memory of another one."""
+        kind = array.type.copy(ndim=len(lengths))
+        fields = {name: self._field(array, name) for name in ("meminfo", "parent", "itemsize")}
+        fields |= {"nitems": reduce(self.builder.mul, lengths), "data": data}
+        fields |= {"shape": cgutils.pack_array(self.builder, lengths)}
+        fields |= {"strides": cgutils.pack_array(self.builder, strides)}
+        model = self.context.data_model_manager.lookup(kind)
+        struct = ir.Constant(self.context.get_value_type(kind), ir.Undefined)
+        for name, value in fields.items():
+            struct = self.builder.insert_value(struct, value, model.get_field_position(name))
+        return Value(kind, struct)
 
     def _items(self, value: Any) -> tuple:
         """Return the items of a tuple."""
@@ -513,6 +600,19 @@ class _Translation:
             module.get_global(name).linkage = "internal"
             self.known[written, kinds] = function
         return self.known[written, kinds]
+
+
+def _is_contiguous(value: Any) -> bool:
+    kind = getattr(value, "type", None)
+    return isinstance(kind, types.Array) and kind.layout == "C"
+
+
+def _is_tuple(value: Any) -> bool:
+    return isinstance(value, tuple) or isinstance(getattr(value, "type", None), types.BaseTuple)
+
+
+def _is_integer(value: Any) -> bool:
+    return isinstance(value, int) or isinstance(getattr(value, "type", None), types.Integer)
 
 
 def _assigned_in(node: ast.AST) -> list[str]:

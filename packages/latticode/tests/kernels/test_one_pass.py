@@ -52,6 +52,15 @@ def write_searches(values, out, offset, is_even):
     out[-1] += max(values[0, 0], offset, -1.0) + values.reshape(-1)[2:5].size
 
 
+def write_rows(values, out, offset, is_even):
+    column, flat = values[:, 1], values.reshape(-1)
+    for k in range(-2, 3):  # a negative index counts from the end
+        row = values[k]
+        out[k] = row[0] + offset * values[k - 1, -1]
+        out[3 + k] += column[k] - flat[-1] * values[2:][k - 3, 1]
+    out[7] = values[1].reshape(-1)[-2] + row.size + values[0].shape[0]
+
+
 def filled(written, offset, is_even):
     """Return what a function of this module writes."""
 
@@ -64,7 +73,7 @@ def filled(written, offset, is_even):
     return out
 
 
-@pytest.mark.parametrize("written", [write_sums, write_searches])
+@pytest.mark.parametrize("written", [write_sums, write_searches, write_rows])
 @pytest.mark.parametrize(("offset", "is_even"), [(0.25, True), (0.25, False), (2, False)])
 def test_a_translated_function_has_the_bits_of_a_compiled_one(written, offset, is_even):
     translated = filled(in_one_pass(written), offset, is_even)
