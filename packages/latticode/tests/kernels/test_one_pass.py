@@ -58,7 +58,7 @@ def write_rows(values, out, offset, is_even):
         row = values[k]
         out[k] = row[0] + offset * values[k - 1, -1]
         out[3 + k] += column[k] - flat[-1] * values[2:][k - 3, 1]
-    out[7] = values[1].reshape(-1)[-2] + row.size + values[0].shape[0]
+    out[7] = values[1].reshape(-1)[-2] + flat.size + values[0].shape[0]
 
 
 def filled(written, offset, is_even):
