@@ -28,6 +28,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from .array_access import address_of, field_of, view_of
 from .inside_numba import Kernel, SubroutineLibrary, context_of_kernels
 
 OPERATORS = {
@@ -457,76 +458,47 @@ class _Translation:
         address, kind = self._address(items, indices), items.type
         if len(indices) == kind.ndim:
             return Value(kind.dtype, self.context.unpack_value(self.builder, kind.dtype, address))
-        lengths, strides = (
-            cgutils.unpack_tuple(self.builder, self._field(items, name))[len(indices) :]
-            for name in ("shape", "strides")
-        )
-        return self._view(items, address, lengths, strides)
+        return self._view(items, address, kind.ndim - len(indices))
 
     def _set_item(self, items: Value, index: Any, value: Any) -> None:
         indices = self._indices(items, index)
-        if len(indices) < items.type.ndim if isinstance(items.type, types.Array) else True:
+        if not indices or len(indices) < items.type.ndim:
             self._call(operator.setitem, items, index, value)
             return
         number = self._converted(value, items.type.dtype)
         address = self._address(items, indices)
         self.context.pack_value(self.builder, number.type, number.value, address)
 
-    # numba's own code for elements and rows of arrays has several times as many instructions
-
-    def _field(self, array: Value, name: str) -> ir.Value:
-        """Return a field of an array."""
-        position = self.context.data_model_manager.lookup(array.type).get_field_position(name)
-        return self.builder.extract_value(array.value, position)
-
     def _indices(self, items: Any, index: Any) -> tuple:
         """Return the integers that choose an element or row of a contiguous array, else nothing."""
-        if not _is_contiguous(items):
+        kind = getattr(items, "type", None)
+        if not isinstance(kind, types.Array) or kind.layout != "C":
             return ()
         indices = self._items(index) if _is_tuple(index) else (index,)
         return indices if all(map(_is_integer, indices)) else ()
 
     def _address(self, array: Value, indices: tuple) -> ir.Value:
-        """Return the address of the first element that the indices choose."""
-        build, place = self.builder, None
-        for axis, length in enumerate(cgutils.unpack_tuple(build, self._field(array, "shape"))):
-            place = place and build.mul(place, length)
-            if axis < len(indices):
-                index = self._counted(indices[axis], length)
-                place = build.add(place, index) if place else index
-        return build.gep(self._field(array, "data"), [place])
+        kinds = [getattr(index, "type", types.intp) for index in indices]
+        kinds = [
+            types.uintp if isinstance(index, int) and index >= 0 else kind
+            for index, kind in zip(indices, kinds, strict=True)
+        ]
+        places = [self._converted(index, types.intp).value for index in indices]
+        typed = list(zip(places, kinds, strict=True))
+        return address_of(self.context, self.builder, array.type, array.value, typed)
 
-    def _counted(self, index: Any, length: ir.Value) -> ir.Value:
-        """Return an index that is not negative; a negative one counts from the end."""
-        place = self._converted(index, types.intp).value
-        if isinstance(index, int):
-            return place if index >= 0 else self.builder.add(place, length)
-        if not index.type.signed:
-            return place
-        is_negative = self.builder.icmp_signed("<", place, place.type(0))
-        return self.builder.select(is_negative, self.builder.add(place, length), place)
+    def _view(self, array: Value, data: ir.Value, dimensions: int) -> Value:
+        view = view_of(self.context, self.builder, array.type, array.value, data, dimensions)
+        return Value(*view)
 
     def _flat(self, array: Value) -> Value:
         """Return a contiguous array as one of a single dimension."""
         if array.type.layout != "C":
             raise NotImplementedError(f"reshape(-1) of {array.type}")
-        data, length, stride = (self._field(array, name) for name in ("data", "nitems", "itemsize"))
-        return self._view(array, data, [length], [stride])
+        return self._view(array, self._field(array, "data"), 0)
 
-    def _view(
-        self, array: Value, data: ir.Value, lengths: list[ir.Value], strides: list[ir.Value]
-    ) -> Value:
-        """Return an array with this shape in the memory of another one."""
-        kind = array.type.copy(ndim=len(lengths))
-        fields = {name: self._field(array, name) for name in ("meminfo", "parent", "itemsize")}
-        fields |= {"nitems": reduce(self.builder.mul, lengths), "data": data}
-        fields |= {"shape": cgutils.pack_array(self.builder, lengths)}
-        fields |= {"strides": cgutils.pack_array(self.builder, strides)}
-        model = self.context.data_model_manager.lookup(kind)
-        struct = ir.Constant(self.context.get_value_type(kind), ir.Undefined)
-        for name, value in fields.items():
-            struct = self.builder.insert_value(struct, value, model.get_field_position(name))
-        return Value(kind, struct)
+    def _field(self, array: Value, name: str) -> ir.Value:
+        return field_of(self.context, self.builder, array.type, array.value, name)
 
     def _items(self, value: Any) -> tuple:
         """Return the items of a tuple."""
@@ -600,11 +572,6 @@ class _Translation:
             module.get_global(name).linkage = "internal"
             self.known[written, kinds] = function
         return self.known[written, kinds]
-
-
-def _is_contiguous(value: Any) -> bool:
-    kind = getattr(value, "type", None)
-    return isinstance(kind, types.Array) and kind.layout == "C"
 
 
 def _is_tuple(value: Any) -> bool:

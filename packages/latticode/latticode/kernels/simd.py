@@ -53,6 +53,7 @@ from numba.extending import (
     type_callable,
 )
 
+from .array_access import field_of
 from .compiled import kernel
 
 LANES = 8
@@ -91,12 +92,6 @@ class VectorModel(models.PrimitiveModel):
 
 def constant(kind: ir.Type, values: Iterable) -> ir.Constant:
     return ir.Constant(ir.VectorType(kind, LANES), list(values))
-
-
-def field_of(context: Any, builder: Builder, kind: Type, struct: Value, name: str) -> Value:
-    """Return a field of an array or a view by one instruction; a proxy of numba writes ten."""
-    position = context.data_model_manager.lookup(kind).get_field_position(name)
-    return builder.extract_value(struct, position)
 
 
 def address_in_array(
