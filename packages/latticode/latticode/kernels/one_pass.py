@@ -179,11 +179,7 @@ class _Translation:
         self.loops: list[tuple[ir.Block, ir.Block]] = []
         self.result: Variable | None = None
         self.end: ir.Block | None = None
-        parameters = [parameter.arg for parameter in self.definition.args.args]
-        assigned = [*parameters, *_assigned_in(self.definition)]
-        nested = (node for node in self.definition.body if hasattr(node, "body"))
-        in_branches = {name for node in nested for name in _assigned_in(node)}
-        self.changing = {name for name in in_branches if assigned.count(name) > 1}
+        self.changing = _changing_in(self.definition)
 
     def run(self, arguments: Iterable[Any]) -> Any:
         """Write the function's statements, and return what it returns."""
@@ -191,7 +187,7 @@ class _Translation:
         for parameter, argument in zip(parameters, arguments, strict=True):
             self._assign(ast.Name(parameter.arg), argument)
         *statements, last = self.definition.body
-        returns = [node for node in ast.walk(self.definition) if isinstance(node, ast.Return)]
+        returns = _returns_of(self.definition)
         if returns == [last]:
             self._write(statements)
             return self._value(last.value)
@@ -580,6 +576,20 @@ def _is_tuple(value: Any) -> bool:
 
 def _is_integer(value: Any) -> bool:
     return isinstance(value, int) or isinstance(getattr(value, "type", None), types.Integer)
+
+
+@cache
+def _changing_in(definition: ast.FunctionDef) -> set[str]:
+    """Return the names that branches or loops of a function assign, and other statements too."""
+    parameters = [parameter.arg for parameter in definition.args.args]
+    assigned = [*parameters, *_assigned_in(definition)]
+    nested = (node for node in definition.body if hasattr(node, "body"))
+    return {name for node in nested for name in _assigned_in(node) if assigned.count(name) > 1}
+
+
+@cache
+def _returns_of(definition: ast.FunctionDef) -> list[ast.Return]:
+    return [node for node in ast.walk(definition) if isinstance(node, ast.Return)]
 
 
 def _assigned_in(node: ast.AST) -> list[str]:
