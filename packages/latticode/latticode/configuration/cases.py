@@ -336,9 +336,8 @@ class CaseSection(Section):
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
         """Return why amplitudes up to `peak` cannot be integrated, or None; and a rate bound."""
-        values = self._values(self.chain)
-        obstacle = find_fault({}, rates_of(self.model, values, peak), peak, span, solver)
-        return obstacle, self.model.rate(values, peak)
+        rates = rates_of(self.model, self._values(self.chain), peak)
+        return find_fault({}, rates, peak, span, solver), sum(rates.values())
 
     def problem(self, **changes: Any) -> dict:
         """Return the case as plain values of a Problem, with `changes` to some of them.
@@ -383,7 +382,9 @@ class CaseSection(Section):
                 changes[name] = value
             else:
                 changes |= self._varied(name, value)
-        return type(self).model_validate({**self.model_dump(), **changes, "initial": initial})
+        # pydantic would check a class with an initialiser of its own, as in notebooks, twice
+        kind = next(k for k in type(self).__mro__ if not k.__pydantic_custom_init__)
+        return kind.model_validate({**self.model_dump(), **changes, "initial": initial})
 
     # --- Checks of keys against each other
 

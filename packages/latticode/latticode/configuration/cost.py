@@ -69,14 +69,14 @@ def demand(problem: Mapping) -> Demand:
     model = Model.of_plain(model) if isinstance(model, Mapping) else model
     peak = max(max(map(abs, values)) for values in initial.values())
     if not model.real:
-        peak *= 0.5**0.5  # `rate` sets real and imaginary parts to it: their squares add up
+        peak *= 0.5**0.5  # `rates_at` sets real and imaginary parts to it: their squares add up
     same_equations = model.even and not any(
         isinstance(value, list) for value in problem["parameters"].values()
     )
     even = same_equations and all(initial.get(-site) == values for site, values in initial.items())
     even = even and problem.get("site_count") is None
     sites = problem["half_width"] + 1 if even else _sites_of(problem)
-    rate, pairs = model.rate(problem["parameters"], peak), 0.5 * len(model.fields) * sites
+    (rate,), pairs = model.rates_at(problem["parameters"], peak), 0.5 * len(model.fields) * sites
     return Demand(rate, pairs, in_parts=not (is_ring(problem) or model.matrices))
 
 

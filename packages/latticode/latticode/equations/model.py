@@ -39,7 +39,7 @@ from .graph import (
 )
 from .model_file import BEFORE, SEED, placed, run_file, same, values_at
 from .names import Parameters, require_names
-from .rate_bounds import Slopes, bound_rate, slopes_of
+from .rate_bounds import Slopes, bound_rates, slopes_of
 from .rate_properties import (
     are_even,
     continue_real_equations,
@@ -383,14 +383,14 @@ class Model:
         """The reason why solutions have no power series, "" if they have one."""
         return why_no_series(self.rates)
 
-    def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
-        """Return an upper bound of the rate, per unit time, at which fields rotate or grow.
+    def rates_at(self, parameters: Mapping[str, Any], *peaks: float) -> list[float]:
+        """Return upper bounds of the rate, per unit time, at which fields rotate or grow.
 
-        `peak` is the largest amplitude. At `peak` 0, infinite derivatives are ignored, for
-        example the derivative of sqrt.
+        Each is for one of the largest amplitudes `peaks`. At a peak of 0, infinite derivatives are
+        ignored, for example the derivative of sqrt.
         """
         defaults = {name: value for name, value in self.parameters.items() if not callable(value)}
-        return bound_rate(len(self.rates), self._slopes, defaults | parameters, peak)
+        return bound_rates(len(self.rates), self._slopes, defaults | parameters, peaks)
 
     @cached_property
     def _slopes(self) -> Slopes:

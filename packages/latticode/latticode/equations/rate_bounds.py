@@ -4,7 +4,7 @@ The bounds predict the cost of a run and whether it is feasible. They are not re
 bits may depend on the processor.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,11 +26,13 @@ def slopes_of(rates: tuple[Node, ...]) -> Slopes:
     return columns, tuple(changes)
 
 
-def bound_rate(rows: int, slopes: Slopes, parameters: Mapping[str, Any], peak: float) -> float:
-    """Return an upper bound of the rate per unit time at amplitude `peak`: see `Model.rate`."""
+def bound_rates(
+    rows: int, slopes: Slopes, parameters: Mapping[str, Any], peaks: Sequence[float]
+) -> list[float]:
+    """Return upper bounds of the rate per unit time, one for each peak: see `Model.rates_at`."""
     sizes = {name: _size_of(value) for name, value in parameters.items()}
 
-    def size(entry: Node) -> float:
+    def size(entry: Node, peak: float) -> float:
         if entry.operation == "number":
             return entry.operands[0]
         if entry.operation == "field":
@@ -38,14 +40,15 @@ def bound_rate(rows: int, slopes: Slopes, parameters: Mapping[str, Any], peak: f
         return sizes.get(entry.operands[0], 1.0) if entry.operands else 1.0
 
     columns, changes = slopes
+    sums = np.zeros((len(peaks), rows, rows))
     with np.errstate(all="ignore"):
-        values = np.abs(evaluate(changes, lambda entry: np.float64(size(entry))))
-    sums = np.zeros((rows, rows))
-    for column, change in zip(columns, values.reshape(-1, rows), strict=True):
-        sums[:, column] += change
-    if not peak and not np.isfinite(sums).all():
-        sums = np.nan_to_num(sums, posinf=0.0)
-    return _largest_eigenvalue(sums)
+        for matrix, peak in zip(sums, peaks, strict=True):
+            values = np.abs(evaluate(changes, lambda entry, p=peak: np.float64(size(entry, p))))
+            for column, change in zip(columns, values.reshape(-1, rows), strict=True):
+                matrix[:, column] += change
+            if not peak and not np.isfinite(matrix).all():
+                matrix[...] = np.nan_to_num(matrix, posinf=0.0)
+        return _largest_eigenvalues(sums).tolist()
 
 
 def _size_of(value: Any) -> float:
@@ -57,17 +60,18 @@ def _size_of(value: Any) -> float:
     return float(np.abs(value).max())
 
 
-def _largest_eigenvalue(matrix: np.ndarray) -> float:
-    """Return an upper bound of the largest eigenvalue of a matrix without negative entries.
+def _largest_eigenvalues(matrices: np.ndarray) -> np.ndarray:
+    """Return upper bounds of the largest eigenvalues of matrices (matrix, row, row) of sizes.
 
-    The bound is the 64th root of the norm of the 64th power. The norm itself would be too coarse:
-    x'' = -k x oscillates at sqrt(k), but the norm of its matrix is k.
+    A bound is the 64th root of the norm of the 64th power. The norm itself would be too coarse:
+    x'' = -k x oscillates at sqrt(k), but the norm of its matrix is k. If an entry is not finite,
+    the bound is that entry.
     """
-    bound, exponent = 1.0, 1.0
+    bounds, exponent, first = 1.0, 1.0, matrices.max(axis=(1, 2))
     for _ in range(6):
-        largest = matrix.max()
-        if not 0.0 < largest < np.inf:
-            return float(largest) if largest else 0.0
-        bound, matrix = bound * largest**exponent, matrix / largest
-        matrix, exponent = matrix @ matrix, 0.5 * exponent
-    return float(bound * matrix.sum(axis=1).max() ** exponent)
+        largest = matrices.max(axis=(1, 2))
+        largest[largest == 0.0] = 1.0
+        bounds, matrices = bounds * largest**exponent, matrices / largest[:, None, None]
+        matrices, exponent = matrices @ matrices, 0.5 * exponent
+    bounds *= matrices.sum(axis=2).max(axis=1) ** exponent
+    return np.where(np.isfinite(first), bounds, first)

@@ -49,8 +49,8 @@ def find_fault(
 
 def rates_of(model: Model, parameters: Mapping, peak: float) -> dict[str, float]:
     """Return bounds of the relative rates of a model at amplitude `peak`, by key."""
-    linear = model.rate(parameters, 0.0)
-    return {"parameters": linear, "initial": model.rate(parameters, peak) - linear}
+    linear, total = model.rates_at(parameters, 0.0, peak)
+    return {"parameters": linear, "initial": total - linear}
 
 
 def _find_in_data(

@@ -304,7 +304,7 @@ class TracedEquations(Equations):
         state = np.array([unfold(part, cut) for part in record.snapshots[:count]])
         real = model.real
         return {
-            "modulus": np.abs(state[0]) if real else modulus(complex_of(*state)),
+            "modulus": np.abs(state[0]) if real or not state.size else modulus(complex_of(*state)),
             "final": final_rows if real else complex_of(*final_rows),
             "state": state,
             "conserved": dict(zip(model.conserved, record.conserved, strict=False)),

@@ -153,6 +153,6 @@ def test_sines_drives_and_functions_of_time_equal_scipy(solver):
 def test_the_bound_of_rates_derives_the_equations_once(monkeypatch):
     """A survey asks for it before each of its runs, which may be shorter than a derivation."""
     chain = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
-    first = chain.rate({"c": 2.0}, 0.5)
+    first = chain.rates_at({"c": 2.0}, 0.5)
     monkeypatch.setattr("latticode.equations.model.derivative", None)
-    assert chain.rate({"c": 2.0}, 0.5) == first < chain.rate({"c": 3.0}, 0.5)
+    assert chain.rates_at({"c": 2.0}, 0.5) == first < chain.rates_at({"c": 3.0}, 0.5)
