@@ -8,7 +8,6 @@ import sys
 import termios
 import threading
 import time
-from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -20,6 +19,9 @@ DNLS = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) +
 CASE = Case(model=DNLS, half_width=5, initial={0: [1.5]}, end_time=1)
 LONG = CASE.changed(half_width=200, end_time=8000, output_step=5)  # over 0.1 s
 SCRIPT = """
+import signal
+# shells let programs in the background ignore this signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
 from latticode import Case, Model, abs2, lap, simulate
 model = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + abs2(u) * u)
 print("begins", flush=True)
@@ -72,30 +74,22 @@ def test_ctrl_c_ends_a_script_in_one_line():
     ours, theirs = pty.openpty()
     termios.tcsetwinsize(theirs, (24, 80))
     process = subprocess.Popen(
-        [sys.executable, "-X", "faulthandler", "-c", SCRIPT],
-        stdout=subprocess.PIPE,
-        stderr=theirs,
-        text=True,
+        [sys.executable, "-c", SCRIPT], stdout=subprocess.PIPE, stderr=theirs, text=True
     )
     os.close(theirs)
     screen = ""
     assert process.stdout.readline() == "begins\n"
     while "simulate: taylor:" not in screen:
         screen += os.read(ours, 1000).decode(errors="replace")
-    for number in (signal.SIGINT, signal.SIGINT, signal.SIGABRT):
-        # Python ignores an interrupt that arrives while it calls a finaliser; the last signal shows
-        # where each thread is
-        process.send_signal(number)
-        with suppress(subprocess.TimeoutExpired):
-            process.wait(30)
-            break
+    process.send_signal(signal.SIGINT)
+    process.wait(60)
     os.set_blocking(ours, False)
     try:
         while more := os.read(ours, 1000).decode(errors="replace"):
             screen += more
     except OSError:  # the end
         pass
-    assert "Traceback" not in screen and "Thread" not in screen, screen
+    assert "Traceback" not in screen
     assert screen.rstrip().split("\r")[-1].strip() == "simulate was interrupted"
 
 
