@@ -29,7 +29,7 @@ WORD = 8
 CUSTOM, IMPORT, EXPORT = 0, 2, 7
 """Numbers of three kinds of sections in a module."""
 RESTS_ON_SIZE = re.compile(r"(load|store|getelementptr).*\{[^}]*\bptr\b")
-"""Matches code that depends on the size of a structure with pointers, which is rejected."""
+"""Matches code that depends on the size in memory of a structure with pointers; it is rejected."""
 NOT_CALLED = b"__linear_memory", b"__stack_pointer", b"__indirect_function_table"
 """Imports of a module that are not functions."""
 

@@ -13,7 +13,7 @@ import pytest
 from judge_models import TURNS, judge
 from random_models import drawn
 
-MODELS = int(os.environ.get("LATTICODE_MODELS", 24))
+MODELS = int(os.environ.get("LATTICODE_MODELS", 40))
 
 
 def test_solvers_follow_random_models_in_plain_python(tmp_path):
@@ -31,6 +31,6 @@ def test_solvers_follow_random_models_in_plain_python(tmp_path):
 @pytest.mark.parametrize("seed", range(0, MODELS, 5))
 def test_compiled_solvers_follow_random_models(seed):
     """Under the default solver alone, but for long tests: each solver takes seconds to compile."""
-    second = TURNS[seed % len(TURNS)] if MODELS > 24 else ()
+    second = TURNS[seed % len(TURNS)] if MODELS > 40 else ()
     model = drawn(seed)
     assert not judge(model, ["taylor", *second]), str(model)

@@ -100,3 +100,12 @@ def test_a_name_that_changes_its_type_is_rejected():
 
     with pytest.raises((NotImplementedError, NumbaError), match="total changes from int64"):
         filled(mixed, 1.0, False)
+
+
+def test_only_contiguous_arrays_get_a_single_dimension():
+    @in_one_pass
+    def flattened(values, out, offset, is_even):
+        out[0] = values[:, 0].reshape(-1)[1]
+
+    with pytest.raises((NotImplementedError, NumbaError), match=r"reshape\(-1\) of array"):
+        filled(flattened, 1.0, False)
