@@ -1,4 +1,4 @@
-"""The cost of large computations: a survey of many runs, and one very long chain.
+"""The cost of large computations: surveys of many runs, and one very long chain.
 
 They take minutes and gigabytes, so no rule runs them. `python -m benchmarks.scale` measures them
 one after another on one core, each in a process of its own, and writes benchmarks/scale.json, which
@@ -19,7 +19,7 @@ import numpy as np
 from latticode.kernels.sources import describe_machine
 from latticode.simulation.simulate import simulate
 from latticode.simulation.survey import Survey
-from latticode.simulation.survey_runs import run_survey
+from latticode.simulation.survey_runs import MANY, run_survey
 from pendula.notebook import Case
 from pendula.problem import PaperProblem
 
@@ -29,20 +29,42 @@ from .peers_in_python import survey_by_heyoka
 WRITTEN = Path(__file__).with_name("scale.json")
 HALF_CHAIN, END_TIME = 500_000, 10.0
 RUNS, PEER_RUNS = 100_000, 1024
+ALONE, IN_BATCHES = 960, 3200
+"""Numbers of runs in the surveys of chains of several half-widths: one below MANY, one above."""
+HALF_WIDTHS = (1, 5, 15, 30)
 
 
 def survey(runs: int = RUNS) -> dict[str, float]:
     """Return the cost of a map of the paper's chain over Omega and A_0."""
-    problem, axes = chain_of_survey(), axes_of_map(runs)
-    simulate(problem)  # compiles
-    plan = Survey(axes, ("max_l2", "mean_l2"), (10.0, 50.0))
-    _, seconds = timed(lambda: run_survey(problem, plan))
+    problem = chain_of_survey()
+    milliseconds_a_run(problem, PEER_RUNS)  # compiles
     return {
         "runs": runs,
         "half_width": 30,
         "end_time": 50,
-        "milliseconds_a_run": 1e3 * seconds / runs,
+        "milliseconds_a_run": milliseconds_a_run(problem, runs),
     }
+
+
+def milliseconds_a_run(problem: PaperProblem, runs: int) -> float:
+    """Return the processor time of a run in a map of so many runs."""
+    plan = Survey(axes_of_map(runs), ("max_l2", "mean_l2"), (10.0, 50.0))
+    _, seconds = timed(lambda: run_survey(problem, plan))
+    return 1e3 * seconds / runs
+
+
+def surveys() -> dict[str, list]:
+    """Return the cost of a run alone, and in a batch, in surveys of short chains."""
+    assert ALONE < MANY <= IN_BATCHES
+    rows = []
+    for half_width in HALF_WIDTHS:
+        problem = chain_of_survey().changed(half_width=half_width)
+        rounds = [
+            [milliseconds_a_run(problem, runs) for runs in (ALONE, IN_BATCHES)]
+            for _ in range(4)  # the first round compiles
+        ]
+        rows.append([problem.sites, *np.median(rounds[1:], axis=0)])
+    return {"rows": rows}
 
 
 def survey_by_peer() -> dict[str, float]:
@@ -80,6 +102,7 @@ def chain(solver: str) -> dict[str, float]:
 
 JOBS = {
     "survey": (survey,),
+    "surveys": (surveys,),
     "heyoka": (survey_by_peer,),
     "dop853": (chain, "dop853"),
     "taylor": (chain, "taylor"),

@@ -312,6 +312,11 @@ def scale(measured: dict) -> dict:
         "milliseconds": number(survey["milliseconds_a_run"], 2),
         "minutes": number(survey["runs"] * survey["milliseconds_a_run"] / 6e4, 2),
         "megabytes": f"{survey['megabytes']:.0f}",
+        "surveys_processor": measured["surveys"]["machine"]["processor"],
+        "surveys": [
+            [str(sites), *(number(each, 2) for each in (alone, in_batch, in_batch / alone))]
+            for sites, alone, in_batch in measured["surveys"]["rows"]
+        ],
         "heyoka_processor": measured["heyoka"]["machine"]["processor"],
         "heyoka": number(measured["heyoka"]["ratio"], 2),
         "chain_processor": chains[0]["machine"]["processor"],

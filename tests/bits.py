@@ -13,8 +13,11 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from latticode.kernels.simd import LANES
 from latticode.simulation.lattice import Reduction
 from latticode.simulation.simulate import Trajectory, simulate
+from latticode.simulation.survey_runs import norms_in_batches
+from pendula.models.amplitude_batches import run_batch
 from pendula.models.solvers import SOLVERS
 from pendula.problem import PaperProblem
 
@@ -27,6 +30,7 @@ CONTROLS = {
     **{f"pendula.{name}": {"rtol": value, "atol": value} for name, value in TIGHT.items()},
     "pendula.kahan_li": {"step": 0.25},
     "long.taylor": {"rtol": TIGHT["taylor"], "atol": TIGHT["taylor"]},
+    "batch.taylor": {"rtol": TIGHT["taylor"], "atol": TIGHT["taylor"]},
 }
 RUNS = [(name, even) for name in CONTROLS for even in (True, False)]
 HALF_WIDTHS, LONG = (30, 200), (8200,)
@@ -54,8 +58,17 @@ def of_model(name: str) -> tuple[str, str]:
 def run(name: str, even: bool) -> str:
     """Return the hash of Fig 4, large data, to tau = 3, by half of each chain or the whole."""
     reduction = Reduction(even=even, synchronised=False)
+    if name.startswith("batch."):
+        return digest(runs_of_batch())
     half_widths = LONG if name.startswith("long.") else HALF_WIDTHS
     return digest([simulate(problem(name, half_width), reduction) for half_width in half_widths])
+
+
+def runs_of_batch() -> list[Trajectory]:
+    """Return the norms of a batch of runs with other Omega; half of each chain is integrated."""
+    problems = [problem("batch.taylor", 5).changed(omega=0.5 * n - 2.0) for n in range(LANES)]
+    [(_, norms)] = norms_in_batches(problems)
+    return [norms.of_run(n) for n in range(LANES)]
 
 
 def problem(name: str, half_width: int) -> PaperProblem:
@@ -78,6 +91,8 @@ def problem(name: str, half_width: int) -> PaperProblem:
 def hits(name: str) -> int:
     """Return how often the kernel of a run was read from the cache."""
     model, solver = of_model(name)
+    if name.startswith("batch."):
+        return sum(run_batch.stats.cache_hits.values())
     method = SOLVERS[model][solver]
     kernel = method.load_long() if name.startswith("long.") else method.run
     return sum(kernel.stats.cache_hits.values())

@@ -33,6 +33,7 @@ HASHES = {
     "pendula.ode45": "4b213e23de37b7f1",
     "pendula.kahan_li": "3bc3bea5acb650fe",
     "long.taylor": "463ea4c6fdf638d9",
+    "batch.taylor": "b123a7d0964282f3",
 }
 """Bits that every machine must get. A change of the equations' or a solver's arithmetic changes
 them: if it was meant, put here what `python tests/bits.py` prints, and say why in the commit."""

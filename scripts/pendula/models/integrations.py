@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from latticode.datasets.registry import NAMES
 from latticode.numerics.elementary import complex_of, modulus
-from latticode.simulation.equations import CompiledMethod, Equations, ResultNames
+from latticode.simulation.equations import BatchInputs, CompiledMethod, Equations, ResultNames
 from latticode.simulation.lattice import Reduction, choose_ends, pack, unfold, unpack
 from latticode.simulation.observables import ObservableRecord, blank_record
 
@@ -79,6 +79,13 @@ class AmplitudeEquations(PaperEquations):
     def system(self, cut: Reduction) -> AmplitudeChain:
         """Return the parameters of the kernels."""
         return make_chain(self.constants, self.problem.boundary, cut)
+
+    def prepare_batch(self, batch: Sequence[Equations], cut: Reduction) -> BatchInputs:
+        """Return the kernel of a batch of runs and its inputs."""
+        from .amplitude_batches import WORK, run_batch  # here: few programs need them
+
+        constants = [tuple(Constants.of(each.problem.parameters)) for each in batch]
+        return BatchInputs(run_batch, WORK, self.system(cut), constants)
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool

@@ -31,24 +31,23 @@ def bound_rates(
 ) -> list[float]:
     """Return upper bounds of the rate per unit time, one for each peak: see `Model.rates_at`."""
     sizes = {name: _size_of(value) for name, value in parameters.items()}
+    each = np.array(peaks, float)
 
-    def size(entry: Node, peak: float) -> float:
-        if entry.operation == "number":
-            return entry.operands[0]
+    def size(entry: Node) -> np.ndarray | np.float64:
         if entry.operation == "field":
-            return peak
-        return sizes.get(entry.operands[0], 1.0) if entry.operands else 1.0
+            return each
+        named = entry.operands[0] if entry.operands else None
+        return np.float64(named if entry.operation == "number" else sizes.get(named, 1.0))
 
     columns, changes = slopes
-    sums = np.zeros((len(peaks), rows, rows))
+    matrices = np.zeros((each.size, rows, rows))
     with np.errstate(all="ignore"):
-        for matrix, peak in zip(sums, peaks, strict=True):
-            values = np.abs(evaluate(changes, lambda entry, p=peak: np.float64(size(entry, p))))
-            for column, change in zip(columns, values.reshape(-1, rows), strict=True):
-                matrix[:, column] += change
-            if not peak and not np.isfinite(matrix).all():
-                matrix[...] = np.nan_to_num(matrix, posinf=0.0)
-        return _largest_eigenvalues(sums).tolist()
+        values = [np.abs(value) + np.zeros_like(each) for value in evaluate(changes, size)]
+        for column, change in zip(columns, np.reshape(values, (-1, rows, each.size)), strict=True):
+            matrices[:, :, column] += change.T
+        at_rest = matrices[each == 0.0]
+        matrices[each == 0.0] = np.nan_to_num(at_rest, nan=0.0, posinf=0.0)
+        return _largest_eigenvalues(matrices).tolist()
 
 
 def _size_of(value: Any) -> float:

@@ -15,12 +15,29 @@ from latticode.equations.model import Model
 from latticode.kernels.cache import keep_source
 
 from . import toolbox
+from .batches import REACH
 from .rate_rules import ExactRule, densities_text, rates_text, rule_text, tangents_text
 from .series_graph import with_carried
 from .series_rules import SeriesWriter
 from .statements import ModelInputs, Names, affine, inputs_of
 
 HEAD = f"from {toolbox.__name__} import *\n"
+HEAD_OF_BATCHES = """
+from latticode.generation import batches
+from latticode.generation.batches import in_waves, left_neighbours, right_neighbours
+from latticode.simulation import observables
+"""
+BATCHES = """
+@inlined_by_llvm
+def with_constants(system, constants):
+    values = ({values})
+    others = system.at, system.wide, system.sums, system.couplings, system.left, system.right
+    return System(values, system.clocks, *others)
+solve = batches.build(continue_in_waves, with_constants, observables.{observe})
+@kernel
+def run_batch(system, batch, times, controls, memory, record, stop):
+    return solve(system, batch, times, controls, memory, record, stop)
+"""
 AT_TIME = """
 @kernel
 def at_time(system, t):
@@ -94,6 +111,18 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
     return "".join(texts)
 
 
+def batches_text(rates: tuple[Node, ...], site_dependent: frozenset[str], observe: str) -> str:
+    """Return the text of the module with `run_batch` and `WORK` for batches of runs.
+
+    `observe` names the function that stores the observables of a run. The rates do not depend on
+    time, and read neighbours up to `batches.REACH`.
+    """
+    inputs = inputs_of_rates(rates, site_dependent)
+    rule = SeriesWriter(rates, Names(inputs), site_dependent).text(REACH)
+    values = "".join(f"load(constants, {i} * LANES), " for i in range(len(inputs.constants)))
+    return HEAD + HEAD_OF_BATCHES + rule + BATCHES.format(values=values, observe=observe)
+
+
 def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
     """Return the text of the module with the rates of a solution and its tangent vectors."""
     inputs = inputs_of_rates(tangent.rates, site_dependent)
@@ -108,16 +137,16 @@ def conserved_text(model: Model, site_dependent: frozenset[str], observe: str) -
     return densities_text(densities, names, model.reach_of_densities, len(model.fields), observe)
 
 
-def load_series(model: Model) -> ModuleType:
+def load_series(model: Model, in_batch: bool = False) -> ModuleType:
     """Return the module for the series of two exchangeable fields: `continue_in_waves` and `WORK`.
 
-    Its system is a named tuple of the model's parameters and clocks. The caller must store the
-    coefficients of the clocks one after another from the index `spare_start` on.
+    With `in_batch` it continues the series of a batch of runs. Its system is a named tuple of the
+    model's parameters and clocks. The caller must store the coefficients of the clocks one after
+    another from the index `spare_start` on.
     """
     names = Names(inputs_of_rates(model.rates, frozenset()), by_name=True)
-    return load_text(
-        HEAD + SeriesWriter(model.rates, names, frozenset(), exchangeable=True).text(model.reach)
-    )
+    rule = SeriesWriter(model.rates, names, frozenset(), exchangeable=True).text(model.reach)
+    return load_text(HEAD + HEAD_OF_BATCHES * in_batch + rule)
 
 
 def load_rule(rates: tuple[Node, ...], *states: str) -> Callable:

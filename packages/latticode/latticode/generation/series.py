@@ -34,13 +34,12 @@ from .chain import can_be_tiled, seen_at, sign_at
 
 
 @inlined_by_llvm
-def sites_beyond(chain: Any, series: PowerSeries) -> tuple[tuple, tuple, float]:
+def sites_beyond(chain: Any, sites: int) -> tuple[tuple, tuple, float]:
     """Return from which sites those beyond the right end and the left end get their values.
 
     Each end has the site that the first one sees, -1 if it is at rest, and the step to the site
     that the next one sees. The last number is the factor of the values.
     """
-    sites = (series.blocks - 1) * LANES + series.sites_in_last
     right, left = seen_at(chain, sites, sites), seen_at(chain, -1, sites)
     right_step = seen_at(chain, sites + 1, sites) - right
     left_step = seen_at(chain, -2, sites) - left
@@ -135,7 +134,8 @@ def in_waves(write_next_order: Callable, reach: int, everywhere: bool = False) -
         # the first block of a ring needs the last one
         at_once = everywhere or blocks <= SHORT or not can_be_tiled(chain)
         group, lag = (blocks, 0) if at_once and not in_one_wave else (GROUP, 1)
-        beyond, begin = sites_beyond(chain, series), max(series.wave, 0)
+        beyond = sites_beyond(chain, (blocks - 1) * LANES + series.sites_in_last)
+        begin = max(series.wave, 0)
         end = begin + 1 if in_one_wave else blocks + lag * ORDER
         for start in range(begin, end, group):
             left, right = start, start + group

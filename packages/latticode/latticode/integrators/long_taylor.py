@@ -46,7 +46,7 @@ from .taylor import (
     X,
     Y,
     block_start,
-    root_of_largest,
+    largest_of,
     step_of_last_orders,
     step_of_order,
     sum_at,
@@ -217,7 +217,8 @@ def raise_peaks(series: PowerSeries, block: int, peaks: Array) -> None:
 @kernel
 def peak(peaks: Array, k: int) -> float:
     """Return the largest modulus in order `k`."""
-    return root_of_largest(load(peaks, 2 * k * LANES), load(peaks, (2 * k + 1) * LANES))
+    square, part = load(peaks, 2 * k * LANES), load(peaks, (2 * k + 1) * LANES)
+    return largest_of(largest_lane(square), largest_lane(part))
 
 
 @kernel

@@ -30,6 +30,7 @@ from latticode.kernels.simd import (
     larger_magnitude,
     largest_lane,
     load,
+    square_root,
     store,
     zero_below,
 )
@@ -190,37 +191,47 @@ def largest_modulus(series: PowerSeries, k: int) -> float:
     enough for the step. Padding is included, because it repeats the values of sites (see `close` of
     the rule).
     """
-    m, square, magnitude = series.memory, fill(0.0), fill(0.0)
+    square, part = largest_in_lanes(series, k)
+    return largest_of(largest_lane(square), largest_lane(part))
+
+
+@inlined_by_llvm
+def largest_in_lanes(series: PowerSeries, k: int) -> tuple[Any, Any]:
+    """Return the largest squared modulus and the largest part of order `k` in each lane."""
+    m, square, part = series.memory, fill(0.0), fill(0.0)
     for block in range(series.components * series.blocks):
         u = block * BLOCK_SIZE + k * ORDER_STRIDE
         x, y = load(m, u + X), load(m, u + Y)
         square = larger_magnitude(square, x * x + y * y)
-        magnitude = larger_magnitude(magnitude, larger_magnitude(x, y))
-    return root_of_largest(square, magnitude)
+        part = larger_magnitude(part, larger_magnitude(x, y))
+    return square, part
 
 
 @inlined_by_llvm
-def root_of_largest(square: Any, magnitude: Any) -> float:
-    """Return the largest modulus, from the largest squares and parts in each lane."""
-    largest_square, largest_part = largest_lane(square), largest_lane(magnitude)
-    return largest_part if largest_square < SQUARES else sqrt(largest_square)
+def largest_of(square: float, part: float) -> float:
+    """Return the largest modulus, from the largest squared modulus and the largest part."""
+    return part if square < SQUARES else sqrt(square)
 
 
-@kernel
-def sixteenth_root(x: float) -> float:
+@inlined_by_llvm
+def sixteenth_root(x: Any) -> Any:
     """Return x^(1/16) by square roots, which have the same bits on every machine, unlike pow."""
-    return sqrt(sqrt(sqrt(sqrt(x))))
+    return square_root(square_root(square_root(square_root(x))))
 
 
 @kernel
 def fifteenth_root(x: float) -> float:
-    """Return x^(1/15) to four digits, by 1/15 = 1/16 + 1/16^2 + 1/16^3 + ...
+    """Return x^(1/15) to four digits; infinity and NaN are returned as they are."""
+    return fifteenth_root_of_finite(x) if x < np.inf else x
+
+
+@inlined_by_llvm
+def fifteenth_root_of_finite(x: Any) -> Any:
+    """Return x^(1/15) to four digits, by 1/15 = 1/16 + 1/16^2 + 1/16^3 + ...; NaN for infinity.
 
     The first three factors are successive sixteenth roots. The last of these, x^(1/4096), is close
     to 1. The remaining factor is its fifteenth root, by a rational function of second order.
     """
-    if not x < np.inf:
-        return x
     first = sixteenth_root(x)
     second = sixteenth_root(first)
     third = sixteenth_root(second)

@@ -117,12 +117,12 @@ def as_vectors(builder: Builder, signature: Any, arguments: Values) -> list[Valu
 
 @intrinsic
 def fill(typing_context: Any, number: Type) -> Generated:
-    """Return a vector with the number in all lanes."""
+    """Return a vector with the number in all lanes; a vector is returned as it is."""
 
     def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
-        return repeat(builder, arguments[0])
+        return as_vectors(builder, signature, arguments)[0]
 
-    return vector(types.float64), generate
+    return vector(vector if number == vector else types.float64), generate
 
 
 @intrinsic
@@ -295,20 +295,21 @@ TINY = 1e-150
 def zero_below(typing_context: Any, level: Type, value: Type) -> Generated:
     """Return a number or vector with zero where its absolute value is below `level`.
 
-    NaN stays NaN.
+    NaN stays NaN. The level of a vector may be a vector too.
     """
     if value not in (vector, types.float64):
         return None
+    lanes = value == vector == level
 
     def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         level, value = arguments
         size = call_llvm(builder, "fabs", value)
-        if value.type == VECTOR:
+        if value.type != level.type:
             level = repeat(builder, level)
         is_below = builder.fcmp_ordered("<", size, level)
         return builder.select(is_below, ir.Constant(value.type, None), value)
 
-    return value(types.float64, value), generate
+    return value(vector if lanes else types.float64, value), generate
 
 
 # --- Moves between lanes ------------------------------------------------------------------------

@@ -85,6 +85,15 @@ class ResultNames(NamedTuple):
     time: str = "t"
 
 
+class BatchInputs(NamedTuple):
+    """The kernel of a batch of runs, and its inputs (see latticode.generation.batches)."""
+
+    run: Callable
+    work: int  # arrays of the size of a state for the series of a run alone
+    system: Any
+    constants: Sequence[tuple[float, ...]]  # of each run
+
+
 class Equations(ABC):
     """The equations of one problem, as `simulate` integrates them.
 
@@ -146,6 +155,10 @@ class Equations(ABC):
     def start(self, cut: Reduction) -> np.ndarray:
         """Return the initial state, (row, 1 + site + 1) with ghosts."""
         return pack(self.problem.amplitudes, cut)
+
+    def prepare_batch(self, batch: Sequence["Equations"], cut: Reduction) -> BatchInputs | None:
+        """Return what a batch of runs of these equations needs; None if it is impossible."""
+        return None
 
     @property
     def times(self) -> np.ndarray:

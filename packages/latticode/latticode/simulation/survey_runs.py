@@ -1,20 +1,32 @@
 """Execution of a survey, and the results that are kept of each run."""
 
+from collections.abc import Hashable, Iterator, Sequence
 from functools import partial
-from typing import Any
+from math import prod
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from latticode.generation.batches import make_batch, memory_of
+from latticode.integrators import DONE, Outcome
 from latticode.integrators.families import other_family, remark_on
+from latticode.integrators.methods import METHODS
+from latticode.kernels.simd import LANES
 from latticode.measures.difference import VISIBLE, first_above, norm_difference
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
 
+from .interrupts import interruptible
+from .lattice import Reduction, aligned, unfold
+from .observables import blank_record
 from .problem import Problem
-from .runs import ManyRuns, Run, reshape_runs, run_all
-from .simulate import IntegrationError, Trajectory, simulate
+from .runs import Make, MakeTogether, ManyRuns, Run, reshape_runs, run_all
+from .simulate import IntegrationError, Trajectory, find_obstacle, simulate
 from .survey import OF_RUNS, Survey, Surveyed, fault_of_axis, names_of, names_of_axis
 from .sweep import mean_of, within
+
+MANY = 1000
+"""A survey of fewer runs makes each alone: the kernel of batches takes seconds to compile."""
 
 
 def run_survey(problem: Problem, survey: Survey, run: Run = run_all) -> dict[str, np.ndarray]:
@@ -39,7 +51,7 @@ def runs_of_survey(problem: Problem, survey: Survey) -> ManyRuns:
         if fault := fault_of_axis(name, known, range(-reach, reach + 1), fields):
             raise ValueError(f"axes: {fault}")
     problems = Surveyed(problem, survey)
-    return ManyRuns(problems, partial(_measure_run, survey=survey), partial(_in_shape, problems))
+    return ManyRuns(problems, _make_of(survey), partial(_in_shape, problems))
 
 
 def _in_shape(problems: Surveyed, table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -64,6 +76,119 @@ KINDS = {
 """Printed description of runs, by the key with which their text begins."""
 TEXT = "text"
 """Name of the result that has the reason of a failure or remark, else an empty text."""
+
+
+# --- Runs in batches: one run in each lane of a vector (see latticode.generation.batches) ---------
+
+MOST_SITES = 64
+"""Largest number of sites in a batch: the series of longer chains leave the cache."""
+FEWEST_RUNS = LANES // 2
+"""Smallest number of runs in a batch, whose steps take as long as those of LANES runs."""
+
+
+class NormsOfBatch(NamedTuple):
+    """The norms of runs with the same output times, each row of a run as in `Trajectory`."""
+
+    problems: list[Problem]
+    tau: np.ndarray  # (time,)
+    linf: np.ndarray  # (component * run, time)
+    l2: np.ndarray  # (component * run, time)
+
+    def of_run(self, number: int) -> Trajectory:
+        """Return the norms of one run, as a trajectory without fields."""
+        count, nothing = len(self.problems), np.empty(0)
+        linf, l2 = self.linf[number::count], self.l2[number::count]
+        solver = dict(self.problems[number].solver)
+        outcome = Outcome(DONE, self.tau[-1], 0, 0, 0)
+        return Trajectory(self.tau, linf, l2, nothing, nothing, outcome, solver)
+
+
+def norms_in_batches(problems: Sequence[Problem]) -> Iterator[tuple[list[int], NormsOfBatch]]:
+    """Yield the norms of batches of runs by `taylor`, with the indices of their problems.
+
+    All other problems must be computed alone.
+    """
+    alike: dict[Hashable, list[int]] = {}
+    for place, problem in enumerate(problems):
+        if problem.solver["name"] == "taylor" and problem.sites <= MOST_SITES:
+            cut = problem.equations.find_reduction()
+            alike.setdefault((cut, *_what_runs_share(problem)), []).append(place)
+    for (cut, *_), places in alike.items():
+        equations = problems[places[0]].equations
+        if equations.prepare_batch([equations], cut) is None:
+            continue
+        able = [place for place in places if not find_obstacle(problems[place].equations)]
+        for first in range(0, len(able), LANES):
+            members = able[first : first + LANES]
+            if len(members) >= FEWEST_RUNS:
+                ended, norms = _run_batch([problems[place] for place in members], cut)
+                yield [members[number] for number in ended], norms
+
+
+def _what_runs_share(problem: Problem) -> tuple[Hashable, ...]:
+    """Return the properties that all runs of a batch have in common, besides their reduction."""
+    chain = problem.model, problem.half_width, problem.site_count, problem.boundary
+    times = problem.start_time, problem.end_time, problem.output_step
+    numbers = frozenset((key, np.isscalar(value)) for key, value in problem.parameters.items())
+    return *chain, *times, numbers, frozenset(problem.solver.items())
+
+
+def _run_batch(problems: Sequence[Problem], cut: Reduction) -> tuple[np.ndarray, NormsOfBatch]:
+    """Return the numbers of the runs that reached their end in a batch, and their norms."""
+    batch, solver = [problem.equations for problem in problems], problems[0].solver
+    inputs, times = batch[0].prepare_batch(batch, cut), batch[0].times
+    states = np.array([equations.start(cut) for equations in batch])
+    runs = make_batch(states, np.array(inputs.constants))
+    record = blank_record(states.shape[1] // 2, states.shape[2] - 2, LANES * len(times), 0)
+    controls = tuple(float(solver[key]) for key in METHODS["taylor"].controls)
+    memory = aligned((memory_of(inputs.work, states),))
+    interruptible(inputs.run, inputs.system, runs, times, controls, memory, record)
+    linf, l2 = (norms.reshape(-1, LANES, len(times)) for norms in (record.linf, record.l2))
+    is_finite = np.isfinite(linf).all(axis=(0, 2)) & np.isfinite(l2).all(axis=(0, 2))
+    ended = np.flatnonzero(((runs.status == DONE) & is_finite)[: len(problems)])
+    whole = Reduction(even=False, synchronised=cut.synchronised)
+    rows = (unfold(norms[:, ended], whole).reshape(-1, len(times)) for norms in (linf, l2))
+    return ended, NormsOfBatch([problems[n] for n in ended], problems[0].times, *rows)
+
+
+# --- The results that are kept of each run --------------------------------------------------------
+
+
+def _make_of(survey: Survey) -> Make:
+    """Return the function that makes a run of a survey, in batches if this saves time.
+
+    Functions of the user need whole trajectories, which batches do not compute.
+    """
+    if any(map(callable, survey.keep)) or prod(survey.shape) < MANY:
+        return partial(_measure_run, survey=survey)
+    return MakeTogether(partial(_measure_runs, survey=survey), count=8 * LANES)
+
+
+def _measure_runs(problems: Sequence[Problem], survey: Survey) -> list[dict[str, Any]]:
+    """Return the kept results of runs by name, from batches as far as possible."""
+    results: dict[int, dict[str, Any]] = {}
+    for places, norms in norms_in_batches(problems):
+        results.update(zip(places, _measure_batch(norms, survey), strict=True))
+    for place in range(len(problems)):
+        if place not in results:
+            results[place] = _measure_run(problems[place], survey)
+    return [results[place] for place in range(len(problems))]
+
+
+def _measure_batch(norms: NormsOfBatch, survey: Survey) -> list[dict[str, Any]]:
+    """Return the kept results of the runs of a batch by name."""
+    count = len(norms.problems)
+    runs = [norms.of_run(number) for number in range(count)] if {*OF_RUNS} & {*survey.keep} else []
+    columns: dict[str, Any] = {TEXT: [""] * count}
+    for quantity in survey.keep:
+        if quantity == "divergence":
+            columns[quantity] = map(_divergence, norms.problems, runs)
+        elif quantity == "exponent":
+            columns[quantity] = [_exponent(run, survey.window) for run in runs]
+        else:
+            rows = _statistic(norms, survey.window, *quantity.split("_"))
+            columns[quantity] = rows.reshape(-1, count).T
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
@@ -92,7 +217,7 @@ def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
 
 
 def _statistic(
-    run: Trajectory, window: tuple[float, float] | None, statistic: str, norm: str
+    run: Trajectory | NormsOfBatch, window: tuple[float, float] | None, statistic: str, norm: str
 ) -> np.ndarray:
     """Return the maximum, mean or final value of a norm of each field, (field,)."""
     series = getattr(run, norm)

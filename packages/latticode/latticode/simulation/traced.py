@@ -1,7 +1,7 @@
 """Equations of a traced model: its kernels, their parameters, and the results of a run."""
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache, cached_property, partial
 from types import ModuleType
 from typing import Any
@@ -12,8 +12,10 @@ from latticode.equations.ends import ANTIPERIODIC, PERIODIC, ends_of, kind_of
 from latticode.equations.graph import Node, evaluate
 from latticode.equations.initial_values import InitialValueProblem
 from latticode.equations.model import Model
+from latticode.generation.batches import REACH
 from latticode.generation.modules import (
     HEAD,
+    batches_text,
     conserved_text,
     inputs_of_rates,
     load_text,
@@ -27,7 +29,7 @@ from latticode.kernels.simd import LANES
 from latticode.numerics import elementary
 from latticode.numerics.elementary import complex_of, modulus
 
-from .equations import CompiledMethod, Equations, ResultNames
+from .equations import BatchInputs, CompiledMethod, Equations, ResultNames
 from .feasibility import rates_of
 from .lattice import Reduction, choose_ends, find_reduction, unfold
 from .observables import ObservableRecord, blank_record
@@ -133,6 +135,12 @@ def kernels_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
         text += conserved_text(model, site_dependent, norms_of(model))
     methods = [METHODS[name] for name in methods_taking(model)]
     return load_text(text + runs_text(methods, observe, model.driven))
+
+
+@cache
+def batches_of(model: Model, site_dependent: frozenset[str]) -> ModuleType:
+    """Return the generated module of a model for batches of runs."""
+    return load_text(batches_text(model.rates, site_dependent, norms_of(model)))
 
 
 def make_system(problem: InitialValueProblem, reduction: Reduction) -> System:
@@ -289,6 +297,20 @@ class TracedEquations(Equations):
     def system(self, cut: Reduction) -> System:
         """Return the argument `system` of the kernels, at time 0."""
         return make_system(self.problem, cut)
+
+    def prepare_batch(self, batch: Sequence[Equations], cut: Reduction) -> BatchInputs | None:
+        """Return what a batch of runs needs; None if the rates depend on time or on far sites."""
+        model, site_dependent = self.problem.model, self.problem.site_dependent
+        if model.driven or model.matrices or model.reach > REACH:
+            return None
+        kernels = batches_of(model, site_dependent)
+        inputs = inputs_of_rates(model.rates, site_dependent)
+        constants, at_sites = zip(*(_values(each.problem, inputs) for each in batch), strict=True)
+        last = [at_sites[-1]] * (LANES - len(batch))  # the other lanes repeat the last run
+        by_site = np.stack([*at_sites, *last], axis=-1)[:, 1:]
+        at = np.pad(by_site.reshape(len(by_site), -1), ((0, 0), (1, 0)))
+        system = self.system(cut)._replace(at=at)
+        return BatchInputs(kernels.run_batch, kernels.WORK, system, constants)
 
     def record(
         self, components: int, sites: int, times: int, every: int, conserved: bool

@@ -25,6 +25,7 @@ from latticode.kernels.simd import (
     right_neighbours,
     store,
     vector_views,
+    zero_below,
 )
 
 FIRST = np.array([1.0, -2.0, 3.5, 0.1, 7.7, 1e-3, -0.6, 2.2])
@@ -62,6 +63,22 @@ def test_load_and_store_take_a_vector_from_and_to_any_place_and_fill_repeats_one
     store_repeated(out, place, 0.1)
     expected[place : place + LANES] = 0.1
     np.testing.assert_array_equal(out, expected)
+
+
+@uncached
+def fill_with_vector(out, a, level, place):
+    store(out, 0, fill(load(a, place)))
+    store(out, LANES, zero_below(load(level, 0), load(a, place)))
+    store(out, 2 * LANES, zero_below(level[0], load(a, place)))
+
+
+@pytest.mark.parametrize("place", range(LANES + 1))
+def test_fill_returns_a_vector_as_it_is_and_each_lane_may_have_a_level_for_zero(place):
+    vector, level = BOTH[place : place + LANES], np.abs(BOTH[LANES : 2 * LANES])
+    filled, by_lane, by_first = rows_of(fill_with_vector, 3, BOTH, level, place)
+    np.testing.assert_array_equal(filled, vector)
+    np.testing.assert_array_equal(by_lane, np.where(np.abs(vector) < level, 0.0, vector))
+    np.testing.assert_array_equal(by_first, np.where(np.abs(vector) < level[0], 0.0, vector))
 
 
 # --- Arithmetic ---
