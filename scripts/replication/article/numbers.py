@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
+import xarray as xr
+
 from replication.ledger.rows import counted_verdicts, load, on_figure, whether_it_holds
 from replication.results import Results
 from replication.variables import VARIATION
@@ -39,6 +41,9 @@ FUNCTIONS = (
 )
 """The methods of `Numbers` that a template can call."""
 
+SUFFIXES = ("", "_error", "_low", "_high", "_statistical_error", "_varied")
+"""Endings of the names of a variable and of its errors."""
+
 
 class Numbers:
     """Numbers of a run as text: from its datasets, or measured for claims; some in per cent."""
@@ -53,7 +58,7 @@ class Numbers:
 
     def of(self, name: str, variable: str, digits: int = 3, **labels: Any) -> Printed:
         """Return a number with its error or confidence interval, if the dataset has one."""
-        data = self.results[name].sel(labels)
+        data = self._selected(name, variable, labels)
         if f"{variable}_error" in data and f"{variable}_low" not in data:
             value, error = (float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
             return self._mark(with_error(value, error, digits), name, variable, labels)
@@ -66,7 +71,7 @@ class Numbers:
 
     def percent_of(self, name: str, variable: str, **labels: Any) -> Printed:
         """Return a number and its error, both in per cent."""
-        data = self.results[name].sel(labels)
+        data = self._selected(name, variable, labels)
         value, error = (100.0 * float(data[f"{variable}{suffix}"]) for suffix in ("", "_error"))
         return self._mark(f"({with_error(value, error)}){FIRM}%", name, variable, labels)
 
@@ -118,11 +123,19 @@ class Numbers:
         """Return the functions that a template calls, by name."""
         return {name: getattr(self, name) for name in FUNCTIONS}
 
+    def _selected(self, name: str, variable: str, labels: dict) -> xr.Dataset:
+        """Return a variable and its errors at some labels, without all other variables."""
+        data = self.results[name]
+        if variable not in data.data_vars:
+            return data.sel(labels)
+        entries = (f"{variable}{suffix}" for suffix in SUFFIXES)
+        return data[[entry for entry in entries if entry in data.data_vars]].sel(labels)
+
     def _limits(
         self, name: str, variable: str, labels: dict, definition: str = ""
     ) -> tuple[float, float]:
         """Return the smallest lower and the largest upper limit of all numbers of a variable."""
-        data = self.results[name].sel(labels)
+        data = self._selected(name, variable, labels)
         value = data[variable]
         if definition:
             error = data[f"{variable}_statistical_error"]
@@ -142,7 +155,7 @@ class Numbers:
         self, name: str, variable: str, labels: dict, digits: int, write: Callable[[float], str]
     ) -> Printed:
         """Return a number and, unless its width is zero, its interval rounded outward."""
-        data = self.results[name].sel(labels)
+        data = self._selected(name, variable, labels)
         value = float(data[variable] if variable in data.variables else data.attrs[variable])
         middle = write(outward(value, digits, DOWN) if variable.endswith("_low") else value)
         ends = [

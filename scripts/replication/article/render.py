@@ -34,6 +34,7 @@ LAYOUTS = Path(__file__).parent
 MARKDOWN = "markdown-auto_identifiers"
 PICTURES = "figures/{}.png"
 """Pattern of the paths of figures in the page's source."""
+LINK_TO_CARD = re.compile(r"\[([^\[\]]*)\]\(#[^()]*\)\{[^{}]*\}")
 PICTURE_LINK = re.compile(r"\]\((figures/[^)]+)\.png\)")
 MARKS = {
     "holds": (Verdict.CONFIRMED, Verdict.CAVEAT),
@@ -73,7 +74,7 @@ class Article(NamedTuple):
             document = pool.submit(self.typeset, vectors, folder, cards)
             contents = {
                 html: self._lay_out(text, folder, cards, live).encode(),
-                metadata: self.describe(self.source(results, PICTURES)).encode(),
+                metadata: self.describe(text).encode(),
                 pdf: document.result(),
             }
         for path, content in contents.items():
@@ -133,9 +134,10 @@ class Article(NamedTuple):
         return self.source(results, f"../{BASELINE}/figures/{{}}.png")
 
     def describe(self, text: str) -> str:
-        """Return the journal's metadata of the article in Markdown, as YAML."""
+        """Return the journal's metadata of the article in Markdown, as YAML, without links."""
         metadata = yaml.safe_load((self.folder / "metadata.yaml").read_text(encoding="utf-8"))
         abstract = text.split("**Abstract.**")[1].split("\n\n")[0]
+        abstract = LINK_TO_CARD.sub(r"\1", abstract)
         metadata |= {"title": self.title, "abstract": " ".join(abstract.split())}
         return yaml.safe_dump(metadata, sort_keys=False, allow_unicode=True)
 

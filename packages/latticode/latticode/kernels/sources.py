@@ -151,11 +151,13 @@ def _tree_of(text: str) -> ast.AST:
     """Return a syntax tree with all imports of a module.
 
     Only the import statements are parsed, which is ten times faster. If the word `import` also
-    occurs elsewhere, the whole text is parsed.
+    occurs elsewhere, even without comments and docstrings, the whole text is parsed.
     """
-    imports = _IMPORT.findall(f"\n{text}")
-    same = len(imports) == len(_WORD.findall(text))
-    return ast.parse("\n".join(imports) if same else text)
+    for code in (text, strip_comments(text)):
+        imports = _IMPORT.findall(f"\n{code}")
+        if len(imports) == len(_WORD.findall(code)):
+            return ast.parse("\n".join(imports))
+    return ast.parse(text)
 
 
 def _statements(tree: ast.AST) -> Iterator[ast.AST]:
