@@ -31,7 +31,7 @@ HALF_CHAIN, END_TIME = 500_000, 10.0
 RUNS, PEER_RUNS = 100_000, 1024
 ALONE, IN_BATCHES = 960, 3200
 """Numbers of runs in the surveys of chains of several half-widths: one below MANY, one above."""
-HALF_WIDTHS = (1, 5, 15, 30)
+HALF_WIDTHS = (1, 2, 5, 15)
 
 
 def survey(runs: int = RUNS) -> dict[str, float]:

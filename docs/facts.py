@@ -14,7 +14,9 @@ import xarray as xr
 from latticode.datasets.json_files import load_json
 from latticode.datasets.netcdf import read
 from latticode.datasets.registry import SOLVER_NAMES
+from latticode.kernels.simd import LANES
 from latticode.measures.confidence import chance_inside, chance_of_counts, share_limits
+from latticode.simulation.survey_runs import MANY
 from pendula.article.values import counts, largest_bound
 from pendula.case_words import case_of
 from pendula.configuration.paper import paper
@@ -312,6 +314,8 @@ def scale(measured: dict) -> dict:
         "milliseconds": number(survey["milliseconds_a_run"], 2),
         "minutes": number(survey["runs"] * survey["milliseconds_a_run"] / 6e4, 2),
         "megabytes": f"{survey['megabytes']:.0f}",
+        "many": f"{MANY:,}",
+        "lanes": str(LANES),
         "surveys_processor": measured["surveys"]["machine"]["processor"],
         "surveys": [
             [str(sites), *(number(each, 2) for each in (alone, in_batch, in_batch / alone))]

@@ -449,7 +449,7 @@ class VectorViewModel(models.StructModel):
         super().__init__(manager, fe_type, members)
 
 
-def view_of(context: Any, builder: Builder, array_type: Type, state: Value) -> Value:
+def make_view(context: Any, builder: Builder, array_type: Type, state: Value) -> Value:
     view = ir.Constant(context.get_value_type(view_type), ir.Undefined)
     for position, name in enumerate(("data", "shape")):
         part = field_of(context, builder, array_type, state, name)
@@ -464,7 +464,7 @@ def vector_views(typing_context: Any, states: Type) -> Generated:
     def generate(context: Any, builder: Builder, signature: Any, arguments: Values) -> Value:
         values = cgutils.unpack_tuple(builder, arguments[0])
         pairs = zip(signature.args[0], values, strict=True)
-        views = [view_of(context, builder, array_type, state) for array_type, state in pairs]
+        views = [make_view(context, builder, array_type, state) for array_type, state in pairs]
         return cgutils.pack_array(builder, views)
 
     return types.UniTuple(view_type, len(states))(states), generate

@@ -80,8 +80,8 @@ TEXT = "text"
 
 # --- Runs in batches: one run in each lane of a vector (see latticode.generation.batches) ---------
 
-MOST_SITES = 64
-"""Largest number of sites in a batch: the series of longer chains leave the cache."""
+MOST_SITES = 32
+"""Largest number of sites in a batch: the series of a longer chain do not fit into the cache."""
 FEWEST_RUNS = LANES // 2
 """Smallest number of runs in a batch, whose steps take as long as those of LANES runs."""
 
@@ -161,7 +161,7 @@ def _make_of(survey: Survey) -> Make:
     """
     if any(map(callable, survey.keep)) or prod(survey.shape) < MANY:
         return partial(_measure_run, survey=survey)
-    return MakeTogether(partial(_measure_runs, survey=survey), count=8 * LANES)
+    return MakeTogether(partial(_measure_runs, survey=survey), count=16 * LANES)
 
 
 def _measure_runs(problems: Sequence[Problem], survey: Survey) -> list[dict[str, Any]]:

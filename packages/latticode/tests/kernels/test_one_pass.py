@@ -61,6 +61,15 @@ def write_rows(values, out, offset, is_even):
     out[7] = values[1].reshape(-1)[-2] + flat.size + values[0].shape[0]
 
 
+def write_last(values, out, offset, is_even):
+    for k in range(values.shape[0]):  # names that only a loop assigns can be read after it
+        last = values[k, 0] + offset
+        out[k] = last
+    if is_even:
+        k = 11
+    out[k + 1] = last
+
+
 def filled(written, offset, is_even):
     """Return what a function of this module writes."""
 
@@ -73,7 +82,7 @@ def filled(written, offset, is_even):
     return out
 
 
-@pytest.mark.parametrize("written", [write_sums, write_searches, write_rows])
+@pytest.mark.parametrize("written", [write_sums, write_searches, write_rows, write_last])
 @pytest.mark.parametrize(("offset", "is_even"), [(0.25, True), (0.25, False), (2, False)])
 def test_a_translated_function_has_the_bits_of_a_compiled_one(written, offset, is_even):
     translated = filled(in_one_pass(written), offset, is_even)
@@ -88,6 +97,15 @@ def test_a_statement_outside_the_language_is_rejected_by_its_text():
 
     with pytest.raises((NotImplementedError, NumbaError), match="del offset"):
         filled(deleted, 1.0, False)
+
+
+def test_an_expression_outside_the_language_is_rejected_by_its_text():
+    @in_one_pass
+    def listed(values, out, offset, is_even):
+        out[0] = [offset][0]
+
+    with pytest.raises((NotImplementedError, NumbaError), match=r"\[offset\]"):
+        filled(listed, 1.0, False)
 
 
 def test_a_name_that_changes_its_type_is_rejected():
