@@ -42,4 +42,5 @@ def measure_pendula(problems: Mapping[str, PaperProblem]) -> Contents:
 
 def measure_cost() -> Contents:
     """Return the dataset of times against the length of the chain."""
-    return cost.measure(), {"title": "How the cost of a run grows", **describe_machine()}
+    attrs = {"title": "How the cost of a run grows", "end_of_peers": cost.PEERS_END}
+    return cost.measure(), {**attrs, **describe_machine()}

@@ -32,7 +32,13 @@ def run(project: Path) -> dict:
 
     If it fails, its output is printed, because the copy of the project is deleted.
     """
-    environment = {**os.environ, "LATTICODE_CACHE": str(project.with_name("kernels"))}
+    # the environment has the original project installed, so the copy must come first
+    packages = (project / "packages/latticode", project / "scripts", project)
+    environment = {
+        **os.environ,
+        "LATTICODE_CACHE": str(project.with_name("kernels")),
+        "PYTHONPATH": os.pathsep.join(map(str, packages)),
+    }
     command = [sys.executable, "-m", "snakemake"]
     before = _processor_time()
     done, seconds = timed(

@@ -274,7 +274,8 @@ def speed(data: xr.Dataset) -> dict:
 
 def speeds(accepted: Results) -> dict:
     """Return the time per site and step in ns by length, and peers on Newton's equations."""
-    pendula, cost = accepted["speed/pendula"], accepted["speed/cost"]["seconds"]
+    pendula, costs = accepted["speed/pendula"], accepted["speed/cost"]
+    cost = costs["seconds"]
     titles, ratios = pendula["title"].to_series(), pendula["ratio"].transpose("peer", "case")
     return {
         "processor": accepted["speed/work_precision"].attrs["processor"],
@@ -287,6 +288,12 @@ def speeds(accepted: Results) -> dict:
             ]
             for ratio in ratios
             if ratio.notnull().any()
+        ],
+        "end_of_peers": number(costs.attrs["end_of_peers"]),
+        "lengths": [f"{sites:,}" for sites in costs["length"].values],
+        "peers_of_one_pair": [
+            [str(title), *map(number, row)]
+            for title, row in zip(costs["title"].values, costs["ratio"].values, strict=True)
         ],
         "sites": [
             [

@@ -1,5 +1,7 @@
 """Small measurements are whole, and the words on the kept ones follow from them."""
 
+import subprocess
+import sys
 from itertools import product
 
 import numpy as np
@@ -10,8 +12,9 @@ from latticode.simulation.simulate import simulate
 from problems import problem_of
 from waiting import HANGS
 
-from benchmarks import contestants, cost, pendula
+from benchmarks import contestants, cost, pendula, reproduction
 from benchmarks.contestants import OURS
+from benchmarks.peer import Peer
 
 FOLDER = ROOT / "tests/baseline/speed"
 
@@ -20,6 +23,7 @@ def test_a_time_is_that_of_a_site_and_a_step(monkeypatch):
     monkeypatch.setattr(cost, "SITES", (5, 101))
     monkeypatch.setattr(cost, "WORK", 101)
     monkeypatch.setattr(cost, "timed", lambda action: (None, 5.0))
+    monkeypatch.setattr(cost, "measure_peers", dict)
     seconds = as_xarray(cost.measure(), {})["seconds"]
     for start, sites, solver in product(cost.STARTS, (5, 101), cost.SOLVERS):
         steps = simulate(cost.STARTS[start](sites, solver)).outcome.steps
@@ -29,6 +33,43 @@ def test_a_time_is_that_of_a_site_and_a_step(monkeypatch):
 def test_one_pair_moves_at_the_start_of_a_quiet_chain():
     moving = [np.abs(chain(11, "taylor").initial) > 0 for chain in cost.STARTS.values()]
     assert moving[0].all() and moving[1].sum() == 2 and moving[1][:, 5].all()
+
+
+def test_a_copy_of_the_project_runs_its_own_code(tmp_path, monkeypatch):
+    """Python would import the installed project, which another copy rejects."""
+    for package in ("packages/latticode/latticode", "scripts/pendula", "benchmarks"):
+        (tmp_path / package).mkdir(parents=True)
+        (tmp_path / package / "__init__.py").touch()
+    packages = "latticode, pendula, benchmarks"
+    program = f"import {packages}; print(*(package.__file__ for package in ({packages})))"
+    outputs, run = [], subprocess.run
+
+    def recorded(command, **options):
+        done = run([sys.executable, "-c", program], **options)
+        outputs.append(done.stdout.split())
+        return done
+
+    monkeypatch.setattr(reproduction.subprocess, "run", recorded)
+    reproduction.run(tmp_path)
+    assert len(outputs[0]) == 3 and all(path.startswith(str(tmp_path)) for path in outputs[0])
+
+
+def test_peers_run_from_one_pair_on_chains_of_these_lengths(monkeypatch):
+    sites = []
+
+    def prepare(problem):
+        sites.append(problem.sites)
+        assert np.count_nonzero(problem.initial) == 2 and problem.end_time == 10.0
+        return lambda tolerance: (None, 3.0)
+
+    peer, absent = Peer("slow", lambda: None, prepare), Peer("", lambda: "not installed", prepare)
+    monkeypatch.setattr(cost, "PEERS", {"slow": peer, "absent": absent})
+    monkeypatch.setattr(cost, "PEERS_OF_ONE_PAIR", ("absent", "slow"))
+    monkeypatch.setattr(cost, "LENGTHS", (5, 7))
+    monkeypatch.setattr(cost, "timed", lambda action: (action(), 1.5))
+    measured = as_xarray(cost.measure_peers(), {})
+    assert sites == [5, 7] and measured["peer"].values.tolist() == ["slow"]
+    assert (measured["ratio"] == 2.0).all()
 
 
 # --- The kept measurements ------------------------------------------------------------------------

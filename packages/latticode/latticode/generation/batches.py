@@ -7,8 +7,8 @@ next blocks. A generated module takes `in_waves`, `left_neighbours` and `right_n
 in place of those for one run, and then continues a batch by the text that continues one run.
 
 Each run has its own step, by the same operations as a run alone, so its results have the same bits.
-If the series of a run does not determine a step, the run leaves the batch, and its status is not
-DONE. It must then be computed alone.
+If the series of a run does not determine a step, the run leaves the batch: its status is GONE. It
+must then be computed alone, which also finds the reason if it cannot go on.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from latticode.integrators import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART
+from latticode.integrators import DONE, INTERRUPTED, SMALLEST_PART
 from latticode.integrators.rest import OF_SERIES, rest_level
 from latticode.integrators.taylor import (
     ALL_WAVES,
@@ -25,6 +25,7 @@ from latticode.integrators.taylor import (
     ORDER,
     ORDER_STRIDE,
     RIGHT,
+    SMALLEST_COMPONENT,
     SQUARES,
     PowerSeries,
     X,
@@ -106,8 +107,8 @@ def in_waves(write_next_order: Callable, reach: int) -> Callable:
 # --- The runs and their steps ---------------------------------------------------------------------
 
 Array = np.ndarray
-MOVING = -1
-"""The status of a run that has not ended."""
+MOVING, GONE = -1, -2
+"""The status of a run that has not ended, and of one that must be computed alone."""
 
 
 class Batch(NamedTuple):
@@ -142,12 +143,13 @@ def make_batch(states: Array, constants: Array) -> Batch:
 
 
 def memory_of(work: int, states: Array) -> int:
-    """Return how many numbers a series needs, for `work` arrays of the size of a state.
+    """Return how many numbers the series of a batch need; states are (run, row, column).
 
-    `work` is the number for a run alone (see `taylor.work_arrays`); states are (run, row, column).
+    `work` is the WORK of the rule: SMALLEST_COMPONENT times as many numbers suffice for a block of
+    a component. Here each site is a block, and a component has two rows.
     """
     _, rows, columns = states.shape
-    return work * 3 * rows * (columns - 2)
+    return work * SMALLEST_COMPONENT * rows // 2 * (columns - 2)
 
 
 @inlined_by_llvm
@@ -210,23 +212,28 @@ def largest_moduli(series: PowerSeries, k: int) -> Any:
 def allow_steps(series: PowerSeries, rtol: float, atol: float, batch: Batch) -> None:
     """Write the step of each run that `taylor.allowed_step` returns for the run alone.
 
-    It is zero or NaN if the last coefficients do not determine the step.
+    It is zero or NaN where the run alone would not use both of the last two orders: if a
+    coefficient overflows, or that of order ORDER - 1 vanishes.
     """
     tolerance = atol + rtol * largest_moduli(series, 0)
-    shorter = fifteenth_root_of_finite(tolerance / largest_moduli(series, ORDER - 1))
-    step = sixteenth_root(tolerance / largest_moduli(series, ORDER))
-    store(batch.step, 0, select_positive(shorter - step, step, shorter))
+    of_last_but_one = fifteenth_root_of_finite(tolerance / largest_moduli(series, ORDER - 1))
+    of_last = sixteenth_root(tolerance / largest_moduli(series, ORDER))
+    # the minimum, or NaN if `of_last_but_one` is NaN
+    store(batch.step, 0, select_positive(of_last_but_one - of_last, of_last, of_last_but_one))
 
 
 @kernel
 def limit_steps(batch: Batch, end: float, shortest: float) -> None:
-    """Shorten each step that would pass the end of the run; runs that have ended stay."""
+    """Shorten each step that would pass the end of the run; set it to zero for runs that stand.
+
+    A run whose step is too short, zero or NaN leaves the batch.
+    """
     for run in range(LANES):
         h, t = batch.step[run], batch.time[run]
         if batch.status[run] != MOVING:
             h = 0.0
         elif not h > shortest:
-            batch.status[run], h = NOT_FINITE, 0.0
+            batch.status[run], h = GONE, 0.0
         elif h * (1.0 + 1e-9) >= end - t:
             h = end - t
         batch.step[run] = h

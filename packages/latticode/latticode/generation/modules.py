@@ -22,12 +22,14 @@ from .series_rules import SeriesWriter
 from .statements import ModelInputs, Names, affine, inputs_of
 
 HEAD = f"from {toolbox.__name__} import *\n"
-HEAD_OF_BATCHES = """
-from latticode.generation import batches
+OF_BATCHES = """
 from latticode.generation.batches import in_waves, left_neighbours, right_neighbours
-from latticode.simulation import observables
 """
+"""Follows HEAD and replaces three of its names, so that the same text of a rule continues the
+series of a batch."""
 BATCHES = """
+from latticode.generation import batches
+from latticode.simulation import observables
 @inlined_by_llvm
 def with_constants(system, constants):
     values = ({values})
@@ -120,7 +122,7 @@ def batches_text(rates: tuple[Node, ...], site_dependent: frozenset[str], observ
     inputs = inputs_of_rates(rates, site_dependent)
     rule = SeriesWriter(rates, Names(inputs), site_dependent).text(REACH)
     values = "".join(f"load(constants, {i} * LANES), " for i in range(len(inputs.constants)))
-    return HEAD + HEAD_OF_BATCHES + rule + BATCHES.format(values=values, observe=observe)
+    return HEAD + OF_BATCHES + rule + BATCHES.format(values=values, observe=observe)
 
 
 def tangents_module_text(tangent: Model, site_dependent: frozenset[str]) -> str:
@@ -140,13 +142,13 @@ def conserved_text(model: Model, site_dependent: frozenset[str], observe: str) -
 def load_series(model: Model, in_batch: bool = False) -> ModuleType:
     """Return the module for the series of two exchangeable fields: `continue_in_waves` and `WORK`.
 
-    With `in_batch` it continues the series of a batch of runs. Its system is a named tuple of the
-    model's parameters and clocks. The caller must store the coefficients of the clocks one after
-    another from the index `spare_start` on.
+    Its system is a named tuple of the model's parameters and clocks. The caller must store the
+    coefficients of the clocks one after another from the index `spare_start` on. With `in_batch`
+    the functions continue the series of a batch, and the parameters are vectors.
     """
     names = Names(inputs_of_rates(model.rates, frozenset()), by_name=True)
     rule = SeriesWriter(model.rates, names, frozenset(), exchangeable=True).text(model.reach)
-    return load_text(HEAD + HEAD_OF_BATCHES * in_batch + rule)
+    return load_text(HEAD + OF_BATCHES * in_batch + rule)
 
 
 def load_rule(rates: tuple[Node, ...], *states: str) -> Callable:

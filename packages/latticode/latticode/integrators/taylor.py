@@ -53,7 +53,8 @@ BLOCK_SIZE = (ORDER + 1) * ORDER_STRIDE
 LEFT, RIGHT = 0, ORDER_STRIDE
 """Offsets of the left and right ghosts of a component, each with the layout of one order."""
 GHOSTS_SIZE = 2 * ORDER_STRIDE
-_SMALLEST_COMPONENT = 2 * 3  # numbers of a component: two rows of one site and two ghosts
+SMALLEST_COMPONENT = 2 * 3
+"""Numbers in the smallest component of a state: two rows of one site and two ghosts."""
 GROUP = 8
 """Number of blocks computed together in a long chain (see generation.series)."""
 ALL_WAVES = -1
@@ -66,7 +67,7 @@ def work_arrays(more: int) -> int:
     `more` is the number of additional numbers per block. The arrays suffice even for a single site,
     whose block is mostly padding.
     """
-    return -(-(BLOCK_SIZE + GHOSTS_SIZE + more) // _SMALLEST_COMPONENT)
+    return -(-(BLOCK_SIZE + GHOSTS_SIZE + more) // SMALLEST_COMPONENT)
 
 
 WORK = work_arrays(0)

@@ -6,7 +6,7 @@ bits for any number of chunks.
 """
 
 import threading
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from typing import Any, NamedTuple
 
@@ -23,15 +23,19 @@ Retained = dict[int, Mapping[str, Any]]
 
 
 class MakeTogether(NamedTuple):
-    """A `Make` that is faster for several problems: `make_all` returns the results of each."""
+    """A `Make` that is faster for several problems.
 
-    make_all: Callable[[Sequence[Problem]], Sequence[Mapping[str, Any]]]
+    `make_all` yields the index of each problem with its results, in any order.
+    """
+
+    make_all: Callable[[Sequence[Problem]], Iterable[tuple[int, Mapping[str, Any]]]]
     count: int
-    """Number of problems in a call; an interrupt loses the runs of one call."""
+    """Number of problems in a call."""
 
     def __call__(self, problem: Problem) -> Mapping[str, Any]:
         """Return the retained results of one problem by name."""
-        return self.make_all([problem])[0]
+        [(_, results)] = self.make_all([problem])
+        return results
 
 
 Run = Callable[[Sequence[Problem], Make], dict[str, np.ndarray]]
@@ -55,18 +59,23 @@ def run_chunk(
     numbers = range(chunk, len(problems), chunks)
     retained = {} if retained is None else retained
     absent = [number for number in numbers if number not in retained]
-    count = make.count if isinstance(make, MakeTogether) else 1
+    together = make if isinstance(make, MakeTogether) else MakeTogether(_one_by_one(make), 1)
 
     def make_absent(stop: np.ndarray) -> None:
-        for first in range(0, len(absent), count):
-            together = absent[first : first + count]
-            chosen = [problems[number] for number in together]
-            results = make.make_all(chosen) if count > 1 else [make(chosen[0])]
-            retained.update(zip(together, results, strict=True))
-            progress(len(numbers) - len(absent) + first + len(together), len(numbers))
+        done = len(numbers) - len(absent)
+        for first in range(0, len(absent), together.count):
+            chosen = absent[first : first + together.count]
+            for index, results in together.make_all([problems[number] for number in chosen]):
+                retained[chosen[index]] = results
+                done += 1
+                progress(done, len(numbers))
 
     interruptible(make_absent)  # one call for all runs, because each call takes time
     return table_of([retained[number] for number in numbers])
+
+
+def _one_by_one(make: Make) -> Callable[[Sequence[Problem]], Iterator]:
+    return lambda problems: enumerate(map(make, problems))
 
 
 def table_of(runs: Sequence[Mapping[str, Any]]) -> dict[str, np.ndarray]:

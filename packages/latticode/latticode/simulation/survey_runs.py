@@ -1,7 +1,7 @@
 """Execution of a survey, and the results that are kept of each run."""
 
-from collections.abc import Hashable, Iterator, Sequence
-from functools import partial
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from functools import cache, partial
 from math import prod
 from typing import Any, NamedTuple
 
@@ -16,6 +16,7 @@ from latticode.measures.difference import VISIBLE, first_above, norm_difference
 from latticode.measures.spreading import lay_line
 from latticode.numerics.elementary import log
 
+from .equations import CompiledMethod, Equations
 from .interrupts import interruptible
 from .lattice import Reduction, aligned, unfold
 from .observables import blank_record
@@ -87,17 +88,16 @@ FEWEST_RUNS = LANES // 2
 
 
 class NormsOfBatch(NamedTuple):
-    """The norms of runs with the same output times, each row of a run as in `Trajectory`."""
+    """The norms of runs with the same output times."""
 
     problems: list[Problem]
     tau: np.ndarray  # (time,)
-    linf: np.ndarray  # (component * run, time)
-    l2: np.ndarray  # (component * run, time)
+    linf: np.ndarray  # (run, component, time)
+    l2: np.ndarray  # (run, component, time)
 
     def of_run(self, number: int) -> Trajectory:
         """Return the norms of one run, as a trajectory without fields."""
-        count, nothing = len(self.problems), np.empty(0)
-        linf, l2 = self.linf[number::count], self.l2[number::count]
+        linf, l2, nothing = self.linf[number], self.l2[number], np.empty(0)
         solver = dict(self.problems[number].solver)
         outcome = Outcome(DONE, self.tau[-1], 0, 0, 0)
         return Trajectory(self.tau, linf, l2, nothing, nothing, outcome, solver)
@@ -114,48 +114,62 @@ def norms_in_batches(problems: Sequence[Problem]) -> Iterator[tuple[list[int], N
             cut = problem.equations.find_reduction()
             alike.setdefault((cut, *_what_runs_share(problem)), []).append(place)
     for (cut, *_), places in alike.items():
-        equations = problems[places[0]].equations
-        if equations.prepare_batch([equations], cut) is None:
+        able = [place for place in places if _can_run(problems[place].equations)]
+        first_able = [problems[place].equations for place in able[:1]]
+        if not able or first_able[0].prepare_batch(first_able, cut) is None:
             continue
-        able = [place for place in places if not find_obstacle(problems[place].equations)]
         for first in range(0, len(able), LANES):
             members = able[first : first + LANES]
             if len(members) >= FEWEST_RUNS:
                 ended, norms = _run_batch([problems[place] for place in members], cut)
-                yield [members[number] for number in ended], norms
+                if ended.size:
+                    yield [members[number] for number in ended], norms
 
 
 def _what_runs_share(problem: Problem) -> tuple[Hashable, ...]:
     """Return the properties that all runs of a batch have in common, besides their reduction."""
     chain = problem.model, problem.half_width, problem.site_count, problem.boundary
     times = problem.start_time, problem.end_time, problem.output_step
-    numbers = frozenset((key, np.isscalar(value)) for key, value in problem.parameters.items())
-    return *chain, *times, numbers, frozenset(problem.solver.items())
+    numbers = {key for key, value in problem.parameters.items() if np.isscalar(value)}
+    # `site_dependent` takes as long as all the rest, and depends on the names alone if all values
+    # are numbers
+    by_site = problem.site_dependent if len(numbers) < len(problem.parameters) else None
+    return *chain, *times, frozenset(numbers), by_site, frozenset(problem.solver.items())
+
+
+def _can_run(equations: Equations) -> bool:
+    """Return whether `taylor` can integrate the equations, and nothing prevents the run."""
+    return "taylor" in equations.methods and not find_obstacle(equations)
 
 
 def _run_batch(problems: Sequence[Problem], cut: Reduction) -> tuple[np.ndarray, NormsOfBatch]:
     """Return the numbers of the runs that reached their end in a batch, and their norms."""
-    batch, solver = [problem.equations for problem in problems], problems[0].solver
+    batch = [problem.equations for problem in problems]
     inputs, times = batch[0].prepare_batch(batch, cut), batch[0].times
     states = np.array([equations.start(cut) for equations in batch])
     runs = make_batch(states, np.array(inputs.constants))
     record = blank_record(states.shape[1] // 2, states.shape[2] - 2, LANES * len(times), 0)
-    controls = tuple(float(solver[key]) for key in METHODS["taylor"].controls)
+    method = CompiledMethod(METHODS["taylor"], inputs.run)
+    controls = method.controls_of(problems[0].solver, batch[0].atol_scale)
     memory = aligned((memory_of(inputs.work, states),))
     interruptible(inputs.run, inputs.system, runs, times, controls, memory, record)
-    linf, l2 = (norms.reshape(-1, LANES, len(times)) for norms in (record.linf, record.l2))
-    is_finite = np.isfinite(linf).all(axis=(0, 2)) & np.isfinite(l2).all(axis=(0, 2))
-    ended = np.flatnonzero(((runs.status == DONE) & is_finite)[: len(problems)])
     whole = Reduction(even=False, synchronised=cut.synchronised)
-    rows = (unfold(norms[:, ended], whole).reshape(-1, len(times)) for norms in (linf, l2))
-    return ended, NormsOfBatch([problems[n] for n in ended], problems[0].times, *rows)
+    # each run is contiguous, as a run alone: NumPy sums arrays of another layout in another order
+    linf, l2 = (
+        np.ascontiguousarray(unfold(norms.reshape(-1, LANES, len(times)), whole).swapaxes(0, 1))
+        for norms in (record.linf, record.l2)
+    )
+    is_finite = np.isfinite(linf).all(axis=(1, 2)) & np.isfinite(l2).all(axis=(1, 2))
+    ended = np.flatnonzero(((runs.status == DONE) & is_finite)[: len(problems)])
+    ended_problems = [problems[number] for number in ended]
+    return ended, NormsOfBatch(ended_problems, problems[0].times, linf[ended], l2[ended])
 
 
 # --- The results that are kept of each run --------------------------------------------------------
 
 
 def _make_of(survey: Survey) -> Make:
-    """Return the function that makes a run of a survey, in batches if this saves time.
+    """Return the function that makes a run of a survey, in batches if the survey is large.
 
     Functions of the user need whole trajectories, which batches do not compute.
     """
@@ -164,44 +178,43 @@ def _make_of(survey: Survey) -> Make:
     return MakeTogether(partial(_measure_runs, survey=survey), count=16 * LANES)
 
 
-def _measure_runs(problems: Sequence[Problem], survey: Survey) -> list[dict[str, Any]]:
-    """Return the kept results of runs by name, from batches as far as possible."""
-    results: dict[int, dict[str, Any]] = {}
+def _measure_runs(
+    problems: Sequence[Problem], survey: Survey
+) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Yield the index of each problem and the kept results of its run, in batches if possible."""
+    alone = dict.fromkeys(range(len(problems)))
     for places, norms in norms_in_batches(problems):
-        results.update(zip(places, _measure_batch(norms, survey), strict=True))
-    for place in range(len(problems)):
-        if place not in results:
-            results[place] = _measure_run(problems[place], survey)
-    return [results[place] for place in range(len(problems))]
-
-
-def _measure_batch(norms: NormsOfBatch, survey: Survey) -> list[dict[str, Any]]:
-    """Return the kept results of the runs of a batch by name."""
-    count = len(norms.problems)
-    runs = [norms.of_run(number) for number in range(count)] if {*OF_RUNS} & {*survey.keep} else []
-    columns: dict[str, Any] = {TEXT: [""] * count}
-    for quantity in survey.keep:
-        if quantity == "divergence":
-            columns[quantity] = map(_divergence, norms.problems, runs)
-        elif quantity == "exponent":
-            columns[quantity] = [_exponent(run, survey.window) for run in runs]
-        else:
-            rows = _statistic(norms, survey.window, *quantity.split("_"))
-            columns[quantity] = rows.reshape(-1, count).T
-    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        for number, place in enumerate(places):
+            del alone[place]
+            yield place, _quantities(problems[place], norms.of_run(number), survey)
+    for place in alone:
+        yield place, _measure_run(problems[place], survey)
 
 
 def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
     """Return the kept results of one run by name; NaN if it failed."""
-    fields = len(problem.initial)
+    functions = any(map(callable, survey.keep))  # they may read conserved quantities
     try:
-        functions = any(map(callable, survey.keep))  # they may read conserved quantities
-        run, text = simulate(problem, conserved=functions), ""
-        if remark := remark_on(run.solver):
-            text = f"remark: {remark}"
+        run = simulate(problem, conserved=functions)
     except IntegrationError as error:
-        run, text = None, f"failure: {error}"
-    quantities = {TEXT: text}
+        return _quantities(problem, None, survey, f"failure: {error}")
+    remark = remark_on(run.solver)
+    return _quantities(problem, run, survey, f"remark: {remark}" if remark else "")
+
+
+def _quantities(
+    problem: Problem, run: Trajectory | None, survey: Survey, text: str = ""
+) -> dict[str, Any]:
+    """Return the kept results of one run by name; NaN if `run` is None."""
+    fields = len(problem.initial)
+
+    @cache
+    def inside(norm: str) -> np.ndarray:
+        """Return a norm in the window, (field, time)."""
+        series = getattr(run, norm)
+        return series if survey.window is None else series[:, within(run.tau, survey.window)]
+
+    quantities: dict[str, Any] = {TEXT: text}
     for quantity in survey.keep:
         if callable(quantity):
             quantities[quantity.__name__] = np.nan if run is None else quantity(problem, run)
@@ -212,19 +225,17 @@ def _measure_run(problem: Problem, survey: Survey) -> dict[str, Any]:
         elif quantity == "exponent":
             quantities[quantity] = _exponent(run, survey.window)
         else:
-            quantities[quantity] = _statistic(run, survey.window, *quantity.split("_"))
+            quantities[quantity] = _statistic(run, inside, *quantity.split("_"))
     return quantities
 
 
 def _statistic(
-    run: Trajectory | NormsOfBatch, window: tuple[float, float] | None, statistic: str, norm: str
+    run: Trajectory, inside: Callable[[str], np.ndarray], statistic: str, norm: str
 ) -> np.ndarray:
     """Return the maximum, mean or final value of a norm of each field, (field,)."""
-    series = getattr(run, norm)
     if statistic == "final":
-        return series[:, -1]
-    inside = series if window is None else series[:, within(run.tau, window)]
-    return inside.max(axis=1) if statistic == "max" else mean_of(inside)
+        return getattr(run, norm)[:, -1]
+    return inside(norm).max(axis=1) if statistic == "max" else mean_of(inside(norm))
 
 
 def _exponent(run: Trajectory, window: tuple[float, float] | None) -> float:

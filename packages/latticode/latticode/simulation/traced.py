@@ -307,6 +307,7 @@ class TracedEquations(Equations):
         inputs = inputs_of_rates(model.rates, site_dependent)
         constants, at_sites = zip(*(_values(each.problem, inputs) for each in batch), strict=True)
         last = [at_sites[-1]] * (LANES - len(batch))  # the other lanes repeat the last run
+        # site j of run r is in column 1 + j * LANES + r: the rule loads block j from 1 + j * LANES
         by_site = np.stack([*at_sites, *last], axis=-1)[:, 1:]
         at = np.pad(by_site.reshape(len(by_site), -1), ((0, 0), (1, 0)))
         system = self.system(cut)._replace(at=at)

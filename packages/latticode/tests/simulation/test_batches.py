@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from dimers import DIMERS, dimers
-from latticode import Model, abs2, lap, sin
+from latticode import Model, abs2, lap, sign, sin
 from latticode.equations.initial_values import on_sites
 from latticode.simulation import survey_runs
 from latticode.simulation.problem import Problem
+from latticode.simulation.runs import run_chunk
 from latticode.simulation.simulate import simulate
 from latticode.simulation.survey import NAMES, Members, Survey
 from latticode.simulation.survey_runs import norms_in_batches, run_survey
@@ -106,26 +107,90 @@ def test_runs_of_unlike_chains_and_times_form_batches_of_their_own(in_batches, i
         np.testing.assert_array_equal(together[name], values, err_msg=name)
 
 
-def test_a_run_that_its_series_does_not_lead_on_leaves_its_batch(in_batches, in_a_batch, capsys):
-    """u' = u^2 from 1 / 2 ends, from 2 it blows up at t = 1 / 2, and 0 and 1e300 have no step."""
-    model = Model(fields="u", parameters={"g": 1.0}, dt=lambda p, u: p.g * (u * u))
-    solver = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
-    problem = Problem(
+def problem_of(model, boundary="dirichlet", **data):
+    """Return a problem of one field that is 1 / 2 at the centre of three sites."""
+    return Problem(
         model=model,
         half_width=1,
-        boundary="dirichlet",
-        initial=on_sites({0: (0.5,)}, 1),
+        boundary=boundary,
+        initial=on_sites({0: (0.5,)} | data.get("initial", {}), 1),
         end_time=1.0,
         output_step=0.25,
-        solver=solver,
+        solver={"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
     )
-    values = [0.5, 2.0, 0.0, -1.0, -0.5, 1e300, 0.25, 0.75]
-    alone, together = in_batches(problem, Survey({"initial.0.0": values}, ("final_l2",)))
+
+
+def are_equal(alone, together, capsys):
+    """Assert that both surveys have the same results and print the same lines."""
+    assert [*alone] == [*together]
+    for name, values in alone.items():
+        np.testing.assert_array_equal(together[name], values, err_msg=name)
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[: len(lines) // 2] == lines[len(lines) // 2 :]
+    return len(lines) // 2
+
+
+BLOW_UP = Model(fields="u", parameters={"g": 1.0}, dt=lambda p, u: p.g * (u * u))
+
+
+@pytest.mark.parametrize(
+    ("values", "failed", "ended"),
+    [
+        # u' = u^2 from 2 blows up at t = 1 / 2, and 0 and 1e300 have no step
+        ([0.5, 2.0, 0.0, -1.0, -0.5, 1e300, 0.25, 0.75], (1, 5), [5]),
+        ([2.0, 3.0, 4.0, 5.0, 6.0], range(5), []),
+        ([0.0] * 5, (), []),
+    ],
+    ids=["some", "all of them fail", "all of them rest"],
+)
+def test_runs_without_a_step_leave_their_batch(
+    values, failed, ended, in_batches, in_a_batch, capsys
+):
+    survey = Survey({"initial.0.0": values}, ("final_l2",))
+    alone, together = in_batches(problem_of(BLOW_UP), survey)
+    assert in_a_batch == ended
+    is_failed = np.isnan(together["final_l2"][:, 0])
+    assert np.flatnonzero(is_failed).tolist() == [*failed]
+    assert are_equal(alone, together, capsys) == bool(failed)
+
+
+def test_means_of_one_field_in_a_window_have_the_bits_of_a_run_alone(in_batches, capsys):
+    """NumPy adds an array of one row in another order than one of several rows."""
+    cubic = Model(fields="u", parameters={"c": 1.0}, i_dt=lambda p, u: p.c * lap(u) + abs2(u) * u)
+    problem = problem_of(cubic).changed(end_time=20.0, output_step=0.05)
+    survey = Survey({"c": [*np.linspace(0.3, 2.0, 20)]}, ("mean_l2", "mean_linf"), (5.0, 15.0))
+    assert are_equal(*in_batches(problem, survey), capsys) == 0
+
+
+MODELS_THAT_FAIL = {
+    "no series": lambda p, u: lap(u) - p.g * sign(u) * u,
+    "no number": lambda p, u: lap(u) - (1 / p.g) * u,
+}
+
+
+@pytest.mark.parametrize("name", MODELS_THAT_FAIL)
+def test_a_run_that_fails_alone_fails_in_a_survey_with_batches(name, in_batches, capsys):
+    model = Model(fields="u", parameters={"g": 1.0}, dt=MODELS_THAT_FAIL[name])
+    survey = Survey({"g": [0.0, 1.0, 2.0, 3.0, -1.0, 0.5]}, ("final_l2",))
+    assert are_equal(*in_batches(problem_of(model), survey), capsys) == 1
+
+
+def test_numbers_and_values_by_site_are_in_different_batches(in_batches, in_a_batch, capsys):
+    model = Model(fields="u", parameters={"v": 1.0}, i_dt=lambda p, u: lap(u) + p.v * u)
+    by_site = [np.linspace(-1.0, 1.0, 3) * k for k in range(5)]
+    survey = Survey({"v": [*by_site, np.array(0.5), 1.0]}, ("final_linf",))
+    alone, together = in_batches(problem_of(model, initial={1: (0.2,)}), survey)
     assert in_a_batch == [5]
-    assert np.isnan(together["final_l2"][:, 0]).tolist() == [n in (1, 5) for n in range(8)]
-    for name, results in alone.items():
-        np.testing.assert_array_equal(together[name], results, err_msg=name)
-    assert capsys.readouterr().out.count("2 of 8 runs failed") == 2
+    are_equal(alone, together, capsys)
+
+
+def test_results_of_runs_are_retained_as_they_arrive(monkeypatch):
+    """An interrupt loses no run that ended: batches of eight, then the runs alone, one by one."""
+    monkeypatch.setattr(survey_runs, "MANY", 1)
+    runs = survey_runs.runs_of_survey(dimers(), Survey({"omega": [*np.linspace(-1.0, 1.0, 19)]}))
+    counts, retained = [], {}
+    run_chunk(runs.problems, runs.retain, 0, 1, lambda *_: counts.append(len(retained)), retained)
+    assert counts == [*range(1, 20)]
 
 
 def test_other_solvers_drives_and_far_neighbours_are_left_to_runs_alone():
