@@ -218,7 +218,7 @@ def allow_steps(series: PowerSeries, rtol: float, atol: float, batch: Batch) -> 
     tolerance = atol + rtol * largest_moduli(series, 0)
     of_last_but_one = fifteenth_root_of_finite(tolerance / largest_moduli(series, ORDER - 1))
     of_last = sixteenth_root(tolerance / largest_moduli(series, ORDER))
-    # the minimum, or NaN if `of_last_but_one` is NaN
+    # the minimum; NaN if `of_last_but_one` is NaN. If `of_last` is NaN, so is the next state
     store(batch.step, 0, select_positive(of_last_but_one - of_last, of_last, of_last_but_one))
 
 
