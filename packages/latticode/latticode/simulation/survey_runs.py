@@ -83,6 +83,8 @@ TEXT = "text"
 
 MOST_SITES = 32
 """Largest number of sites in a batch: the series of a longer chain do not fit into the cache."""
+MOST_OUTPUTS = 100_000
+"""Largest number of outputs of a run in a batch: all runs of a batch are in memory at once."""
 FEWEST_RUNS = LANES // 2
 """Smallest number of runs in a batch, whose steps take as long as those of LANES runs."""
 
@@ -110,7 +112,10 @@ def norms_in_batches(problems: Sequence[Problem]) -> Iterator[tuple[list[int], N
     """
     alike: dict[Hashable, list[int]] = {}
     for place, problem in enumerate(problems):
-        if problem.solver["name"] == "taylor" and problem.sites <= MOST_SITES:
+        is_short = (
+            problem.sites <= MOST_SITES and problem.span <= MOST_OUTPUTS * problem.output_step
+        )
+        if is_short and problem.solver["name"] == "taylor":
             cut = problem.equations.find_reduction()
             alike.setdefault((cut, *_what_runs_share(problem)), []).append(place)
     for (cut, *_), places in alike.items():

@@ -193,7 +193,7 @@ def test_results_of_runs_are_retained_as_they_arrive(monkeypatch):
     assert counts == [*range(1, 20)]
 
 
-def test_other_solvers_drives_and_far_neighbours_are_left_to_runs_alone():
+def test_other_solvers_drives_far_neighbours_and_long_runs_are_left_to_runs_alone():
     far = Model(fields="u", parameters={}, i_dt=lambda p, u: u.right.right + u.left.left)
     driven = Model(fields="u", parameters={}, i_dt=lambda p, u: lap(u) + sin(p.t) * u)
     solver = {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}
@@ -201,6 +201,7 @@ def test_other_solvers_drives_and_far_neighbours_are_left_to_runs_alone():
     for problem in (
         dimers(solver=solver),
         dimers(half_width=100),
+        dimers(output_step=1e-5),
         dimers().changed(model=far, **one_field),
         dimers().changed(model=driven, **one_field),
     ):
