@@ -294,3 +294,5 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
         axes.plot(*point, **look, markeredgecolor="white", zorder=3, clip_on=not at_end)
     axes.axhline(visible, color="0.45", dashes=(4, 2), lw=1, label=f"{100 * visible:g} % (visible)")
     axes.set_ylim(1e-17, 3.0)
+    # an automatic choice depends on the last bit of a logarithm, and so on the processor
+    axes.set_yticks([1e-16, 1e-8, 1.0])
