@@ -1,5 +1,6 @@
 """Small measurements are whole, and the words on the kept ones follow from them."""
 
+import json
 import subprocess
 import sys
 from itertools import product
@@ -12,7 +13,7 @@ from latticode.simulation.simulate import simulate
 from problems import problem_of
 from waiting import HANGS
 
-from benchmarks import contestants, cost, pendula, reproduction
+from benchmarks import contestants, cost, pendula, reproduction, scale
 from benchmarks.contestants import OURS
 from benchmarks.peer import Peer
 
@@ -110,3 +111,11 @@ def test_the_dataset_of_the_pendula_is_whole(monkeypatch):
     assert float(measured["error"].min()) < 1e-10 and measured["ratio"].item() > 0.1
     for name in committed.variables:
         assert measured[name].attrs == committed[name].attrs, name
+
+
+def test_the_page_on_surveys_says_in_words_what_batches_save():
+    rows = json.loads(scale.WRITTEN.read_text(encoding="utf-8"))["surveys"]["rows"]
+    ratio = {sites: in_batch / alone for sites, alone, in_batch in rows}
+    page = (ROOT / "packages/latticode/docs/surveys.md").read_text(encoding="utf-8")
+    assert "3 sites then takes about a third of the time, and one of 11 sites six tenths" in page
+    assert round(3 * ratio[3]) == 1 and round(10 * ratio[11]) == 6

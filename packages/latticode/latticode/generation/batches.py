@@ -20,7 +20,6 @@ from latticode.integrators import DONE, INTERRUPTED, SMALLEST_PART
 from latticode.integrators.rest import OF_SERIES, rest_level
 from latticode.integrators.taylor import (
     ALL_WAVES,
-    BLOCK_SIZE,
     LEFT,
     ORDER,
     ORDER_STRIDE,
@@ -30,6 +29,7 @@ from latticode.integrators.taylor import (
     PowerSeries,
     X,
     Y,
+    advance,
     block_start,
     fifteenth_root_of_finite,
     ghosts_start,
@@ -45,7 +45,6 @@ from latticode.kernels.simd import (
     select_positive,
     square_root,
     store,
-    zero_below,
 )
 
 from .series import sites_beyond
@@ -91,7 +90,10 @@ def close(beyond: tuple, series: PowerSeries, k: int) -> None:
 
 
 def in_waves(write_next_order: Callable, reach: int) -> Callable:
-    """Return the function that continues the series of a batch, all sites of an order at once."""
+    """Return the function that continues the series of a batch, all sites of an order at once.
+
+    It replaces `series.in_waves` and so takes its arguments; `reach` is REACH or less.
+    """
 
     @in_one_pass
     def continue_series(chain: Any, series: PowerSeries) -> None:
@@ -189,16 +191,6 @@ def evaluate(series: PowerSeries, batch: Batch) -> None:
         for site in range(series.blocks):
             i = block_start(series, row // 2, site) + row % 2 * (Y - X)
             store(batch.values, (row * columns + 1 + site) * LANES, sum_at(series.memory, i, h))
-
-
-@kernel
-def advance(series: PowerSeries, batch: Batch) -> None:
-    """Replace order 0 by the sums of the series at each run's `step`."""
-    m, h, threshold = series.memory, load(batch.step, 0), load(batch.threshold, 0)
-    for block in range(series.components * series.blocks):
-        for offset in range(X, Y + 1, Y - X):
-            i = block * BLOCK_SIZE + offset
-            store(m, i, zero_below(threshold, sum_at(m, i, h)))
 
 
 @inlined_by_llvm
@@ -304,7 +296,7 @@ def build(continue_series: Callable, with_constants: Callable, observe: Callable
             while find_outputs(batch, times, end):
                 evaluate(series, batch)
                 observe_outputs(system, batch, times, record)
-            advance(series, batch)
+            advance(series, load(batch.step, 0), load(batch.threshold, 0))
         return DONE
 
     return solve

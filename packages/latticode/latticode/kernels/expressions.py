@@ -5,6 +5,7 @@ An expression is a `Value`, or a number, function or tuple that is known before 
 
 import ast
 import operator
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial, reduce
@@ -60,7 +61,7 @@ class Variable:
     address: ir.Value
 
 
-class Expressions:
+class Expressions(ABC):
     """Translation of the expressions of a function; a subclass translates its statements."""
 
     context: Any
@@ -71,15 +72,15 @@ class Expressions:
     outside: Mapping[str, Any]
     """Values by name: of the function's own names, and of all others that it reads."""
 
+    @abstractmethod
     def expand(self, function: Callable, arguments: Iterable[Any]) -> Any:
         """Insert the statements of a function, and return what it returns."""
-        raise NotImplementedError
 
+    @abstractmethod
     def call_function(
         self, function: Callable, kinds: tuple[types.Type, ...], values: list[ir.Value]
     ) -> Value:
         """Call a function of LLVM for arguments of these types, which is translated only once."""
-        raise NotImplementedError
 
     def _stored(self, place: Variable | None, value: Any, name: str) -> Variable:
         """Store a value in memory of its type, which is new if `place` is None."""

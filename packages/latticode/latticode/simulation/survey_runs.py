@@ -110,18 +110,18 @@ def norms_in_batches(problems: Sequence[Problem]) -> Iterator[tuple[list[int], N
 
     All other problems must be computed alone.
     """
-    alike: dict[Hashable, list[int]] = {}
+    groups: dict[Hashable, list[int]] = {}
     for place, problem in enumerate(problems):
         is_short = (
             problem.sites <= MOST_SITES and problem.span <= MOST_OUTPUTS * problem.output_step
         )
         if is_short and problem.solver["name"] == "taylor":
             cut = problem.equations.find_reduction()
-            alike.setdefault((cut, *_what_runs_share(problem)), []).append(place)
-    for (cut, *_), places in alike.items():
+            groups.setdefault((cut, *_what_runs_share(problem)), []).append(place)
+    for (cut, *_), places in groups.items():
         able = [place for place in places if _can_run(problems[place].equations)]
-        first_able = [problems[place].equations for place in able[:1]]
-        if not able or first_able[0].prepare_batch(first_able, cut) is None:
+        equations = [problems[place].equations for place in able]
+        if not able or equations[0].prepare_batch(equations[:1], cut) is None:
             continue
         for first in range(0, len(able), LANES):
             members = able[first : first + LANES]
